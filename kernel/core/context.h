@@ -1,0 +1,138 @@
+/// Context: what a host lends to the kernel. Progress, cancel, log, threads and a memory account, one
+/// per host and none of them global. A Context is a handle: copies share one state.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "kernel/core/geometry.h"
+
+namespace lissom {
+
+enum class LogLevel { debug, info, warning };
+
+/// What a host may provide. Every field is optional; without them the kernel is silent and serial.
+struct ContextOptions {
+    /// Receives messages; the kernel itself prints nothing.
+    std::function<void(LogLevel, std::string_view message)> log;
+    /// Receives progress: what is being done and the fraction done, 0 to 1, never decreasing within one
+    /// operation. Called on the thread that runs the operation.
+    std::function<void(std::string_view label, double fraction)> progress;
+    /// Runs `chunk(i)` once for each i in [0, chunk_count), in any order, on any threads, and returns
+    /// when all have returned. Replaces the built-in loop.
+    std::function<void(std::size_t chunk_count, const std::function<void(std::size_t)>& chunk)>
+        parallel_for;
+    /// Threads of the built-in loop; 1 starts none. Results do not depend on it.
+    int threads = 1;
+    /// Bytes that operations may have charged at one time; 0 is no limit.
+    std::size_t memory_limit = 0;
+};
+
+/// Bytes in use by the kernel's large allocations, against a limit. Thread-safe.
+class MemoryAccount {
+  public:
+    explicit MemoryAccount(std::size_t limit) : limit_(limit) {}
+
+    std::size_t limit() const { return limit_; }
+    std::size_t used() const { return used_.load(std::memory_order_relaxed); }
+    std::size_t peak() const { return peak_.load(std::memory_order_relaxed); }
+
+    /// Adds `bytes`. Errors: memory_limit, and then nothing was added; `purpose` is named in it.
+    void charge(std::size_t bytes, std::string_view purpose);
+    void release(std::size_t bytes);
+
+  private:
+    std::size_t limit_;
+    std::atomic<std::size_t> used_{0};
+    std::atomic<std::size_t> peak_{0};
+};
+
+/// Holds a charge on an account for its own lifetime. Movable; it keeps the account alive.
+class MemoryCharge {
+  public:
+    MemoryCharge() = default;
+    MemoryCharge(std::shared_ptr<MemoryAccount> account, std::size_t bytes, std::string_view purpose);
+    MemoryCharge(MemoryCharge&& other) noexcept;
+    MemoryCharge& operator=(MemoryCharge&& other) noexcept;
+    MemoryCharge(const MemoryCharge&) = delete;
+    MemoryCharge& operator=(const MemoryCharge&) = delete;
+    ~MemoryCharge();
+
+    std::size_t bytes() const { return bytes_; }
+
+  private:
+    std::shared_ptr<MemoryAccount> account_;
+    std::size_t bytes_ = 0;
+};
+
+/// Handle to the state that operations run under. The default context is silent, serial and unlimited.
+class Context {
+  public:
+    Context();
+    explicit Context(ContextOptions options);
+
+    /// Asks running operations to stop: they throw `cancelled` at their next checkpoint and change
+    /// nothing. Sticky: operations started later stop too, until `clear_cancel`. Thread-safe.
+    void cancel() const;
+    void clear_cancel() const;
+    bool cancelled() const;
+    /// Throws `cancelled` if cancel was asked for. Call it often in long loops.
+    void checkpoint() const;
+
+    void log(LogLevel level, std::string_view message) const;
+    int threads() const;
+
+    std::shared_ptr<MemoryAccount> memory() const;
+    /// Charges `bytes` for as long as the result lives. Errors: memory_limit.
+    MemoryCharge charge(std::size_t bytes, std::string_view purpose) const;
+
+    /// Runs `body(begin, end)` over [begin, end) in chunks of `grain` elements. Chunks are the same for
+    /// any number of threads, so sums kept per chunk are reproducible. The first exception thrown by a
+    /// body, in chunk order, is thrown again here once all chunks have ended. A cancel skips the chunks
+    /// that have not started and throws `cancelled`.
+    void parallel_for(Index begin, Index end, Index grain,
+                      const std::function<void(Index, Index)>& body) const;
+
+  private:
+    friend class Progress;
+    struct State;
+    std::shared_ptr<State> state_;
+};
+
+/// Reports the progress of one operation. Open one at the top of a long operation; an operation called
+/// inside it opens its own, which fills the step its caller announced. Lives on one thread, as a local.
+///
+///     Progress progress(context, "deform: prepare");
+///     progress.step(0.3);  // what follows is the next 30 %
+///     assemble(context);   // may open its own Progress, which fills those 30 %
+///     progress.step(0.7);
+///     factor(context);
+class Progress {
+  public:
+    Progress(const Context& context, std::string_view label);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// Ends the step before and opens the next, a share of this operation (shares sum to 1). A
+    /// checkpoint: throws `cancelled`.
+    void step(double share);
+    /// Reports `fraction` (0 to 1) of the current step, or of the whole operation where no step is open.
+    /// A checkpoint: throws `cancelled`.
+    void update(double fraction);
+
+  private:
+    void report(double fraction);
+
+    std::shared_ptr<Context::State> state_;
+    Context context_;
+    std::string label_;
+    double outer_begin_, outer_end_;
+    double step_begin_ = 0.0, step_end_ = 0.0;
+};
+
+}  // namespace lissom

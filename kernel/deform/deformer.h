@@ -1,0 +1,188 @@
+/// Deformation of a region of a mesh by handles: the implicit differential method of Fu, "Differential
+/// methods for intuitive 3D shape modeling" (2007), chapter 2.
+///
+/// Local deformation gradients M_i are linear in the unknown positions (Eq 2.3 to 2.5). A first sparse
+/// system reconstructs the surface from the transformed Laplacian coordinates under coherence of
+/// neighbouring gradients (Eq 2.6 to 2.8); polar decomposition takes the shear out of the gradients, and a
+/// second system reconstructs the surface from their rotations (Eq 2.10), or rotations and scales (2.11).
+///
+///     Deformer edit(mesh, region);
+///     const HandleId tip = edit.add_handle(tip_region);
+///     edit.set_transform(tip, rotation(axis, angle, edit.handle_center(tip)));
+///     edit.solve();
+///     edit.apply_to(mesh);
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+/// Weights of the Laplacian coordinates: cotangents, or 1 / valence.
+enum class LaplacianWeights { cotangent, uniform };
+
+/// The system that reconstructs positions from rotations: a blend of the two others that is smooth at
+/// the border of handles and has little distortion; Laplacian coordinates (Eq 2.10); edge vectors.
+enum class SecondSystem { blend, laplacian, poisson };
+
+/// Whether details keep their size (Eq 2.10) or scale with the surface around them (Eq 2.11).
+enum class LocalSize { keep, scale };
+
+struct DeformOptions {
+    SecondSystem second = SecondSystem::blend;
+    LocalSize local_size = LocalSize::keep;
+    LaplacianWeights weights = LaplacianWeights::cotangent;
+    /// Rings of neighbours whose gradients are kept similar (the pairs SF of Eq 2.7): 1 or 2.
+    int coherence = 1;
+    /// Weight of the coherence term beside the Laplacian term; the result hardly depends on it.
+    double coherence_weight = 1.0;
+    /// A vertex is degenerate where the condition number of V_i V_i^T exceeds this (section 2.4.3).
+    double degenerate_threshold = 2e4;
+    /// s_disp of Eq 2.9: displacement of degenerate vertices in mean lengths of their edges; above 0.
+    double displacement = 0.2;
+    /// Weights each vertex by its area and each coherence pair by its cotangent, so that the result does
+    /// not depend on scale or resolution. Off: both terms literally as Eq 2.6 and 2.7.
+    bool scale_free = true;
+
+    /// The thesis to the letter: coherence 2, threshold 2e5, literal weights, second system (2.10).
+    static DeformOptions thesis();
+};
+
+/// What a handle prescribes at its vertices: their positions, their deformation gradients, or both.
+struct HandleOptions {
+    bool position = true;
+    bool gradient = true;
+};
+
+/// Names a handle of one Deformer. Ids are not used again after a removal.
+struct HandleId {
+    Index value = kNoIndex;
+    bool operator==(const HandleId&) const = default;
+};
+
+/// Prescribes the position, the deformation gradient, or both, of one vertex.
+struct VertexConstraint {
+    Index vertex = kNoIndex;
+    std::optional<Vec3> position;
+    std::optional<Mat3> gradient;
+};
+
+/// Sizes and times of the last preparation. Times are in seconds, sizes in bytes.
+struct DeformStats {
+    Index region_vertices = 0, free_vertices = 0, constrained_vertices = 0, handles = 0;
+    /// Degenerate vertices displaced, vertices inserted at corners of the boundary, zero-area faces.
+    Index displaced_vertices = 0, inserted_vertices = 0, zero_area_faces = 0;
+    std::size_t first_nonzeros = 0, second_nonzeros = 0, factor_bytes = 0;
+    double assemble_seconds = 0, first_factor_seconds = 0, second_factor_seconds = 0;
+    double basis_seconds = 0;
+    /// Factorisations since construction: dragging adds none.
+    Index factorizations = 0;
+};
+
+/// The first system's solution as a linear function of the handles' transforms:
+/// x_v = fixed_v + sum_h [linear_h translation_h] * weight(h, v), with `weight` a 4-vector.
+struct HandleBasis {
+    /// Vertices of the region, ascending; one row of the basis each.
+    std::vector<Index> vertices;
+    std::vector<HandleId> handles;
+    /// For each handle, in the order of `handles`, one 4-vector a row.
+    std::vector<std::vector<Vec4>> weights;
+    /// Part that no handle moves: what is pinned outside the region, and vertex constraints.
+    std::vector<Vec3> fixed;
+};
+
+/// Deforms one region of one mesh. Vertices outside the region never move and keep the identity as
+/// gradient. Factors are kept: a new transform costs no factorisation, a new handle does, at the next
+/// solve. Accepts polygon meshes of any genus, with or without boundary.
+class Deformer {
+  public:
+    /// Takes the present shape of `mesh` as rest shape; the mesh may change or die afterwards.
+    /// Errors: region_empty; topology_mismatch; invalid_argument for options out of range.
+    Deformer(const Mesh& mesh, const Region& region, const DeformOptions& options = {},
+             const Context& context = {});
+    ~Deformer();
+    Deformer(Deformer&&) noexcept;
+    Deformer& operator=(Deformer&&) noexcept;
+
+    const Region& region() const;
+    const DeformOptions& options() const;
+
+    /// Adds a handle of the given vertices with the identity as transform.
+    /// Errors: region_empty; topology_mismatch; handle_outside_region; handle_overlap, each naming the
+    /// vertices; invalid_argument where neither position nor gradient is asked for.
+    HandleId add_handle(const Region& vertices, const HandleOptions& options = {});
+    /// Errors: handle_removed.
+    void remove_handle(HandleId handle);
+    /// Handles in the order they were added.
+    std::vector<HandleId> handles() const;
+    const Region& handle_region(HandleId handle) const;
+    const HandleOptions& handle_options(HandleId handle) const;
+    /// Mean of the handle's rest positions.
+    Vec3 handle_center(HandleId handle) const;
+
+    /// Sets where a handle goes: rest position p to transform(p), gradient transform.linear.
+    /// Errors: singular_transform (determinant zero or not finite); handle_removed.
+    void set_transform(HandleId handle, const Affine& transform);
+    const Affine& transform(HandleId handle) const;
+
+    /// Constrains one vertex, replacing an earlier constraint of it. A vertex with neither position nor
+    /// gradient is free again. Errors: out_of_range; handle_outside_region; handle_overlap where a handle
+    /// holds the vertex; not_finite.
+    void constrain(const VertexConstraint& constraint);
+
+    /// Assembles and factors what the present handles need, if that has not been done. `preview` and
+    /// `solve` do it by themselves. Errors: unconstrained, naming a part of the region that nothing
+    /// holds; zero_area; not_positive_definite; memory_limit; cancelled.
+    void prepare(const Context& context = {});
+
+    /// Solves the first system only (Eq 2.8), by the handle basis. Errors: as prepare.
+    const std::vector<Vec3>& preview(const Context& context = {});
+    /// Solves both systems. With every transform the identity the result is the rest shape to the bit.
+    const std::vector<Vec3>& solve(const Context& context = {});
+    /// Solves the first system by its factor instead of the basis: the oracle of tests.
+    std::vector<Vec3> solve_first_directly(const Context& context = {});
+
+    /// Positions of the region's vertices, in the order of `region().vertices()`, from the last solve or
+    /// preview; rest positions before one.
+    const std::vector<Vec3>& positions() const;
+    /// Rest positions of the region's vertices.
+    const std::vector<Vec3>& rest_positions() const;
+    /// Writes `positions()` into the region's vertices of `mesh`; custom normals turn with the surface.
+    /// Errors: topology_mismatch.
+    void apply_to(Mesh& mesh) const;
+
+    /// All transforms to the identity and `positions()` to the rest shape, to the bit; vertex
+    /// constraints go.
+    void reset();
+
+    /// Deformation gradients of the region's vertices in the last solve or preview.
+    const std::vector<Mat3>& gradients() const;
+    /// Computes the basis if needed. Errors: as prepare.
+    HandleBasis basis(const Context& context = {});
+    const DeformStats& stats() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// A handle for the one-shot function.
+struct HandleMove {
+    Region region;
+    Affine transform;
+    HandleOptions options;
+};
+
+/// Deforms `region` of `mesh` once. For repeated solves with the same handles keep a Deformer.
+/// Errors: as Deformer; the mesh is then unchanged.
+void deform(Mesh& mesh, const Region& region, std::span<const HandleMove> handles,
+            const DeformOptions& options = {}, const Context& context = {});
+
+}  // namespace lissom

@@ -1,0 +1,77 @@
+/// Attributes: named data on the vertices, corners or faces of a mesh. They travel with it through every
+/// operation and through files.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+
+namespace lissom {
+
+/// The elements that an attribute has values on. A corner is a vertex as seen by one of its faces.
+enum class Domain { vertex, corner, face };
+
+/// The number type a file stored, so that it can be written back; values are kept as double.
+enum class ScalarType { float32, float64, int8, uint8, int16, uint16, int32, uint32 };
+
+/// One attribute: `width` numbers an element. A value of NaN means that the element has none.
+/// Names with a meaning: "uv" (width 2; corner), "normal" (3; corner or vertex), "color" (3 or 4,
+/// linear scale 0 to 1; vertex, corner or face).
+struct Attribute {
+    std::string name;
+    Domain domain = Domain::vertex;
+    Index width = 1;
+    ScalarType type = ScalarType::float32;
+    std::vector<double> values;
+
+    Index size() const { return static_cast<Index>(values.size()) / width; }
+    std::span<double> at(Index element) {
+        return {values.data() + static_cast<std::size_t>(element) * width,
+                static_cast<std::size_t>(width)};
+    }
+    std::span<const double> at(Index element) const {
+        return {values.data() + static_cast<std::size_t>(element) * width,
+                static_cast<std::size_t>(width)};
+    }
+};
+
+/// Labels of faces, for instance the group or material that each belongs to.
+/// Kinds with a meaning: "object", "group", "material", "smoothing".
+struct FaceLabels {
+    std::vector<std::string> names;
+    /// Index into `names` for every face, or kNoIndex.
+    std::vector<Index> of_face;
+
+    /// Index of `label` in `names`; adds it where it is new.
+    Index add(std::string_view label);
+};
+
+/// All attributes and labels of one mesh, in the order they were added.
+class AttributeSet {
+  public:
+    /// The attribute called `name`, or null.
+    Attribute* find(std::string_view name);
+    const Attribute* find(std::string_view name) const;
+    /// Adds an attribute, replacing one of the same name. The reference is valid until the next add or
+    /// remove. Errors: invalid_argument for an empty name or a width below 1.
+    Attribute& add(Attribute attribute);
+    bool remove(std::string_view name);
+    const std::vector<Attribute>& all() const { return attributes_; }
+    std::vector<Attribute>& all() { return attributes_; }
+
+    /// Face labels by kind.
+    const std::map<std::string, FaceLabels, std::less<>>& labels() const { return labels_; }
+    std::map<std::string, FaceLabels, std::less<>>& labels() { return labels_; }
+
+    std::size_t memory_bytes() const;
+
+  private:
+    std::vector<Attribute> attributes_;
+    std::map<std::string, FaceLabels, std::less<>> labels_;
+};
+
+}  // namespace lissom

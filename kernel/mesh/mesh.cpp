@@ -1,0 +1,110 @@
+#include "kernel/mesh/mesh.h"
+
+#include <utility>
+
+namespace lissom {
+namespace {
+
+void require_finite(std::span<const Vec3> positions) {
+    Elements bad{ElementKind::vertex, 0, {}};
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        if (!positions[v].allFinite()) bad.add(static_cast<Index>(v));
+    }
+    if (bad.count == 0) return;
+    const std::string names = describe(bad);
+    throw Error(ErrorCode::not_finite,
+                "positions of " + names + " are NaN or infinite; correct them where they come from",
+                std::move(bad));
+}
+
+void require_count(std::size_t count, Index expected) {
+    if (count == static_cast<std::size_t>(expected)) return;
+    throw Error(ErrorCode::invalid_argument, std::to_string(count) + " positions were given for " +
+                                                 std::to_string(expected) + " vertices");
+}
+
+const std::shared_ptr<const Topology>& empty_topology() {
+    static const std::shared_ptr<const Topology> empty = Topology::create(0, {});
+    return empty;
+}
+
+}  // namespace
+
+Mesh::Mesh() : topology_(empty_topology()) {}
+
+Mesh::Mesh(std::vector<Vec3> positions, FaceList faces, const Context& context)
+    : Mesh(std::move(positions), nullptr, context) {
+    topology_ = Topology::create(static_cast<Index>(positions_.size()), std::move(faces), context);
+}
+
+Mesh::Mesh(std::vector<Vec3> positions, std::shared_ptr<const Topology> topology,
+           const Context& context)
+    : topology_(std::move(topology)) {
+    if (topology_) require_count(positions.size(), topology_->vertex_count());
+    require_finite(positions);
+    context.checkpoint();
+    positions_ = std::move(positions);
+}
+
+void Mesh::set_position(Index v, const Vec3& position) {
+    if (v < 0 || v >= vertex_count()) {
+        throw Error(ErrorCode::out_of_range,
+                    "vertex " + std::to_string(v) + " is not one of the " +
+                        std::to_string(vertex_count()) + " of the mesh",
+                    {ElementKind::vertex, 1, {v}});
+    }
+    if (!position.allFinite()) {
+        throw Error(ErrorCode::not_finite, "the position for vertex " + std::to_string(v) +
+                                               " is NaN or infinite",
+                    {ElementKind::vertex, 1, {v}});
+    }
+    positions_[v] = position;
+    ++revision_;
+}
+
+void Mesh::set_positions(std::vector<Vec3> positions) {
+    require_count(positions.size(), vertex_count());
+    require_finite(positions);
+    positions_ = std::move(positions);
+    ++revision_;
+}
+
+std::span<Vec3> Mesh::edit_positions() {
+    ++revision_;
+    return positions_;
+}
+
+void Mesh::set_region(std::string_view name, const Region& region) {
+    require_same_topology(*this, region.topology(), "the region");
+    if (name.empty()) throw Error(ErrorCode::invalid_argument, "a region needs a name");
+    regions_.insert_or_assign(std::string(name), region);
+}
+
+const Region* Mesh::find_region(std::string_view name) const {
+    const auto found = regions_.find(name);
+    return found == regions_.end() ? nullptr : &found->second;
+}
+
+bool Mesh::remove_region(std::string_view name) {
+    const auto found = regions_.find(name);
+    if (found == regions_.end()) return false;
+    regions_.erase(found);
+    return true;
+}
+
+std::size_t Mesh::memory_bytes() const {
+    std::size_t bytes = topology_->memory_bytes() + positions_.size() * sizeof(Vec3);
+    for (const auto& [name, region] : regions_) bytes += region.vertices().size() * sizeof(Index);
+    return bytes + attributes_.memory_bytes();
+}
+
+void require_same_topology(const Mesh& mesh, const std::shared_ptr<const Topology>& topology,
+                           std::string_view what) {
+    if (mesh.shared_topology() == topology) return;
+    throw Error(ErrorCode::topology_mismatch,
+                std::string(what) +
+                    " belongs to another mesh or to an older version of this mesh's topology; make "
+                    "it again on the mesh as it is now");
+}
+
+}  // namespace lissom

@@ -1,0 +1,77 @@
+/// Mesh: an oriented 2-manifold polygon mesh with or without boundary; positions in double precision,
+/// attributes and named regions. Copies share the topology and own everything else.
+///
+/// Operators that need triangles see a triangulation of the polygons (triangulation.h); the polygons
+/// stay. Measures are in measures.h, constructors of regions in region_select.h, files in kernel/io.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/mesh/attributes.h"
+#include "kernel/mesh/region.h"
+#include "kernel/mesh/topology.h"
+
+namespace lissom {
+
+class Mesh {
+  public:
+    /// The mesh without vertices.
+    Mesh();
+    /// Errors: as Topology::create; not_finite naming the vertices; cancelled.
+    Mesh(std::vector<Vec3> positions, FaceList faces, const Context& context = {});
+    /// On an existing topology, whose vertex count must equal the number of positions.
+    Mesh(std::vector<Vec3> positions, std::shared_ptr<const Topology> topology,
+         const Context& context = {});
+
+    const Topology& topology() const { return *topology_; }
+    const std::shared_ptr<const Topology>& shared_topology() const { return topology_; }
+    Index vertex_count() const { return topology_->vertex_count(); }
+    Index face_count() const { return topology_->face_count(); }
+
+    std::span<const Vec3> positions() const { return positions_; }
+    const Vec3& position(Index v) const { return positions_[v]; }
+    /// Errors: out_of_range; not_finite.
+    void set_position(Index v, const Vec3& position);
+    /// Replaces all positions. Errors: invalid_argument where the count differs; not_finite.
+    void set_positions(std::vector<Vec3> positions);
+    /// Positions for in-place change; values must stay finite. Ends what was derived from the old ones.
+    std::span<Vec3> edit_positions();
+
+    const AttributeSet& attributes() const { return attributes_; }
+    AttributeSet& attributes() { return attributes_; }
+
+    /// Named regions. Errors: topology_mismatch where `region` is not of this mesh's topology.
+    void set_region(std::string_view name, const Region& region);
+    /// The region called `name`, or null.
+    const Region* find_region(std::string_view name) const;
+    bool remove_region(std::string_view name);
+    const std::map<std::string, Region, std::less<>>& regions() const { return regions_; }
+
+    /// Files of material definitions that the mesh refers to (OBJ mtllib), in order.
+    std::vector<std::string>& material_libraries() { return material_libraries_; }
+    const std::vector<std::string>& material_libraries() const { return material_libraries_; }
+
+    /// Grows with every change of positions: what was computed at one revision holds while it stays.
+    std::uint64_t revision() const { return revision_; }
+    std::size_t memory_bytes() const;
+
+  private:
+    std::shared_ptr<const Topology> topology_;
+    std::vector<Vec3> positions_;
+    AttributeSet attributes_;
+    std::map<std::string, Region, std::less<>> regions_;
+    std::vector<std::string> material_libraries_;
+    std::uint64_t revision_ = 0;
+};
+
+/// Throws topology_mismatch, naming `what`, where `topology` is not the mesh's present one.
+void require_same_topology(const Mesh& mesh, const std::shared_ptr<const Topology>& topology,
+                           std::string_view what);
+
+}  // namespace lissom

@@ -1,0 +1,164 @@
+#include "kernel/mesh/topology.h"
+
+#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
+#include <algorithm>
+#include <utility>
+
+#include "kernel/mesh/topology_check.h"
+
+namespace lissom {
+
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+
+Topology::Topology() : halfedges_(std::make_unique<OpenMesh::PolyConnectivity>()) {}
+
+Topology::~Topology() = default;
+
+std::shared_ptr<const Topology> Topology::create(Index vertex_count, FaceList faces,
+                                                 const Context& context) {
+    const std::vector<Index> twin = check_and_pair_edges(vertex_count, faces, context);
+    std::shared_ptr<Topology> topology(new Topology);
+    topology->vertex_count_ = vertex_count;
+    topology->faces_ = std::move(faces);
+    topology->build_halfedges(twin);
+    context.checkpoint();
+    topology->build_rings();
+    topology->build_boundary_loops();
+    topology->build_components();
+    return topology;
+}
+
+// The faces were validated, so the half-edges are linked directly instead of by add_face.
+void Topology::build_halfedges(const std::vector<Index>& twin) {
+    OpenMesh::PolyConnectivity& mesh = *halfedges_;
+    const Index corners = corner_count();
+    mesh.reserve(static_cast<std::size_t>(vertex_count_), static_cast<std::size_t>(corners),
+                 static_cast<std::size_t>(face_count()));
+    for (Index v = 0; v < vertex_count_; ++v) mesh.new_vertex();
+
+    std::vector<HalfedgeHandle> of_corner(static_cast<std::size_t>(corners));
+    std::vector<HalfedgeHandle> boundary_from(static_cast<std::size_t>(vertex_count_));
+    edges_.reserve(static_cast<std::size_t>(corners));
+    for (Index f = 0; f < face_count(); ++f) {
+        const std::span<const Index> face = faces_[f];
+        triangle_mesh_ = triangle_mesh_ && face.size() == 3;
+        const Index first = first_corner(f);
+        const FaceHandle face_handle = mesh.new_face();
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const Index corner = first + static_cast<Index>(k);
+            const Index from = face[k], to = face[(k + 1) % face.size()];
+            const Index other = twin[corner];
+            if (other != kNoIndex && other < corner) {
+                of_corner[corner] = mesh.opposite_halfedge_handle(of_corner[other]);
+            } else {
+                of_corner[corner] = mesh.new_edge(VertexHandle(from), VertexHandle(to));
+                edges_.push_back(from);
+                edges_.push_back(to);
+            }
+            mesh.set_face_handle(of_corner[corner], face_handle);
+            // A boundary vertex keeps its outgoing boundary halfedge, as OpenMesh expects.
+            if (!mesh.halfedge_handle(VertexHandle(from)).is_valid()) {
+                mesh.set_halfedge_handle(VertexHandle(from), of_corner[corner]);
+            }
+        }
+        mesh.set_halfedge_handle(face_handle, of_corner[first]);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const Index next = first + static_cast<Index>((k + 1) % face.size());
+            mesh.set_next_halfedge_handle(of_corner[first + static_cast<Index>(k)], of_corner[next]);
+        }
+    }
+    for (Index c = 0; c < corners; ++c) {
+        if (twin[c] != kNoIndex) continue;
+        ++boundary_edge_count_;
+        const HalfedgeHandle outer = mesh.opposite_halfedge_handle(of_corner[c]);
+        mesh.set_boundary(outer);
+        const VertexHandle from = mesh.from_vertex_handle(outer);
+        mesh.set_halfedge_handle(from, outer);
+        boundary_from[from.idx()] = outer;
+    }
+    for (Index c = 0; c < corners; ++c) {
+        if (twin[c] != kNoIndex) continue;
+        const HalfedgeHandle outer = mesh.opposite_halfedge_handle(of_corner[c]);
+        mesh.set_next_halfedge_handle(outer, boundary_from[mesh.to_vertex_handle(outer).idx()]);
+    }
+}
+
+void Topology::build_rings() {
+    const OpenMesh::PolyConnectivity& mesh = *halfedges_;
+    ring_begin_.reserve(static_cast<std::size_t>(vertex_count_) + 1);
+    fan_begin_.reserve(static_cast<std::size_t>(vertex_count_) + 1);
+    ring_.reserve(edges_.size());
+    fan_.reserve(static_cast<std::size_t>(corner_count()));
+    ring_begin_.push_back(0);
+    fan_begin_.push_back(0);
+    for (Index v = 0; v < vertex_count_; ++v) {
+        const HalfedgeHandle stored = mesh.halfedge_handle(VertexHandle(v));
+        if (stored.is_valid()) {
+            // Counter-clockwise, starting after the outer sector of a boundary vertex.
+            const HalfedgeHandle start = mesh.is_boundary(stored)
+                                             ? mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(stored))
+                                             : stored;
+            HalfedgeHandle halfedge = start;
+            do {
+                ring_.push_back(mesh.to_vertex_handle(halfedge).idx());
+                if (!mesh.is_boundary(halfedge)) fan_.push_back(mesh.face_handle(halfedge).idx());
+                halfedge = mesh.ccw_rotated_halfedge_handle(halfedge);
+            } while (halfedge != start);
+        }
+        ring_begin_.push_back(static_cast<Index>(ring_.size()));
+        fan_begin_.push_back(static_cast<Index>(fan_.size()));
+    }
+}
+
+void Topology::build_boundary_loops() {
+    const OpenMesh::PolyConnectivity& mesh = *halfedges_;
+    std::vector<char> seen(static_cast<std::size_t>(vertex_count_), 0);
+    for (Index v = 0; v < vertex_count_; ++v) {
+        if (seen[v] || !is_boundary(v)) continue;
+        // The stored halfedge runs outside, against the faces; walking back gives the faces' direction.
+        std::vector<Index> loop;
+        const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(v));
+        HalfedgeHandle halfedge = start;
+        do {
+            const Index at = mesh.from_vertex_handle(halfedge).idx();
+            loop.push_back(at);
+            seen[at] = 1;
+            halfedge = mesh.prev_halfedge_handle(halfedge);
+        } while (halfedge != start);
+        boundary_loops_.push_back(std::move(loop));
+    }
+}
+
+void Topology::build_components() {
+    components_.assign(static_cast<std::size_t>(vertex_count_), kNoIndex);
+    std::vector<Index> stack;
+    for (Index v = 0; v < vertex_count_; ++v) {
+        if (components_[v] != kNoIndex) continue;
+        components_[v] = component_count_;
+        stack.push_back(v);
+        while (!stack.empty()) {
+            const Index at = stack.back();
+            stack.pop_back();
+            for (const Index n : neighbors(at)) {
+                if (components_[n] != kNoIndex) continue;
+                components_[n] = component_count_;
+                stack.push_back(n);
+            }
+        }
+        ++component_count_;
+    }
+}
+
+std::size_t Topology::memory_bytes() const {
+    const std::size_t own = faces_.offsets.size() + faces_.vertices.size() + edges_.size() +
+                            ring_begin_.size() + ring_.size() + fan_begin_.size() + fan_.size() +
+                            components_.size();
+    // OpenMesh keeps one index a vertex and face, and two halfedges of four indices an edge.
+    const std::size_t halfedge = static_cast<std::size_t>(vertex_count_) +
+                                 static_cast<std::size_t>(face_count()) + 4 * edges_.size();
+    return (own + halfedge) * sizeof(Index);
+}
+
+}  // namespace lissom

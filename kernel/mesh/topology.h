@@ -1,0 +1,116 @@
+/// Topology: the immutable connectivity of an oriented 2-manifold polygon mesh, with or without
+/// boundary. Meshes share it; regions, paths and handles hold the one they were made for, so that use
+/// after a change of topology is recognised.
+///
+/// Invariants: every face has at least three different vertices; every directed edge belongs to at most
+/// one face; the faces around a vertex form one fan. Vertices without faces are allowed.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
+
+namespace OpenMesh {
+class PolyConnectivity;
+}
+
+namespace lissom {
+
+/// Polygons as one flat list: face f has the vertices[offsets[f]] .. vertices[offsets[f + 1] - 1].
+struct FaceList {
+    std::vector<Index> offsets{0};
+    std::vector<Index> vertices;
+
+    Index size() const { return static_cast<Index>(offsets.size()) - 1; }
+    std::span<const Index> operator[](Index f) const {
+        return {vertices.data() + offsets[f], vertices.data() + offsets[f + 1]};
+    }
+    void add(std::span<const Index> face) {
+        vertices.insert(vertices.end(), face.begin(), face.end());
+        offsets.push_back(static_cast<Index>(vertices.size()));
+    }
+    void add(std::initializer_list<Index> face) { add(std::span(face.begin(), face.size())); }
+};
+
+class Topology {
+  public:
+    /// Validates `faces` and builds the connectivity. Faces and vertices keep their order.
+    /// Errors, each naming all elements concerned: face_index, face_too_small, repeated_vertex,
+    /// duplicate_face, nonmanifold_edge, inconsistent_orientation, nonmanifold_vertex; also cancelled.
+    static std::shared_ptr<const Topology> create(Index vertex_count, FaceList faces,
+                                                  const Context& context = {});
+    ~Topology();
+    Topology(const Topology&) = delete;
+    Topology& operator=(const Topology&) = delete;
+
+    Index vertex_count() const { return vertex_count_; }
+    Index face_count() const { return faces_.size(); }
+    Index corner_count() const { return static_cast<Index>(faces_.vertices.size()); }
+    Index edge_count() const { return static_cast<Index>(edges_.size() / 2); }
+
+    const FaceList& faces() const { return faces_; }
+    /// Vertices of face `f`, counter-clockwise seen from outside.
+    std::span<const Index> face(Index f) const { return faces_[f]; }
+    /// First corner of face `f`: corner `first_corner(f) + k` is face f at vertex `face(f)[k]`.
+    Index first_corner(Index f) const { return faces_.offsets[f]; }
+
+    /// One-ring of `v`: the vertices joined to it by an edge, counter-clockwise. At a boundary vertex it
+    /// starts at the boundary, so that consecutive neighbours share a face with `v`.
+    std::span<const Index> neighbors(Index v) const {
+        return {ring_.data() + ring_begin_[v], ring_.data() + ring_begin_[v + 1]};
+    }
+    /// Faces around `v`, counter-clockwise: the i-th lies between neighbours i and i + 1.
+    std::span<const Index> faces_around(Index v) const {
+        return {fan_.data() + fan_begin_[v], fan_.data() + fan_begin_[v + 1]};
+    }
+    Index valence(Index v) const { return ring_begin_[v + 1] - ring_begin_[v]; }
+    /// True where `v` lies on an open boundary. Vertices without faces do not.
+    bool is_boundary(Index v) const { return fan_begin_[v + 1] - fan_begin_[v] < valence(v); }
+    bool is_isolated(Index v) const { return valence(v) == 0; }
+    bool is_closed() const { return boundary_edge_count_ == 0; }
+    bool is_triangle_mesh() const { return triangle_mesh_; }
+
+    /// Vertices of edge `e`, in the direction of the first face that uses it.
+    std::pair<Index, Index> edge(Index e) const { return {edges_[2 * e], edges_[2 * e + 1]}; }
+    Index boundary_edge_count() const { return boundary_edge_count_; }
+
+    /// Open boundaries, each a loop of vertices in the direction of the faces next to it (surface on
+    /// the left), starting at its smallest vertex; ordered by that vertex.
+    const std::vector<std::vector<Index>>& boundary_loops() const { return boundary_loops_; }
+
+    /// Connected component of every vertex, numbered by smallest vertex; a vertex without faces is a
+    /// component of its own.
+    const std::vector<Index>& components() const { return components_; }
+    Index component_count() const { return component_count_; }
+
+    /// The half-edge structure, for algorithms that walk it. Halfedge 2e runs along `edge(e)`.
+    const OpenMesh::PolyConnectivity& halfedges() const { return *halfedges_; }
+
+    /// Bytes held.
+    std::size_t memory_bytes() const;
+
+  private:
+    Topology();
+
+    void build_halfedges(const std::vector<Index>& twin);
+    void build_rings();
+    void build_boundary_loops();
+    void build_components();
+
+    Index vertex_count_ = 0;
+    FaceList faces_;
+    std::vector<Index> edges_;
+    std::vector<Index> ring_begin_, ring_, fan_begin_, fan_;
+    std::vector<std::vector<Index>> boundary_loops_;
+    std::vector<Index> components_;
+    Index component_count_ = 0;
+    Index boundary_edge_count_ = 0;
+    bool triangle_mesh_ = true;
+    std::unique_ptr<OpenMesh::PolyConnectivity> halfedges_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,212 @@
+#include "kernel/mesh/topology_check.h"
+
+#include <algorithm>
+#include <string>
+
+namespace lissom {
+namespace {
+
+[[noreturn]] void refuse(ErrorCode code, Elements elements, const std::string& what,
+                         const std::string& remedy) {
+    const std::string names = describe(elements);
+    throw Error(code, names + " " + what + "; " + remedy, std::move(elements));
+}
+
+void check_each_face(Index vertex_count, const FaceList& faces) {
+    Elements bad_index{ElementKind::face, 0, {}};
+    Elements too_small{ElementKind::face, 0, {}};
+    Elements repeated{ElementKind::face, 0, {}};
+    std::vector<Index> last_face(static_cast<std::size_t>(vertex_count), kNoIndex);
+    for (Index f = 0; f < faces.size(); ++f) {
+        bool in_range = true, twice = false;
+        for (const Index v : faces[f]) {
+            if (v < 0 || v >= vertex_count) {
+                in_range = false;
+                continue;
+            }
+            twice = twice || last_face[v] == f;
+            last_face[v] = f;
+        }
+        if (!in_range) bad_index.add(f);
+        if (faces[f].size() < 3) too_small.add(f);
+        if (twice) repeated.add(f);
+    }
+    if (bad_index.count > 0) {
+        refuse(ErrorCode::face_index, std::move(bad_index),
+               "refer to vertices outside the " + std::to_string(vertex_count) + " of the mesh",
+               "correct the face indices");
+    }
+    if (too_small.count > 0) {
+        refuse(ErrorCode::face_too_small, std::move(too_small), "have fewer than three vertices",
+               "remove them");
+    }
+    if (repeated.count > 0) {
+        refuse(ErrorCode::repeated_vertex, std::move(repeated), "use a vertex twice",
+               "remove the repeated entries");
+    }
+}
+
+// The directed edges of all faces, grouped by the smaller of their two vertices.
+class DirectedEdges {
+  public:
+    DirectedEdges(Index vertex_count, const FaceList& faces)
+        : begin_(static_cast<std::size_t>(vertex_count) + 1, 0),
+          corner_(faces.vertices.size()),
+          next_(faces.vertices.size()),
+          face_(faces.vertices.size()),
+          vertices_(faces.vertices) {
+        for (Index f = 0; f < faces.size(); ++f) {
+            const Index first = faces.offsets[f], end = faces.offsets[f + 1];
+            for (Index c = first; c < end; ++c) {
+                next_[c] = vertices_[c + 1 < end ? c + 1 : first];
+                face_[c] = f;
+                ++begin_[std::min(vertices_[c], next_[c]) + 1];
+            }
+        }
+        for (std::size_t v = 0; v + 1 < begin_.size(); ++v) begin_[v + 1] += begin_[v];
+        std::vector<Index> fill(begin_.begin(), begin_.end() - 1);
+        for (Index c = 0; c < static_cast<Index>(next_.size()); ++c) {
+            corner_[fill[std::min(vertices_[c], next_[c])]++] = c;
+        }
+        for (Index v = 0; v < vertex_count; ++v) {
+            std::sort(corner_.begin() + begin_[v], corner_.begin() + begin_[v + 1],
+                      [&](Index a, Index b) {
+                          const Index high_a = high(a), high_b = high(b);
+                          return high_a != high_b ? high_a < high_b : a < b;
+                      });
+        }
+    }
+
+    Index low(Index c) const { return std::min(vertices_[c], next_[c]); }
+    Index high(Index c) const { return std::max(vertices_[c], next_[c]); }
+    bool ascending(Index c) const { return vertices_[c] < next_[c]; }
+    Index face(Index c) const { return face_[c]; }
+
+    // Calls use(corners) once for each undirected edge, with the corners that run along it.
+    template <typename Use>
+    void for_each_edge(const Use& use) const {
+        const auto size = static_cast<Index>(corner_.size());
+        for (Index i = 0; i < size;) {
+            Index j = i + 1;
+            while (j < size && low(corner_[j]) == low(corner_[i]) && high(corner_[j]) == high(corner_[i]))
+                ++j;
+            use(std::span<const Index>(corner_.data() + i, static_cast<std::size_t>(j - i)));
+            i = j;
+        }
+    }
+
+  private:
+    std::vector<Index> begin_, corner_, next_, face_;
+    const std::vector<Index>& vertices_;
+};
+
+bool same_cycle(std::span<const Index> a, std::span<const Index> b) {
+    if (a.size() != b.size()) return false;
+    const auto start = std::find(b.begin(), b.end(), a[0]);
+    if (start == b.end()) return false;
+    const auto shift = static_cast<std::size_t>(start - b.begin());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (a[i] != b[(i + shift) % b.size()]) return false;
+    }
+    return true;
+}
+
+struct EdgeDefects {
+    Elements duplicates{ElementKind::face, 0, {}};
+    Elements nonmanifold{ElementKind::edge, 0, {}};
+    Elements inconsistent{ElementKind::edge, 0, {}};
+
+    void refuse_any() {
+        if (duplicates.count > 0) {
+            refuse(ErrorCode::duplicate_face, std::move(duplicates),
+                   "repeat the vertices of an earlier face", "remove the copies");
+        }
+        if (nonmanifold.count > 0) {
+            refuse(ErrorCode::nonmanifold_edge, std::move(nonmanifold), "have more than two faces",
+                   "split the edge or remove the extra faces");
+        }
+        if (inconsistent.count > 0) {
+            refuse(ErrorCode::inconsistent_orientation, std::move(inconsistent),
+                   "are used in the same direction by both faces", "orient the faces consistently");
+        }
+    }
+};
+
+std::vector<Index> pair_edges(Index vertex_count, const FaceList& faces) {
+    const DirectedEdges edges(vertex_count, faces);
+    std::vector<Index> twin(faces.vertices.size(), kNoIndex);
+    std::vector<char> is_duplicate(static_cast<std::size_t>(faces.size()), 0);
+    EdgeDefects defects;
+    edges.for_each_edge([&](std::span<const Index> corners) {
+        if (corners.size() == 1) return;
+        if (corners.size() == 2 && edges.ascending(corners[0]) != edges.ascending(corners[1])) {
+            twin[corners[0]] = corners[1];
+            twin[corners[1]] = corners[0];
+            return;
+        }
+        std::size_t distinct = corners.size();
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                const Index f = edges.face(corners[j]), g = edges.face(corners[i]);
+                if (!same_cycle(faces[f], faces[g])) continue;
+                if (!is_duplicate[g]) defects.duplicates.add(g);
+                is_duplicate[g] = 1;
+                --distinct;
+                break;
+            }
+        }
+        if (distinct > 2) {
+            defects.nonmanifold.add_edge(edges.low(corners[0]), edges.high(corners[0]));
+        } else if (distinct == corners.size()) {
+            defects.inconsistent.add_edge(edges.low(corners[0]), edges.high(corners[0]));
+        }
+    });
+    defects.refuse_any();
+    return twin;
+}
+
+// Refuses vertices whose corners do not form a single fan.
+void check_fans(Index vertex_count, const FaceList& faces, const std::vector<Index>& twin) {
+    std::vector<Index> corners_at(static_cast<std::size_t>(vertex_count), 0);
+    std::vector<Index> previous(faces.vertices.size());
+    std::vector<Index> start(static_cast<std::size_t>(vertex_count), kNoIndex);
+    for (Index f = 0; f < faces.size(); ++f) {
+        const Index first = faces.offsets[f], end = faces.offsets[f + 1];
+        for (Index c = first; c < end; ++c) {
+            const Index v = faces.vertices[c];
+            previous[c] = c > first ? c - 1 : end - 1;
+            ++corners_at[v];
+            if (start[v] == kNoIndex || twin[c] == kNoIndex) start[v] = c;
+        }
+    }
+    Elements split{ElementKind::vertex, 0, {}};
+    for (Index v = 0; v < vertex_count; ++v) {
+        if (start[v] == kNoIndex) continue;
+        // Counter-clockwise: the next corner at v is the twin of the edge that enters v.
+        Index count = 0;
+        for (Index c = start[v]; c != kNoIndex; c = twin[previous[c]]) {
+            ++count;
+            if (count > corners_at[v]) break;
+            if (twin[previous[c]] == start[v]) break;
+        }
+        if (count != corners_at[v]) split.add(v);
+    }
+    if (split.count > 0) {
+        refuse(ErrorCode::nonmanifold_vertex, std::move(split), "join separate fans of faces",
+               "give each fan its own copy of the vertex");
+    }
+}
+
+}  // namespace
+
+std::vector<Index> check_and_pair_edges(Index vertex_count, const FaceList& faces,
+                                        const Context& context) {
+    check_each_face(vertex_count, faces);
+    context.checkpoint();
+    std::vector<Index> twin = pair_edges(vertex_count, faces);
+    context.checkpoint();
+    check_fans(vertex_count, faces, twin);
+    return twin;
+}
+
+}  // namespace lissom

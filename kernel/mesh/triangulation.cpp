@@ -1,0 +1,126 @@
+#include "kernel/mesh/triangulation.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+
+namespace lissom {
+namespace {
+
+// Diagonals whose lengths differ by less than this fraction count as equal, so that rounding in a moved
+// or turned copy of a mesh does not change the choice.
+constexpr double kDiagonalTolerance = 1e-6;
+
+Vec3 mean_normal(std::span<const Vec3> points) {
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        normal += (points[i] - points[0]).cross(points[i + 1] - points[0]);
+    }
+    return normal;
+}
+
+double signed_area(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+    return (b - a).cross(c - a).dot(normal);
+}
+
+void triangulate_quad(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
+    const Vec3 normal = mean_normal(points);
+    const auto convex = [&](int a, int b, int c) {
+        return signed_area(points[a], points[b], points[c], normal) > 0.0;
+    };
+    const bool first_valid = convex(0, 1, 2) && convex(0, 2, 3);
+    const bool second_valid = convex(1, 2, 3) && convex(1, 3, 0);
+    const double first = (points[2] - points[0]).squaredNorm();
+    const double second = (points[3] - points[1]).squaredNorm();
+    const bool second_shorter = second < first * (1.0 - kDiagonalTolerance);
+    if (second_valid && (!first_valid || second_shorter)) {
+        triangles.push_back({0, 1, 3});
+        triangles.push_back({1, 2, 3});
+    } else {
+        triangles.push_back({0, 1, 2});
+        triangles.push_back({0, 2, 3});
+    }
+}
+
+bool inside(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+    return signed_area(a, b, p, normal) >= 0.0 && signed_area(b, c, p, normal) >= 0.0 &&
+           signed_area(c, a, p, normal) >= 0.0;
+}
+
+// Smallest angle's sine of a candidate ear, negative where the corner is reflex or covers a vertex.
+double ear_quality(std::span<const Vec3> points, const std::vector<Index>& loop, std::size_t at,
+                   const Vec3& normal) {
+    const std::size_t n = loop.size();
+    const Index before = loop[(at + n - 1) % n], here = loop[at], after = loop[(at + 1) % n];
+    const Vec3 &a = points[before], &b = points[here], &c = points[after];
+    const double area = signed_area(a, b, c, normal);
+    if (area <= 0.0) return -1.0;
+    for (const Index other : loop) {
+        if (other == before || other == here || other == after) continue;
+        if (inside(points[other], a, b, c, normal)) return -1.0;
+    }
+    const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return area / (longest * normal.norm());
+}
+
+void clip_ears(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
+    std::vector<Index> loop(points.size());
+    std::iota(loop.begin(), loop.end(), 0);
+    const Vec3 normal = mean_normal(points);
+    while (loop.size() > 3) {
+        std::size_t best = 0;
+        double best_quality = -2.0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const double quality = ear_quality(points, loop, i, normal);
+            if (quality <= best_quality + kDiagonalTolerance) continue;
+            best_quality = quality;
+            best = i;
+        }
+        const std::size_t n = loop.size();
+        triangles.push_back({loop[(best + n - 1) % n], loop[best], loop[(best + 1) % n]});
+        loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(best));
+    }
+    triangles.push_back({loop[0], loop[1], loop[2]});
+}
+
+}  // namespace
+
+void triangulate_polygon(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
+    if (points.size() == 3) {
+        triangles.push_back({0, 1, 2});
+    } else if (points.size() == 4) {
+        triangulate_quad(points, triangles);
+    } else {
+        clip_ears(points, triangles);
+    }
+}
+
+Triangulation triangulate_faces(const Topology& topology, std::span<const Vec3> positions,
+                                std::span<const Index> faces) {
+    Triangulation result;
+    result.triangles.reserve(faces.size());
+    std::vector<Vec3> points;
+    std::vector<Triangle> local;
+    for (const Index f : faces) {
+        const std::span<const Index> face = topology.face(f);
+        points.clear();
+        local.clear();
+        for (const Index v : face) points.push_back(positions[v]);
+        triangulate_polygon(points, local);
+        const Index first = topology.first_corner(f);
+        for (const Triangle& t : local) {
+            result.triangles.push_back({face[t[0]], face[t[1]], face[t[2]]});
+            result.corners.push_back({first + t[0], first + t[1], first + t[2]});
+            result.face.push_back(f);
+        }
+    }
+    return result;
+}
+
+Triangulation triangulate_faces(const Topology& topology, std::span<const Vec3> positions) {
+    std::vector<Index> all(static_cast<std::size_t>(topology.face_count()));
+    std::iota(all.begin(), all.end(), 0);
+    return triangulate_faces(topology, positions, all);
+}
+
+}  // namespace lissom

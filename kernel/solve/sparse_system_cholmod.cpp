@@ -1,0 +1,178 @@
+#include <cholmod.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+#include "kernel/solve/sparse_system.h"
+#include "kernel/solve/sparse_system_check.h"
+
+namespace lissom {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// A view of `matrix` as CHOLMOD sees it; CHOLMOD does not write to it.
+cholmod_sparse view_of(const SymmetricMatrix& matrix) {
+    cholmod_sparse view{};
+    view.nrow = view.ncol = static_cast<std::size_t>(matrix.size());
+    view.nzmax = matrix.row.size();
+    view.p = const_cast<Index*>(matrix.begin.data());
+    view.i = const_cast<Index*>(matrix.row.data());
+    view.x = const_cast<double*>(matrix.value.data());
+    view.stype = -1;
+    view.itype = CHOLMOD_INT;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    view.sorted = 1;
+    view.packed = 1;
+    return view;
+}
+
+cholmod_dense view_of(double* x, std::size_t rows, std::size_t columns) {
+    cholmod_dense view{};
+    view.nrow = view.d = rows;
+    view.ncol = columns;
+    view.nzmax = rows * columns;
+    view.x = x;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    return view;
+}
+
+// CHOLMOD's settings and scratch memory.
+class Workspace {
+  public:
+    Workspace() {
+        cholmod_start(&common_);
+        common_.print = 0;
+        common_.supernodal = CHOLMOD_SUPERNODAL;
+        common_.nmethods = 1;
+        common_.method[0].ordering = CHOLMOD_AMD;
+        common_.postorder = 1;
+    }
+    ~Workspace() { cholmod_finish(&common_); }
+    Workspace(const Workspace&) = delete;
+    Workspace& operator=(const Workspace&) = delete;
+
+    cholmod_common* get() { return &common_; }
+    void require_memory() const {
+        if (common_.status == CHOLMOD_OUT_OF_MEMORY || common_.status == CHOLMOD_TOO_LARGE) {
+            throw Error(ErrorCode::memory_limit,
+                        "the factor of the linear system does not fit into memory; use a smaller "
+                        "region or mesh");
+        }
+    }
+
+  private:
+    cholmod_common common_{};
+};
+
+// Least pivot relative to its diagonal entry, and the row it belongs to.
+std::pair<double, Index> least_pivot(const cholmod_factor& factor, const SymmetricMatrix& matrix) {
+    const auto* super = static_cast<const int*>(factor.super);
+    const auto* rows = static_cast<const int*>(factor.pi);
+    const auto* values = static_cast<const int*>(factor.px);
+    const auto* x = static_cast<const double*>(factor.x);
+    const auto* permutation = static_cast<const int*>(factor.Perm);
+    std::pair<double, Index> least{1.0, 0};
+    for (std::size_t s = 0; s < factor.nsuper; ++s) {
+        const int height = rows[s + 1] - rows[s];
+        for (int j = super[s]; j < super[s + 1]; ++j) {
+            const double diagonal = x[values[s] + (j - super[s]) * (height + 1)];
+            const Index row = permutation[j];
+            const double ratio = diagonal * diagonal / matrix.value[matrix.begin[row]];
+            if (!(ratio >= least.first)) least = {ratio, row};
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+struct SparseSystem::State {
+    ~State() { cholmod_free_factor(&factor, workspace.get()); }
+
+    Workspace workspace;
+    cholmod_factor* factor = nullptr;
+    std::vector<Index> begin, row;
+    bool factored = false;
+    MemoryCharge charge;
+    FactorStats stats;
+};
+
+SparseSystem::SparseSystem() : state_(std::make_unique<State>()) {}
+SparseSystem::~SparseSystem() = default;
+SparseSystem::SparseSystem(SparseSystem&&) noexcept = default;
+SparseSystem& SparseSystem::operator=(SparseSystem&&) noexcept = default;
+
+void SparseSystem::analyze(const SymmetricMatrix& matrix, const Context& context) {
+    require_valid(matrix);
+    context.checkpoint();
+    const auto start = Clock::now();
+    auto next = std::make_unique<State>();
+    cholmod_sparse view = view_of(matrix);
+    next->factor = cholmod_analyze(&view, next->workspace.get());
+    next->workspace.require_memory();
+    if (!next->factor) throw Error(ErrorCode::internal, "CHOLMOD could not analyse the matrix");
+    next->begin = matrix.begin;
+    next->row = matrix.row;
+    next->stats.factor_nonzeros = next->factor->xsize;
+    next->stats.factor_bytes = next->factor->xsize * sizeof(double) +
+                               next->factor->ssize * sizeof(int) + 4 * next->factor->n * sizeof(int);
+    next->stats.analyze_seconds = seconds_since(start);
+    state_ = std::move(next);
+}
+
+void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context) {
+    State& state = *state_;
+    require_pattern(matrix, state.begin, state.row);
+    context.checkpoint();
+    state.factored = false;
+    state.charge = {};
+    MemoryCharge charge = context.charge(state.stats.factor_bytes, "factoring the linear system");
+    const auto start = Clock::now();
+    cholmod_sparse view = view_of(matrix);
+    cholmod_factorize(&view, state.factor, state.workspace.get());
+    state.workspace.require_memory();
+    if (state.workspace.get()->status == CHOLMOD_NOT_POSDEF) {
+        refuse_pivot(matrix, static_cast<const int*>(state.factor->Perm)[state.factor->minor]);
+    }
+    if (const auto [ratio, row] = least_pivot(*state.factor, matrix); !(ratio > kSmallestPivot)) {
+        refuse_pivot(matrix, row);
+    }
+    state.stats.factor_seconds = seconds_since(start);
+    state.charge = std::move(charge);
+    state.factored = true;
+    context.checkpoint();
+}
+
+void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index columns) const {
+    if (!state_->factored) {
+        throw Error(ErrorCode::invalid_argument, "there is no factor; call factor first");
+    }
+    require_sizes(b, x, size(), columns);
+    const auto rows = static_cast<std::size_t>(size());
+    cholmod_dense right = view_of(const_cast<double*>(b.data()), rows, static_cast<std::size_t>(columns));
+    cholmod_dense* solution = cholmod_solve(CHOLMOD_A, state_->factor, &right, state_->workspace.get());
+    state_->workspace.require_memory();
+    std::memcpy(x.data(), solution->x, x.size_bytes());
+    cholmod_free_dense(&solution, state_->workspace.get());
+}
+
+Index SparseSystem::size() const {
+    return state_->begin.empty() ? 0 : static_cast<Index>(state_->begin.size()) - 1;
+}
+
+bool SparseSystem::factored() const { return state_->factored; }
+
+const FactorStats& SparseSystem::stats() const { return state_->stats; }
+
+const char* sparse_backend() { return "cholmod"; }
+
+}  // namespace lissom
