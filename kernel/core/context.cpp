@@ -22,7 +22,9 @@ void MemoryAccount::charge(std::size_t bytes, std::string_view purpose) {
     }
 }
 
-void MemoryAccount::release(std::size_t bytes) { used_.fetch_sub(bytes); }
+void MemoryAccount::release(std::size_t bytes) {
+    used_.fetch_sub(bytes);
+}
 
 MemoryCharge::MemoryCharge(std::shared_ptr<MemoryAccount> account, std::size_t bytes,
                            std::string_view purpose) {
@@ -50,11 +52,17 @@ Context::Context() : Context(ContextOptions{}) {}
 
 Context::Context(ContextOptions options) : state_(std::make_shared<State>(std::move(options))) {}
 
-void Context::cancel() const { state_->cancelled.store(true); }
+void Context::cancel() const {
+    state_->cancelled.store(true);
+}
 
-void Context::clear_cancel() const { state_->cancelled.store(false); }
+void Context::clear_cancel() const {
+    state_->cancelled.store(false);
+}
 
-bool Context::cancelled() const { return state_->cancelled.load(std::memory_order_relaxed); }
+bool Context::cancelled() const {
+    return state_->cancelled.load(std::memory_order_relaxed);
+}
 
 void Context::checkpoint() const {
     if (cancelled()) throw Error(ErrorCode::cancelled, "cancelled; nothing was changed");
@@ -64,9 +72,13 @@ void Context::log(LogLevel level, std::string_view message) const {
     if (state_->options.log) state_->options.log(level, message);
 }
 
-int Context::threads() const { return state_->options.threads; }
+int Context::threads() const {
+    return state_->options.threads;
+}
 
-std::shared_ptr<MemoryAccount> Context::memory() const { return state_->memory; }
+std::shared_ptr<MemoryAccount> Context::memory() const {
+    return state_->memory;
+}
 
 MemoryCharge Context::charge(std::size_t bytes, std::string_view purpose) const {
     return {state_->memory, bytes, purpose};

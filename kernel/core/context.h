@@ -1,5 +1,5 @@
-/// Context: what a host lends to the kernel. Progress, cancel, log, threads and a memory account, one
-/// per host and none of them global. A Context is a handle: copies share one state.
+/// Context: what a host lends to the kernel. Progress, cancel, log, threads and a memory account,
+/// one per host and none of them global. A Context is a handle: copies share one state.
 #pragma once
 
 #include <atomic>
@@ -19,11 +19,11 @@ enum class LogLevel { debug, info, warning };
 struct ContextOptions {
     /// Receives messages; the kernel itself prints nothing.
     std::function<void(LogLevel, std::string_view message)> log;
-    /// Receives progress: what is being done and the fraction done, 0 to 1, never decreasing within one
-    /// operation. Called on the thread that runs the operation.
+    /// Receives progress: what is being done and the fraction done, 0 to 1, never decreasing within
+    /// one operation. Called on the thread that runs the operation.
     std::function<void(std::string_view label, double fraction)> progress;
-    /// Runs `chunk(i)` once for each i in [0, chunk_count), in any order, on any threads, and returns
-    /// when all have returned. Replaces the built-in loop.
+    /// Runs `chunk(i)` once for each i in [0, chunk_count), in any order, on any threads, and
+    /// returns when all have returned. Replaces the built-in loop.
     std::function<void(std::size_t chunk_count, const std::function<void(std::size_t)>& chunk)>
         parallel_for;
     /// Threads of the built-in loop; 1 starts none. Results do not depend on it.
@@ -55,7 +55,8 @@ class MemoryAccount {
 class MemoryCharge {
   public:
     MemoryCharge() = default;
-    MemoryCharge(std::shared_ptr<MemoryAccount> account, std::size_t bytes, std::string_view purpose);
+    MemoryCharge(std::shared_ptr<MemoryAccount> account, std::size_t bytes,
+                 std::string_view purpose);
     MemoryCharge(MemoryCharge&& other) noexcept;
     MemoryCharge& operator=(MemoryCharge&& other) noexcept;
     MemoryCharge(const MemoryCharge&) = delete;
@@ -69,7 +70,8 @@ class MemoryCharge {
     std::size_t bytes_ = 0;
 };
 
-/// Handle to the state that operations run under. The default context is silent, serial and unlimited.
+/// Handle to the state that operations run under. The default context is silent, serial and
+/// unlimited.
 class Context {
   public:
     Context();
@@ -90,10 +92,10 @@ class Context {
     /// Charges `bytes` for as long as the result lives. Errors: memory_limit.
     MemoryCharge charge(std::size_t bytes, std::string_view purpose) const;
 
-    /// Runs `body(begin, end)` over [begin, end) in chunks of `grain` elements. Chunks are the same for
-    /// any number of threads, so sums kept per chunk are reproducible. The first exception thrown by a
-    /// body, in chunk order, is thrown again here once all chunks have ended. A cancel skips the chunks
-    /// that have not started and throws `cancelled`.
+    /// Runs `body(begin, end)` over [begin, end) in chunks of `grain` elements. Chunks are the same
+    /// for any number of threads, so sums kept per chunk are reproducible. The first exception
+    /// thrown by a body, in chunk order, is thrown again here once all chunks have ended. A cancel
+    /// skips the chunks that have not started and throws `cancelled`.
     void parallel_for(Index begin, Index end, Index grain,
                       const std::function<void(Index, Index)>& body) const;
 
@@ -103,8 +105,9 @@ class Context {
     std::shared_ptr<State> state_;
 };
 
-/// Reports the progress of one operation. Open one at the top of a long operation; an operation called
-/// inside it opens its own, which fills the step its caller announced. Lives on one thread, as a local.
+/// Reports the progress of one operation. Open one at the top of a long operation; an operation
+/// called inside it opens its own, which fills the step its caller announced. Lives on one thread,
+/// as a local.
 ///
 ///     Progress progress(context, "deform: prepare");
 ///     progress.step(0.3);  // what follows is the next 30 %
@@ -121,8 +124,8 @@ class Progress {
     /// Ends the step before and opens the next, a share of this operation (shares sum to 1). A
     /// checkpoint: throws `cancelled`.
     void step(double share);
-    /// Reports `fraction` (0 to 1) of the current step, or of the whole operation where no step is open.
-    /// A checkpoint: throws `cancelled`.
+    /// Reports `fraction` (0 to 1) of the current step, or of the whole operation where no step is
+    /// open. A checkpoint: throws `cancelled`.
     void update(double fraction);
 
   private:

@@ -17,28 +17,34 @@ constexpr std::array<CodeEntry, 34> kCodes{{
     {ErrorCode::cancelled, "cancelled",
      "The operation was asked to stop and stopped; nothing was changed. Start it again."},
     {ErrorCode::invalid_argument, "invalid_argument",
-     "An argument has a value that the operation cannot use. The message names the argument and what "
+     "An argument has a value that the operation cannot use. The message names the argument and "
+     "what "
      "it accepts."},
     {ErrorCode::out_of_range, "out_of_range",
-     "An id or number lies outside what exists. Vertices and faces count from 1 in Lua and from 0 in "
+     "An id or number lies outside what exists. Vertices and faces count from 1 in Lua and from 0 "
+     "in "
      "C++; ids of an older version of a mesh may have gone."},
     {ErrorCode::file_not_found, "file_not_found",
      "No file has this path. Relative paths start at the current folder; check spelling and case."},
     {ErrorCode::file_is_directory, "file_is_directory",
      "The path names a folder where a file is needed. Add the file's name."},
-    {ErrorCode::file_empty, "file_empty", "The file has no content. It may not have been written fully."},
+    {ErrorCode::file_empty, "file_empty",
+     "The file has no content. It may not have been written fully."},
     {ErrorCode::file_unreadable, "file_unreadable",
      "The file exists but cannot be read. Check its permissions and the disk."},
     {ErrorCode::file_write_failed, "file_write_failed",
-     "The file could not be written; a file that was there before is untouched. Check that the folder "
+     "The file could not be written; a file that was there before is untouched. Check that the "
+     "folder "
      "exists, its permissions and the free space."},
     {ErrorCode::file_syntax, "file_syntax",
-     "The content does not follow the file's format. The message names the line or the element; the "
+     "The content does not follow the file's format. The message names the line or the element; "
+     "the "
      "file may be of another format than its extension says."},
     {ErrorCode::file_truncated, "file_truncated",
      "The file ends before all the elements its header announces. Copy or export it again."},
     {ErrorCode::file_too_large, "file_too_large",
-     "The header announces more elements than the file can hold or this build can number. The file is "
+     "The header announces more elements than the file can hold or this build can number. The file "
+     "is "
      "damaged, or it must be split."},
     {ErrorCode::unknown_format, "unknown_format",
      "The extension is none that can be read or written. Use one that the message lists."},
@@ -48,27 +54,33 @@ constexpr std::array<CodeEntry, 34> kCodes{{
      "The mesh has no vertices or no faces, and the operation needs them."},
     {ErrorCode::face_index, "face_index",
      "A face refers to a vertex that does not exist. Faces count vertices from 1 in Lua and OBJ."},
-    {ErrorCode::face_too_small, "face_too_small", "A face has fewer than three vertices. Remove it."},
+    {ErrorCode::face_too_small, "face_too_small",
+     "A face has fewer than three vertices. Remove it."},
     {ErrorCode::repeated_vertex, "repeated_vertex",
      "A face uses one vertex twice. Remove the repeated entry, or the face if two corners remain."},
     {ErrorCode::duplicate_face, "duplicate_face",
      "Two faces have the same vertices in the same order. Remove one of them."},
     {ErrorCode::nonmanifold_edge, "nonmanifold_edge",
-     "More than two faces meet at an edge, so the surface has no inside and outside there. Split or "
+     "More than two faces meet at an edge, so the surface has no inside and outside there. Split "
+     "or "
      "remove the extra faces."},
     {ErrorCode::nonmanifold_vertex, "nonmanifold_vertex",
-     "The faces around a vertex form several separate fans that touch only there. Duplicate the vertex, "
+     "The faces around a vertex form several separate fans that touch only there. Duplicate the "
+     "vertex, "
      "one copy for each fan."},
     {ErrorCode::inconsistent_orientation, "inconsistent_orientation",
-     "Two neighbouring faces run along their common edge in the same direction, so one is inside out. "
+     "Two neighbouring faces run along their common edge in the same direction, so one is inside "
+     "out. "
      "Orient the faces consistently."},
     {ErrorCode::zero_area, "zero_area",
-     "All faces around a vertex have no area, so no surface operator exists there. Collapse or remove "
+     "All faces around a vertex have no area, so no surface operator exists there. Collapse or "
+     "remove "
      "those faces, or keep the vertex out of the region."},
     {ErrorCode::region_empty, "region_empty",
      "The region has no vertices. Enlarge the sphere, box or radius that selects it."},
     {ErrorCode::topology_mismatch, "topology_mismatch",
-     "A region, path or handle belongs to another mesh or to an older version of this mesh's topology. "
+     "A region, path or handle belongs to another mesh or to an older version of this mesh's "
+     "topology. "
      "Select it again on the mesh as it is now."},
     {ErrorCode::handle_outside_region, "handle_outside_region",
      "A handle has vertices outside the region that may deform. Enlarge the region or shrink the "
@@ -78,16 +90,19 @@ constexpr std::array<CodeEntry, 34> kCodes{{
     {ErrorCode::handle_removed, "handle_removed",
      "The handle was removed from its deformer or the deformer was closed. Make a new handle."},
     {ErrorCode::singular_transform, "singular_transform",
-     "The transform flattens space (its determinant is zero) or is not finite. Scale by factors other "
+     "The transform flattens space (its determinant is zero) or is not finite. Scale by factors "
+     "other "
      "than zero."},
     {ErrorCode::unconstrained, "unconstrained",
-     "A connected part of the region has too few constraints to have one shape: nothing holds it. Add "
+     "A connected part of the region has too few constraints to have one shape: nothing holds it. "
+     "Add "
      "a handle there, or leave some of its vertices out of the region."},
     {ErrorCode::not_positive_definite, "not_positive_definite",
      "The linear system has no unique solution. A part of the mesh lacks a constraint, or its "
      "triangles are too degenerate."},
     {ErrorCode::memory_limit, "memory_limit",
-     "The operation would need more memory than the context allows. Raise the limit, or use a smaller "
+     "The operation would need more memory than the context allows. Raise the limit, or use a "
+     "smaller "
      "region or mesh."},
     {ErrorCode::unsupported, "unsupported",
      "The request is valid but this build or format cannot serve it. The message says what can."},
@@ -95,11 +110,14 @@ constexpr std::array<CodeEntry, 34> kCodes{{
      "Pictures need EGL and OpenGL 3.3, and one of them is missing. Install the EGL library and a "
      "driver (on Debian: libegl1 libgl1-mesa-dri)."},
     {ErrorCode::internal, "internal",
-     "An invariant of the kernel does not hold: a defect. Please report it with the input that shows "
+     "An invariant of the kernel does not hold: a defect. Please report it with the input that "
+     "shows "
      "it."},
 }};
 
-const CodeEntry& entry(ErrorCode code) { return kCodes[static_cast<std::size_t>(code)]; }
+const CodeEntry& entry(ErrorCode code) {
+    return kCodes[static_cast<std::size_t>(code)];
+}
 
 std::string plural(ElementKind kind) {
     if (kind == ElementKind::vertex) return "vertices";
@@ -123,9 +141,13 @@ void Elements::add_edge(Index a, Index b) {
 Error::Error(ErrorCode code, std::string message, Elements elements)
     : code_(code), message_(std::move(message)), elements_(std::move(elements)) {}
 
-std::string_view code_name(ErrorCode code) { return entry(code).name; }
+std::string_view code_name(ErrorCode code) {
+    return entry(code).name;
+}
 
-std::string_view code_explanation(ErrorCode code) { return entry(code).explanation; }
+std::string_view code_explanation(ErrorCode code) {
+    return entry(code).explanation;
+}
 
 const std::vector<ErrorCode>& all_codes() {
     static const std::vector<ErrorCode> codes = [] {
@@ -145,7 +167,8 @@ std::string_view kind_name(ElementKind kind) {
 std::string describe(const Elements& elements, Index base, std::size_t limit) {
     const std::size_t per_element = elements.kind == ElementKind::edge ? 2 : 1;
     const std::size_t shown = std::min(limit, elements.ids.size() / per_element);
-    std::string text = elements.count == 1 ? std::string(kind_name(elements.kind)) : plural(elements.kind);
+    std::string text =
+        elements.count == 1 ? std::string(kind_name(elements.kind)) : plural(elements.kind);
     for (std::size_t i = 0; i < shown; ++i) {
         text += i == 0 ? " " : (i + 1 == shown && shown == elements.count ? " and " : ", ");
         text += std::to_string(elements.ids[i * per_element] + base);

@@ -1,5 +1,5 @@
-/// Errors of the kernel: one exception type with a code, a message that says what to do, and the ids
-/// of the elements concerned. An operation that throws has left its inputs as they were.
+/// Errors of the kernel: one exception type with a code, a message that says what to do, and the
+/// ids of the elements concerned. An operation that throws has left its inputs as they were.
 #pragma once
 
 #include <exception>
@@ -96,8 +96,8 @@ const std::vector<ErrorCode>& all_codes();
 /// Name of an element kind, singular: "vertex", "edge", ...
 std::string_view kind_name(ElementKind kind);
 
-/// "vertex 7", "vertices 3, 9 and 12 (of 250)": the elements as they appear in messages, numbered from
-/// `base` (1 in Lua and in files, 0 in C++). At most `limit` are written out.
+/// "vertex 7", "vertices 3, 9 and 12 (of 250)": the elements as they appear in messages, numbered
+/// from `base` (1 in Lua and in files, 0 in C++). At most `limit` are written out.
 std::string describe(const Elements& elements, Index base = 0, std::size_t limit = 5);
 
 }  // namespace lissom

@@ -6,7 +6,9 @@
 
 namespace lissom {
 
-Affine translation(const Vec3& offset) { return {Mat3::Identity(), offset}; }
+Affine translation(const Vec3& offset) {
+    return {Mat3::Identity(), offset};
+}
 
 Affine rotation(const Vec3& axis, double angle, const Vec3& about) {
     const double length = axis.norm();

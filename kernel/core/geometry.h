@@ -1,4 +1,5 @@
-/// Small geometry types shared by every module. Lengths are in the mesh's own unit, angles in radians.
+/// Small geometry types shared by every module. Lengths are in the mesh's own unit, angles in
+/// radians.
 #pragma once
 
 #include <Eigen/Core>

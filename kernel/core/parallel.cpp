@@ -18,8 +18,8 @@ class ThreadArena {
     explicit ThreadArena(int threads) : arena_(threads) {}
     void run(std::size_t count, const std::function<void(std::size_t)>& chunk) {
         arena_.execute([&] {
-            tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { chunk(i); },
-                              tbb::simple_partitioner());
+            tbb::parallel_for(
+                std::size_t{0}, count, [&](std::size_t i) { chunk(i); }, tbb::simple_partitioner());
         });
     }
 

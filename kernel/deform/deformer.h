@@ -1,10 +1,11 @@
-/// Deformation of a region of a mesh by handles: the implicit differential method of Fu, "Differential
-/// methods for intuitive 3D shape modeling" (2007), chapter 2.
+/// Deformation of a region of a mesh by handles: the implicit differential method of Fu,
+/// "Differential methods for intuitive 3D shape modeling" (2007), chapter 2.
 ///
-/// Local deformation gradients M_i are linear in the unknown positions (Eq 2.3 to 2.5). A first sparse
-/// system reconstructs the surface from the transformed Laplacian coordinates under coherence of
-/// neighbouring gradients (Eq 2.6 to 2.8); polar decomposition takes the shear out of the gradients, and a
-/// second system reconstructs the surface from their rotations (Eq 2.10), or rotations and scales (2.11).
+/// Local deformation gradients M_i are linear in the unknown positions (Eq 2.3 to 2.5). A first
+/// sparse system reconstructs the surface from the transformed Laplacian coordinates under
+/// coherence of neighbouring gradients (Eq 2.6 to 2.8); polar decomposition takes the shear out of
+/// the gradients, and a second system reconstructs the surface from their rotations (Eq 2.10), or
+/// rotations and scales (2.11).
 ///
 ///     Deformer edit(mesh, region);
 ///     const HandleId tip = edit.add_handle(tip_region);
@@ -28,8 +29,9 @@ namespace lissom {
 /// Weights of the Laplacian coordinates: cotangents, or 1 / valence.
 enum class LaplacianWeights { cotangent, uniform };
 
-/// The system that reconstructs positions from rotations: a blend of the two others that is smooth at
-/// the border of handles and has little distortion; Laplacian coordinates (Eq 2.10); edge vectors.
+/// The system that reconstructs positions from rotations: a blend of the two others that is smooth
+/// at the border of handles and has little distortion; Laplacian coordinates (Eq 2.10); edge
+/// vectors.
 enum class SecondSystem { blend, laplacian, poisson };
 
 /// Whether details keep their size (Eq 2.10) or scale with the surface around them (Eq 2.11).
@@ -45,10 +47,11 @@ struct DeformOptions {
     double coherence_weight = 1.0;
     /// A vertex is degenerate where the condition number of V_i V_i^T exceeds this (section 2.4.3).
     double degenerate_threshold = 2e4;
-    /// s_disp of Eq 2.9: displacement of degenerate vertices in mean lengths of their edges; above 0.
+    /// s_disp of Eq 2.9: displacement of degenerate vertices in mean lengths of their edges; above
+    /// 0.
     double displacement = 0.2;
-    /// Weights each vertex by its area and each coherence pair by its cotangent, so that the result does
-    /// not depend on scale or resolution. Off: both terms literally as Eq 2.6 and 2.7.
+    /// Weights each vertex by its area and each coherence pair by its cotangent, so that the result
+    /// does not depend on scale or resolution. Off: both terms literally as Eq 2.6 and 2.7.
     bool scale_free = true;
 
     /// The thesis to the letter: coherence 2, threshold 2e5, literal weights, second system (2.10).
@@ -77,7 +80,8 @@ struct VertexConstraint {
 /// Sizes and times of the last preparation. Times are in seconds, sizes in bytes.
 struct DeformStats {
     Index region_vertices = 0, free_vertices = 0, constrained_vertices = 0, handles = 0;
-    /// Degenerate vertices displaced, vertices inserted at corners of the boundary, zero-area faces.
+    /// Degenerate vertices displaced, vertices inserted at corners of the boundary, zero-area
+    /// faces.
     Index displaced_vertices = 0, inserted_vertices = 0, zero_area_faces = 0;
     std::size_t first_nonzeros = 0, second_nonzeros = 0, factor_bytes = 0;
     double assemble_seconds = 0, first_factor_seconds = 0, second_factor_seconds = 0;
@@ -99,8 +103,8 @@ struct HandleBasis {
 };
 
 /// Deforms one region of one mesh. Vertices outside the region never move and keep the identity as
-/// gradient. Factors are kept: a new transform costs no factorisation, a new handle does, at the next
-/// solve. Accepts polygon meshes of any genus, with or without boundary.
+/// gradient. Factors are kept: a new transform costs no factorisation, a new handle does, at the
+/// next solve. Accepts polygon meshes of any genus, with or without boundary.
 class Deformer {
   public:
     /// Takes the present shape of `mesh` as rest shape; the mesh may change or die afterwards.
@@ -115,8 +119,8 @@ class Deformer {
     const DeformOptions& options() const;
 
     /// Adds a handle of the given vertices with the identity as transform.
-    /// Errors: region_empty; topology_mismatch; handle_outside_region; handle_overlap, each naming the
-    /// vertices; invalid_argument where neither position nor gradient is asked for.
+    /// Errors: region_empty; topology_mismatch; handle_outside_region; handle_overlap, each naming
+    /// the vertices; invalid_argument where neither position nor gradient is asked for.
     HandleId add_handle(const Region& vertices, const HandleOptions& options = {});
     /// Errors: handle_removed.
     void remove_handle(HandleId handle);
@@ -132,30 +136,31 @@ class Deformer {
     void set_transform(HandleId handle, const Affine& transform);
     const Affine& transform(HandleId handle) const;
 
-    /// Constrains one vertex, replacing an earlier constraint of it. A vertex with neither position nor
-    /// gradient is free again. Errors: out_of_range; handle_outside_region; handle_overlap where a handle
-    /// holds the vertex; not_finite.
+    /// Constrains one vertex, replacing an earlier constraint of it. A vertex with neither position
+    /// nor gradient is free again. Errors: out_of_range; handle_outside_region; handle_overlap
+    /// where a handle holds the vertex; not_finite.
     void constrain(const VertexConstraint& constraint);
 
-    /// Assembles and factors what the present handles need, if that has not been done. `preview` and
-    /// `solve` do it by themselves. Errors: unconstrained, naming a part of the region that nothing
-    /// holds; zero_area; not_positive_definite; memory_limit; cancelled.
+    /// Assembles and factors what the present handles need, if that has not been done. `preview`
+    /// and `solve` do it by themselves. Errors: unconstrained, naming a part of the region that
+    /// nothing holds; zero_area; not_positive_definite; memory_limit; cancelled.
     void prepare(const Context& context = {});
 
     /// Solves the first system only (Eq 2.8), by the handle basis. Errors: as prepare.
     const std::vector<Vec3>& preview(const Context& context = {});
-    /// Solves both systems. With every transform the identity the result is the rest shape to the bit.
+    /// Solves both systems. With every transform the identity the result is the rest shape to the
+    /// bit.
     const std::vector<Vec3>& solve(const Context& context = {});
     /// Solves the first system by its factor instead of the basis: the oracle of tests.
     std::vector<Vec3> solve_first_directly(const Context& context = {});
 
-    /// Positions of the region's vertices, in the order of `region().vertices()`, from the last solve or
-    /// preview; rest positions before one.
+    /// Positions of the region's vertices, in the order of `region().vertices()`, from the last
+    /// solve or preview; rest positions before one.
     const std::vector<Vec3>& positions() const;
     /// Rest positions of the region's vertices.
     const std::vector<Vec3>& rest_positions() const;
-    /// Writes `positions()` into the region's vertices of `mesh`; custom normals turn with the surface.
-    /// Errors: topology_mismatch.
+    /// Writes `positions()` into the region's vertices of `mesh`; custom normals turn with the
+    /// surface. Errors: topology_mismatch.
     void apply_to(Mesh& mesh) const;
 
     /// All transforms to the identity and `positions()` to the rest shape, to the bit; vertex

@@ -28,8 +28,8 @@ SymmetricMatrix symmetric_from_triplets(Index size, const std::vector<Triplet>& 
     lower.reserve(entries.size() + static_cast<std::size_t>(size));
     for (const Triplet& e : entries) {
         if (e.row < 0 || e.column < 0 || e.row >= size || e.column >= size) {
-            throw Error(ErrorCode::out_of_range, "an entry lies outside the matrix of size " +
-                                                     std::to_string(size),
+            throw Error(ErrorCode::out_of_range,
+                        "an entry lies outside the matrix of size " + std::to_string(size),
                         {ElementKind::row, 1, {e.row}});
         }
         if (e.row >= e.column) lower.push_back(e);

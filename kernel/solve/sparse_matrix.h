@@ -20,8 +20,8 @@ struct RowMatrix {
     std::size_t nonzeros() const { return value.size(); }
 };
 
-/// A symmetric matrix, stored as the part on and below the diagonal: compressed columns, rows ascending
-/// within a column, the diagonal entry first and always present.
+/// A symmetric matrix, stored as the part on and below the diagonal: compressed columns, rows
+/// ascending within a column, the diagonal entry first and always present.
 struct SymmetricMatrix {
     std::vector<Index> begin{0};
     std::vector<Index> row;
@@ -39,8 +39,8 @@ struct Triplet {
     double value = 0.0;
 };
 
-/// Sums repeated entries; entries above the diagonal are dropped, missing diagonal entries become zero.
-/// Errors: out_of_range.
+/// Sums repeated entries; entries above the diagonal are dropped, missing diagonal entries become
+/// zero. Errors: out_of_range.
 SymmetricMatrix symmetric_from_triplets(Index size, const std::vector<Triplet>& entries);
 
 }  // namespace lissom

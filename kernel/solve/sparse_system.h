@@ -1,4 +1,5 @@
-/// SparseSystem: direct solution of symmetric positive definite systems, many times with one pattern.
+/// SparseSystem: direct solution of symmetric positive definite systems, many times with one
+/// pattern.
 #pragma once
 
 #include <memory>
@@ -28,10 +29,10 @@ class SparseSystem {
     /// Orders the unknowns and predicts the factor. Only the pattern of `matrix` matters.
     /// Errors: invalid_argument for an empty matrix; cancelled.
     void analyze(const SymmetricMatrix& matrix, const Context& context = {});
-    /// Factors `matrix`, which must have the pattern analysed; memory is charged first and held as long
-    /// as the factor. May be called again with new values. After an error there is no factor.
-    /// Errors: not_positive_definite, naming one row of a component without a constraint where there is
-    /// one; memory_limit; invalid_argument where the pattern is another; cancelled.
+    /// Factors `matrix`, which must have the pattern analysed; memory is charged first and held as
+    /// long as the factor. May be called again with new values. After an error there is no factor.
+    /// Errors: not_positive_definite, naming one row of a component without a constraint where
+    /// there is one; memory_limit; invalid_argument where the pattern is another; cancelled.
     void factor(const SymmetricMatrix& matrix, const Context& context = {});
     /// Solves A x = b for `columns` right-hand sides stored one after the other; x may be b.
     /// Errors: invalid_argument without a factor or where sizes differ.

@@ -1,5 +1,6 @@
 #include "kernel/solve/sparse_system_check.h"
 
+#include <cmath>
 #include <string>
 
 namespace lissom {
@@ -36,13 +37,18 @@ Elements component_of(const SymmetricMatrix& matrix, Index start) {
 
 }  // namespace
 
+double smallest_pivot(Index size) {
+    return 2e-15 * std::sqrt(static_cast<double>(size));
+}
+
 void require_valid(const SymmetricMatrix& matrix) {
     const Index n = matrix.size();
     if (n > 0 && matrix.row.size() == matrix.value.size() &&
         static_cast<std::size_t>(matrix.begin[n]) == matrix.row.size()) {
         return;
     }
-    throw Error(ErrorCode::invalid_argument, "the matrix is empty or its arrays do not fit together");
+    throw Error(ErrorCode::invalid_argument,
+                "the matrix is empty or its arrays do not fit together");
 }
 
 void require_pattern(const SymmetricMatrix& matrix, const std::vector<Index>& begin,
@@ -56,9 +62,9 @@ void require_pattern(const SymmetricMatrix& matrix, const std::vector<Index>& be
 void require_sizes(std::span<const double> b, std::span<double> x, Index size, Index columns) {
     const std::size_t expected = static_cast<std::size_t>(size) * static_cast<std::size_t>(columns);
     if (b.size() == expected && x.size() == expected) return;
-    throw Error(ErrorCode::invalid_argument,
-                "right-hand side and solution must each hold " + std::to_string(columns) +
-                    " columns of " + std::to_string(size) + " rows");
+    throw Error(ErrorCode::invalid_argument, "right-hand side and solution must each hold " +
+                                                 std::to_string(columns) + " columns of " +
+                                                 std::to_string(size) + " rows");
 }
 
 void refuse_pivot(const SymmetricMatrix& matrix, Index row) {

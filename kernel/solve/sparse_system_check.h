@@ -8,9 +8,10 @@
 
 namespace lissom {
 
-/// A pivot below this fraction of its diagonal entry is rounding noise of a singular matrix: the smallest
-/// honest ratio seen for fourth-order systems of a million unknowns is some 1e-11.
-inline constexpr double kSmallestPivot = 1e-14;
+/// A pivot below this fraction of its diagonal entry is rounding noise of a singular matrix, which
+/// grows with the square root of the number of unknowns. The smallest honest ratio seen, for
+/// fourth-order systems of a million unknowns, is ten times larger.
+double smallest_pivot(Index size);
 
 /// Errors: invalid_argument for an empty matrix or arrays that do not belong together.
 void require_valid(const SymmetricMatrix& matrix);

@@ -124,7 +124,8 @@ void SparseSystem::analyze(const SymmetricMatrix& matrix, const Context& context
     next->row = matrix.row;
     next->stats.factor_nonzeros = next->factor->xsize;
     next->stats.factor_bytes = next->factor->xsize * sizeof(double) +
-                               next->factor->ssize * sizeof(int) + 4 * next->factor->n * sizeof(int);
+                               next->factor->ssize * sizeof(int) +
+                               4 * next->factor->n * sizeof(int);
     next->stats.analyze_seconds = seconds_since(start);
     state_ = std::move(next);
 }
@@ -143,7 +144,8 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
     if (state.workspace.get()->status == CHOLMOD_NOT_POSDEF) {
         refuse_pivot(matrix, static_cast<const int*>(state.factor->Perm)[state.factor->minor]);
     }
-    if (const auto [ratio, row] = least_pivot(*state.factor, matrix); !(ratio > kSmallestPivot)) {
+    if (const auto [ratio, row] = least_pivot(*state.factor, matrix);
+        !(ratio > smallest_pivot(size()))) {
         refuse_pivot(matrix, row);
     }
     state.stats.factor_seconds = seconds_since(start);
@@ -158,8 +160,10 @@ void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index c
     }
     require_sizes(b, x, size(), columns);
     const auto rows = static_cast<std::size_t>(size());
-    cholmod_dense right = view_of(const_cast<double*>(b.data()), rows, static_cast<std::size_t>(columns));
-    cholmod_dense* solution = cholmod_solve(CHOLMOD_A, state_->factor, &right, state_->workspace.get());
+    cholmod_dense right =
+        view_of(const_cast<double*>(b.data()), rows, static_cast<std::size_t>(columns));
+    cholmod_dense* solution =
+        cholmod_solve(CHOLMOD_A, state_->factor, &right, state_->workspace.get());
     state_->workspace.require_memory();
     std::memcpy(x.data(), solution->x, x.size_bytes());
     cholmod_free_dense(&solution, state_->workspace.get());
@@ -169,10 +173,16 @@ Index SparseSystem::size() const {
     return state_->begin.empty() ? 0 : static_cast<Index>(state_->begin.size()) - 1;
 }
 
-bool SparseSystem::factored() const { return state_->factored; }
+bool SparseSystem::factored() const {
+    return state_->factored;
+}
 
-const FactorStats& SparseSystem::stats() const { return state_->stats; }
+const FactorStats& SparseSystem::stats() const {
+    return state_->stats;
+}
 
-const char* sparse_backend() { return "cholmod"; }
+const char* sparse_backend() {
+    return "cholmod";
+}
 
 }  // namespace lissom

@@ -16,12 +16,13 @@ double seconds_since(Clock::time_point start) {
 }
 
 Eigen::Map<const Matrix> view_of(const SymmetricMatrix& matrix) {
-    return {matrix.size(),         matrix.size(),      static_cast<Eigen::Index>(matrix.nonzeros()),
-            matrix.begin.data(),   matrix.row.data(),  matrix.value.data()};
+    return {matrix.size(),       matrix.size(),     static_cast<Eigen::Index>(matrix.nonzeros()),
+            matrix.begin.data(), matrix.row.data(), matrix.value.data()};
 }
 
 // Eigen's class, with access to the size of the factor that its analysis found.
-class Factorization : public Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<Index>> {
+class Factorization
+    : public Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<Index>> {
   public:
     std::size_t factor_nonzeros() const { return static_cast<std::size_t>(m_matrix.nonZeros()); }
 };
@@ -66,9 +67,10 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
     state.factorization.factorize(view_of(matrix));
     const auto& pivots = state.factorization.vectorD();
     const auto& to_row = state.factorization.permutationPinv().indices();
+    const double smallest = smallest_pivot(size());
     for (Index i = 0; i < matrix.size(); ++i) {
         const Index row = to_row[i];
-        if (!(pivots[i] > kSmallestPivot * matrix.value[matrix.begin[row]])) refuse_pivot(matrix, row);
+        if (!(pivots[i] > smallest * matrix.value[matrix.begin[row]])) refuse_pivot(matrix, row);
     }
     state.stats.factor_seconds = seconds_since(start);
     state.charge = std::move(charge);
@@ -89,10 +91,16 @@ Index SparseSystem::size() const {
     return state_->begin.empty() ? 0 : static_cast<Index>(state_->begin.size()) - 1;
 }
 
-bool SparseSystem::factored() const { return state_->factored; }
+bool SparseSystem::factored() const {
+    return state_->factored;
+}
 
-const FactorStats& SparseSystem::stats() const { return state_->stats; }
+const FactorStats& SparseSystem::stats() const {
+    return state_->stats;
+}
 
-const char* sparse_backend() { return "eigen"; }
+const char* sparse_backend() {
+    return "eigen";
+}
 
 }  // namespace lissom

@@ -12,8 +12,8 @@
 
 namespace lissom::test {
 
-/// Path of a real mesh below the test data, or nothing where the data is absent: the test then says so
-/// and returns.
+/// Path of a real mesh below the test data, or nothing where the data is absent: the test then says
+/// so and returns.
 ///
 ///     const auto path = data_file("models/lion.off");
 ///     if (!path) return;

@@ -7,8 +7,8 @@
 using namespace lissom;
 
 TEST_CASE("triplets: repeated entries are summed and the diagonal is complete") {
-    const SymmetricMatrix a =
-        symmetric_from_triplets(3, {{0, 0, 2.0}, {2, 0, 1.0}, {2, 0, 0.5}, {0, 2, 99.0}, {2, 2, 4.0}});
+    const SymmetricMatrix a = symmetric_from_triplets(
+        3, {{0, 0, 2.0}, {2, 0, 1.0}, {2, 0, 0.5}, {0, 2, 99.0}, {2, 2, 4.0}});
     CHECK(a.begin == std::vector<Index>{0, 2, 3, 4});
     CHECK(a.row == std::vector<Index>{0, 2, 1, 2});
     CHECK(a.value == std::vector<double>{2.0, 1.5, 0.0, 4.0});

@@ -28,8 +28,8 @@ SymmetricMatrix grid_laplacian(Index n, double shift) {
     return symmetric_from_triplets(n * n, entries);
 }
 
-double residual(const SymmetricMatrix& a, const std::vector<double>& x, const std::vector<double>& b,
-                Index columns) {
+double residual(const SymmetricMatrix& a, const std::vector<double>& x,
+                const std::vector<double>& b, Index columns) {
     std::vector<double> ax(x.size());
     a.multiply(x.data(), ax.data(), columns);
     double worst = 0.0;
@@ -77,9 +77,16 @@ TEST_CASE("factor: new values with the analysed pattern") {
 
 TEST_CASE("factor: a component without a constraint is named") {
     // Two paths of three unknowns; only the first is held.
-    const SymmetricMatrix a = symmetric_from_triplets(
-        6, {{0, 0, 2.0}, {1, 0, -1.0}, {1, 1, 2.0}, {2, 1, -1.0}, {2, 2, 1.0},
-            {3, 3, 1.0}, {4, 3, -1.0}, {4, 4, 2.0}, {5, 4, -1.0}, {5, 5, 1.0}});
+    const SymmetricMatrix a = symmetric_from_triplets(6, {{0, 0, 2.0},
+                                                          {1, 0, -1.0},
+                                                          {1, 1, 2.0},
+                                                          {2, 1, -1.0},
+                                                          {2, 2, 1.0},
+                                                          {3, 3, 1.0},
+                                                          {4, 3, -1.0},
+                                                          {4, 4, 2.0},
+                                                          {5, 4, -1.0},
+                                                          {5, 5, 1.0}});
     SparseSystem system;
     system.analyze(a);
     const Error error = test::error_of([&] { system.factor(a); });
@@ -139,5 +146,6 @@ TEST_CASE("misuse: no factor, wrong sizes, another pattern, an empty matrix, a c
     cancelled.cancel();
     CHECK(test::error_of([&] { system.factor(a, cancelled); }).code() == ErrorCode::cancelled);
     system.factor(a);
-    CHECK(test::error_of([&] { system.solve(b, shorter, 1); }).code() == ErrorCode::invalid_argument);
+    CHECK(test::error_of([&] { system.solve(b, shorter, 1); }).code() ==
+          ErrorCode::invalid_argument);
 }
