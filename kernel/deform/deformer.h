@@ -167,8 +167,9 @@ class Deformer {
     /// constraints go.
     void reset();
 
-    /// Deformation gradients of the region's vertices in the last solve or preview.
-    const std::vector<Mat3>& gradients() const;
+    /// Deformation gradients M_i of the region's vertices in the last solve or preview, before
+    /// shear is taken out; the identity before one.
+    const std::vector<Mat3>& gradients();
     /// Computes the basis if needed. Errors: as prepare.
     HandleBasis basis(const Context& context = {});
     const DeformStats& stats() const;

@@ -23,6 +23,28 @@ void SymmetricMatrix::multiply(const double* x, double* y, Index columns) const 
     }
 }
 
+void SymmetricMatrix::residual(const long double* b, const double* x, double* r,
+                               Index columns) const {
+    const Index n = size();
+    std::vector<long double> sum(static_cast<std::size_t>(n));
+    for (Index c = 0; c < columns; ++c) {
+        const std::size_t shift = static_cast<std::size_t>(c) * static_cast<std::size_t>(n);
+        const double* in = x + shift;
+        std::copy(b + shift, b + shift + n, sum.begin());
+        for (Index j = 0; j < n; ++j) {
+            const long double xj = in[j];
+            long double own = value[begin[j]] * xj;
+            for (Index k = begin[j] + 1; k < begin[j + 1]; ++k) {
+                const long double a = value[k];
+                sum[row[k]] -= a * xj;
+                own += a * in[row[k]];
+            }
+            sum[j] -= own;
+        }
+        for (Index j = 0; j < n; ++j) r[shift + j] = static_cast<double>(sum[j]);
+    }
+}
+
 SymmetricMatrix symmetric_from_triplets(Index size, const std::vector<Triplet>& entries) {
     std::vector<Triplet> lower;
     lower.reserve(entries.size() + static_cast<std::size_t>(size));

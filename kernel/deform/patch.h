@@ -1,0 +1,75 @@
+/// Patch: the piece of a mesh that one deformation works on, with numbers of its own; private to
+/// kernel/deform. Its size follows the region, not the mesh.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
+#include "kernel/mesh/triangulation.h"
+
+namespace lissom {
+
+/// One-rings of a triangle list as flat arrays: ring(i) are the neighbours of i, ascending.
+struct Rings {
+    std::vector<Index> begin, neighbor;
+
+    std::span<const Index> ring(Index i) const {
+        return {neighbor.data() + begin[i], neighbor.data() + begin[i + 1]};
+    }
+    Index count(Index i) const { return begin[i + 1] - begin[i]; }
+    Index size() const { return static_cast<Index>(begin.size()) - 1; }
+    /// Position of neighbour j of i in the flat arrays.
+    Index entry(Index i, Index j) const;
+};
+
+/// Triangles and how much each counts. A convex quad appears as the two triangles of either
+/// diagonal, each counting one half, so that operators do not favour one diagonal; all others count
+/// one.
+struct WeightedTriangles {
+    std::vector<Triangle> triangle;
+    std::vector<double> weight;
+
+    std::size_t size() const { return triangle.size(); }
+    void add(const Triangle& t, double w) {
+        triangle.push_back(t);
+        weight.push_back(w);
+    }
+};
+
+/// The triangles of the given faces.
+WeightedTriangles weighted_triangles(const Topology& topology, std::span<const Vec3> positions,
+                                     std::span<const Index> faces);
+
+Rings build_rings(Index vertex_count, const WeightedTriangles& triangles);
+
+/// The region and as many rings around it as the stencils of free vertices reach.
+///
+/// Local vertices [0, real_count) are vertices of the mesh, ascending; [real_count, vertex_count)
+/// are virtual ones, inserted at the midpoint of the edge opposite a boundary vertex of valence 2
+/// (section 2.4.3). Virtual vertices exist in `split_triangles` only and have no ids outside.
+struct Patch {
+    Index real_count = 0, vertex_count = 0;
+    /// Mesh vertex of each real local vertex.
+    std::vector<Index> mesh_vertex;
+    std::vector<char> in_region, on_boundary;
+    /// Rest positions relative to `origin`, virtual vertices included.
+    std::vector<Vec3> rest;
+    Vec3 origin = Vec3::Zero();
+    /// Triangles of the mesh's polygons, and the same with virtual vertices inserted.
+    WeightedTriangles triangles, split_triangles;
+    /// Local number of each vertex of the region, in the region's order.
+    std::vector<Index> of_region;
+    /// Mesh vertices of the region all of whose faces have no area, and the number of zero-area
+    /// faces.
+    Elements zero_area_vertices{ElementKind::vertex, 0, {}};
+    Index zero_area_faces = 0;
+};
+
+/// Cuts the patch of `region` out of `mesh`, `rings` rings wider than the region.
+Patch build_patch(const Mesh& mesh, const Region& region, Index rings);
+
+}  // namespace lissom

@@ -1,0 +1,21 @@
+/// Polar decomposition of deformation gradients (thesis section 2.4.4).
+#pragma once
+
+#include "kernel/core/geometry.h"
+
+namespace lissom {
+
+/// The rotation nearest to `m` in the Frobenius norm: R = U V^T of its singular value
+/// decomposition, with determinant +1 also where det m is negative. The zero matrix gives the
+/// identity.
+///
+/// The quaternion of R is the top eigenvector of a 4 x 4 matrix, found from its characteristic
+/// polynomial (Theobald, "Rapid calculation of RMSDs using a quaternion-based characteristic
+/// polynomial", 2005) and polished by one Newton step; a singular value decomposition serves where
+/// that eigenvector is not well separated.
+Mat3 nearest_rotation(const Mat3& m);
+
+/// Uniform scale of `m`: the root mean square of its singular values, |m|_F / sqrt 3 (Eq 2.11).
+double uniform_scale(const Mat3& m);
+
+}  // namespace lissom

@@ -1,0 +1,57 @@
+/// The second system: positions from the rotations, or rotations and scales, of the deformation
+/// gradients (section 2.4.4, Eq 2.10 and 2.11); private to kernel/deform.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/deform/operators.h"
+#include "kernel/deform/patch.h"
+#include "kernel/solve/sparse_system.h"
+
+namespace lissom {
+
+/// Minimises, over the free positions x and on the undisplaced rest shape v,
+///   e  sum over edges of w_ij |(x_i - x_j) - (S_i + S_j) (v_i - v_j) / 2|^2
+/// + l2 sum over vertices of a_i |D(x)_i - S_i D(v)_i|^2
+/// with e = 0, l2 = 1 for `laplacian`; e = 1, l2 = 0 for `poisson`; and e = 1, l2 = (0.06 R)^2, at
+/// least (3 h)^2, for `blend`, where R is the radius of the region's surface and h its mean edge
+/// length.
+class RotationSystem {
+  public:
+    RotationSystem(const Patch& patch, const std::vector<char>& position_known,
+                   const DeformOptions& options, const Context& context);
+
+    /// Errors: not_positive_definite with rows as elements; memory_limit.
+    void factor(const Context& context);
+
+    const std::vector<Index>& free_vertices() const { return free_; }
+    const FactorStats& stats() const { return system_.stats(); }
+    const Rings& rings() const { return rings_; }
+
+    /// Free positions for the transforms S_i of all local vertices. `positions` holds the known
+    /// positions and receives the free ones. Linear in both: deviations of S_i from one S give
+    /// deviations of the positions from S v + t.
+    void solve(std::span<const Mat3> transforms, std::span<Vec3> positions,
+               const Context& context) const;
+
+  private:
+    void assemble(const std::vector<char>& position_known, const Context& context);
+
+    Rings rings_;
+    Laplacian laplacian_;
+    /// Coefficient of i in D(x)_j, for the entry of j in the ring of i.
+    std::vector<double> transposed_;
+    /// Edge weights e w_ij of every ring entry, and l2 a_i D(v)_i and e sum_j w_ij (v_i - v_j) / 2
+    /// of every vertex.
+    std::vector<double> edge_weight_;
+    std::vector<Vec3> rest_, weighted_delta_, edge_sum_;
+    double laplacian_factor_ = 0.0;
+    std::vector<Index> free_;
+    SymmetricMatrix matrix_;
+    RowMatrix positions_;
+    SparseSystem system_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,298 @@
+#include "kernel/deform/deformer.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "kernel/mesh/region_select.h"
+#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/triangulation.h"
+#include "tests/unit/deform/scene.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+std::vector<DeformOptions> formulations() {
+    std::vector<DeformOptions> list(6);
+    list[1].second = SecondSystem::laplacian;
+    list[2].second = SecondSystem::poisson;
+    list[3].local_size = LocalSize::scale;
+    list[4].weights = LaplacianWeights::uniform;
+    list[5] = DeformOptions::thesis();
+    return list;
+}
+
+Scene bar_scene() {
+    BarOptions options;
+    options.across = 5;
+    options.along = 25;
+    return make_scene(make_bar(options));
+}
+
+}  // namespace
+
+TEST_CASE("at rest: the result is the rest shape to the bit, in every formulation") {
+    const Scene scene = bar_scene();
+    for (const DeformOptions& options : formulations()) {
+        Edit edit = make_edit(scene, options);
+        CHECK(edit.deformer.preview() == edit.deformer.rest_positions());
+        CHECK(edit.deformer.solve() == edit.deformer.rest_positions());
+        CHECK(edit.deformer.solve_first_directly().size() == edit.deformer.rest_positions().size());
+        CHECK(greatest_distance(edit.deformer.solve_first_directly(),
+                                edit.deformer.rest_positions()) < 1e-11 * scene.size);
+    }
+}
+
+TEST_CASE("drag there and back: rest to the bit") {
+    const Scene scene = bar_scene();
+    Edit edit = make_edit(scene);
+    const Vec3 center = edit.deformer.handle_center(edit.high);
+    Affine transform;
+    for (const double angle : {0.3, 0.7, -0.2, -0.8}) {
+        transform = rotation({1, 2, 3}, angle, center) * transform;
+        edit.deformer.set_transform(edit.high, transform);
+        edit.deformer.solve();
+    }
+    CHECK(edit.deformer.positions() == edit.deformer.rest_positions());
+
+    edit.deformer.set_transform(edit.high, bend(scene, center));
+    edit.deformer.solve();
+    CHECK(edit.deformer.positions() != edit.deformer.rest_positions());
+    edit.deformer.reset();
+    CHECK(edit.deformer.positions() == edit.deformer.rest_positions());
+    CHECK(edit.deformer.solve() == edit.deformer.rest_positions());
+}
+
+TEST_CASE("handles are hard: their vertices go where they were sent, to the bit") {
+    const Scene scene = bar_scene();
+    for (const DeformOptions& options : formulations()) {
+        Edit edit = make_edit(scene, options);
+        const Affine move = bend(scene, edit.deformer.handle_center(edit.high));
+        edit.deformer.set_transform(edit.high, move);
+        edit.deformer.solve();
+        for (const Index v : scene.high) {
+            CHECK(edit.deformer.positions()[v] == move(scene.mesh.position(v)));
+        }
+        for (const Index v : scene.low) {
+            CHECK(edit.deformer.positions()[v] == scene.mesh.position(v));
+        }
+    }
+}
+
+TEST_CASE("handle basis: equal to the direct solve, and its rows reproduce the preview") {
+    const Scene scene = bar_scene();
+    for (const DeformOptions& options : formulations()) {
+        Edit edit = make_edit(scene, options);
+        Deformer& d = edit.deformer;
+        d.set_transform(edit.high, bend(scene, d.handle_center(edit.high), 1.3));
+        d.set_transform(edit.low, scaling({1.1, 0.9, 1.2}, {0, 1, 0}));
+        const std::vector<Vec3> preview = d.preview();
+        CHECK(greatest_distance(preview, d.solve_first_directly()) < 1e-11 * scene.size);
+
+        const HandleBasis basis = d.basis();
+        std::vector<Vec3> evaluated = basis.fixed;
+        for (std::size_t h = 0; h < basis.handles.size(); ++h) {
+            const Affine& t = d.transform(basis.handles[h]);
+            for (std::size_t i = 0; i < evaluated.size(); ++i) {
+                const Vec4& w = basis.weights[h][i];
+                evaluated[i] += t.linear * w.head<3>() + t.translation * w[3];
+            }
+        }
+        CHECK(greatest_distance(preview, evaluated) < 1e-11 * scene.size);
+    }
+}
+
+TEST_CASE("first system: one affine map for all handles maps the whole surface") {
+    const Scene scene = bar_scene();
+    Affine map;
+    map.linear << 1.2, 0.3, -0.4, 0.1, 0.7, 0.5, -0.6, 0.2, 1.5;
+    map.translation = {3.0, -2.0, 1.0};
+    for (const DeformOptions& options : formulations()) {
+        Edit edit = make_edit(scene, options);
+        edit.deformer.set_transform(edit.low, map);
+        edit.deformer.set_transform(edit.high, map);
+        CHECK(greatest_distance(edit.deformer.preview(),
+                                mapped(edit.deformer.rest_positions(), map)) < 1e-11 * scene.size);
+    }
+}
+
+TEST_CASE("similarity: one rigid motion for all handles, or with scaled details one similarity") {
+    const Scene scene = bar_scene();
+    const Affine rigid = rotation({1, 2, 3}, 2.0, {5, 0, 0});
+    Affine similar = rigid;
+    similar.linear *= 1.7;
+    for (const DeformOptions& options : formulations()) {
+        const bool scales = options.local_size == LocalSize::scale;
+        Edit edit = make_edit(scene, options);
+        const Affine& map = scales ? similar : rigid;
+        edit.deformer.set_transform(edit.low, map);
+        edit.deformer.set_transform(edit.high, map);
+        CHECK(greatest_distance(edit.deformer.solve(),
+                                mapped(edit.deformer.rest_positions(), map)) < 1e-9 * scene.size);
+    }
+}
+
+TEST_CASE("region of interest: nothing moves outside it") {
+    const Scene scene = bar_scene();
+    Mesh mesh = scene.mesh;
+    const Region region = select_box(mesh, {Vec3(-9, -0.2, -9), Vec3(9, 9, 9)});
+    const Region top = select_box(mesh, {Vec3(-9, 2.2, -9), Vec3(9, 9, 9)});
+    Deformer deformer(mesh, region);
+    const HandleId handle = deformer.add_handle(top);
+    deformer.set_transform(handle, rotation(Vec3::UnitX(), 0.8, deformer.handle_center(handle)));
+    deformer.solve();
+    deformer.apply_to(mesh);
+    Index moved = 0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (mesh.position(v) == scene.mesh.position(v)) continue;
+        CHECK(region.contains(v));
+        ++moved;
+    }
+    CHECK(moved > region.size() / 2);
+}
+
+TEST_CASE(
+    "region of interest: a free patch within a moving surrounding is what a handle-less solve "
+    "gives") {
+    const Scene scene = bar_scene();
+    Deformer deformer(scene.mesh, select_box(scene.mesh, {Vec3(-9, -0.5, -9), Vec3(9, 0.5, 9)}));
+    CHECK(deformer.solve() == deformer.rest_positions());
+}
+
+TEST_CASE("shear: the second system leaves less stretch than the first") {
+    const Scene scene = bar_scene();
+    const auto greatest_stretch = [&](const std::vector<Vec3>& x) {
+        double greatest = 0.0;
+        for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
+            for (const Index n : scene.mesh.topology().neighbors(v)) {
+                const double rest = (scene.mesh.position(v) - scene.mesh.position(n)).norm();
+                greatest = std::max(greatest, std::abs((x[v] - x[n]).norm() / rest - 1.0));
+            }
+        }
+        return greatest;
+    };
+    for (const DeformOptions& options : formulations()) {
+        if (options.local_size == LocalSize::scale) continue;
+        Edit edit = make_edit(scene, options);
+        Deformer& d = edit.deformer;
+        d.set_transform(edit.high, rotation(Vec3::UnitY(), 2.0, d.handle_center(edit.high)));
+        const double first = greatest_stretch(d.preview());
+        const double second = greatest_stretch(d.solve());
+        CHECK(second < first);
+    }
+}
+
+TEST_CASE("translation turns details: the method finds rotations that no handle was given") {
+    const Scene scene = bar_scene();
+    Edit edit = make_edit(scene);
+    Deformer& d = edit.deformer;
+    d.set_transform(edit.high, translation({4.0, 0.0, 0.0}));
+    d.solve();
+    // Half way up, the bar leans towards the handle: its axis has turned about z.
+    const Index middle = scene.mesh.vertex_count() / 2;
+    const Vec3 up = d.gradients()[middle] * Vec3::UnitY();
+    CHECK(std::atan2(up.x(), up.y()) > 0.3);
+}
+
+TEST_CASE("factors: a drag adds none, a new handle adds one") {
+    const Scene scene = bar_scene();
+    Edit edit = make_edit(scene);
+    Deformer& d = edit.deformer;
+    d.solve();
+    CHECK(d.stats().factorizations == 1);
+    for (int i = 1; i < 5; ++i) {
+        d.set_transform(edit.high, rotation(Vec3::UnitX(), 0.1 * i, Vec3::Zero()));
+        d.solve();
+    }
+    CHECK(d.stats().factorizations == 1);
+    d.remove_handle(edit.high);
+    d.add_handle(scene.region({scene.high.front()}));
+    d.solve();
+    CHECK(d.stats().factorizations == 2);
+}
+
+TEST_CASE("stats: sizes add up") {
+    const Scene scene = bar_scene();
+    Edit edit = make_edit(scene);
+    edit.deformer.prepare();
+    const DeformStats& s = edit.deformer.stats();
+    CHECK(s.region_vertices == scene.mesh.vertex_count());
+    CHECK(s.constrained_vertices == static_cast<Index>(scene.low.size() + scene.high.size()));
+    CHECK(s.free_vertices + s.constrained_vertices == s.region_vertices);
+    CHECK(s.handles == 2);
+    CHECK(s.displaced_vertices > 0);
+    CHECK(s.factor_bytes > 0);
+}
+
+TEST_CASE("one-shot function: the same as a deformer") {
+    const Scene scene = bar_scene();
+    Edit edit = make_edit(scene);
+    const Affine move = bend(scene, edit.deformer.handle_center(edit.high));
+    edit.deformer.set_transform(edit.high, move);
+    edit.deformer.solve();
+
+    Mesh mesh = scene.mesh;
+    const std::vector<HandleMove> moves{{scene.region(scene.low), {}, {}},
+                                        {scene.region(scene.high), move, {}}};
+    deform(mesh, scene.all(), moves);
+    const std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
+    CHECK(positions == edit.deformer.positions());
+}
+
+TEST_CASE("normals: custom normals turn with the surface, from the rest shape each time") {
+    Scene scene = bar_scene();
+    Attribute normals{"normal", Domain::corner, 3, ScalarType::float32, {}};
+    for (Index c = 0; c < scene.mesh.topology().corner_count(); ++c) {
+        normals.values.insert(normals.values.end(), {0.0, 0.6, 0.8});
+    }
+    scene.mesh.attributes().add(normals);
+    Mesh mesh = scene.mesh;
+    Edit edit = make_edit(scene);
+    const Affine turn = rotation(Vec3::UnitX(), 1.1, edit.deformer.handle_center(edit.high));
+    edit.deformer.set_transform(edit.high, turn);
+    for (int twice = 0; twice < 2; ++twice) {
+        edit.deformer.solve();
+        edit.deformer.apply_to(mesh);
+        const Attribute& n = *mesh.attributes().find("normal");
+        const Index face = mesh.topology().faces_around(scene.high.back())[0];
+        const auto around = mesh.topology().face(face);
+        const auto at = std::find(around.begin(), around.end(), scene.high.back()) - around.begin();
+        const auto value = n.at(mesh.topology().first_corner(face) + static_cast<Index>(at));
+        CHECK((Vec3(value[0], value[1], value[2]) - turn.linear * Vec3(0.0, 0.6, 0.8)).norm() <
+              1e-12);
+    }
+    edit.deformer.reset();
+    edit.deformer.apply_to(mesh);
+    CHECK(mesh.attributes().find("normal")->values == normals.values);
+}
+
+TEST_CASE("threads: the result does not depend on their number") {
+    const Scene scene = bar_scene();
+    std::vector<std::vector<Vec3>> results;
+    for (const int threads : {1, 2, 3}) {
+        ContextOptions options;
+        options.threads = threads;
+        const Context context(options);
+        Edit edit = make_edit(scene);
+        edit.deformer.set_transform(edit.high, bend(scene, edit.deformer.handle_center(edit.high)));
+        results.push_back(edit.deformer.solve(context));
+    }
+    CHECK(results[0] == results[1]);
+    CHECK(results[0] == results[2]);
+}
+
+TEST_CASE("quads deform nearly as their triangulation") {
+    const Scene scene = bar_scene();
+    FaceList faces;
+    const Triangulation t = triangulate_faces(scene.mesh.topology(), scene.mesh.positions());
+    for (const Triangle& triangle : t.triangles) faces.add(triangle);
+    const Mesh triangles({scene.mesh.positions().begin(), scene.mesh.positions().end()}, faces);
+    const Scene other = make_scene(triangles);
+    Edit a = make_edit(scene), b = make_edit(other);
+    const Affine move = bend(scene, a.deformer.handle_center(a.high));
+    a.deformer.set_transform(a.high, move);
+    b.deformer.set_transform(b.high, move);
+    CHECK(greatest_distance(a.deformer.solve(), b.deformer.solve()) < 0.2 * scene.size);
+}
