@@ -74,6 +74,8 @@ struct Prepared {
     std::unique_ptr<GradientSystem> first;
     std::unique_ptr<RotationSystem> second;
     std::unique_ptr<LinearSolution> solution;
+    /// Row in the region of each row of the solution, or kNoIndex for virtual vertices.
+    std::vector<Index> region_row;
 };
 
 }  // namespace
@@ -113,7 +115,7 @@ struct Deformer::State {
     Mat3 gradient_of(Index v) const;
     void find_gradients(const Context& context);
     Mat3 rotation_of(const Mat3& gradient) const;
-    std::vector<Vec3> solve_second(const Context& context) const;
+    void solve_second(const Context& context);
     std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;
     void write_positions(const std::vector<Vec3>& at);
     void write_held();
@@ -143,6 +145,12 @@ struct Deformer::State {
     /// Where local vertices lie after the first system, degenerate ones displaced, relative to
     /// where the base transform takes their rest position.
     std::vector<Vec3> deviation;
+    Mat4 frame_base = Mat4::Zero();
+    /// S_i less that of the base, for the second system, and its local positions. Outside the
+    /// region the former stay zero only where the base is the identity; otherwise there is no
+    /// outside.
+    std::vector<Mat3> turns;
+    std::vector<Vec3> second_positions;
     std::vector<Vec3> positions;
     std::vector<Mat3> gradients;
     bool deformed = false, gradients_current = true;
@@ -308,7 +316,8 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
         }
         ++cost.factorizations;
     }
-    if (!next->first->free_vertices().empty()) {
+    for (const Index v : next->first->free_vertices()) next->region_row.push_back(region_row[v]);
+    if (!next->region_row.empty()) {
         progress.step(0.15);
         start = std::chrono::steady_clock::now();
         next->solution = std::make_unique<LinearSolution>(
@@ -330,13 +339,16 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
 }
 
 void Deformer::State::evaluate_deviation(const Context& context) {
+    frame_base = base_transform();
     deviation.assign(static_cast<std::size_t>(patch.vertex_count), Vec3::Zero());
     if (!prepared->solution) return;
-    for (Index v = 0; v < patch.vertex_count; ++v) {
-        if (prepared->known.position[v] && prepared->owner[v] != kPinned) {
-            deviation[v] = known_deviation(v);
+    for (const HandleState& h : handles) {
+        const Mat4 difference = matrix_of(local(h.transform)) - frame_base;
+        for (const Index v : h.local) {
+            deviation[v] = (difference * homogeneous(patch.rest[v])).head<3>();
         }
     }
+    for (const auto& entry : constraints) deviation[entry.first] = known_deviation(entry.first);
     const std::vector<Index>& free = prepared->first->free_vertices();
     const std::vector<Mat4> differences = this->differences();
     context.parallel_for(
@@ -352,8 +364,7 @@ Mat3 Deformer::State::gradient_of(Index v) const {
     if (prepared->known.gradient[v]) return known_gradient(v);
     const auto gathered = [&](Index u) -> Mat3 {
         if (prepared->known.gradient[u]) return known_gradient(u);
-        return base_transform().topLeftCorner<3, 3>() +
-               prepared->gradients.gather(rings, deviation, u);
+        return frame_base.topLeftCorner<3, 3>() + prepared->gradients.gather(rings, deviation, u);
     };
     if (prepared->gradients.defined[v]) return gathered(v);
     Mat3 sum = Mat3::Zero();
@@ -384,23 +395,22 @@ Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
 
 // Solves the second system for deviations from the similarity nearest to the base transform, so
 // that similarities of the whole are exact. Returns local positions.
-std::vector<Vec3> Deformer::State::solve_second(const Context& context) const {
-    const Mat4 base = base_transform();
-    const Mat3 base_rotation = rotation_of(base.topLeftCorner<3, 3>());
-    const Mat3 remainder = base.topLeftCorner<3, 3>() - base_rotation;
-    std::vector<Mat3> turns(static_cast<std::size_t>(patch.real_count), Mat3::Zero());
+void Deformer::State::solve_second(const Context& context) {
+    const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
+    const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
+    turns.resize(static_cast<std::size_t>(patch.real_count), Mat3::Zero());
     context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
         for (Index row = begin; row < end; ++row) {
             turns[patch.of_region[row]] = rotation_of(gradients[row]) - base_rotation;
         }
     });
-    std::vector<Vec3> at(static_cast<std::size_t>(patch.real_count));
+    std::vector<Vec3>& at = second_positions;
+    at.resize(static_cast<std::size_t>(patch.real_count));
     for (Index v = 0; v < patch.real_count; ++v) at[v] = deviation[v] + remainder * patch.rest[v];
     prepared->second->solve(turns, at, context);
     for (const Index v : prepared->second->free_vertices()) {
-        at[v] += base_rotation * patch.rest[v] + base.topRightCorner<3, 1>();
+        at[v] += base_rotation * patch.rest[v] + frame_base.topRightCorner<3, 1>();
     }
-    return at;
 }
 
 // Positions of the region's vertices for deviations `from` the base transform: displaced vertices
@@ -432,10 +442,12 @@ void Deformer::State::write_positions(const std::vector<Vec3>& at) {
 void Deformer::State::write_held() {
     for (const HandleState& h : handles) {
         if (h.removed) continue;
+        const Affine transform = h.transform;
+        const bool still = transform.is_identity();
         for (const Index v : h.local) {
             if (!prepared->known.position[v]) continue;
             const Index row = region_row[v];
-            positions[row] = h.transform.is_identity() ? rest[row] : h.transform(rest[row]);
+            positions[row] = still ? rest[row] : transform(rest[row]);
         }
     }
     for (const auto& [v, constraint] : constraints) {
@@ -590,18 +602,16 @@ const std::vector<Vec3>& Deformer::preview(const Context& context) {
         return s.positions;
     }
     if (s.prepared->solution) {
-        const std::vector<Index>& free = s.prepared->first->free_vertices();
+        const LinearSolution& solution = *s.prepared->solution;
         const Mat4 base = s.base_transform();
         const std::vector<Mat4> differences = s.differences();
-        context.parallel_for(
-            0, static_cast<Index>(free.size()), kFrameGrain, [&](Index begin, Index end) {
-                for (Index row = begin; row < end; ++row) {
-                    const Index target = s.region_row[free[row]];
-                    if (target == kNoIndex) continue;
-                    s.positions[target] =
-                        s.prepared->solution->position(row, base, differences) + s.patch.origin;
-                }
-            });
+        context.parallel_for(0, solution.rows(), kFrameGrain, [&](Index begin, Index end) {
+            for (Index row = begin; row < end; ++row) {
+                const Index target = s.prepared->region_row[row];
+                if (target == kNoIndex) continue;
+                s.positions[target] = solution.position(row, base, differences) + s.patch.origin;
+            }
+        });
     }
     s.write_held();
     s.gradients_current = false;
@@ -622,7 +632,8 @@ const std::vector<Vec3>& Deformer::solve(const Context& context) {
     if (s.prepared->second->free_vertices().empty()) {
         s.write_held();
     } else {
-        s.write_positions(s.solve_second(context));
+        s.solve_second(context);
+        s.write_positions(s.second_positions);
     }
     s.deformed = true;
     return s.positions;

@@ -46,6 +46,8 @@ class LinearSolution {
     /// Solves for the part that vertex constraints add.
     void solve_fixed(const LinearProblem& problem, const VertexConstraints& constraints);
 
+    /// Number of free vertices.
+    Index rows() const { return static_cast<Index>(rest_.size()); }
     /// Handle whose transform is T, or kNoIndex where T is the identity.
     Index base() const { return base_; }
     /// Handles with weights of their own.

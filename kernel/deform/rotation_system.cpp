@@ -130,14 +130,16 @@ void RotationSystem::factor(const Context& context) {
 }
 
 void RotationSystem::solve(std::span<const Mat3> transforms, std::span<Vec3> positions,
-                           const Context& context) const {
+                           const Context& context) {
     const auto count = static_cast<Index>(free_.size());
     const auto rows = static_cast<std::size_t>(count);
-    std::vector<Vec3> target(rest_.size());
+    std::vector<Vec3>& target = target_;
+    target.resize(rest_.size());
     context.parallel_for(0, rings_.size(), kFrameGrain, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) target[i] = transforms[i] * weighted_delta_[i];
     });
-    std::vector<double> b(3 * rows);
+    std::vector<double>& b = right_;
+    b.resize(3 * rows);
     context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
         for (Index r = begin; r < end; ++r) {
             const Index i = free_[r];

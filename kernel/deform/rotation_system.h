@@ -33,8 +33,7 @@ class RotationSystem {
     /// Free positions for the transforms S_i of all local vertices. `positions` holds the known
     /// positions and receives the free ones. Linear in both: deviations of S_i from one S give
     /// deviations of the positions from S v + t.
-    void solve(std::span<const Mat3> transforms, std::span<Vec3> positions,
-               const Context& context) const;
+    void solve(std::span<const Mat3> transforms, std::span<Vec3> positions, const Context& context);
 
   private:
     void assemble(const std::vector<char>& position_known, const Context& context);
@@ -52,6 +51,9 @@ class RotationSystem {
     SymmetricMatrix matrix_;
     RowMatrix positions_;
     SparseSystem system_;
+    /// Scratch of `solve`, kept because a frame is short beside the time to get fresh pages.
+    std::vector<Vec3> target_;
+    std::vector<double> right_;
 };
 
 }  // namespace lissom

@@ -17,8 +17,8 @@ struct FactorStats {
     double analyze_seconds = 0, factor_seconds = 0;
 };
 
-/// A factored symmetric positive definite matrix. Supernodal Cholesky with AMD ordering by CHOLMOD;
-/// Eigen's SimplicialLDLT where the build is without GPL.
+/// A factored symmetric positive definite matrix, for use by one thread at a time. Supernodal
+/// Cholesky with AMD ordering by CHOLMOD; Eigen's SimplicialLDLT where the build is without GPL.
 class SparseSystem {
   public:
     SparseSystem();
@@ -38,9 +38,10 @@ class SparseSystem {
     /// Errors: invalid_argument without a factor or where sizes differ.
     void solve(std::span<const double> b, std::span<double> x, Index columns) const;
 
-    /// As `solve`, followed by one step of iterative refinement. Right-hand side and residual are in
-    /// extended precision where the platform has it, so that ill-conditioned systems lose nothing to the
-    /// rounding of b. `matrix` is the one factored. Costs two to three times as much.
+    /// As `solve`, followed by one step of iterative refinement. Right-hand side and residual are
+    /// in extended precision where the platform has it, so that ill-conditioned systems lose
+    /// nothing to the rounding of b. `matrix` is the one factored. Costs two to three times as
+    /// much.
     void solve_refined(const SymmetricMatrix& matrix, std::span<const long double> b,
                        std::span<double> x, Index columns) const;
 

@@ -96,10 +96,17 @@ std::pair<double, Index> least_pivot(const cholmod_factor& factor, const Symmetr
 }  // namespace
 
 struct SparseSystem::State {
-    ~State() { cholmod_free_factor(&factor, workspace.get()); }
+    ~State() {
+        for (cholmod_dense** dense : {&solution, &scratch, &more_scratch}) {
+            cholmod_free_dense(dense, workspace.get());
+        }
+        cholmod_free_factor(&factor, workspace.get());
+    }
 
     Workspace workspace;
     cholmod_factor* factor = nullptr;
+    /// Kept between solves of equally many columns.
+    cholmod_dense *solution = nullptr, *scratch = nullptr, *more_scratch = nullptr;
     std::vector<Index> begin, row;
     bool factored = false;
     MemoryCharge charge;
@@ -162,11 +169,10 @@ void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index c
     const auto rows = static_cast<std::size_t>(size());
     cholmod_dense right =
         view_of(const_cast<double*>(b.data()), rows, static_cast<std::size_t>(columns));
-    cholmod_dense* solution =
-        cholmod_solve(CHOLMOD_A, state_->factor, &right, state_->workspace.get());
+    cholmod_solve2(CHOLMOD_A, state_->factor, &right, nullptr, &state_->solution, nullptr,
+                   &state_->scratch, &state_->more_scratch, state_->workspace.get());
     state_->workspace.require_memory();
-    std::memcpy(x.data(), solution->x, x.size_bytes());
-    cholmod_free_dense(&solution, state_->workspace.get());
+    std::memcpy(x.data(), state_->solution->x, x.size_bytes());
 }
 
 Index SparseSystem::size() const {
