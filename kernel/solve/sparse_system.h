@@ -19,6 +19,7 @@ struct FactorStats {
 
 /// A factored symmetric positive definite matrix, for use by one thread at a time. Supernodal
 /// Cholesky with AMD ordering by CHOLMOD; Eigen's SimplicialLDLT where the build is without GPL.
+/// Starts no threads.
 class SparseSystem {
   public:
     SparseSystem();

@@ -1,12 +1,15 @@
 #include <cholmod.h>
+#ifdef LISSOM_HAS_OPENMP
+#include <omp.h>
+#endif
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <utility>
 
 #include "kernel/solve/sparse_system.h"
 #include "kernel/solve/sparse_system_check.h"
+#include "kernel/solve/supernodal_solve.h"
 
 namespace lissom {
 namespace {
@@ -34,16 +37,39 @@ cholmod_sparse view_of(const SymmetricMatrix& matrix) {
     return view;
 }
 
-cholmod_dense view_of(double* x, std::size_t rows, std::size_t columns) {
-    cholmod_dense view{};
-    view.nrow = view.d = rows;
-    view.ncol = columns;
-    view.nzmax = rows * columns;
-    view.x = x;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    return view;
+SupernodalFactor view_of(const cholmod_factor& factor) {
+    return {static_cast<Index>(factor.n),
+            static_cast<Index>(factor.nsuper),
+            static_cast<const Index*>(factor.super),
+            static_cast<const Index*>(factor.pi),
+            static_cast<const Index*>(factor.px),
+            static_cast<const Index*>(factor.s),
+            static_cast<const double*>(factor.x),
+            static_cast<const Index*>(factor.Perm)};
 }
+
+// Keeps CHOLMOD's loops on the calling thread while it lives: a host decides about threads, and
+// results must not depend on their number.
+class SerialSection {
+  public:
+#ifdef LISSOM_HAS_OPENMP
+    SerialSection() : levels_(omp_get_max_active_levels()) {
+        omp_set_max_active_levels(0);
+    }
+    ~SerialSection() {
+        omp_set_max_active_levels(levels_);
+    }
+
+  private:
+    int levels_;
+
+  public:
+#else
+    SerialSection() = default;
+#endif
+    SerialSection(const SerialSection&) = delete;
+    SerialSection& operator=(const SerialSection&) = delete;
+};
 
 // CHOLMOD's settings and scratch memory.
 class Workspace {
@@ -96,17 +122,11 @@ std::pair<double, Index> least_pivot(const cholmod_factor& factor, const Symmetr
 }  // namespace
 
 struct SparseSystem::State {
-    ~State() {
-        for (cholmod_dense** dense : {&solution, &scratch, &more_scratch}) {
-            cholmod_free_dense(dense, workspace.get());
-        }
-        cholmod_free_factor(&factor, workspace.get());
-    }
+    ~State() { cholmod_free_factor(&factor, workspace.get()); }
 
     Workspace workspace;
     cholmod_factor* factor = nullptr;
-    /// Kept between solves of equally many columns.
-    cholmod_dense *solution = nullptr, *scratch = nullptr, *more_scratch = nullptr;
+    std::vector<Eigen::Array4d> scratch;
     std::vector<Index> begin, row;
     bool factored = false;
     MemoryCharge charge;
@@ -124,6 +144,7 @@ void SparseSystem::analyze(const SymmetricMatrix& matrix, const Context& context
     const auto start = Clock::now();
     auto next = std::make_unique<State>();
     cholmod_sparse view = view_of(matrix);
+    const SerialSection serial;
     next->factor = cholmod_analyze(&view, next->workspace.get());
     next->workspace.require_memory();
     if (!next->factor) throw Error(ErrorCode::internal, "CHOLMOD could not analyse the matrix");
@@ -146,7 +167,10 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
     MemoryCharge charge = context.charge(state.stats.factor_bytes, "factoring the linear system");
     const auto start = Clock::now();
     cholmod_sparse view = view_of(matrix);
-    cholmod_factorize(&view, state.factor, state.workspace.get());
+    {
+        const SerialSection serial;
+        cholmod_factorize(&view, state.factor, state.workspace.get());
+    }
     state.workspace.require_memory();
     if (state.workspace.get()->status == CHOLMOD_NOT_POSDEF) {
         refuse_pivot(matrix, static_cast<const int*>(state.factor->Perm)[state.factor->minor]);
@@ -167,12 +191,12 @@ void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index c
     }
     require_sizes(b, x, size(), columns);
     const auto rows = static_cast<std::size_t>(size());
-    cholmod_dense right =
-        view_of(const_cast<double*>(b.data()), rows, static_cast<std::size_t>(columns));
-    cholmod_solve2(CHOLMOD_A, state_->factor, &right, nullptr, &state_->solution, nullptr,
-                   &state_->scratch, &state_->more_scratch, state_->workspace.get());
-    state_->workspace.require_memory();
-    std::memcpy(x.data(), state_->solution->x, x.size_bytes());
+    const SupernodalFactor factor = view_of(*state_->factor);
+    for (Index first = 0; first < columns; first += kSolveWidth) {
+        const std::size_t shift = static_cast<std::size_t>(first) * rows;
+        solve_supernodal(factor, b.data() + shift, x.data() + shift,
+                         std::min(kSolveWidth, columns - first), state_->scratch);
+    }
 }
 
 Index SparseSystem::size() const {
