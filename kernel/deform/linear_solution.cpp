@@ -51,6 +51,7 @@ LinearSolution::LinearSolution(const LinearProblem& problem, const Context& cont
         fold_of_[row[problem.gradients.displaced[f]]] = static_cast<Index>(f);
     }
     choose_base(problem);
+    charge_ = context.charge(memory_bytes(), "the handle basis");
     solve_handles(problem, context);
     fold_back(problem);
 }

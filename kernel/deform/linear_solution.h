@@ -82,13 +82,15 @@ class LinearSolution {
         if (fixed_.empty()) return Vec3::Zero();
         return f == kNoIndex ? fixed_[row] : Vec3(fixed_[row] + fixed_fold_[f]);
     }
-    std::size_t memory_bytes() const;
 
   private:
+    /// Bytes of the weights of all handles.
+    std::size_t memory_bytes() const;
     void choose_base(const LinearProblem& problem);
     void solve_handles(const LinearProblem& problem, const Context& context);
     void fold_back(const LinearProblem& problem);
 
+    MemoryCharge charge_;
     Index base_ = kNoIndex;
     std::vector<Index> handles_;
     std::vector<Vec3> rest_;

@@ -144,7 +144,7 @@ void SparseSystem::analyze(const SymmetricMatrix& matrix, const Context& context
     const auto start = Clock::now();
     auto next = std::make_unique<State>();
     cholmod_sparse view = view_of(matrix);
-    const SerialSection serial;
+    [[maybe_unused]] const SerialSection serial;
     next->factor = cholmod_analyze(&view, next->workspace.get());
     next->workspace.require_memory();
     if (!next->factor) throw Error(ErrorCode::internal, "CHOLMOD could not analyse the matrix");
@@ -168,7 +168,7 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
     const auto start = Clock::now();
     cholmod_sparse view = view_of(matrix);
     {
-        const SerialSection serial;
+        [[maybe_unused]] const SerialSection serial;
         cholmod_factorize(&view, state.factor, state.workspace.get());
     }
     state.workspace.require_memory();

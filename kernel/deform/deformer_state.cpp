@@ -1,0 +1,328 @@
+#include "kernel/deform/deformer_state.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "kernel/deform/polar.h"
+
+namespace lissom {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen)
+    : region(given), options(chosen), patch(build_patch(mesh, given, 1)), normals(mesh, given) {
+    rings = build_rings(patch.vertex_count, patch.split_triangles);
+    geometry = ring_geometry(rings, patch.split_triangles, patch.rest);
+    laplacian = make_laplacian(rings, geometry, options.weights, options.scale_free);
+    region_row.assign(static_cast<std::size_t>(patch.vertex_count), kNoIndex);
+    for (Index row = 0; row < region.size(); ++row) {
+        region_row[patch.of_region[row]] = row;
+        rest.push_back(mesh.position(region.vertices()[row]));
+        size = std::max(size, patch.rest[patch.of_region[row]].norm());
+    }
+    stats.region_vertices = region.size();
+    stats.zero_area_faces = patch.zero_area_faces;
+    stats.inserted_vertices = patch.vertex_count - patch.real_count;
+    to_rest();
+}
+
+HandleState& Deformer::State::handle(HandleId id) {
+    if (id.value < 0 || id.value >= static_cast<Index>(handles.size()) ||
+        handles[id.value].removed) {
+        throw Error(ErrorCode::handle_removed, "the handle was removed; add a new one");
+    }
+    return handles[id.value];
+}
+
+Index Deformer::State::local_vertex(Index mesh_vertex) const {
+    const auto& ids = patch.mesh_vertex;
+    return static_cast<Index>(std::lower_bound(ids.begin(), ids.end(), mesh_vertex) - ids.begin());
+}
+
+bool Deformer::State::at_rest() const {
+    return constraints.empty() && std::all_of(handles.begin(), handles.end(), [](const auto& h) {
+               return h.removed || h.transform.is_identity();
+           });
+}
+
+Affine Deformer::State::local(const Affine& transform) const {
+    return {transform.linear,
+            transform.linear * patch.origin + transform.translation - patch.origin};
+}
+
+Mat4 Deformer::State::base_transform() const {
+    const Index base = prepared->solution ? prepared->solution->base() : kNoIndex;
+    return matrix_of(base == kNoIndex ? Affine{} : local(handles[base].transform));
+}
+
+std::vector<Mat4> Deformer::State::differences() const {
+    const Mat4 base = base_transform();
+    std::vector<Mat4> differences;
+    for (const Index h : prepared->solution->handles()) {
+        differences.push_back(matrix_of(local(handles[h].transform)) - base);
+    }
+    return differences;
+}
+
+Vec3 Deformer::State::known_position(Index v) const {
+    const Index o = prepared->owner[v];
+    if (o >= 0) return local(handles[o].transform)(patch.rest[v]);
+    if (o == kConstrained && constraints.at(v).position) {
+        return *constraints.at(v).position - patch.origin;
+    }
+    return patch.rest[v];
+}
+
+// Exactly zero for a handle that moves as the base does.
+Vec3 Deformer::State::known_deviation(Index v) const {
+    const Index o = prepared->owner[v];
+    const Mat4 base = base_transform();
+    const Vec4 rest_point = homogeneous(patch.rest[v]);
+    if (o < 0) return known_position(v) - (base * rest_point).head<3>();
+    return ((matrix_of(local(handles[o].transform)) - base) * rest_point).head<3>();
+}
+
+Mat3 Deformer::State::known_gradient(Index v) const {
+    const Index o = prepared->owner[v];
+    if (o >= 0) return handles[o].transform.linear;
+    return o == kConstrained ? *constraints.at(v).gradient : Mat3(Mat3::Identity());
+}
+
+LinearProblem Deformer::State::problem() const {
+    return {patch, rings, prepared->gradients, *prepared->first, prepared->owner, handles};
+}
+
+void Deformer::State::prepare(const Context& context) {
+    if (!prepared) {
+        prepared = factored(context);
+        fixed_current = false;
+    }
+    if (fixed_current) return;
+    if (prepared->solution) prepared->solution->solve_fixed(problem(), constraints);
+    fixed_current = true;
+}
+
+// The centre of the first handle: rarely a centre of the surface itself, at which vertices that
+// differ would lie equally far.
+Vec3 Deformer::State::start_of_sequence() const {
+    for (const HandleState& h : handles) {
+        if (!h.removed) return h.center - patch.origin;
+    }
+    return Vec3::Zero();
+}
+
+void Deformer::State::require_area() const {
+    if (patch.zero_area_vertices.count == 0) return;
+    throw Error(ErrorCode::zero_area,
+                "all faces around " + describe(patch.zero_area_vertices) +
+                    " have no area; collapse those faces or leave them out of the region",
+                patch.zero_area_vertices);
+}
+
+// Says in terms of vertices what the solver said in terms of rows.
+void Deformer::State::refuse_singular(const Error& error, const std::vector<Index>& free) const {
+    Elements vertices{ElementKind::vertex, 0, {}};
+    for (const Index row : error.elements().ids) {
+        if (free[row] < patch.real_count) vertices.add(patch.mesh_vertex[free[row]]);
+    }
+    vertices.count = std::max(vertices.count, error.elements().count);
+    const std::string names = describe(vertices);
+    throw Error(ErrorCode::unconstrained,
+                "the constraints do not determine the connected part of " + names +
+                    "; add a handle with a gradient there",
+                std::move(vertices));
+}
+
+// Factors `system`, where it has unknowns.
+template <typename System>
+void Deformer::State::factor(System& system, const Context& context) const {
+    if (system.free_vertices().empty()) return;
+    try {
+        system.factor(context);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::not_positive_definite) throw;
+        refuse_singular(error, system.free_vertices());
+    }
+}
+
+std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
+    Progress progress(context, "deform: prepare");
+    require_area();
+    auto next = std::make_unique<Prepared>();
+    next->owner = find_owners(patch, rings, handles, constraints);
+    next->known = find_knowledge(patch, rings, next->owner, handles, constraints);
+    require_constraints(patch, rings, next->known);
+
+    progress.step(0.2);
+    const auto start = std::chrono::steady_clock::now();
+    next->gradients =
+        make_gradients(patch, rings, geometry, next->known, start_of_sequence(), options);
+    next->first = std::make_unique<GradientSystem>(patch, rings, geometry, laplacian,
+                                                   next->gradients, next->known, options, context);
+    next->second = std::make_unique<RotationSystem>(patch, next->known.position, options, context);
+    const double assemble_seconds = seconds_since(start);
+
+    progress.step(0.45);
+    factor(*next->first, context);
+    progress.step(0.2);
+    factor(*next->second, context);
+
+    progress.step(0.15);
+    const auto basis_start = std::chrono::steady_clock::now();
+    for (const Index v : next->first->free_vertices()) next->region_row.push_back(region_row[v]);
+    if (!next->region_row.empty()) {
+        next->solution = std::make_unique<LinearSolution>(
+            LinearProblem{patch, rings, next->gradients, *next->first, next->owner, handles},
+            context);
+    }
+    count_costs(*next);
+    stats.assemble_seconds = assemble_seconds;
+    stats.basis_seconds = seconds_since(basis_start);
+    return next;
+}
+
+void Deformer::State::count_costs(const Prepared& next) {
+    const FactorStats &first = next.first->stats(), &second = next.second->stats();
+    stats.free_vertices = static_cast<Index>(next.second->free_vertices().size());
+    stats.constrained_vertices = region.size() - stats.free_vertices;
+    stats.displaced_vertices = static_cast<Index>(next.gradients.displaced.size());
+    stats.first_nonzeros = first.factor_nonzeros;
+    stats.second_nonzeros = second.factor_nonzeros;
+    stats.factor_bytes = first.factor_bytes + second.factor_bytes;
+    stats.first_factor_seconds = first.analyze_seconds + first.factor_seconds;
+    stats.second_factor_seconds = second.analyze_seconds + second.factor_seconds;
+    stats.factorizations += stats.free_vertices > 0 ? 1 : 0;
+}
+
+void Deformer::State::evaluate_deviation(const Context& context) {
+    frame_base = base_transform();
+    deviation.assign(static_cast<std::size_t>(patch.vertex_count), Vec3::Zero());
+    for (const HandleState& h : handles) {
+        const Mat4 difference = matrix_of(local(h.transform)) - frame_base;
+        for (const Index v : h.local) {
+            deviation[v] = (difference * homogeneous(patch.rest[v])).head<3>();
+        }
+    }
+    for (const auto& entry : constraints) deviation[entry.first] = known_deviation(entry.first);
+    if (!prepared->solution) return;
+    const std::vector<Index>& free = prepared->first->free_vertices();
+    const std::vector<Mat4> differences = this->differences();
+    context.parallel_for(
+        0, static_cast<Index>(free.size()), kFrameGrain, [&](Index begin, Index end) {
+            for (Index row = begin; row < end; ++row) {
+                deviation[free[row]] = prepared->solution->deviation(row, differences);
+            }
+        });
+}
+
+// M_i after the first system; where it does not exist, the mean of those around it.
+Mat3 Deformer::State::gradient_of(Index v) const {
+    if (prepared->known.gradient[v]) return known_gradient(v);
+    const auto gathered = [&](Index u) -> Mat3 {
+        if (prepared->known.gradient[u]) return known_gradient(u);
+        return frame_base.topLeftCorner<3, 3>() + prepared->gradients.gather(rings, deviation, u);
+    };
+    if (prepared->gradients.defined[v]) return gathered(v);
+    Mat3 sum = Mat3::Zero();
+    int count = 0;
+    for (const Index n : rings.ring(v)) {
+        if (!prepared->known.gradient[n] && !prepared->gradients.defined[n]) continue;
+        sum += gathered(n);
+        ++count;
+    }
+    return count > 0 ? Mat3(sum / count) : Mat3(Mat3::Identity());
+}
+
+void Deformer::State::find_gradients(const Context& context) {
+    if (gradients_current) return;
+    evaluate_deviation(context);
+    context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
+        for (Index row = begin; row < end; ++row)
+            gradients[row] = gradient_of(patch.of_region[row]);
+    });
+    gradients_current = true;
+}
+
+// S of the second system for a deformation gradient: R, or R s.
+Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
+    const Mat3 r = nearest_rotation(gradient);
+    return options.local_size == LocalSize::scale ? Mat3(uniform_scale(gradient) * r) : r;
+}
+
+// Solves the second system for deviations from the similarity nearest to the base transform, so
+// that similarities of the whole are exact. Returns local positions.
+void Deformer::State::solve_second(const Context& context) {
+    const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
+    const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
+    turns.resize(static_cast<std::size_t>(patch.real_count), Mat3::Zero());
+    context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
+        for (Index row = begin; row < end; ++row) {
+            turns[patch.of_region[row]] = rotation_of(gradients[row]) - base_rotation;
+        }
+    });
+    std::vector<Vec3>& at = second_positions;
+    at.resize(static_cast<std::size_t>(patch.real_count));
+    for (Index v = 0; v < patch.real_count; ++v) at[v] = deviation[v] + remainder * patch.rest[v];
+    prepared->second->solve(turns, at, context);
+    for (const Index v : prepared->second->free_vertices()) {
+        at[v] += base_rotation * patch.rest[v] + frame_base.topRightCorner<3, 1>();
+    }
+}
+
+// Positions of the region's vertices for deviations `from` the base transform: displaced vertices
+// come back by v = M (v - v') + v' (section 2.4.3).
+std::vector<Vec3> Deformer::State::pulled_back(const std::vector<Vec3>& from) const {
+    const Mat4 base = base_transform();
+    const GradientStencils& g = prepared->gradients;
+    std::vector<Vec3> at = from;
+    for (const Index i : g.displaced) {
+        if (g.defined[i]) at[i] += g.gather(rings, from, i) * (patch.rest[i] - g.displaced_rest[i]);
+    }
+    std::vector<Vec3> result;
+    for (const Index v : patch.of_region) {
+        result.push_back(at[v] + (base * homogeneous(patch.rest[v])).head<3>() + patch.origin);
+    }
+    return result;
+}
+
+// Writes the local positions of free vertices into those of the region. Vertices without faces that
+// no handle holds never leave their rest position.
+void Deformer::State::write_positions(const std::vector<Vec3>& at) {
+    for (const Index v : prepared->second->free_vertices()) {
+        positions[region_row[v]] = at[v] + patch.origin;
+    }
+    write_held();
+}
+
+// Held vertices lie where they were asked to, to the bit.
+void Deformer::State::write_held() {
+    for (const HandleState& h : handles) {
+        if (h.removed) continue;
+        const Affine transform = h.transform;
+        const bool still = transform.is_identity();
+        for (const Index v : h.local) {
+            if (!prepared->known.position[v]) continue;
+            const Index row = region_row[v];
+            positions[row] = still ? rest[row] : transform(rest[row]);
+        }
+    }
+    for (const auto& [v, constraint] : constraints) {
+        if (constraint.position) positions[region_row[v]] = *constraint.position;
+    }
+}
+
+void Deformer::State::to_rest() {
+    positions = rest;
+    gradients.assign(rest.size(), Mat3::Identity());
+    gradients_current = true;
+    deformed = false;
+}
+
+}  // namespace lissom

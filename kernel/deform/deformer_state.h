@@ -1,0 +1,105 @@
+/// The state behind a Deformer; private to kernel/deform.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kernel/deform/constraints.h"
+#include "kernel/deform/deformer.h"
+#include "kernel/deform/gradient_system.h"
+#include "kernel/deform/gradients.h"
+#include "kernel/deform/linear_solution.h"
+#include "kernel/deform/operators.h"
+#include "kernel/deform/patch.h"
+#include "kernel/deform/rest_normals.h"
+#include "kernel/deform/rotation_system.h"
+
+namespace lissom {
+
+/// Vertices evaluated in one piece of a parallel loop of a frame.
+inline constexpr Index kFrameGrain = 4096;
+
+/// Everything that depends on which vertices are held, but not on where they go.
+struct Prepared {
+    std::vector<Index> owner;
+    Knowledge known;
+    GradientStencils gradients;
+    std::unique_ptr<GradientSystem> first;
+    std::unique_ptr<RotationSystem> second;
+    std::unique_ptr<LinearSolution> solution;
+    /// Row in the region of each row of the solution, or kNoIndex for virtual vertices.
+    std::vector<Index> region_row;
+};
+
+struct Deformer::State {
+    State(const Mesh& mesh, const Region& given, const DeformOptions& chosen);
+
+    HandleState& handle(HandleId id);
+    Index local_vertex(Index mesh_vertex) const;
+    bool at_rest() const;
+
+    // Transforms and positions below are relative to the patch's origin.
+    Affine local(const Affine& transform) const;
+    Mat4 base_transform() const;
+    std::vector<Mat4> differences() const;
+    Vec3 known_position(Index v) const;
+    Vec3 known_deviation(Index v) const;
+    Mat3 known_gradient(Index v) const;
+
+    LinearProblem problem() const;
+    void prepare(const Context& context);
+    std::unique_ptr<Prepared> factored(const Context& context);
+    template <typename System>
+    void factor(System& system, const Context& context) const;
+    void count_costs(const Prepared& next);
+    void require_area() const;
+    Vec3 start_of_sequence() const;
+    [[noreturn]] void refuse_singular(const Error& error, const std::vector<Index>& free) const;
+
+    void evaluate_deviation(const Context& context);
+    Mat3 gradient_of(Index v) const;
+    void find_gradients(const Context& context);
+    Mat3 rotation_of(const Mat3& gradient) const;
+    void solve_second(const Context& context);
+    std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;
+    void write_positions(const std::vector<Vec3>& at);
+    void write_held();
+    void to_rest();
+
+    Region region;
+    DeformOptions options;
+    Patch patch;
+    Rings rings;
+    RingGeometry geometry;
+    Laplacian laplacian;
+    /// Row in the region of each local vertex, or kNoIndex.
+    std::vector<Index> region_row;
+    std::vector<Vec3> rest;
+    /// Greatest distance of a vertex of the region from the origin of the patch.
+    double size = 0.0;
+    RestNormals normals;
+
+    std::vector<HandleState> handles;
+    VertexConstraints constraints;
+
+    /// Null where the set of held vertices has changed; `fixed_current` is false where the value of
+    /// a vertex constraint has.
+    std::unique_ptr<Prepared> prepared;
+    bool fixed_current = false;
+
+    /// Where local vertices lie after the first system, degenerate ones displaced, relative to
+    /// where the base transform takes their rest position.
+    std::vector<Vec3> deviation;
+    Mat4 frame_base = Mat4::Zero();
+    /// S_i less that of the base, for the second system, and its local positions. Outside the
+    /// region the former stay zero only where the base is the identity; otherwise there is no
+    /// outside.
+    std::vector<Mat3> turns;
+    std::vector<Vec3> second_positions;
+    std::vector<Vec3> positions;
+    std::vector<Mat3> gradients;
+    bool deformed = false, gradients_current = true;
+    DeformStats stats;
+};
+
+}  // namespace lissom
