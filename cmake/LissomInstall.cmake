@@ -21,6 +21,12 @@ install(EXPORT lissom-targets NAMESPACE lissom:: DESTINATION ${LISSOM_PACKAGE_DI
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernel DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom
         FILES_MATCHING PATTERN "*.h")
 
+# Static libraries pass on what they were linked with: the package finds the same libraries again.
+get_target_property(solve_libraries lissom_solve LINK_LIBRARIES)
+set(LISSOM_OPENMP OFF)
+if("OpenMP::OpenMP_CXX" IN_LIST solve_libraries)
+    set(LISSOM_OPENMP ON)
+endif()
 configure_package_config_file(
     ${PROJECT_SOURCE_DIR}/cmake/lissom-config.cmake.in ${PROJECT_BINARY_DIR}/lissom-config.cmake
     INSTALL_DESTINATION ${LISSOM_PACKAGE_DIR})
@@ -32,9 +38,15 @@ install(FILES ${PROJECT_BINARY_DIR}/lissom-config.cmake
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+if(TARGET lissom_lua54_module)
+    install(TARGETS lissom_lua54_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lua/5.4)
+endif()
 if(TARGET lissom)
     install(TARGETS lissom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts ${PROJECT_SOURCE_DIR}/examples
             DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
             FILES_MATCHING PATTERN "*.lua")
+    # Annotations of the Lua functions for editors.
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/lua/meta ${PROJECT_SOURCE_DIR}/viewer/meta
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom)
 endif()

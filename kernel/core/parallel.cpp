@@ -6,6 +6,7 @@
 #include "kernel/core/error.h"
 
 #ifdef LISSOM_HAS_TBB
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -15,7 +16,9 @@ namespace lissom {
 #ifdef LISSOM_HAS_TBB
 class ThreadArena {
   public:
-    explicit ThreadArena(int threads) : arena_(threads) {}
+    // TBB prints a warning when it is asked for more threads than there are.
+    explicit ThreadArena(int threads)
+        : arena_(std::min(threads, tbb::info::default_concurrency())) {}
     void run(std::size_t count, const std::function<void(std::size_t)>& chunk) {
         arena_.execute([&] {
             tbb::parallel_for(

@@ -14,6 +14,7 @@ class RestNormals {
   public:
     RestNormals(const Mesh& mesh, const Region& region);
 
+    bool empty() const { return value_.empty(); }
     /// Writes each normal, turned by the rotation of its vertex's deformation gradient; gradients
     /// come in the region's order. Does nothing where `mesh` has no such attribute any more.
     void apply_to(Mesh& mesh, std::span<const Mat3> gradients) const;

@@ -1,5 +1,5 @@
-/// Attributes: named data on the vertices, corners or faces of a mesh. They travel with it through every
-/// operation and through files.
+/// Attributes: named data on the vertices, corners or faces of a mesh. They travel with it through
+/// every operation and through files.
 #pragma once
 
 #include <map>
@@ -18,9 +18,9 @@ enum class Domain { vertex, corner, face };
 /// The number type a file stored, so that it can be written back; values are kept as double.
 enum class ScalarType { float32, float64, int8, uint8, int16, uint16, int32, uint32 };
 
-/// One attribute: `width` numbers an element. A value of NaN means that the element has none.
-/// Names with a meaning: "uv" (width 2; corner), "normal" (3; corner or vertex), "color" (3 or 4,
-/// linear scale 0 to 1; vertex, corner or face).
+/// One attribute: `width` numbers an element. A value of NaN means that the element has none. Names
+/// with a meaning: "uv" (width 2; corner), "normal" (3; corner or vertex), "color" (3 or 4, linear
+/// scale 0 to 1; vertex, corner or face).
 struct Attribute {
     std::string name;
     Domain domain = Domain::vertex;
@@ -39,8 +39,8 @@ struct Attribute {
     }
 };
 
-/// Labels of faces, for instance the group or material that each belongs to.
-/// Kinds with a meaning: "object", "group", "material", "smoothing".
+/// Labels of faces, for instance the group or material that each belongs to. Kinds with a meaning:
+/// "object", "group", "material", "smoothing".
 struct FaceLabels {
     std::vector<std::string> names;
     /// Index into `names` for every face, or kNoIndex.
@@ -56,8 +56,9 @@ class AttributeSet {
     /// The attribute called `name`, or null.
     Attribute* find(std::string_view name);
     const Attribute* find(std::string_view name) const;
-    /// Adds an attribute, replacing one of the same name. The reference is valid until the next add or
-    /// remove. Errors: invalid_argument for an empty name or a width below 1.
+    /// Adds an attribute, replacing one of the same name. The reference is valid until the next add
+    /// or remove.
+    /// Errors: invalid_argument for an empty name or a width below 1.
     Attribute& add(Attribute attribute);
     bool remove(std::string_view name);
     const std::vector<Attribute>& all() const { return attributes_; }

@@ -1,5 +1,6 @@
 #include "kernel/mesh/mesh.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lissom {
@@ -54,8 +55,8 @@ void Mesh::set_position(Index v, const Vec3& position) {
                     {ElementKind::vertex, 1, {v}});
     }
     if (!position.allFinite()) {
-        throw Error(ErrorCode::not_finite, "the position for vertex " + std::to_string(v) +
-                                               " is NaN or infinite",
+        throw Error(ErrorCode::not_finite,
+                    "the position for vertex " + std::to_string(v) + " is NaN or infinite",
                     {ElementKind::vertex, 1, {v}});
     }
     positions_[v] = position;
@@ -72,6 +73,12 @@ void Mesh::set_positions(std::vector<Vec3> positions) {
 std::span<Vec3> Mesh::edit_positions() {
     ++revision_;
     return positions_;
+}
+
+void Mesh::replace_by(Mesh other) {
+    const std::uint64_t next = std::max(revision_, other.revision_) + 1;
+    *this = std::move(other);
+    revision_ = next;
 }
 
 void Mesh::set_region(std::string_view name, const Region& region) {
@@ -96,6 +103,28 @@ std::size_t Mesh::memory_bytes() const {
     std::size_t bytes = topology_->memory_bytes() + positions_.size() * sizeof(Vec3);
     for (const auto& [name, region] : regions_) bytes += region.vertices().size() * sizeof(Index);
     return bytes + attributes_.memory_bytes();
+}
+
+Index element_count(const Topology& topology, Domain domain) {
+    if (domain == Domain::vertex) return topology.vertex_count();
+    return domain == Domain::corner ? topology.corner_count() : topology.face_count();
+}
+
+void require_complete_attributes(const Mesh& mesh) {
+    const auto require = [](const std::string& name, std::size_t has, std::size_t needs) {
+        if (has == needs) return;
+        throw Error(ErrorCode::invalid_argument, name + " has " + std::to_string(has) +
+                                                     " values where the mesh needs " +
+                                                     std::to_string(needs));
+    };
+    for (const Attribute& a : mesh.attributes().all()) {
+        const auto elements = static_cast<std::size_t>(element_count(mesh.topology(), a.domain));
+        require("the attribute \"" + a.name + '"', a.values.size(), elements * a.width);
+    }
+    for (const auto& [kind, labels] : mesh.attributes().labels()) {
+        require("the list of labels \"" + kind + '"', labels.of_face.size(),
+                static_cast<std::size_t>(mesh.face_count()));
+    }
 }
 
 void require_same_topology(const Mesh& mesh, const std::shared_ptr<const Topology>& topology,

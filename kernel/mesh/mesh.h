@@ -1,8 +1,9 @@
-/// Mesh: an oriented 2-manifold polygon mesh with or without boundary; positions in double precision,
-/// attributes and named regions. Copies share the topology and own everything else.
+/// Mesh: an oriented 2-manifold polygon mesh with or without boundary; positions in double
+/// precision, attributes and named regions. Copies share the topology and own everything else.
 ///
-/// Operators that need triangles see a triangulation of the polygons (triangulation.h); the polygons
-/// stay. Measures are in measures.h, constructors of regions in region_select.h, files in kernel/io.
+/// Operators that need triangles see a triangulation of the polygons (triangulation.h); the
+/// polygons stay. Measures are in measures.h, constructors of regions in region_select.h, files in
+/// kernel/io.
 #pragma once
 
 #include <map>
@@ -40,7 +41,8 @@ class Mesh {
     void set_position(Index v, const Vec3& position);
     /// Replaces all positions. Errors: invalid_argument where the count differs; not_finite.
     void set_positions(std::vector<Vec3> positions);
-    /// Positions for in-place change; values must stay finite. Ends what was derived from the old ones.
+    /// Positions for in-place change; values must stay finite. Ends what was derived from the old
+    /// ones.
     std::span<Vec3> edit_positions();
 
     const AttributeSet& attributes() const { return attributes_; }
@@ -57,7 +59,12 @@ class Mesh {
     std::vector<std::string>& material_libraries() { return material_libraries_; }
     const std::vector<std::string>& material_libraries() const { return material_libraries_; }
 
-    /// Grows with every change of positions: what was computed at one revision holds while it stays.
+    /// Becomes `other` with all it holds, as an in-place change of topology does; the revision
+    /// grows.
+    void replace_by(Mesh other);
+
+    /// Grows with every change of positions: what was computed at one revision holds while it
+    /// stays.
     std::uint64_t revision() const { return revision_; }
     std::size_t memory_bytes() const;
 
@@ -69,6 +76,13 @@ class Mesh {
     std::vector<std::string> material_libraries_;
     std::uint64_t revision_ = 0;
 };
+
+/// Number of elements that an attribute of `domain` has values on.
+Index element_count(const Topology& topology, Domain domain);
+
+/// Throws invalid_argument, naming it, where an attribute or a list of labels does not have one
+/// entry for each element of its domain.
+void require_complete_attributes(const Mesh& mesh);
 
 /// Throws topology_mismatch, naming `what`, where `topology` is not the mesh's present one.
 void require_same_topology(const Mesh& mesh, const std::shared_ptr<const Topology>& topology,

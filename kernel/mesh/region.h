@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/mesh/topology.h"
@@ -21,7 +22,8 @@ class Region {
     static Region none(std::shared_ptr<const Topology> topology);
 
     /// Vertices in ascending order.
-    const std::vector<Index>& vertices() const { return vertices_; }
+    const std::vector<Index>& vertices() const& { return vertices_; }
+    std::vector<Index> vertices() && { return std::move(vertices_); }
     Index size() const { return static_cast<Index>(vertices_.size()); }
     bool empty() const { return vertices_.empty(); }
     bool contains(Index v) const;
@@ -37,8 +39,8 @@ class Region {
     Region inverted() const;
     /// Adds `rings` one-rings. Errors: invalid_argument where negative.
     Region grown(Index rings) const;
-    /// Removes vertices within `rings` edges of a vertex outside; open mesh boundaries do not count as
-    /// outside.
+    /// Removes vertices within `rings` edges of a vertex outside; open mesh boundaries do not count
+    /// as outside.
     Region shrunk(Index rings) const;
     /// Smooths the outline: majority vote over one-rings, `iterations` times. Isolated specks and
     /// pinholes go; a region never becomes empty.

@@ -2,6 +2,7 @@
 
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "kernel/mesh/topology_check.h"
@@ -66,7 +67,8 @@ void Topology::build_halfedges(const std::vector<Index>& twin) {
         mesh.set_halfedge_handle(face_handle, of_corner[first]);
         for (std::size_t k = 0; k < face.size(); ++k) {
             const Index next = first + static_cast<Index>((k + 1) % face.size());
-            mesh.set_next_halfedge_handle(of_corner[first + static_cast<Index>(k)], of_corner[next]);
+            mesh.set_next_halfedge_handle(of_corner[first + static_cast<Index>(k)],
+                                          of_corner[next]);
         }
     }
     for (Index c = 0; c < corners; ++c) {
@@ -97,9 +99,10 @@ void Topology::build_rings() {
         const HalfedgeHandle stored = mesh.halfedge_handle(VertexHandle(v));
         if (stored.is_valid()) {
             // Counter-clockwise, starting after the outer sector of a boundary vertex.
-            const HalfedgeHandle start = mesh.is_boundary(stored)
-                                             ? mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(stored))
-                                             : stored;
+            const HalfedgeHandle start =
+                mesh.is_boundary(stored)
+                    ? mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(stored))
+                    : stored;
             HalfedgeHandle halfedge = start;
             do {
                 ring_.push_back(mesh.to_vertex_handle(halfedge).idx());
@@ -117,7 +120,8 @@ void Topology::build_boundary_loops() {
     std::vector<char> seen(static_cast<std::size_t>(vertex_count_), 0);
     for (Index v = 0; v < vertex_count_; ++v) {
         if (seen[v] || !is_boundary(v)) continue;
-        // The stored halfedge runs outside, against the faces; walking back gives the faces' direction.
+        // The stored halfedge runs outside, against the faces; walking back gives the faces'
+        // direction.
         std::vector<Index> loop;
         const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(v));
         HalfedgeHandle halfedge = start;
@@ -159,6 +163,30 @@ std::size_t Topology::memory_bytes() const {
     const std::size_t halfedge = static_cast<std::size_t>(vertex_count_) +
                                  static_cast<std::size_t>(face_count()) + 4 * edges_.size();
     return (own + halfedge) * sizeof(Index);
+}
+
+namespace {
+
+void require_ids(ElementKind kind, std::span<const Index> ids, Index count, const char* plural) {
+    Elements bad{kind, 0, {}};
+    for (const Index id : ids) {
+        if (id < 0 || id >= count) bad.add(id);
+    }
+    if (bad.count == 0) return;
+    const std::string names = describe(bad);
+    throw Error(ErrorCode::out_of_range,
+                "the mesh has " + std::to_string(count) + " " + plural + ", among them no " + names,
+                std::move(bad));
+}
+
+}  // namespace
+
+void require_vertices(const Topology& topology, std::span<const Index> vertices) {
+    require_ids(ElementKind::vertex, vertices, topology.vertex_count(), "vertices");
+}
+
+void require_faces(const Topology& topology, std::span<const Index> faces) {
+    require_ids(ElementKind::face, faces, topology.face_count(), "faces");
 }
 
 }  // namespace lissom

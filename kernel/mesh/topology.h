@@ -1,9 +1,9 @@
 /// Topology: the immutable connectivity of an oriented 2-manifold polygon mesh, with or without
-/// boundary. Meshes share it; regions, paths and handles hold the one they were made for, so that use
-/// after a change of topology is recognised.
+/// boundary. Meshes share it; regions, paths and handles hold the one they were made for, so that
+/// use after a change of topology is recognised.
 ///
-/// Invariants: every face has at least three different vertices; every directed edge belongs to at most
-/// one face; the faces around a vertex form one fan. Vertices without faces are allowed.
+/// Invariants: every face has at least three different vertices; every directed edge belongs to at
+/// most one face; the faces around a vertex form one fan. Vertices without faces are allowed.
 #pragma once
 
 #include <memory>
@@ -38,9 +38,10 @@ struct FaceList {
 
 class Topology {
   public:
-    /// Validates `faces` and builds the connectivity. Faces and vertices keep their order.
-    /// Errors, each naming all elements concerned: face_index, face_too_small, repeated_vertex,
-    /// duplicate_face, nonmanifold_edge, inconsistent_orientation, nonmanifold_vertex; also cancelled.
+    /// Validates `faces` and builds the connectivity. Faces and vertices keep their order. Errors,
+    /// each naming all elements concerned: face_index, face_too_small, repeated_vertex,
+    /// duplicate_face, nonmanifold_edge, inconsistent_orientation, nonmanifold_vertex; also
+    /// cancelled.
     static std::shared_ptr<const Topology> create(Index vertex_count, FaceList faces,
                                                   const Context& context = {});
     ~Topology();
@@ -58,8 +59,8 @@ class Topology {
     /// First corner of face `f`: corner `first_corner(f) + k` is face f at vertex `face(f)[k]`.
     Index first_corner(Index f) const { return faces_.offsets[f]; }
 
-    /// One-ring of `v`: the vertices joined to it by an edge, counter-clockwise. At a boundary vertex it
-    /// starts at the boundary, so that consecutive neighbours share a face with `v`.
+    /// One-ring of `v`: the vertices joined to it by an edge, counter-clockwise. At a boundary
+    /// vertex it starts at the boundary, so that consecutive neighbours share a face with `v`.
     std::span<const Index> neighbors(Index v) const {
         return {ring_.data() + ring_begin_[v], ring_.data() + ring_begin_[v + 1]};
     }
@@ -78,12 +79,12 @@ class Topology {
     std::pair<Index, Index> edge(Index e) const { return {edges_[2 * e], edges_[2 * e + 1]}; }
     Index boundary_edge_count() const { return boundary_edge_count_; }
 
-    /// Open boundaries, each a loop of vertices in the direction of the faces next to it (surface on
-    /// the left), starting at its smallest vertex; ordered by that vertex.
+    /// Open boundaries, each a loop of vertices in the direction of the faces next to it (surface
+    /// on the left), starting at its smallest vertex; ordered by that vertex.
     const std::vector<std::vector<Index>>& boundary_loops() const { return boundary_loops_; }
 
-    /// Connected component of every vertex, numbered by smallest vertex; a vertex without faces is a
-    /// component of its own.
+    /// Connected component of every vertex, numbered by smallest vertex; a vertex without faces is
+    /// a component of its own.
     const std::vector<Index>& components() const { return components_; }
     Index component_count() const { return component_count_; }
 
@@ -112,5 +113,9 @@ class Topology {
     bool triangle_mesh_ = true;
     std::unique_ptr<OpenMesh::PolyConnectivity> halfedges_;
 };
+
+/// Throw out_of_range, naming them, where some of the vertices or faces do not exist.
+void require_vertices(const Topology& topology, std::span<const Index> vertices);
+void require_faces(const Topology& topology, std::span<const Index> faces);
 
 }  // namespace lissom

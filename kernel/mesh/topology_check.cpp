@@ -9,7 +9,7 @@ namespace {
 [[noreturn]] void refuse(ErrorCode code, Elements elements, const std::string& what,
                          const std::string& remedy) {
     const std::string names = describe(elements);
-    throw Error(code, names + " " + what + "; " + remedy, std::move(elements));
+    throw Error(code, what + " " + names + "; " + remedy, std::move(elements));
 }
 
 void check_each_face(Index vertex_count, const FaceList& faces) {
@@ -33,15 +33,15 @@ void check_each_face(Index vertex_count, const FaceList& faces) {
     }
     if (bad_index.count > 0) {
         refuse(ErrorCode::face_index, std::move(bad_index),
-               "refer to vertices outside the " + std::to_string(vertex_count) + " of the mesh",
-               "correct the face indices");
+               "vertices outside the " + std::to_string(vertex_count) + " of the mesh are used by",
+               "correct the indices");
     }
     if (too_small.count > 0) {
-        refuse(ErrorCode::face_too_small, std::move(too_small), "have fewer than three vertices",
-               "remove them");
+        refuse(ErrorCode::face_too_small, std::move(too_small),
+               "there are fewer than three vertices in", "remove what is no face");
     }
     if (repeated.count > 0) {
-        refuse(ErrorCode::repeated_vertex, std::move(repeated), "use a vertex twice",
+        refuse(ErrorCode::repeated_vertex, std::move(repeated), "a vertex is used twice by",
                "remove the repeated entries");
     }
 }
@@ -88,7 +88,8 @@ class DirectedEdges {
         const auto size = static_cast<Index>(corner_.size());
         for (Index i = 0; i < size;) {
             Index j = i + 1;
-            while (j < size && low(corner_[j]) == low(corner_[i]) && high(corner_[j]) == high(corner_[i]))
+            while (j < size && low(corner_[j]) == low(corner_[i]) &&
+                   high(corner_[j]) == high(corner_[i]))
                 ++j;
             use(std::span<const Index>(corner_.data() + i, static_cast<std::size_t>(j - i)));
             i = j;
@@ -119,15 +120,15 @@ struct EdgeDefects {
     void refuse_any() {
         if (duplicates.count > 0) {
             refuse(ErrorCode::duplicate_face, std::move(duplicates),
-                   "repeat the vertices of an earlier face", "remove the copies");
+                   "the vertices of an earlier face are repeated by", "remove the copies");
         }
         if (nonmanifold.count > 0) {
-            refuse(ErrorCode::nonmanifold_edge, std::move(nonmanifold), "have more than two faces",
-                   "split the edge or remove the extra faces");
+            refuse(ErrorCode::nonmanifold_edge, std::move(nonmanifold),
+                   "more than two faces meet at", "split the edges or remove the extra faces");
         }
         if (inconsistent.count > 0) {
             refuse(ErrorCode::inconsistent_orientation, std::move(inconsistent),
-                   "are used in the same direction by both faces", "orient the faces consistently");
+                   "both faces run in the same direction along", "orient the faces consistently");
         }
     }
 };
@@ -192,8 +193,8 @@ void check_fans(Index vertex_count, const FaceList& faces, const std::vector<Ind
         if (count != corners_at[v]) split.add(v);
     }
     if (split.count > 0) {
-        refuse(ErrorCode::nonmanifold_vertex, std::move(split), "join separate fans of faces",
-               "give each fan its own copy of the vertex");
+        refuse(ErrorCode::nonmanifold_vertex, std::move(split),
+               "separate fans of faces touch at nothing but", "give each fan a vertex of its own");
     }
 }
 

@@ -7,10 +7,10 @@
 
 namespace lissom {
 
-/// Checks that `faces` are an oriented 2-manifold over `vertex_count` vertices and returns, for each
-/// corner, the corner that runs along the same edge the other way, or kNoIndex on a boundary. Corner c
-/// stands for the directed edge from its vertex to the next vertex of its face.
-/// Errors as of Topology::create.
+/// Checks that `faces` are an oriented 2-manifold over `vertex_count` vertices and returns, for
+/// each corner, the corner that runs along the same edge the other way, or kNoIndex on a boundary.
+/// Corner c stands for the directed edge from its vertex to the next vertex of its face. Errors as
+/// of Topology::create.
 std::vector<Index> check_and_pair_edges(Index vertex_count, const FaceList& faces,
                                         const Context& context);
 

@@ -7,18 +7,28 @@
 namespace lissom {
 namespace {
 
-// Diagonals whose lengths differ by less than this fraction count as equal, so that rounding in a moved
-// or turned copy of a mesh does not change the choice.
+// Diagonals whose lengths differ by less than this fraction count as equal, so that rounding in a
+// moved or turned copy of a mesh does not change the choice.
 constexpr double kDiagonalTolerance = 1e-6;
 
+// A triangle is flat where its area is below this fraction of its longest side squared.
+constexpr double kFlat = 1e-9;
+
+// Unit normal of the mean plane; zero where there is none.
 Vec3 mean_normal(std::span<const Vec3> points) {
     Vec3 normal = Vec3::Zero();
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
         normal += (points[i] - points[0]).cross(points[i + 1] - points[0]);
     }
-    return normal;
+    const double length = normal.norm();
+    return length > 0.0 ? Vec3(normal / length) : normal;
 }
 
+double longest_side_squared(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+}
+
+// Twice the area of a triangle seen along the unit normal.
 double signed_area(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
     return (b - a).cross(c - a).dot(normal);
 }
@@ -26,7 +36,8 @@ double signed_area(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& norm
 void triangulate_quad(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
     const Vec3 normal = mean_normal(points);
     const auto convex = [&](int a, int b, int c) {
-        return signed_area(points[a], points[b], points[c], normal) > 0.0;
+        const double flat = kFlat * longest_side_squared(points[a], points[b], points[c]);
+        return signed_area(points[a], points[b], points[c], normal) > flat;
     };
     const bool first_valid = convex(0, 1, 2) && convex(0, 2, 3);
     const bool second_valid = convex(1, 2, 3) && convex(1, 3, 0);
@@ -42,25 +53,30 @@ void triangulate_quad(std::span<const Vec3> points, std::vector<Triangle>& trian
     }
 }
 
-bool inside(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
-    return signed_area(a, b, p, normal) >= 0.0 && signed_area(b, c, p, normal) >= 0.0 &&
-           signed_area(c, a, p, normal) >= 0.0;
-}
-
-// Smallest angle's sine of a candidate ear, negative where the corner is reflex or covers a vertex.
+// How good it is to cut off the corner `at`: the triangle's area over its longest side squared. A
+// corner in line with its neighbours is worse than any, a reflex one or one whose triangle covers
+// another vertex worse still. Vertices that lie on the triangle, up to rounding, count as covered.
 double ear_quality(std::span<const Vec3> points, const std::vector<Index>& loop, std::size_t at,
                    const Vec3& normal) {
+    constexpr double kInLine = -0.5, kInvalid = -1.0;
     const std::size_t n = loop.size();
     const Index before = loop[(at + n - 1) % n], here = loop[at], after = loop[(at + 1) % n];
     const Vec3 &a = points[before], &b = points[here], &c = points[after];
+    const double longest = longest_side_squared(a, b, c), flat = kFlat * longest;
     const double area = signed_area(a, b, c, normal);
-    if (area <= 0.0) return -1.0;
+    if (area < -flat) return kInvalid;
+    if (area <= flat) return kInLine;
     for (const Index other : loop) {
-        if (other == before || other == here || other == after) continue;
-        if (inside(points[other], a, b, c, normal)) return -1.0;
+        const Vec3& p = points[other];
+        // Another vertex at the same place as a corner, where an outline touches itself, does not
+        // count.
+        if (p == a || p == b || p == c) continue;
+        const bool covered = signed_area(a, b, p, normal) >= -flat &&
+                             signed_area(b, c, p, normal) >= -flat &&
+                             signed_area(c, a, p, normal) >= -flat;
+        if (covered) return kInvalid;
     }
-    const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return area / (longest * normal.norm());
+    return area / longest;
 }
 
 void clip_ears(std::span<const Vec3> points, std::vector<Triangle>& triangles) {

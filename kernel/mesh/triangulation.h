@@ -1,5 +1,6 @@
-/// Triangulation of a mesh's polygons, for operators that need triangles. It depends on the positions:
-/// a quad is split along its shorter diagonal, larger polygons by ear clipping in their mean plane.
+/// Triangulation of a mesh's polygons, for operators that need triangles. It depends on the
+/// positions: a quad is split along its shorter diagonal, larger polygons by ear clipping in their
+/// mean plane.
 #pragma once
 
 #include <array>

@@ -1,0 +1,14 @@
+-- Scripts run under Lua 5.4.
+std = "lua54"
+max_line_length = 110
+exclude_files = { "build", "out" }
+-- A parameter that a callback is given but does not need is no mistake; a variable is.
+unused_args = false
+-- not (x <= y) is true where one of them is NaN; x > y is not.
+ignore = { "581" }
+
+files["tests/scripts"] = { read_globals = { "test", "expect" } }
+-- Annotations for editors, made from the registration table: they declare and define nothing.
+for _, folder in ipairs{ "bindings/lua/meta", "viewer/meta" } do
+   files[folder] = { ignore = { "111", "112", "113", "211", "212", "241", "631" } }
+end

@@ -1,0 +1,183 @@
+// lissom inspect MESH...
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "bindings/cli/json.h"
+#include "bindings/cli/verbs.h"
+#include "kernel/io/mesh_file.h"
+#include "kernel/mesh/measures.h"
+#include "kernel/mesh/path.h"
+
+namespace lissom::cli {
+namespace {
+
+const char* domain_name(Domain domain) {
+    constexpr const char* kNames[] = {"vertex", "corner", "face"};
+    return kNames[static_cast<int>(domain)];
+}
+
+Json attributes_json(const Mesh& mesh) {
+    Json list = Json::array();
+    for (const Attribute& attribute : mesh.attributes().all()) {
+        list.push_back({{"name", attribute.name},
+                        {"domain", domain_name(attribute.domain)},
+                        {"width", attribute.width}});
+    }
+    return list;
+}
+
+// Faces of each label, by kind: {"group": {"hand": 120}}.
+Json labels_json(const Mesh& mesh) {
+    Json kinds = Json::object();
+    for (const auto& [kind, labels] : mesh.attributes().labels()) {
+        std::vector<Index> counts(labels.names.size(), 0);
+        for (const Index label : labels.of_face) {
+            if (label != kNoIndex) ++counts[static_cast<std::size_t>(label)];
+        }
+        Json& faces = kinds[kind] = Json::object();
+        for (std::size_t i = 0; i < counts.size(); ++i) faces[labels.names[i]] = counts[i];
+    }
+    return kinds;
+}
+
+Json boundaries_json(const Mesh& mesh) {
+    Json list = Json::array();
+    for (const Path& boundary : boundaries(mesh)) {
+        list.push_back({{"vertices", boundary.size()}, {"length", boundary.length(mesh)}});
+    }
+    return list;
+}
+
+Json regions_json(const Mesh& mesh) {
+    Json sizes = Json::object();
+    for (const auto& [name, region] : mesh.regions()) sizes[name] = region.size();
+    return sizes;
+}
+
+Json mesh_json(const std::string& file, const Mesh& mesh) {
+    const Topology& topology = mesh.topology();
+    Index isolated = 0;
+    for (Index v = 0; v < topology.vertex_count(); ++v) isolated += topology.is_isolated(v) ? 1 : 0;
+    return {{"file", file},
+            {"vertices", topology.vertex_count()},
+            {"edges", topology.edge_count()},
+            {"faces", topology.face_count()},
+            {"triangles_only", topology.is_triangle_mesh()},
+            {"bounds", bounds_json(bounds(mesh))},
+            {"size", surface_radius(mesh)},
+            {"area", area(mesh)},
+            {"volume", volume(mesh)},
+            {"genus", genus(topology)},
+            {"components", topology.component_count()},
+            {"closed", topology.is_closed()},
+            {"boundaries", boundaries_json(mesh)},
+            {"isolated_vertices", isolated},
+            {"zero_area_faces", zero_area_faces(mesh).size()},
+            {"attributes", attributes_json(mesh)},
+            {"labels", labels_json(mesh)},
+            {"regions", regions_json(mesh)}};
+}
+
+// ---- The same for people
+
+std::string number_text(const Json& value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value.get<double>());
+    return text;
+}
+
+std::string vector_text(const Json& v) {
+    return "(" + number_text(v[0]) + ", " + number_text(v[1]) + ", " + number_text(v[2]) + ")";
+}
+
+void line(const std::string& name, const std::string& text) {
+    constexpr std::size_t kWidth = 13;
+    const std::size_t gap = name.size() < kWidth ? kWidth - name.size() : 1;
+    std::cout << "  " << name << std::string(gap, ' ') << text << "\n";
+}
+
+// "hand 120, arm 80": names with their counts, at most a dozen.
+std::string counts_text(const Json& counts) {
+    constexpr int kShown = 12;
+    std::string text;
+    int shown = 0;
+    for (const auto& [name, count] : counts.items()) {
+        if (shown++ == kShown) return text + ", ... (" + std::to_string(counts.size()) + ")";
+        text += (shown == 1 ? "" : ", ") + name + " " + count.dump();
+    }
+    return text;
+}
+
+std::string boundaries_text(const Json& list) {
+    if (list.empty()) return "none";
+    std::string text = std::to_string(list.size());
+    const std::size_t shown = std::min<std::size_t>(list.size(), 5);
+    for (std::size_t i = 0; i < shown; ++i) {
+        text += (i == 0 ? ": " : "; ") + list[i]["vertices"].dump() + " vertices, length " +
+                number_text(list[i]["length"]);
+    }
+    return shown < list.size() ? text + "; ..." : text;
+}
+
+std::string attributes_text(const Json& list) {
+    std::string text;
+    for (const Json& attribute : list) {
+        text += (text.empty() ? "" : ", ") + attribute["name"].get<std::string>() + " (" +
+                attribute["domain"].get<std::string>() + " x " + attribute["width"].dump() + ")";
+    }
+    return text;
+}
+
+void print_mesh(const Json& mesh) {
+    std::cout << mesh["file"].get<std::string>() << "\n";
+    line("vertices", mesh["vertices"].dump());
+    line("faces", mesh["faces"].dump() + (mesh["triangles_only"] ? " triangles" : " polygons") +
+                      ", " + mesh["edges"].dump() + " edges");
+    const Json& box = mesh["bounds"];
+    if (!box.is_null()) line("bounds", vector_text(box["min"]) + " to " + vector_text(box["max"]));
+    line("size", number_text(mesh["size"]) + " (RMS distance of the surface to its centroid)");
+    line("area", number_text(mesh["area"]));
+    line("volume",
+         number_text(mesh["volume"]) + (mesh["closed"] ? "" : " (boundaries closed by cones)"));
+    line("genus", mesh["genus"].dump());
+    line("components", mesh["components"].dump());
+    line("boundaries", boundaries_text(mesh["boundaries"]));
+    if (mesh["isolated_vertices"] > 0)
+        line("isolated", mesh["isolated_vertices"].dump() + " vertices");
+    if (mesh["zero_area_faces"] > 0) line("no area", mesh["zero_area_faces"].dump() + " faces");
+    if (!mesh["attributes"].empty()) line("attributes", attributes_text(mesh["attributes"]));
+    for (const auto& [kind, counts] : mesh["labels"].items()) {
+        line(kind + "s", counts_text(counts));
+    }
+    if (!mesh["regions"].empty()) line("regions", counts_text(mesh["regions"]));
+}
+
+}  // namespace
+
+int inspect(Program& program, const std::vector<std::string>& words) {
+    CLI::App app("Says what is in mesh files.", "lissom inspect");
+    std::vector<std::string> files;
+    app.add_option("MESH", files, "Mesh files")->required();
+    int status = kSuccess;
+    if (!program.parse(app, words, status)) return status;
+    Json answers = Json::array();
+    for (const std::string& file : files) {
+        try {
+            const Mesh mesh = load_mesh(file, {}, program.context());
+            program.clear_progress();
+            answers.push_back(mesh_json(file, mesh));
+            if (!program.json()) print_mesh(answers.back());
+        } catch (const Error& error) {
+            status = kFailure;
+            answers.push_back({{"file", file}, {"error", error_json(error)}});
+            if (!program.json()) program.fail(error);
+            if (error.code() == ErrorCode::cancelled) break;
+        }
+    }
+    program.clear_progress();
+    if (program.json()) std::cout << json_text({{"meshes", answers}}) << std::endl;
+    return status;
+}
+
+}  // namespace lissom::cli

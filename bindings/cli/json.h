@@ -1,0 +1,25 @@
+/// JSON as the program writes it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
+
+namespace lissom::cli {
+
+/// Keeps the order in which keys were added.
+using Json = nlohmann::ordered_json;
+
+/// {"message": ..., "code": ..., "elements": {"kind": ..., "count": ..., "ids": [...]}}; ids from
+/// 1, pairs of vertices for edges.
+Json error_json(const Error& error);
+
+/// {"min": [x, y, z], "max": ..., "center": ..., "diagonal": ...}; null for an empty box.
+Json bounds_json(const Box& box);
+
+/// The text of a value; bytes that are no UTF-8 (in names of files) are replaced.
+std::string json_text(const Json& value, int indent = 2);
+
+}  // namespace lissom::cli

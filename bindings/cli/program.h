@@ -1,0 +1,115 @@
+/// The `lissom` program: verbs, and what they share. Another library adds its own verbs and Lua
+/// functions by its parts:
+///
+///     int main(int argc, char** argv) {
+///         lissom::cli::ProgramParts parts = lissom::cli::kernel_parts();
+///         parts.libraries.push_back(viewer_library);
+///         parts.verbs.push_back({"render", "MESH... -o FILE", "Draws a picture.", run_render});
+///         return lissom::cli::run_program(argc, argv, parts);
+///     }
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bindings/lua/state.h"
+#include "kernel/core/context.h"
+#include "kernel/core/error.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lissom::cli {
+
+class Program;
+
+/// Exit statuses.
+inline constexpr int kSuccess = 0, kFailure = 1, kUsage = 2;
+
+/// One thing that the program can do.
+struct Verb {
+    std::string name;
+    /// What follows the name: "FILE [--name value ...]".
+    std::string usage;
+    std::string summary;
+    /// Runs it with the words that follow the name; returns the exit status.
+    int (*run)(Program& program, const std::vector<std::string>& words);
+};
+
+/// What a program is composed of.
+struct ProgramParts {
+    std::vector<Verb> verbs;
+    /// Make the libraries that scripts see; asked only when a verb runs Lua.
+    std::vector<lua::Library (*)()> libraries;
+    /// Lines of --version after the first.
+    std::vector<std::string> version_lines;
+};
+
+/// The verbs run, inspect, convert, repl and explain, and the kernel's library.
+ProgramParts kernel_parts();
+
+/// Runs the verb that the command line names. Returns the exit status.
+int run_program(int argc, char** argv, const ProgramParts& parts);
+
+/// How a verb's answer and its errors are written.
+enum class Output {
+    /// For people: the answer to the standard output, errors to the standard error.
+    text,
+    /// Both as one JSON object to the standard output.
+    json,
+    /// Errors as one line of JSON to the standard error: the standard output belongs to a script.
+    json_errors,
+};
+
+/// What verbs share: options that all have, the context they work under, and how they report.
+class Program {
+  public:
+    explicit Program(const ProgramParts& parts);
+    ~Program();
+
+    const ProgramParts& parts() const { return parts_; }
+
+    /// Parses the words of a verb with the options that `app` declares and those that all verbs
+    /// have:
+    /// --json, --threads, --debug, --help. Returns true where the verb shall go on; otherwise
+    /// `status` holds the exit status and everything was said.
+    bool parse(CLI::App& app, const std::vector<std::string>& words, int& status);
+
+    Output output = Output::text;
+    bool debug = false;
+    /// Threads of the kernel's loops; 0 for as many as there are cores.
+    int threads = 0;
+
+    bool json() const { return output != Output::text; }
+
+    /// The context of the verb: its threads, a progress bar on a terminal, warnings to the standard
+    /// error, cancelled by Ctrl-C.
+    const Context& context();
+    /// The same for a Lua state, which has a context of its own.
+    lua::HostOptions host_options();
+    /// Ctrl-C cancels this context from now on, which must stay where it is.
+    void listen(const Context& context);
+    /// Whether Ctrl-C was pressed since.
+    bool interrupted() const;
+    /// Goes on as if it had not been pressed.
+    void forget_interrupt();
+    /// Takes the progress bar away; before anything is written.
+    void clear_progress();
+
+    /// Writes an error, with ids from 1, and returns kFailure.
+    int fail(const Error& error);
+    /// Writes a message of a kind that has no code and returns `status`.
+    int fail(const std::string& message, int status = kFailure);
+
+  private:
+    struct Parts;
+
+    ContextOptions context_options();
+
+    const ProgramParts& parts_;
+    std::unique_ptr<Parts> own_;
+};
+
+}  // namespace lissom::cli

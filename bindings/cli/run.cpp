@@ -1,0 +1,104 @@
+// lissom run FILE [--name value ...]
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "bindings/cli/json.h"
+#include "bindings/cli/script.h"
+#include "bindings/cli/verbs.h"
+#include "bindings/lua/script_parameters.h"
+
+namespace lissom::cli {
+namespace {
+
+// Words up to the file are the program's, those after it the script's.
+struct Words {
+    std::vector<std::string> own;
+    lua::ScriptArguments script;
+
+    explicit Words(const std::vector<std::string>& words) {
+        std::size_t i = 0;
+        while (i < words.size() && words[i].size() > 1 && words[i][0] == '-') {
+            own.push_back(words[i]);
+            if (words[i++] == "--threads" && i < words.size()) own.push_back(words[i++]);
+        }
+        if (i == words.size()) return;
+        own.push_back(words[i]);
+        script.script = words[i];
+        script.words.assign(words.begin() + static_cast<std::ptrdiff_t>(i) + 1, words.end());
+    }
+};
+
+Json value_json(const lua::ScriptParameter& p, const std::optional<lua::ParameterValue>& value) {
+    if (!value) return nullptr;
+    if (const auto* flag = std::get_if<bool>(&*value)) return *flag;
+    if (const auto* text = std::get_if<std::string>(&*value)) return *text;
+    const double number = std::get<double>(*value);
+    if (p.type == lua::ParameterType::integer) return static_cast<long long>(number);
+    return number;
+}
+
+Json parameter_json(const lua::ScriptParameter& p) {
+    Json json = {{"name", p.name},
+                 {"type", std::string(lua::type_name(p.type))},
+                 {"default", value_json(p, p.default_value)}};
+    if (std::isfinite(p.min)) json["min"] = p.min;
+    if (std::isfinite(p.max)) json["max"] = p.max;
+    if (p.step) json["step"] = *p.step;
+    if (!p.choices.empty()) json["choices"] = p.choices;
+    for (const auto& [key, text] :
+         {std::pair("unit", &p.unit), std::pair("group", &p.group), std::pair("help", &p.help)}) {
+        if (!text->empty()) json[key] = *text;
+    }
+    return json;
+}
+
+int print_parameters(const Program& program, const lua::State& state) {
+    if (!program.json()) {
+        std::cout << state.script_end_text;
+        return kSuccess;
+    }
+    Json parameters = Json::array();
+    for (const lua::ScriptParameter& p : state.parameters->list) {
+        parameters.push_back(parameter_json(p));
+    }
+    std::cout << json_text({{"script", state.host.arguments.script}, {"parameters", parameters}})
+              << std::endl;
+    return kSuccess;
+}
+
+int report(Program& program, const ScriptResult& result) {
+    if (!program.json()) return program.fail(result.message, result.status);
+    Json error = {{"message", result.message}};
+    error["code"] = result.status == kUsage ? "usage"
+                    : result.code.empty()   ? "failure"
+                                            : result.code;
+    if (!result.file.empty()) {
+        error["file"] = result.file;
+        error["line"] = result.line;
+    }
+    std::cerr << json_text({{"error", error}}, -1) << std::endl;
+    return result.status;
+}
+
+}  // namespace
+
+int run_script(Program& program, const std::vector<std::string>& words) {
+    const Words split(words);
+    CLI::App app(
+        "Runs a Lua script. Words after FILE are the script's; `lissom run FILE --help` lists "
+        "its parameters.",
+        "lissom run");
+    std::string file;
+    app.add_option("FILE", file, "The script")->required();
+    int status = kSuccess;
+    if (!program.parse(app, split.own, status)) return status;
+    if (program.json()) program.output = Output::json_errors;
+    Script script(program, split.script);
+    const ScriptResult result = script.run_file(file);
+    if (script.state().script_end == lua::ScriptEnd::help) {
+        return print_parameters(program, script.state());
+    }
+    return result.status == kSuccess ? kSuccess : report(program, result);
+}
+
+}  // namespace lissom::cli

@@ -1,0 +1,251 @@
+#include "bindings/cli/script.h"
+
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+#include "bindings/cli/interrupt.h"
+#include "bindings/lua/script_parameters.h"
+
+namespace lissom::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path program_folder() {
+    std::error_code error;
+    const fs::path self = fs::read_symlink("/proc/self/exe", error);
+    return error ? fs::path() : self.parent_path();
+}
+
+// What opening a state needs, reachable through a light userdata inside lua_pcall.
+struct Opening {
+    const lua::HostOptions* options;
+    std::string path;
+};
+
+int open_lissom(lua_State* L) {
+    const auto* options =
+        static_cast<const lua::HostOptions*>(lua_touserdata(L, lua_upvalueindex(1)));
+    lua::open(L, *options);
+    return 1;
+}
+
+void set_search_path(lua_State* L, const char* path) {
+    lua_getglobal(L, "package");
+    lua_getfield(L, -1, "path");
+    lua_pushstring(L, path);
+    lua_insert(L, -2);
+    lua_concat(L, 2);
+    lua_setfield(L, -2, "path");
+    lua_getfield(L, -1, "preload");
+    lua_pushcfunction(L, luaopen_lissom);
+    lua_setfield(L, -2, "lissom");
+    lua_pop(L, 2);
+}
+
+void set_arguments(lua_State* L, const lua::ScriptArguments& arguments) {
+    lua_newtable(L);
+    lua_pushstring(L, arguments.script.c_str());
+    lua_rawseti(L, -2, 0);
+    for (std::size_t i = 0; i < arguments.words.size(); ++i) {
+        lua_pushstring(L, arguments.words[i].c_str());
+        lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+    }
+    lua_setglobal(L, "arg");
+}
+
+// Runs inside lua_pcall.
+int prepare(lua_State* L) {
+    const auto* opening = static_cast<const Opening*>(lua_touserdata(L, 1));
+    luaL_openlibs(L);
+    // Many short-lived tables beside few long-lived native objects: what generations are good at.
+    lua_gc(L, LUA_GCGEN, 0, 0);
+    lua_pushlightuserdata(L, const_cast<lua::HostOptions*>(opening->options));
+    lua_pushcclosure(L, open_lissom, 1);
+    lua_call(L, 0, 0);
+    set_search_path(L, opening->path.c_str());
+    set_arguments(L, opening->options->arguments);
+    Interrupt::watch(L);
+    return 0;
+}
+
+std::string search_path(const std::string& script) {
+    std::string path;
+    const auto add = [&](const std::string& folder) {
+        path += folder + "/?.lua;" + folder + "/?/init.lua;";
+    };
+    if (!script.empty()) {
+        const std::string folder = fs::path(script).parent_path().string();
+        add(folder.empty() ? "." : folder);
+    }
+    const std::string shipped = Script::shipped_scripts();
+    if (!shipped.empty()) add(shipped);
+    return path;
+}
+
+// ---- Messages
+
+bool starts_with(const char* text, const char* start) {
+    return std::strncmp(text, start, std::strlen(start)) == 0;
+}
+
+// Whether the message begins with the name of a chunk on the stack, so that file and line are
+// there.
+bool names_a_chunk(lua_State* L, const char* message) {
+    lua_Debug frame;
+    for (int level = 0; lua_getstack(L, level, &frame); ++level) {
+        lua_getinfo(L, "S", &frame);
+        if (starts_with(message, frame.short_src)) return true;
+    }
+    return false;
+}
+
+void push_place(lua_State* L) {
+    for (int level = 1; level < 100; ++level) {
+        lua_Debug frame;
+        if (!lua_getstack(L, level, &frame)) break;
+        luaL_where(L, level);
+        if (lua_tostring(L, -1)[0] != '\0') return;
+        lua_pop(L, 1);
+    }
+    lua_pushliteral(L, "");
+}
+
+// The handler of lua_pcall: error -> "file:line: message", and the traceback of the place.
+int explain_error(lua_State* L) {
+    luaL_tolstring(L, 1, nullptr);
+    if (!names_a_chunk(L, lua_tostring(L, -1))) {
+        push_place(L);
+        lua_insert(L, -2);
+        lua_concat(L, 2);
+    }
+    lua_createtable(L, 2, 0);
+    lua_pushvalue(L, -2);
+    lua_rawseti(L, -2, 1);
+    luaL_traceback(L, L, nullptr, 1);
+    lua_rawseti(L, -2, 2);
+    return 1;
+}
+
+// Whether a message tells that a nil was used as something else.
+bool blames_nil(const std::string& message) {
+    return message.find("nil value") != std::string::npos ||
+           message.find("got nil") != std::string::npos;
+}
+
+// Splits "file:line: message".
+void find_place(ScriptResult& result) {
+    for (std::size_t at = 0; (at = result.message.find(':', at + 1)) != std::string::npos;) {
+        std::size_t end = at + 1;
+        while (end < result.message.size() &&
+               std::isdigit(static_cast<unsigned char>(result.message[end]))) {
+            ++end;
+        }
+        if (end == at + 1 || end >= result.message.size() || result.message[end] != ':') continue;
+        result.file = result.message.substr(0, at);
+        result.line = std::atoi(result.message.c_str() + at + 1);
+        return;
+    }
+}
+
+// The code in brackets at the end of a message.
+std::string code_in(const std::string& message) {
+    const std::size_t open = message.rfind('[');
+    if (message.empty() || message.back() != ']' || open == std::string::npos) return "";
+    return message.substr(open + 1, message.size() - open - 2);
+}
+
+}  // namespace
+
+std::string Script::shipped_scripts() {
+    std::error_code error;
+    const fs::path installed = program_folder() / ".." / "share" / "lissom" / "scripts";
+    if (fs::is_directory(installed, error)) return fs::weakly_canonical(installed, error).string();
+    if (fs::is_directory(LISSOM_SCRIPTS_FOLDER, error)) return LISSOM_SCRIPTS_FOLDER;
+    return "";
+}
+
+Script::Script(Program& program, lua::ScriptArguments arguments)
+    : program_(program), options_(program.host_options()) {
+    options_.arguments = std::move(arguments);
+    const Opening opening{&options_, search_path(options_.arguments.script)};
+    L_ = luaL_newstate();
+    if (!L_) throw std::bad_alloc();
+    lua_pushcfunction(L_, prepare);
+    lua_pushlightuserdata(L_, const_cast<Opening*>(&opening));
+    if (lua_pcall(L_, 1, 0, 0) != LUA_OK) {
+        const std::string message = lua_tostring(L_, -1);
+        lua_close(L_);
+        throw std::runtime_error(message);
+    }
+    program.listen(state().context);
+}
+
+Script::~Script() {
+    Interrupt::forget();
+    lua_close(L_);
+}
+
+ScriptResult Script::run_file(const std::string& path) {
+    if (luaL_loadfilex(L_, path.c_str(), "t") != LUA_OK) {
+        lua_createtable(L_, 1, 0);
+        lua_insert(L_, -2);
+        lua_rawseti(L_, -2, 1);
+        return failure();
+    }
+    return call_function();
+}
+
+ScriptResult Script::call_function() {
+    const int function = lua_gettop(L_);
+    lua_pushcfunction(L_, explain_error);
+    lua_insert(L_, function);
+    const int status = lua_pcall(L_, 0, LUA_MULTRET, function);
+    lua_remove(L_, function);
+    program_.clear_progress();
+    return status == LUA_OK ? ScriptResult{} : failure();
+}
+
+// Takes the table {message, traceback} from the stack.
+ScriptResult Script::failure() {
+    ScriptResult result;
+    result.status = kFailure;
+    lua::State& opened = state();
+    if (opened.script_end != lua::ScriptEnd::none) {
+        const bool is_help = opened.script_end == lua::ScriptEnd::help;
+        result.status = is_help ? kSuccess : kUsage;
+        result.message = opened.script_end_text;
+        if (!is_help) {
+            result.message = options_.arguments.script + ": " + result.message +
+                             " (see lissom run " + options_.arguments.script + " --help)";
+        }
+        lua_pop(L_, 1);
+        return result;
+    }
+    // A memory error reaches us without the handler's table.
+    if (lua_type(L_, -1) == LUA_TTABLE) lua_rawgeti(L_, -1, 1);
+    const char* text = lua_tostring(L_, -1);
+    result.message = text ? text : "an error without a message";
+    find_place(result);
+    result.code = code_in(result.message);
+    const lua::Failure& last = opened.last_failure;
+    const bool came_as_nil =
+        opened.has_failed &&
+        (blames_nil(result.message) || result.message.find(last.message) != std::string::npos);
+    if (came_as_nil) result.code = std::string(code_name(last.code));
+    if (opened.has_failed && blames_nil(result.message)) {
+        result.message += "\n" + std::string(opened.last_failure_place) +
+                          "the nil may come from here: " + last.message + " [" + result.code + "]";
+    }
+    if (program_.debug && lua_type(L_, -2) == LUA_TTABLE) {
+        lua_rawgeti(L_, -2, 2);
+        if (const char* trace = lua_tostring(L_, -1)) result.message += std::string("\n") + trace;
+    }
+    lua_settop(L_, 0);
+    return result;
+}
+
+}  // namespace lissom::cli

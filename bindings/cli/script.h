@@ -1,0 +1,52 @@
+/// A Lua state as the program opens it: Lua's libraries, lissom, Ctrl-C, and errors as people want
+/// to read them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bindings/cli/program.h"
+
+namespace lissom::cli {
+
+/// How a script ended.
+struct ScriptResult {
+    int status = kSuccess;
+    /// What went wrong: "file:line: message", then notes; a traceback below it under --debug.
+    std::string message;
+    /// Code of the kernel where the error has one in brackets or came as nil, message, code.
+    std::string code;
+    /// Where, if known.
+    std::string file;
+    int line = 0;
+};
+
+class Script {
+  public:
+    /// `arguments.script` is empty for a state that runs no script.
+    Script(Program& program, lua::ScriptArguments arguments);
+    ~Script();
+    Script(const Script&) = delete;
+    Script& operator=(const Script&) = delete;
+
+    lua_State* lua() const { return L_; }
+    lua::State& state() const { return *lua::find_state(L_); }
+
+    /// Runs the file `path`; --help and wrong flags of its parameters end it early.
+    ScriptResult run_file(const std::string& path);
+
+    /// Calls the function on top of the stack, whose results stay there.
+    ScriptResult call_function();
+
+    /// Folder of the Lua library that ships with the program; empty where it is not found.
+    static std::string shipped_scripts();
+
+  private:
+    ScriptResult failure();
+
+    Program& program_;
+    lua::HostOptions options_;
+    lua_State* L_ = nullptr;
+};
+
+}  // namespace lissom::cli

@@ -1,0 +1,620 @@
+// lissom.deform: Deformation and Handle.
+#include <optional>
+
+#include "bindings/lua/buffer.h"
+#include "bindings/lua/library.h"
+#include "bindings/lua/mesh_object.h"
+#include "bindings/lua/transform_options.h"
+#include "kernel/deform/deformer.h"
+
+namespace lissom::lua {
+namespace {
+
+struct DeformObject {
+    static constexpr const char* kTypeName = "lissom.Deformation";
+
+    DeformObject(std::shared_ptr<MeshObject> owner, Deformer made)
+        : mesh(std::move(owner)),
+          topology(mesh->mesh.shared_topology()),
+          content(std::move(made)) {}
+
+    std::shared_ptr<MeshObject> mesh;
+    std::shared_ptr<const Topology> topology;
+    /// Empty once it was closed.
+    std::optional<Deformer> content;
+    std::size_t charged_bytes = 0;
+
+    std::size_t memory_bytes() const {
+        return content
+                   ? content->stats().factor_bytes + content->positions().size() * 4 * sizeof(Mat3)
+                   : 0;
+    }
+
+    /// Throws handle_removed where it was closed, topology_mismatch where the mesh has another
+    /// topology.
+    Deformer& deformer() {
+        if (!content) {
+            throw Error(ErrorCode::handle_removed, "the deformation was closed; make a new one");
+        }
+        require_current(*mesh, topology, "the deformation");
+        return *content;
+    }
+};
+
+struct HandleObject {
+    static constexpr const char* kTypeName = "lissom.Handle";
+
+    std::shared_ptr<DeformObject> edit;
+    HandleId id;
+};
+
+// ---- lissom.deform
+
+template <typename Enum>
+void take_choice(const Call& call, const char* path, Enum& target) {
+    if (call.has(path)) target = call.choice<Enum>(path);
+}
+
+void take_number(const Call& call, const char* path, double& target) {
+    if (call.has(path)) target = call.number(path);
+}
+
+DeformOptions deform_options(const Call& call) {
+    const bool thesis = call.integer("fidelity") == 1;
+    DeformOptions options = thesis ? DeformOptions::thesis() : DeformOptions{};
+    take_choice(call, "second", options.second);
+    take_choice(call, "local_size", options.local_size);
+    take_choice(call, "weights", options.weights);
+    if (call.has("coherence")) options.coherence = call.integer("coherence");
+    take_number(call, "displacement", options.displacement);
+    take_number(call, "degenerate_threshold", options.degenerate_threshold);
+    return options;
+}
+
+int deform_mesh(Call& call) {
+    const auto mesh = call.object<MeshObject>("mesh");
+    const bool whole = !call.has("region");
+    const auto region = call.object<RegionObject>("region");
+    const DeformOptions options = deform_options(call);
+    const auto result = call.create<DeformObject>();
+    const bool done = call.attempt([&] {
+        const Region all = whole ? Region::all(mesh->mesh.shared_topology()) : region->current();
+        result.set(std::make_shared<DeformObject>(
+            mesh.share(), Deformer(mesh->mesh, all, options, call.context())));
+    });
+    if (!done) return call.fail();
+    call.charge(result);
+    return 1;
+}
+
+// ---- Deformation
+
+int add_handle(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const auto region = call.object<RegionObject>("region");
+    const HandleOptions options{call.boolean("position"), call.boolean("gradient")};
+    const auto result = call.create<HandleObject>();
+    const bool done = call.attempt([&] {
+        const HandleId id = edit->deformer().add_handle(region->current(), options);
+        result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), id}));
+    });
+    return done ? 1 : call.fail();
+}
+
+int constrain(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const Index vertex = call.id("vertex");
+    const bool has_position = call.has("position"), has_gradient = call.has("gradient");
+    const Vec3 position = has_position ? call.vector("position") : Vec3(Vec3::Zero());
+    const Mat3 gradient = has_gradient ? call.matrix3("gradient") : Mat3(Mat3::Identity());
+    const bool done = call.attempt([&] {
+        VertexConstraint constraint{vertex, std::nullopt, std::nullopt};
+        if (has_position) constraint.position = position;
+        if (has_gradient) constraint.gradient = gradient;
+        edit->deformer().constrain(constraint);
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+// Runs solve(Deformer&), writes the result into the mesh and returns it.
+template <typename Solve>
+int write_result(Call& call, const Solve& solve) {
+    const auto edit = call.self<DeformObject>();
+    const bool done = call.attempt([&] {
+        Deformer& deformer = edit->deformer();
+        solve(deformer);
+        deformer.apply_to(edit->mesh->mesh);
+        edit->mesh->changed();
+    });
+    if (!done) return call.fail();
+    call.charge(edit);
+    return call.push_shared(edit->mesh);
+}
+
+int preview(Call& call) {
+    return write_result(call, [&](Deformer& deformer) { deformer.preview(call.context()); });
+}
+
+int solve(Call& call) {
+    return write_result(call, [&](Deformer& deformer) { deformer.solve(call.context()); });
+}
+
+int reset_all(Call& call) {
+    const int results = write_result(call, [](Deformer& deformer) { deformer.reset(); });
+    return results == 1 ? call.push_argument() : results;
+}
+
+int stats(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    DeformStats s;
+    if (!call.attempt_quick([&] { s = edit->deformer().stats(); })) return call.fail();
+    const struct {
+        const char* name;
+        std::size_t value;
+    } counts[] = {{"region_vertices", static_cast<std::size_t>(s.region_vertices)},
+                  {"free_vertices", static_cast<std::size_t>(s.free_vertices)},
+                  {"constrained_vertices", static_cast<std::size_t>(s.constrained_vertices)},
+                  {"handles", static_cast<std::size_t>(s.handles)},
+                  {"displaced_vertices", static_cast<std::size_t>(s.displaced_vertices)},
+                  {"inserted_vertices", static_cast<std::size_t>(s.inserted_vertices)},
+                  {"zero_area_faces", static_cast<std::size_t>(s.zero_area_faces)},
+                  {"first_nonzeros", s.first_nonzeros},
+                  {"second_nonzeros", s.second_nonzeros},
+                  {"factor_bytes", s.factor_bytes},
+                  {"factorizations", static_cast<std::size_t>(s.factorizations)}};
+    const struct {
+        const char* name;
+        double value;
+    } times[] = {{"assemble_seconds", s.assemble_seconds},
+                 {"first_factor_seconds", s.first_factor_seconds},
+                 {"second_factor_seconds", s.second_factor_seconds},
+                 {"basis_seconds", s.basis_seconds}};
+    lua_createtable(call.lua(), 0, 15);
+    for (const auto& count : counts) call.set_field(count.name, call.push_count(count.value));
+    for (const auto& time : times) call.set_field(time.name, call.push(time.value));
+    return 1;
+}
+
+// Pushes rows of N numbers as a buffer of its own.
+template <typename Row>
+bool push_rows(Call& call, const std::vector<Row>& rows) {
+    const auto result = call.create<BufferObject>();
+    const bool done = call.attempt_quick([&] {
+        auto buffer = std::make_shared<BufferObject>();
+        buffer->width = Row::RowsAtCompileTime;
+        for (const Row& row : rows) {
+            buffer->values.insert(buffer->values.end(), row.data(), row.data() + row.size());
+        }
+        result.set(std::move(buffer));
+    });
+    if (done) call.charge(result);
+    return done;
+}
+
+bool push_handle(Call& call, const Ref<DeformObject>& edit, HandleId id) {
+    const auto result = call.create<HandleObject>();
+    return call.attempt_quick([&] {
+        result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), id}));
+    });
+}
+
+int handles(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    auto& ids = call.hold<std::vector<HandleId>>();
+    if (!call.attempt_quick([&] { ids = edit->deformer().handles(); })) return call.fail();
+    lua_createtable(call.lua(), static_cast<int>(ids.size()), 0);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (!push_handle(call, edit, ids[i])) return call.fail();
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
+    return 1;
+}
+
+int basis(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    lua_State* L = call.lua();
+    auto& found = call.hold<HandleBasis>();
+    if (!call.attempt([&] { found = edit->deformer().basis(call.context()); })) return call.fail();
+    call.charge(edit);
+    lua_createtable(L, 0, 4);
+    call.set_field("vertices", call.push_ids(found.vertices));
+    lua_createtable(L, static_cast<int>(found.handles.size()), 0);
+    lua_createtable(L, static_cast<int>(found.handles.size()), 0);
+    for (std::size_t h = 0; h < found.handles.size(); ++h) {
+        if (!push_handle(call, edit, found.handles[h])) return call.fail();
+        lua_rawseti(L, -3, static_cast<int>(h) + 1);
+        if (!push_rows(call, found.weights[h])) return call.fail();
+        lua_rawseti(L, -2, static_cast<int>(h) + 1);
+    }
+    lua_setfield(L, -3, "weights");
+    lua_setfield(L, -2, "handles");
+    if (!push_rows(call, found.fixed)) return call.fail();
+    lua_setfield(L, -2, "fixed");
+    return 1;
+}
+
+int deformation_mesh(Call& call) {
+    return call.push_shared(call.self<DeformObject>()->mesh);
+}
+
+int deformation_region(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const auto result = call.create<RegionObject>();
+    const bool done = call.attempt_quick(
+        [&] { result.set(std::make_shared<RegionObject>(edit->mesh, edit->deformer().region())); });
+    return done ? 1 : call.fail();
+}
+
+int deformation_text(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    int vertices = 0, count = 0;
+    const bool current = call.attempt_quick([&] {
+        vertices = edit->deformer().region().size();
+        count = static_cast<int>(edit->deformer().handles().size());
+    });
+    if (!current) return call.push("lissom.Deformation (of an older topology)");
+    lua_pushfstring(call.lua(), "lissom.Deformation: %d vertices, %d handles", vertices, count);
+    return 1;
+}
+
+// ---- Handle
+
+// Sets the handle's transform to work(present transform, rest center), and returns the handle.
+template <typename Work>
+int move_handle(Call& call, const Work& work) {
+    const auto handle = call.self<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        Deformer& deformer = handle->edit->deformer();
+        const Affine now = deformer.transform(handle->id);
+        deformer.set_transform(handle->id, work(now, deformer.handle_center(handle->id)));
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+int translate_handle(Call& call) {
+    const Vec3 offset = call.vector("offset");
+    return move_handle(call,
+                       [&](const Affine& now, const Vec3&) { return translation(offset) * now; });
+}
+
+int rotate_handle(Call& call) {
+    const RotationOptions options = RotationOptions::read(call);
+    return move_handle(
+        call, [&](const Affine& now, const Vec3& rest) { return options.map(now(rest)) * now; });
+}
+
+int scale_handle(Call& call) {
+    const Vec3 factors = call.vector("factor");
+    const bool has_about = call.has("about");
+    const Vec3 about = has_about ? call.vector("about") : Vec3(Vec3::Zero());
+    return move_handle(call, [&](const Affine& now, const Vec3& rest) {
+        return scaling(factors, has_about ? about : now(rest)) * now;
+    });
+}
+
+int set_handle(Call& call) {
+    const TransformOptions options = TransformOptions::read(call);
+    return move_handle(call, [&](const Affine&, const Vec3& rest) { return options.map(rest); });
+}
+
+int set_handle_matrix(Call& call) {
+    const Affine map = call.affine("matrix");
+    return move_handle(call, [&](const Affine&, const Vec3&) { return map; });
+}
+
+int reset_handle(Call& call) {
+    return move_handle(call, [](const Affine&, const Vec3&) { return Affine{}; });
+}
+
+int handle_matrix(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    Affine map;
+    const bool done =
+        call.attempt_quick([&] { map = handle->edit->deformer().transform(handle->id); });
+    return done ? call.push_affine(map) : call.fail();
+}
+
+int handle_center(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    Vec3 center = Vec3::Zero();
+    const bool done = call.attempt_quick([&] {
+        const Deformer& deformer = handle->edit->deformer();
+        center = deformer.transform(handle->id)(deformer.handle_center(handle->id));
+    });
+    return done ? call.push_vector(center) : call.fail();
+}
+
+int handle_region(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    const auto result = call.create<RegionObject>();
+    const bool done = call.attempt_quick([&] {
+        DeformObject& edit = *handle->edit;
+        result.set(
+            std::make_shared<RegionObject>(edit.mesh, edit.deformer().handle_region(handle->id)));
+    });
+    return done ? 1 : call.fail();
+}
+
+int remove_handle(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    const bool done =
+        call.attempt_quick([&] { handle->edit->deformer().remove_handle(handle->id); });
+    return done ? 0 : call.fail();
+}
+
+int equal_handles(Call& call) {
+    const auto a = call.self<HandleObject>(1), b = call.self<HandleObject>(2);
+    return call.push(a->edit == b->edit && a->id == b->id);
+}
+
+int handle_text(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    int vertices = 0;
+    const bool present = call.attempt_quick(
+        [&] { vertices = handle->edit->deformer().handle_region(handle->id).size(); });
+    if (!present) return call.push("lissom.Handle (removed)");
+    lua_pushfstring(call.lua(), "lissom.Handle: %d vertices", vertices);
+    return 1;
+}
+
+// ---- Descriptions
+
+const std::vector<ErrorCode> kSolveErrors = {
+    ErrorCode::unconstrained, ErrorCode::zero_area,         ErrorCode::not_positive_definite,
+    ErrorCode::memory_limit,  ErrorCode::topology_mismatch, ErrorCode::cancelled};
+const std::vector<ErrorCode> kHandleErrors = {
+    ErrorCode::handle_removed, ErrorCode::singular_transform, ErrorCode::topology_mismatch};
+const std::vector<ErrorCode> kEditErrors = {ErrorCode::handle_removed,
+                                            ErrorCode::topology_mismatch};
+
+// The start of every example: a bar whose top bends over.
+const std::string kBar = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
+local edit = lissom.deform(bar)
+edit:handle(bar:region("bottom"))
+local top = edit:handle(bar:region("top"))
+)";
+
+std::vector<Function> solving_methods() {
+    const std::vector<Result> mesh = {
+        {"lissom.Mesh", "mesh", "The mesh; nil, message, code where there is no solution."}};
+    return {
+        {.name = "preview",
+         .body = preview,
+         .summary =
+             "Solves the first system only and writes the result into the mesh: quick enough "
+             "to follow a drag, with some shear.",
+         .results = mesh,
+         .errors = kSolveErrors,
+         .example = kBar + "top:translate(1, 0, 0)\nedit:preview()"},
+        {.name = "solve",
+         .body = solve,
+         .summary =
+             "Solves both systems and writes the result into the mesh. Handles that are where "
+             "they began give the rest shape, to the bit.",
+         .results = mesh,
+         .errors = kSolveErrors,
+         .example = kBar + "top:rotate{ axis = 'z', angle = 60 }\nassert(edit:solve() == bar)"},
+        {.name = "reset",
+         .body = reset_all,
+         .summary =
+             "Handles and mesh go back to the rest shape, to the bit; vertex constraints go.",
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .errors = kEditErrors,
+         .example = kBar + R"(local before = bar:hash()
+top:translate(1, 0, 0)
+edit:solve()
+edit:reset()
+assert(bar:hash() == before))"},
+        {.name = "stats",
+         .body = stats,
+         .summary = "Sizes and times of the last preparation.",
+         .results = {{"lissom.DeformStats", "stats", "Times are in seconds, sizes in bytes."}},
+         .errors = kEditErrors,
+         .example = kBar + "edit:solve()\nassert(edit:stats().handles == 2)"},
+        {.name = "basis",
+         .body = basis,
+         .summary =
+             "The first system's solution as a linear function of the handles: what an engine "
+             "needs to follow a drag by itself.",
+         .results = {{"lissom.HandleBasis", "basis", "Weights of every vertex for every handle."}},
+         .errors = kSolveErrors,
+         .example = kBar + "assert(edit:basis().weights[1]:width() == 4)"}};
+}
+
+std::vector<Function> handle_moves() {
+    const std::vector<Result> self = {{"lissom.Handle", "handle", "The handle itself."}};
+    const std::string center = "the handle's center where it is now";
+    return {{.name = "translate",
+             .body = translate_handle,
+             .summary = "Moves the handle on by an offset.",
+             .arguments = {vector("offset", "Three numbers or {x, y, z}.").in("mesh units")},
+             .results = self,
+             .errors = kHandleErrors,
+             .example = kBar + "top:translate(0, 1, 0):translate{ 0, 1, 0 }"},
+            {.name = "rotate",
+             .body = rotate_handle,
+             .summary = "Turns the handle on.",
+             .options = rotation_fields(center),
+             .results = self,
+             .errors = kHandleErrors,
+             .example = kBar + "top:rotate{ axis = 'z', angle = 45 }"},
+            {.name = "scale",
+             .body = scale_handle,
+             .summary = "Scales the handle on.",
+             .arguments = {factors("factor", "Factor for all axes, or one for each.")},
+             .options = {vector("about", "The point that stays.").optional(center)},
+             .results = self,
+             .errors = kHandleErrors,
+             .example = kBar + "top:scale(1.5)"},
+            {.name = "set",
+             .body = set_handle,
+             .summary =
+                 "Sets the whole transform: scales the rest shape, then rotates, then translates "
+                 "it. For sliders.",
+             .options = transform_fields("the handle's center at rest"),
+             .results = self,
+             .errors = kHandleErrors,
+             .example =
+                 kBar + "top:set{ translate = { 1, 0, 0 }, rotate = { axis = 'y', angle = 90 } }"},
+            {.name = "set_matrix",
+             .body = set_handle_matrix,
+             .summary = "Sets the whole transform as a matrix.",
+             .arguments = {affine("matrix",
+                                  "Rows of a 4 x 4 matrix; takes rest positions to where they "
+                                  "go.")},
+             .results = self,
+             .errors = kHandleErrors,
+             .example = kBar + "top:set_matrix(top:matrix())"},
+            {.name = "reset",
+             .body = reset_handle,
+             .summary = "The handle goes back to where it began.",
+             .results = self,
+             .errors = kHandleErrors,
+             .example = kBar + "top:translate(1, 0, 0):reset()"}};
+}
+
+std::vector<Parameter> deform_parameters() {
+    const DeformOptions defaults;
+    const auto shown = [](double value) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%g", value);
+        return std::string(text);
+    };
+    return {
+        object("region", "lissom.Region", "What may move. Outside nothing does.").optional("all"),
+        choice("local_size", {"keep", "scale"},
+               "Whether details keep their size or scale with the surface around them.")
+            .optional("\"keep\""),
+        choice(
+            "second", {"blend", "laplacian", "poisson"},
+            "The system that makes the shape from the rotations: blend is smooth at handles with "
+            "little distortion, laplacian is the thesis's, poisson has the least distortion.")
+            .optional("\"blend\""),
+        integer("coherence", "Rings of neighbours that turn alike.")
+            .between(1, 2)
+            .optional(std::to_string(defaults.coherence)),
+        choice("weights", {"cotangent", "uniform"}, "Weights of the Laplacian coordinates.")
+            .optional("\"cotangent\""),
+        number("displacement", "How far degenerate vertices are displaced.")
+            .above(0)
+            .in("mean lengths of their edges")
+            .optional(shown(defaults.displacement)),
+        number("degenerate_threshold", "Condition number from which a vertex counts as degenerate.")
+            .above(1)
+            .optional(shown(defaults.degenerate_threshold)),
+        choice("fidelity", {"default", "thesis"},
+               "thesis: coherence 2, second laplacian, and the weights and threshold of the thesis "
+               "where "
+               "no other option says otherwise.")
+            .defaults("default")};
+}
+
+}  // namespace
+
+Type deformation_type() {
+    Type type{
+        .name = "lissom.Deformation",
+        .summary =
+            "Deforms a region of a mesh by handles. Its rest shape is the mesh as it was when "
+            "the deformation was made; its factors are kept, so that moving a handle costs "
+            "no factorisation.",
+        .close = [](void* object) { static_cast<DeformObject*>(object)->content.reset(); }};
+    type.operators = {{"__tostring", deformation_text, "tostring(edit)", "its size"}};
+    type.methods = {
+        {.name = "handle",
+         .body = add_handle,
+         .summary = "Makes a handle of some vertices of the region.",
+         .arguments = {object("region", "lissom.Region", "Its vertices.")},
+         .options =
+             {boolean("position", "Holds their positions.").defaults(HandleOptions{}.position),
+              boolean("gradient", "Holds their orientation and scale.")
+                  .defaults(HandleOptions{}.gradient)},
+         .results = {{"lissom.Handle", "handle", "Where it is; move it and solve."}},
+         .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
+                    ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
+                    ErrorCode::invalid_argument},
+         .example = kBar},
+        {.name = "constrain",
+         .body = constrain,
+         .summary =
+             "Holds one vertex, in place of an earlier constraint; without position and gradient "
+             "the vertex is free again. Returns the deformation.",
+         .options =
+             {id("vertex", "Id of the vertex."),
+              vector("position", "Where it goes.").optional("free"),
+              matrix3("gradient", "Rows of its 3 x 3 deformation gradient.").optional("free")},
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .errors = {ErrorCode::out_of_range, ErrorCode::handle_outside_region,
+                    ErrorCode::handle_overlap, ErrorCode::topology_mismatch},
+         .example = kBar + R"(local v = bar:nearest(0.5, 0, 0).vertex
+edit:constrain{ vertex = v, position = { 1, 0, 0 } }:solve())"},
+        {.name = "handles",
+         .body = handles,
+         .summary = "Its handles.",
+         .results = {{"lissom.Handle[]", "handles", "In the order they were made."}},
+         .errors = kEditErrors,
+         .example = kBar + "assert(edit:handles()[2] == top)"},
+        {.name = "region",
+         .body = deformation_region,
+         .summary = "The region that may move.",
+         .results = {{"lissom.Region", "region", "The region."}},
+         .errors = kEditErrors,
+         .example = kBar + "assert(#edit:region() == #bar)"},
+        {.name = "mesh",
+         .body = deformation_mesh,
+         .summary = "The mesh that it deforms.",
+         .results = {{"lissom.Mesh", "mesh", "The mesh."}},
+         .example = kBar + "assert(edit:mesh() == bar)"}};
+    for (Function& method : solving_methods()) type.methods.push_back(std::move(method));
+    return type;
+}
+
+Type handle_type() {
+    Type type{.name = "lissom.Handle",
+              .summary = "Vertices of a deformation that follow one transform."};
+    type.operators = {{"__tostring", handle_text, "tostring(handle)", "its size"},
+                      {"__eq", equal_handles, "a == b", "the same handle of the same deformation"}};
+    type.methods = handle_moves();
+    const std::vector<Function> queries = {
+        {.name = "matrix",
+         .body = handle_matrix,
+         .summary = "The transform so far.",
+         .results = {{"number[][]", "matrix", "Rows of a 4 x 4 matrix."}},
+         .errors = kEditErrors,
+         .example = kBar + "assert(top:matrix()[1][1] == 1)"},
+        {.name = "center",
+         .body = handle_center,
+         .summary = "The handle's center where it is now.",
+         .results = {{"lissom.Vector", "center", "{x, y, z}."}},
+         .errors = kEditErrors,
+         .example =
+             kBar + "top:translate(0, 1, 0)\nassert(math.abs(top:center()[2] - 3.5) < 1e-12)"},
+        {.name = "region",
+         .body = handle_region,
+         .summary = "The handle's vertices.",
+         .results = {{"lissom.Region", "region", "The region."}},
+         .errors = kEditErrors,
+         .example = kBar + "assert(top:region() == bar:region('top'))"},
+        {.name = "remove",
+         .body = remove_handle,
+         .summary = "Takes the handle out of the deformation; it cannot be used any more.",
+         .errors = kEditErrors,
+         .example = kBar + "top:remove()\nassert(#edit:handles() == 1)"}};
+    for (const Function& query : queries) type.methods.push_back(query);
+    return type;
+}
+
+std::vector<Function> deform_functions() {
+    return {{.name = "deform",
+             .body = deform_mesh,
+             .summary = "Prepares the deformation of a mesh, or of a region of it, by handles.",
+             .arguments = {object("mesh", "lissom.Mesh", "The mesh, in its rest shape.")},
+             .options = deform_parameters(),
+             .results = {{"lissom.Deformation", "edit", "Give it handles, move them, solve."}},
+             .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
+                        ErrorCode::invalid_argument, ErrorCode::cancelled},
+             .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }:translate(1, -0.5, 0)
+edit:solve())"}};
+}
+
+}  // namespace lissom::lua

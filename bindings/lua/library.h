@@ -1,0 +1,40 @@
+/// The parts of the kernel's library; private to bindings/lua. Each file of this folder describes
+/// what it exposes by one of these.
+#pragma once
+
+#include "bindings/lua/registry.h"
+
+namespace lissom::lua {
+
+Type mesh_type();
+std::vector<Function> mesh_functions();
+std::vector<Function> mesh_edit_methods();
+std::vector<Function> mesh_query_methods();
+std::vector<Function> mesh_file_functions();
+std::vector<Function> mesh_file_methods();
+
+Type region_type();
+std::vector<Function> region_methods_of_mesh();
+
+Type path_type();
+std::vector<Function> path_methods_of_mesh();
+
+Type buffer_type();
+std::vector<Function> buffer_methods_of_mesh();
+
+Type deformation_type();
+Type handle_type();
+std::vector<Function> deform_functions();
+
+std::vector<Function> shape_functions();
+
+Type parameters_type();
+std::vector<Function> parameter_functions();
+
+/// The tables that functions return.
+std::vector<Record> kernel_records();
+
+/// Option tables shared by several functions: {axis=, angle=, about=}.
+std::vector<Parameter> rotation_fields(const std::string& about_default);
+
+}  // namespace lissom::lua

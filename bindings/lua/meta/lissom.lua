@@ -1,0 +1,922 @@
+---@meta lissom
+-- Made from the registration table; do not edit.
+
+---Three numbers: {x, y, z}.
+---@alias lissom.Vector number[]
+
+---Elements that an error is about.
+---@class lissom.Elements
+---@field kind string vertex, edge, face, corner, component or line.
+---@field count integer How many there are.
+---@field ids integer[]|integer[][] The first hundred; pairs of vertices for edges.
+
+---An axis-aligned box.
+---@class lissom.Bounds
+---@field min lissom.Vector Smallest coordinates.
+---@field max lissom.Vector Greatest coordinates.
+---@field center lissom.Vector The middle.
+---@field diagonal number Length of the diagonal.
+
+---A point of a surface.
+---@class lissom.SurfacePoint
+---@field position lissom.Vector The point.
+---@field face integer The face that contains it.
+---@field vertex integer The nearest vertex of its triangle.
+---@field triangle integer[] Vertices of the triangle of the face that contains it.
+---@field bary number[] Its barycentric coordinates in that triangle.
+---@field normal lissom.Vector Unit normal of the triangle; zero where it has no area.
+---@field distance number Distance from the query point, or along the ray.
+
+---A point of a path.
+---@class lissom.PathPoint
+---@field position lissom.Vector The point.
+---@field parameter number Fraction of the path's length up to it, 0 to 1.
+---@field segment integer It lies between this point of the path and the next.
+---@field distance number Distance from the query point.
+
+---What was done to close a hole.
+---@class lissom.FillReport
+---@field loop_size integer Vertices around the hole.
+---@field first_vertex integer The first new vertex.
+---@field vertex_count integer New vertices; their ids follow each other.
+---@field first_face integer The first new face.
+---@field face_count integer New faces; their ids follow each other.
+---@field parts integer Parts that the loop was divided into.
+---@field folded_edges integer Edges of the patch that turn by more than 150 degrees.
+---@field limit_reached boolean Refinement ended at maximum_vertices.
+
+---What an attribute is.
+---@class lissom.AttributeInfo
+---@field name string Its name.
+---@field domain string vertex, corner or face.
+---@field width integer Numbers an element.
+---@field type string Number type in files: float32, uint8, ...
+---@field count integer Elements.
+
+---The state of a mesh.
+---@class lissom.Check
+---@field vertices integer Number of vertices.
+---@field edges integer Number of edges.
+---@field faces integer Number of faces.
+---@field components integer Connected components, vertices without faces included.
+---@field boundaries integer Open boundaries.
+---@field genus integer Handles of the surface, summed over the components.
+---@field euler integer V - E + F over vertices that have faces.
+---@field closed boolean No open boundary.
+---@field manifold boolean Every vertex has one fan of faces.
+---@field triangles boolean All faces are triangles.
+---@field isolated_vertices integer[] Vertices without faces.
+---@field zero_area_faces integer[] Faces without area.
+
+---Sizes and times of the last preparation of a deformation.
+---@class lissom.DeformStats
+---@field region_vertices integer Vertices of the region.
+---@field free_vertices integer Those that no constraint holds.
+---@field constrained_vertices integer Those that one holds.
+---@field handles integer Handles.
+---@field displaced_vertices integer Degenerate vertices displaced.
+---@field inserted_vertices integer Vertices inserted at corners of the boundary.
+---@field zero_area_faces integer Faces without area.
+---@field first_nonzeros integer Entries of the first system's factor.
+---@field second_nonzeros integer Entries of the second system's factor.
+---@field factor_bytes integer Bytes of both factors.
+---@field assemble_seconds number Time to assemble the systems.
+---@field first_factor_seconds number Time to factor the first.
+---@field second_factor_seconds number Time to factor the second.
+---@field basis_seconds number Time to compute the handle basis.
+---@field factorizations integer Factorisations so far: dragging adds none.
+
+---The first system's solution as a linear function of the handles: vertex v is at fixed(v) plus, for each handle, its 3 x 4 transform times the four weights of v.
+---@class lissom.HandleBasis
+---@field vertices integer[] Vertices of the region; one row of each buffer.
+---@field handles lissom.Handle[] The handles, in the order of `weights`.
+---@field weights lissom.Buffer[] For each handle four numbers a vertex.
+---@field fixed lissom.Buffer What no handle moves: three numbers a vertex.
+
+---The declaration of a parameter.
+---@class lissom.ParamSchema
+---@field name string Its name.
+---@field type string number, integer, boolean, string, choice or file.
+---@field default any Its default; nil where it must be given.
+---@field value any Its present value.
+---@field min number? Smallest value.
+---@field max number? Greatest value.
+---@field step number? Step of a slider.
+---@field choices string[]? The values of a choice.
+---@field unit string Its unit, or an empty string.
+---@field group string Heading that it stands under, or an empty string.
+---@field help string What it does, or an empty string.
+
+---An oriented 2-manifold of polygons, with or without boundary. Vertices and faces count from 1.
+---@class lissom.Mesh
+---@operator len: integer
+local Mesh = {}
+
+---Number of vertices.
+---@return integer count # Number of vertices.
+function Mesh:vertex_count() end
+
+---Number of faces.
+---@return integer count # Number of faces.
+function Mesh:face_count() end
+
+---The axis-aligned box around all vertices.
+---@return lissom.Bounds bounds # The box.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:bounds() end
+
+---RMS distance of the surface to its centroid: the length that default lengths derive from. Turning the mesh does not change it.
+---@return number size # In the mesh's unit.
+function Mesh:size() end
+
+---Area of the surface.
+---@return number area # In the mesh's unit squared.
+function Mesh:area() end
+
+---Enclosed volume, positive where the faces look outward. Open boundaries count as closed by cones to their mean points.
+---@return number volume # In the mesh's unit cubed.
+function Mesh:volume() end
+
+---Handles of the surface, summed over its components.
+---@return integer genus # 0 for a sphere, 1 for a torus.
+function Mesh:genus() end
+
+---Number of connected components. A vertex without faces is one of its own.
+---@return integer count # Number of components.
+function Mesh:components() end
+
+---Whether the mesh has no open boundary.
+---@return boolean closed # False where there is a boundary.
+function Mesh:is_closed() end
+
+---Whether every vertex has exactly one fan of faces. Faces are always manifold; vertices without faces make it false.
+---@return boolean manifold # False where a vertex has no face.
+function Mesh:is_manifold() end
+
+---Counts, and the ids of elements that may cause trouble.
+---@return lissom.Check report # What was found.
+function Mesh:check() end
+
+---Hash of positions, faces, attributes, labels and regions, to the bit: the same on every machine.
+---@return string hash # 16 hexadecimal digits.
+function Mesh:hash() end
+
+---Where a vertex is.
+---@param vertex integer Id of the vertex.
+---@return number x
+---@return number y
+---@return number z
+function Mesh:position(vertex) end
+
+---Moves a vertex and returns the mesh.
+---@param vertex integer Id of the vertex.
+---@param position lissom.Vector Where it goes: three numbers or {x, y, z}.
+---@return lissom.Mesh mesh # The mesh itself.
+---@overload fun(self: lissom.Mesh, vertex: integer, x: number, y: number, z: number): lissom.Mesh
+function Mesh:set_position(vertex, position) end
+
+---Unit normal of the surface at a vertex, from the faces around it; zero where they have no area.
+---@param vertex integer Id of the vertex.
+---@return number x
+---@return number y
+---@return number z
+function Mesh:normal(vertex) end
+
+---The vertices of a face, counter-clockwise seen from outside.
+---@param face integer Id of the face.
+---@return integer[] vertices # Their ids.
+function Mesh:face(face) end
+
+---The vertices of all faces.
+---@return integer[][] faces # For each face the ids of its vertices.
+function Mesh:faces() end
+
+---The vertices that an edge joins to a vertex, counter-clockwise.
+---@param vertex integer Id of the vertex.
+---@return integer[] vertices # Their ids.
+function Mesh:neighbors(vertex) end
+
+---Adds the vertices and faces of another mesh after its own, unconnected, with all attributes, groups and regions.
+---@param other lissom.Mesh The mesh to add.
+---@return lissom.Mesh mesh # The mesh itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:append(other) end
+
+---Splits every polygon into triangles; vertices stay.
+---@return lissom.Mesh mesh # The mesh itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:triangulate() end
+
+---Turns the surface inside out: reverses all faces and normals.
+---@return lissom.Mesh mesh # The mesh itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:flip() end
+
+---@class lissom.Mesh.TransformOptions.Rotate
+---@field axis "x"|"y"|"z"|lissom.Vector Axis of the rotation.
+---@field angle number Angle, counter-clockwise seen against the axis. In degrees.
+---@field about? lissom.Vector A point on the axis. Default: the option `about`.
+
+---@class lissom.Mesh.TransformOptions
+---@field translate? lissom.Vector Added last. In mesh units. Default: {0, 0, 0}.
+---@field rotate? lissom.Mesh.TransformOptions.Rotate Applied after the scale. Default: none.
+---@field scale? number|lissom.Vector Factor for all axes, or one for each; applied first. Default: 1.
+---@field about? lissom.Vector The point that scale and rotation keep. Default: the origin.
+
+---Scales, then rotates, then translates all vertices. A mirroring scale also reverses the faces, so that they go on looking outward.
+---@param options? lissom.Mesh.TransformOptions
+---@return lissom.Mesh mesh # The mesh itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:transform(options) end
+
+---@class lissom.Mesh.SmoothOptions
+---@field iterations? integer Number of steps. Default: 10.
+---@field strength? number Fraction of the way to the mean of its neighbours that a vertex moves in a step. Default: 0.5.
+---@field weights? "uniform"|"cotangent" Of the neighbours: uniform ones also even out the spacing, cotangents keep it. Default: "uniform".
+---@field boundary? "fixed"|"along" Vertices on open boundaries stay, or are smoothed along their loop. Default: "fixed".
+---@field keep_volume? boolean Follows each step by one outwards (Taubin 1995). Default: false.
+---@field region? lissom.Region Vertices that may move. Default: all.
+
+---Smooths the surface by explicit Laplacian steps. Normals turn with it.
+---@param options? lissom.Mesh.SmoothOptions
+---@return lissom.Mesh mesh # The mesh itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:smooth(options) end
+
+---A copy with all attributes, groups and regions.
+---@return lissom.Mesh copy # The new mesh.
+function Mesh:copy() end
+
+---@class lissom.Mesh.SubdivideOptions
+---@field scheme? "midpoint"|"loop"|"catmull_clark" midpoint keeps the shape; the others smooth it. Default: "midpoint".
+
+---A finer mesh. Old vertices keep their ids.
+---@param levels? integer How often each face is split. Default: 1.
+---@param options? lissom.Mesh.SubdivideOptions
+---@return lissom.Mesh mesh # The new mesh.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:subdivide(levels, options) end
+
+---The faces of a region with their vertices as a mesh of their own.
+---@param region lissom.Region A region of this mesh.
+---@return lissom.Mesh part # The new mesh.
+---@return integer[] map # For each of its vertices the vertex of the old mesh.
+function Mesh:extract(region) end
+
+---The mesh without the faces of a region, as a new mesh.
+---@param region lissom.Region A region of this mesh.
+---@return lissom.Mesh part # The new mesh.
+---@return integer[] map # For each of its vertices the vertex of the old mesh.
+function Mesh:remove(region) end
+
+---The point of the surface nearest to a given one.
+---@param point lissom.Vector Three numbers or {x, y, z}.
+---@return lissom.SurfacePoint found # The nearest point.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+---@overload fun(self: lissom.Mesh, x: number, y: number, z: number): lissom.SurfacePoint
+function Mesh:nearest(point) end
+
+---The first point of the surface that a ray hits, on either side.
+---@param origin lissom.Vector Where the ray starts.
+---@param direction lissom.Vector Where it goes; any length.
+---@return lissom.SurfacePoint? hit # The point; nil where the ray misses.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+---@overload fun(self: lissom.Mesh, x: number, y: number, z: number, x: number, y: number, z: number): lissom.SurfacePoint?
+function Mesh:pick(origin, direction) end
+
+---@class lissom.Mesh.DistancesOptions
+---@field from integer|lissom.Region|integer[] Where distances start.
+---@field method? "heat"|"edges" Geodesic by the heat method, or along edges. Default: "heat".
+
+---Distance of every vertex over the surface to the nearest of the given vertices; infinite where there is no way.
+---@param options lissom.Mesh.DistancesOptions
+---@return lissom.Buffer distances # One number a vertex.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:distances(options) end
+
+---@class lissom.Mesh.SaveOptions
+---@field up? "y"|"z" The up axis that the file shall have. Default: as it is.
+---@field unit? number Length of the file's unit in the unit of the mesh: positions are divided by it. In mesh units. Default: 1.
+---@field binary? boolean Binary or text, for .ply and .stl. Default: true.
+---@field endianness? "little"|"big" Byte order of a binary .ply. Default: "little".
+
+---Writes the mesh to a file, whole or not at all.
+---@param path string The file; its extension names the format.
+---@param options? lissom.Mesh.SaveOptions
+---@return lissom.Mesh mesh # The mesh itself; nil, message, code where the file could not be written.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:save(path, options) end
+
+---The positions as a typed buffer without a copy: x, y, z of vertex 1, of vertex 2, and so on.
+---@return lissom.Buffer positions # Three numbers a vertex.
+function Mesh:positions() end
+
+---What attributes the mesh has.
+---@return lissom.AttributeInfo[] attributes # In the order they were added.
+function Mesh:attributes() end
+
+---The numbers of an attribute as a typed buffer without a copy. A NaN means that an element has no value.
+---@param name string Name of the attribute: "uv", "normal", "color", ...
+---@return lissom.Buffer? buffer # Its numbers; nil, message, code where there is no such attribute.
+function Mesh:attribute(name) end
+
+---@class lissom.Mesh.Add_attributeOptions
+---@field name string Its name. "uv", "normal" and "color" have a meaning in files.
+---@field domain? "vertex"|"corner"|"face" What elements it is on. Default: "vertex".
+---@field width? integer Numbers an element. Default: 1.
+---@field type? "float32"|"float64"|"int8"|"uint8"|"int16"|"uint16"|"int32"|"uint32" Number type in files. Default: "float32".
+---@field values? number|number[] The numbers. Default: 0.
+
+---Adds an attribute, in place of one of the same name.
+---@param options lissom.Mesh.Add_attributeOptions
+---@return lissom.Buffer buffer # Its numbers.
+function Mesh:add_attribute(options) end
+
+---Removes an attribute.
+---@param name string Name of the attribute.
+---@return boolean removed # False where there was none.
+function Mesh:remove_attribute(name) end
+
+---@class lissom.Mesh.RegionOptions.Sphere
+---@field center lissom.Vector Its center.
+---@field radius number Its radius. In mesh units.
+
+---@class lissom.Mesh.RegionOptions.Box
+---@field min? lissom.Vector Smallest coordinates. Default: no limit.
+---@field max? lissom.Vector Greatest coordinates. Default: no limit.
+
+---@class lissom.Mesh.RegionOptions.Plane
+---@field point lissom.Vector A point of the plane.
+---@field normal lissom.Vector Points to the side that is selected.
+
+---@class lissom.Mesh.RegionOptions.Geodesic
+---@field from integer|lissom.Region|integer[] Where distances start.
+---@field radius number Distance over the surface. In mesh units.
+
+---@class lissom.Mesh.RegionOptions
+---@field sphere? lissom.Mesh.RegionOptions.Sphere Vertices within a sphere.
+---@field box? lissom.Mesh.RegionOptions.Box Vertices within an axis-aligned box, its sides included.
+---@field plane? lissom.Mesh.RegionOptions.Plane Vertices on one side of a plane, the plane included.
+---@field geodesic? lissom.Mesh.RegionOptions.Geodesic Vertices within a distance over the surface.
+---@field vertices? integer[] These vertices.
+---@field group? string Vertices of the faces of a group.
+---@field material? string Vertices of the faces of a material.
+---@field component? integer Vertices of a connected component, numbered by smallest vertex.
+---@field attribute? table {name, min, max}: vertices where the first number of an attribute lies in the range.
+---@field where? fun(vertex: integer, x: number, y: number, z: number): boolean Vertices for which the function returns true.
+---@field all? boolean true: all vertices.
+
+---A region by its name, or the vertices that one of the options selects.
+---@param name? string Name of a region that is kept with the mesh.
+---@param options? lissom.Mesh.RegionOptions
+---@return lissom.Region region # The region, maybe empty; nil, message, code where no region has the name.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:region(name, options) end
+
+---Keeps a region under a name, in place of one before, and returns the mesh. Named regions are saved where the format can.
+---@param name string Its name.
+---@param region lissom.Region A region of this mesh.
+---@return lissom.Mesh mesh # The mesh itself.
+function Mesh:set_region(name, region) end
+
+---Forgets a named region.
+---@param name string Its name.
+---@return boolean removed # False where there was none.
+function Mesh:remove_region(name) end
+
+---The names of the regions that are kept with the mesh.
+---@return string[] names # In alphabetical order.
+function Mesh:regions() end
+
+---The open boundaries, ordered by their smallest vertex.
+---@return lissom.Path[] boundaries # Closed paths with the surface on their left.
+function Mesh:boundaries() end
+
+---@class lissom.Mesh.PathOptions
+---@field points lissom.Vector[]|integer[] What to visit.
+---@field closed? boolean Returns to the first. Default: false.
+
+---The shortest line along edges that visits the given vertices in order.
+---@param options lissom.Mesh.PathOptions
+---@return lissom.Path path # The line.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:path(options) end
+
+---@class lissom.Mesh.FillOptions
+---@field refine? boolean Makes the patch as dense as the mesh around it. Default: true.
+---@field fair? boolean Bends the patch to continue the surface smoothly. Default: true.
+---@field maximum_vertices? integer Vertices that refinement may insert. Default: 200000.
+
+---Closes an open boundary by a patch of triangles that continues the surface, in place. Old ids stay.
+---@param boundary lissom.Path An open boundary of this mesh.
+---@param options? lissom.Mesh.FillOptions
+---@return lissom.Mesh mesh # The mesh itself.
+---@return lissom.FillReport report # What was added.
+function Mesh:fill(boundary, options) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Mesh:close() end
+
+---A set of vertices of one version of a mesh's topology. After a change of the topology it is an error to use it.
+---@class lissom.Region
+---@operator len: integer
+local Region = {}
+
+---Vertices in this region or the other.
+---@param other lissom.Region A region of the same mesh.
+---@return lissom.Region region # A new region.
+function Region:union(other) end
+
+---Vertices in this region but not in the other.
+---@param other lissom.Region A region of the same mesh.
+---@return lissom.Region region # A new region.
+function Region:minus(other) end
+
+---Vertices in both regions.
+---@param other lissom.Region A region of the same mesh.
+---@return lissom.Region region # A new region.
+function Region:intersect(other) end
+
+---Vertices that are not in this region.
+---@return lissom.Region region # A new region.
+function Region:invert() end
+
+---This region and rings of neighbours around it.
+---@param rings? integer Number of rings of neighbours. Default: 1.
+---@return lissom.Region region # A new region.
+function Region:grow(rings) end
+
+---This region without the vertices within so many edges of a vertex outside. Open boundaries of the mesh do not count as outside.
+---@param rings? integer Number of rings of neighbours. Default: 1.
+---@return lissom.Region region # A new region.
+function Region:shrink(rings) end
+
+---A smoother outline by majority vote over one-rings; specks and pinholes go.
+---@param iterations? integer Number of votes. Default: 3.
+---@return lissom.Region region # A new region.
+function Region:smooth(iterations) end
+
+---Whether a vertex is in the region.
+---@param vertex integer Id of the vertex.
+---@return boolean inside # True where it is.
+function Region:contains(vertex) end
+
+---Mean of the positions of the region's vertices.
+---@return lissom.Vector center # {x, y, z}.
+function Region:center() end
+
+---The axis-aligned box around the region's vertices.
+---@return lissom.Bounds bounds # The box.
+function Region:bounds() end
+
+---The region's vertices.
+---@return integer[] vertices # Their ids, ascending.
+function Region:vertices() end
+
+---The faces that have all their vertices in the region.
+---@return integer[] faces # Their ids, ascending.
+function Region:faces() end
+
+---The loops around the region's faces, each in the direction of those faces.
+---@return lissom.Path[] loops # Closed paths.
+function Region:boundaries() end
+
+---The mesh that the region belongs to.
+---@return lissom.Mesh mesh # The mesh.
+function Region:mesh() end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Region:close() end
+
+---A line through vertices of one version of a mesh's topology, open or closed. A boundary is a closed path around a hole, with the surface on its left.
+---@class lissom.Path
+---@operator len: integer
+local Path = {}
+
+---The vertices in order; the first of a closed path is not repeated.
+---@return integer[] vertices # Their ids.
+function Path:vertices() end
+
+---The positions of its vertices in order.
+---@return lissom.Vector[] points # A list of {x, y, z}.
+function Path:points() end
+
+---Length of the line.
+---@return number length # In the mesh's unit.
+function Path:length() end
+
+---The point of the line nearest to a given one.
+---@param point lissom.Vector Three numbers or {x, y, z}.
+---@return lissom.PathPoint found # The nearest point.
+---@overload fun(self: lissom.Path, x: number, y: number, z: number): lissom.PathPoint
+function Path:nearest(point) end
+
+---@class lissom.Path.SmoothOptions
+---@field iterations? integer Number of steps. Default: 10.
+---@field strength? number Fraction of the way to the middle of its neighbours that a vertex moves in a step. Default: 0.5.
+
+---Smooths the line by moving the mesh's vertices under it, and returns the path. Ends of open paths stay.
+---@param options? lissom.Path.SmoothOptions
+---@return lissom.Path path # The path itself.
+function Path:smooth(options) end
+
+---Whether its end is joined to its start.
+---@return boolean closed # True for a boundary.
+function Path:is_closed() end
+
+---Whether it is one of the open boundaries of the mesh.
+---@return boolean boundary # In either direction.
+function Path:is_boundary() end
+
+---The same line run the other way.
+---@return lissom.Path path # A new path.
+function Path:reversed() end
+
+---The region of its vertices.
+---@return lissom.Region region # A new region.
+function Path:region() end
+
+---The mesh that it runs on.
+---@return lissom.Mesh mesh # The mesh.
+function Path:mesh() end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Path:close() end
+
+---Numbers of the kernel, read and written in place. It keeps its mesh alive and refuses to work once the mesh has another topology.
+---@class lissom.Buffer
+---@field [integer] number
+---@operator len: integer
+local Buffer = {}
+
+---Numbers a row: 3 for positions.
+---@return integer width # Numbers a row.
+function Buffer:width() end
+
+---Number of rows: of vertices, corners or faces.
+---@return integer rows # Number of rows.
+function Buffer:count() end
+
+---The numbers of a row, as several results.
+---@param row integer Number of the row: the id of its vertex, corner or face.
+---@return number ... # As many as the buffer is wide.
+function Buffer:get(row) end
+
+---Writes a row and returns the buffer.
+---@param row integer Number of the row: the id of its vertex, corner or face.
+---@param values number[] As many numbers as the buffer is wide.
+---@return lissom.Buffer buffer # The buffer.
+function Buffer:set(row, values) end
+
+---The address of the numbers, doubles in rows, for LuaJIT's ffi. It is valid until the mesh's topology or attributes change. Call `changed` after writing.
+---@return lightuserdata address # Address of the first number.
+function Buffer:pointer() end
+
+---Tells the mesh that numbers were written through `pointer`, and checks them.
+---@return lissom.Buffer buffer # The buffer.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Buffer:changed() end
+
+---All numbers as one list.
+---@return number[] numbers # A copy of the numbers.
+function Buffer:table() end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Buffer:close() end
+
+---Deforms a region of a mesh by handles. Its rest shape is the mesh as it was when the deformation was made; its factors are kept, so that moving a handle costs no factorisation.
+---@class lissom.Deformation
+local Deformation = {}
+
+---@class lissom.Deformation.HandleOptions
+---@field position? boolean Holds their positions. Default: true.
+---@field gradient? boolean Holds their orientation and scale. Default: true.
+
+---Makes a handle of some vertices of the region.
+---@param region lissom.Region Its vertices.
+---@param options? lissom.Deformation.HandleOptions
+---@return lissom.Handle handle # Where it is; move it and solve.
+function Deformation:handle(region, options) end
+
+---@class lissom.Deformation.ConstrainOptions
+---@field vertex integer Id of the vertex.
+---@field position? lissom.Vector Where it goes. Default: free.
+---@field gradient? number[][] Rows of its 3 x 3 deformation gradient. Default: free.
+
+---Holds one vertex, in place of an earlier constraint; without position and gradient the vertex is free again. Returns the deformation.
+---@param options lissom.Deformation.ConstrainOptions
+---@return lissom.Deformation edit # The deformation itself.
+function Deformation:constrain(options) end
+
+---Its handles.
+---@return lissom.Handle[] handles # In the order they were made.
+function Deformation:handles() end
+
+---The region that may move.
+---@return lissom.Region region # The region.
+function Deformation:region() end
+
+---The mesh that it deforms.
+---@return lissom.Mesh mesh # The mesh.
+function Deformation:mesh() end
+
+---Solves the first system only and writes the result into the mesh: quick enough to follow a drag, with some shear.
+---@return lissom.Mesh mesh # The mesh; nil, message, code where there is no solution.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Deformation:preview() end
+
+---Solves both systems and writes the result into the mesh. Handles that are where they began give the rest shape, to the bit.
+---@return lissom.Mesh mesh # The mesh; nil, message, code where there is no solution.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Deformation:solve() end
+
+---Handles and mesh go back to the rest shape, to the bit; vertex constraints go.
+---@return lissom.Deformation edit # The deformation itself.
+function Deformation:reset() end
+
+---Sizes and times of the last preparation.
+---@return lissom.DeformStats stats # Times are in seconds, sizes in bytes.
+function Deformation:stats() end
+
+---The first system's solution as a linear function of the handles: what an engine needs to follow a drag by itself.
+---@return lissom.HandleBasis basis # Weights of every vertex for every handle.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Deformation:basis() end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Deformation:close() end
+
+---Vertices of a deformation that follow one transform.
+---@class lissom.Handle
+local Handle = {}
+
+---Moves the handle on by an offset.
+---@param offset lissom.Vector Three numbers or {x, y, z}. In mesh units.
+---@return lissom.Handle handle # The handle itself.
+---@overload fun(self: lissom.Handle, x: number, y: number, z: number): lissom.Handle
+function Handle:translate(offset) end
+
+---@class lissom.Handle.RotateOptions
+---@field axis "x"|"y"|"z"|lissom.Vector Axis of the rotation.
+---@field angle number Angle, counter-clockwise seen against the axis. In degrees.
+---@field about? lissom.Vector A point on the axis. Default: the handle's center where it is now.
+
+---Turns the handle on.
+---@param options lissom.Handle.RotateOptions
+---@return lissom.Handle handle # The handle itself.
+function Handle:rotate(options) end
+
+---@class lissom.Handle.ScaleOptions
+---@field about? lissom.Vector The point that stays. Default: the handle's center where it is now.
+
+---Scales the handle on.
+---@param factor number|lissom.Vector Factor for all axes, or one for each.
+---@param options? lissom.Handle.ScaleOptions
+---@return lissom.Handle handle # The handle itself.
+function Handle:scale(factor, options) end
+
+---@class lissom.Handle.SetOptions.Rotate
+---@field axis "x"|"y"|"z"|lissom.Vector Axis of the rotation.
+---@field angle number Angle, counter-clockwise seen against the axis. In degrees.
+---@field about? lissom.Vector A point on the axis. Default: the option `about`.
+
+---@class lissom.Handle.SetOptions
+---@field translate? lissom.Vector Added last. In mesh units. Default: {0, 0, 0}.
+---@field rotate? lissom.Handle.SetOptions.Rotate Applied after the scale. Default: none.
+---@field scale? number|lissom.Vector Factor for all axes, or one for each; applied first. Default: 1.
+---@field about? lissom.Vector The point that scale and rotation keep. Default: the handle's center at rest.
+
+---Sets the whole transform: scales the rest shape, then rotates, then translates it. For sliders.
+---@param options? lissom.Handle.SetOptions
+---@return lissom.Handle handle # The handle itself.
+function Handle:set(options) end
+
+---Sets the whole transform as a matrix.
+---@param matrix number[][] Rows of a 4 x 4 matrix; takes rest positions to where they go.
+---@return lissom.Handle handle # The handle itself.
+function Handle:set_matrix(matrix) end
+
+---The handle goes back to where it began.
+---@return lissom.Handle handle # The handle itself.
+function Handle:reset() end
+
+---The transform so far.
+---@return number[][] matrix # Rows of a 4 x 4 matrix.
+function Handle:matrix() end
+
+---The handle's center where it is now.
+---@return lissom.Vector center # {x, y, z}.
+function Handle:center() end
+
+---The handle's vertices.
+---@return lissom.Region region # The region.
+function Handle:region() end
+
+---Takes the handle out of the deformation; it cannot be used any more.
+function Handle:remove() end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Handle:close() end
+
+---Values of a script's parameters: `params.length`. Values that are set are checked as those of the command line.
+---@class lissom.Params
+---@field [string] any
+---@operator len: integer
+local Params = {}
+
+---All declarations with their present values, ordered by group and name.
+---@return lissom.ParamSchema[] schema # One table for each parameter.
+function Params:schema() end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Params:close() end
+
+---Modeling by few handles: meshes, regions, paths and deformation.
+---@class lissom
+---@field version string Version of the library.
+local lissom = {}
+
+lissom.shapes = {}
+
+---@class lissom.LoadOptions
+---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: as it is.
+---@field unit? number Length of the file's unit in the unit of the mesh: positions are multiplied by it. In mesh units. Default: 1.
+
+---Reads a mesh from an .obj, .ply, .off or .stl file, with its groups, materials, texture coordinates, normals and colours.
+---@param path string The file; its extension names the format.
+---@param options? lissom.LoadOptions
+---@return lissom.Mesh mesh # The mesh; nil, message, code where the file is at fault.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.load(path, options) end
+
+---@class lissom.MeshOptions
+---@field positions lissom.Vector[]|lissom.Buffer Where the vertices are.
+---@field faces integer[][] For each face the ids of its vertices, counter-clockwise seen from outside.
+
+---Makes a mesh from positions and faces.
+---@param options lissom.MeshOptions
+---@return lissom.Mesh mesh # The mesh; nil, message, code where it is not manifold.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.mesh(options) end
+
+---@class lissom.BoxOptions
+---@field size? number|lissom.Vector Length of its sides. Default: 1.
+---@field segments? integer|integer[] Quads along x, y and z. Default: 1.
+
+---An axis-aligned box of quads around the origin. Regions: left, right, bottom, top, back, front.
+---@param options? lissom.BoxOptions
+---@return lissom.Mesh mesh # A new mesh that faces outward.
+function lissom.shapes.box(options) end
+
+---@class lissom.BarOptions
+---@field width? number Side of the cross section. In mesh units. Default: 1.
+---@field length? number Length along y. In mesh units. Default: 5.
+---@field across? integer Quads across each side. Default: 8.
+---@field along? integer Quads along the bar. Default: 40.
+
+---A bar of quads with a square cross section along y. Regions: bottom, top.
+---@param options? lissom.BarOptions
+---@return lissom.Mesh mesh # A new mesh that faces outward.
+function lissom.shapes.bar(options) end
+
+---@class lissom.SphereOptions
+---@field radius? number Its radius. In mesh units. Default: 1.
+---@field segments? integer Divisions of each edge of the cube or icosahedron that it is made from. Default: 16.
+---@field kind? "quads"|"triangles" From a cube's quads, or an icosahedron. Default: "quads".
+
+---A sphere around the origin.
+---@param options? lissom.SphereOptions
+---@return lissom.Mesh mesh # A new mesh that faces outward.
+function lissom.shapes.sphere(options) end
+
+---@class lissom.CylinderOptions
+---@field radius? number Its radius. In mesh units. Default: 0.5.
+---@field height? number Its height. In mesh units. Default: 2.
+---@field segments? integer Quads around. Default: 32.
+---@field rings? integer Quads along. Default: 16.
+---@field caps? boolean Closes the ends. Default: true.
+---@field cap_rings? integer Rings of each cap. Default: 4.
+
+---A cylinder along y around the origin. Regions: bottom, top, and caps where there are any.
+---@param options? lissom.CylinderOptions
+---@return lissom.Mesh mesh # A new mesh that faces outward.
+function lissom.shapes.cylinder(options) end
+
+---@class lissom.GridOptions
+---@field size? number|number[] Length of its sides. Default: 1.
+---@field segments? integer|integer[] Quads along x and z. Default: 10.
+
+---An open rectangle of quads in the xz plane that faces +y. Region: border.
+---@param options? lissom.GridOptions
+---@return lissom.Mesh mesh # A new mesh that faces outward.
+function lissom.shapes.grid(options) end
+
+---@class lissom.TorusOptions
+---@field radius? number Of the circle in the tube's middle. In mesh units. Default: 1.
+---@field tube_radius? number Of the tube; the smaller one. In mesh units. Default: 0.35.
+---@field segments? integer Quads around the axis. Default: 48.
+---@field tube_segments? integer Quads around the tube. Default: 24.
+
+---A torus of quads around the y axis.
+---@param options? lissom.TorusOptions
+---@return lissom.Mesh mesh # A new mesh that faces outward.
+function lissom.shapes.torus(options) end
+
+---@class lissom.CactusOptions
+---@field height? number Its height. In mesh units. Default: 2.
+---@field vertices? integer Vertices wanted; the result is within 10 %. Default: 9000.
+---@field ribs? integer Ribs around the trunk: 0, or 4 to 40. Default: 12.
+---@field rib_depth? number Depth of the grooves as a fraction of the trunk's radius. Default: 0.2.
+---@field thorns? number Height of the thorns as a fraction of the trunk's radius. Default: 0.06.
+
+---A saguaro with two arms that stands on y = 0. Regions: base, tip, left_arm, right_arm, left_tip, right_tip.
+---@param options? lissom.CactusOptions
+---@return lissom.Mesh mesh # A new mesh that faces outward.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.shapes.cactus(options) end
+
+---@class lissom.DeformOptions
+---@field region? lissom.Region What may move. Outside nothing does. Default: all.
+---@field local_size? "keep"|"scale" Whether details keep their size or scale with the surface around them. Default: "keep".
+---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Default: "blend".
+---@field coherence? integer Rings of neighbours that turn alike. Default: 1.
+---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
+---@field displacement? number How far degenerate vertices are displaced. In mean lengths of their edges. Default: 0.2.
+---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate. Default: 20000.
+---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise. Default: "default".
+
+---Prepares the deformation of a mesh, or of a region of it, by handles.
+---@param mesh lissom.Mesh The mesh, in its rest shape.
+---@param options? lissom.DeformOptions
+---@return lissom.Deformation edit # Give it handles, move them, solve.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.deform(mesh, options) end
+
+---@class lissom.ParamsOptions.Declarations
+---@field type "number"|"integer"|"boolean"|"string"|"choice"|"file" What its values are.
+---@field default? boolean|number|string Its value where none is given; without one it must be given. Default: required.
+---@field min? number Smallest value of a number or integer. Default: no limit.
+---@field max? number Greatest value. Default: no limit.
+---@field step? number Step of a slider. Default: any.
+---@field choices? string[] The values of a choice.
+---@field unit? string Shown after the value. Default: none.
+---@field group? string Heading that it stands under. Default: none.
+---@field help? string A line that says what it does. Default: none.
+
+---Declares the parameters of the script, once, and returns their values. Under `lissom run` they come from flags (--name value), and --help lists them.
+---@param declarations table<string, lissom.ParamsOptions.Declarations> For each name what the parameter is.
+---@return lissom.Params params # Their values.
+---@return string[] rest # The words of the command line that are no flags.
+function lissom.params(declarations) end
+
+---@class lissom.ListenOptions
+---@field progress? fun(label: string, fraction: number): boolean? Called during an operation with what is done and the fraction done, 0 to 1. Where it returns false the operation is cancelled. Default: none.
+---@field log? fun(level: string, message: string) Called after an operation with each of its messages; the level is debug, info or warning. Default: none.
+
+---Sets the functions that hear of long operations, in place of those before. They cannot call lissom themselves.
+---@param options? lissom.ListenOptions
+function lissom.listen(options) end
+
+return lissom

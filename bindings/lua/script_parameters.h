@@ -1,0 +1,70 @@
+/// Parameters of a script (lissom.params): one declaration gives the command-line flag, the help
+/// text, the conversion and check of values, and what a panel of sliders needs.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace lissom::lua {
+
+/// The order of the choices of `type` in the registration.
+enum class ParameterType { number, integer, boolean, string, choice, file };
+
+using ParameterValue = std::variant<bool, double, std::string>;
+
+/// Name of a type: "number", ...
+std::string_view type_name(ParameterType type);
+
+struct ScriptParameter {
+    std::string name;
+    ParameterType type = ParameterType::number;
+    /// Absent: the value must be given.
+    std::optional<ParameterValue> default_value;
+    std::optional<ParameterValue> value;
+    double min = -std::numeric_limits<double>::infinity();
+    double max = std::numeric_limits<double>::infinity();
+    std::optional<double> step;
+    std::vector<std::string> choices;
+    std::string unit, group, help;
+
+    /// Converts the text of a flag. Throws ParameterError.
+    ParameterValue from_text(const std::string& text) const;
+    /// Checks a value. Throws ParameterError.
+    void check(const ParameterValue& value) const;
+    /// What values there are: "number from 0 to 1", "small, medium or large".
+    std::string accepted() const;
+};
+
+/// A value that a parameter does not accept, or a flag that does not exist.
+struct ParameterError : std::exception {
+    explicit ParameterError(std::string text) : message(std::move(text)) {}
+    const char* what() const noexcept override { return message.c_str(); }
+    std::string message;
+};
+
+/// All parameters of one script, ordered by group and name.
+struct ParameterSet {
+    static constexpr const char* kTypeName = "lissom.Params";
+
+    std::vector<ScriptParameter> list;
+
+    ScriptParameter* find(std::string_view name);
+    std::vector<std::string_view> names() const;
+    void sort();
+
+    /// Takes values from the words of a command line and returns the words that are no flags. A
+    /// flag is --name VALUE or --name=VALUE, for a boolean also --name and --no-name; "-" and "_"
+    /// are the same in names; "--" ends the flags. Throws ParameterError.
+    std::vector<std::string> take(const std::vector<std::string>& words);
+    /// Throws ParameterError where a parameter has neither value nor default.
+    void require_values() const;
+
+    /// The help text of `lissom run SCRIPT --help`.
+    std::string help_text(const std::string& script) const;
+};
+
+}  // namespace lissom::lua

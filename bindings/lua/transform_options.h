@@ -1,0 +1,34 @@
+/// Translation, rotation and scale as scripts give them; private to bindings/lua.
+#pragma once
+
+#include "bindings/lua/call.h"
+
+namespace lissom::lua {
+
+/// The options translate=, rotate={axis=,angle=,about=}, scale=, about= of a function.
+std::vector<Parameter> transform_fields(const std::string& about_default);
+
+/// What a call gave for them, as plain data: it can be read in step 1 and combined in step 3.
+struct TransformOptions {
+    Vec3 translate, scale, about, axis, rotate_about;
+    double angle;
+    bool has_about, has_rotate_about;
+
+    static TransformOptions read(const Call& call);
+    /// Scales, then rotates, then translates; about `center` where the script named no point.
+    /// Throws as rotation().
+    Affine map(const Vec3& center) const;
+};
+
+/// The options {axis=, angle=, about=} of a function itself.
+struct RotationOptions {
+    Vec3 axis, about;
+    double angle;
+    bool has_about;
+
+    static RotationOptions read(const Call& call);
+    /// About `center` where the script named no point. Throws as rotation().
+    Affine map(const Vec3& center) const;
+};
+
+}  // namespace lissom::lua

@@ -1,0 +1,54 @@
+-- Bends a cactus: the trunk sweeps over, the arms open, and the foot holds its place.
+--
+--     lissom run examples/deform/cactus.lua
+--     lissom run examples/deform/cactus.lua --bend 90 --vertices 40000 --out /tmp
+
+local lissom = require "lissom"
+
+local params = lissom.params{
+    bend = { type = "number", default = 65, min = -180, max = 180, unit = "degrees",
+        help = "how far the trunk bends to the right" },
+    open = { type = "number", default = 55, min = -120, max = 120, unit = "degrees",
+        help = "how far the arms open outwards" },
+    vertices = { type = "integer", default = 20000, min = 2000, max = 1000000,
+        help = "vertices of the cactus" },
+    out = { type = "string", default = "out", help = "folder that the files go to" },
+}
+
+-- The generated cactus stands on y = 0 and comes with names for its parts: "tip", "left_tip", ...
+local rest = lissom.shapes.cactus{ vertices = params.vertices }
+local height = rest:bounds().max[2]
+
+-- Only vertices of the region move: here all but the foot.
+rest:set_region("movable", rest:region{ plane = { point = { 0, 0.15 * height, 0 }, normal = { 0, 1, 0 } } })
+
+-- A copy has the same vertices and the same names.
+local mesh = rest:copy()
+local edit = lissom.deform(mesh, { region = mesh:region("movable") })
+
+-- A handle takes its vertices along and says how the surface is turned there; what lies between the
+-- handles follows. Turned about a point of the trunk, the tip moves along an arc.
+local tip = edit:handle(mesh:region("tip"))
+tip:rotate{ axis = "z", angle = -params.bend, about = { 0, 0.6 * height, 0 } }
+
+-- The arms open about their elbows: `side` is the sign of x.
+local function open_arm(name, side)
+    local arm = edit:handle(mesh:region(name))
+    arm:rotate{ axis = "z", angle = -side * params.open, about = { side * 0.2 * height, 0.45 * height, 0 } }
+end
+open_arm("left_tip", -1)
+open_arm("right_tip", 1)
+
+assert(edit:solve())
+
+-- Before and after, side by side: the region in blue, the handles in purple.
+local function path(extension) return params.out .. "/cactus." .. extension end
+assert(mesh:save(path("obj")))
+assert(mesh:save(path("ply")))
+assert(lissom.render{
+    meshes = { rest, mesh }, columns = 2, view = "front",
+    region = "movable", handles = { "tip", "left_tip", "right_tip" },
+    file = path("png"), size = { 960, 520 },
+})
+print(string.format("%d vertices, %d of them free: %s, .ply, .png",
+    mesh:vertex_count(), edit:stats().free_vertices, path("obj")))

@@ -1,0 +1,22 @@
+-- Bends a cactus: the library in one page. Run it with
+--     lissom run examples/hello.lua
+
+local lissom = require "lissom"
+
+local cactus = lissom.shapes.cactus{}
+local edit = lissom.deform(cactus)
+
+-- A handle holds its vertices where its transform puts them; one that is not moved holds its place.
+edit:handle(cactus:region("base"))
+local tip = edit:handle(cactus:region("tip"))
+
+-- Moves add up, and each solve uses factors that were made once.
+for _ = 1, 3 do
+    tip:rotate{ axis = "z", angle = 20 }
+    assert(edit:solve())
+end
+
+assert(cactus:save("hello.obj"))
+local stats = edit:stats()
+print(string.format("bent %d vertices with %d factorizations, wrote hello.obj",
+    stats.free_vertices, stats.factorizations))

@@ -1,0 +1,37 @@
+/// Files as bytes: reading one whole, and replacing one whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "kernel/core/context.h"
+
+namespace lissom {
+
+/// The content of a file and the memory charged for it.
+struct FileContent {
+    std::string bytes;
+    MemoryCharge charge;
+};
+
+/// The path as it appears in messages, in UTF-8.
+std::string display_name(const std::filesystem::path& path);
+
+/// Throws where `path` is not a regular file with content.
+/// Errors: file_not_found, file_is_directory, file_empty, file_unreadable.
+void require_file(const std::filesystem::path& path);
+
+/// Reads a file into memory, which is charged to the context first.
+/// Errors: as `require_file`; memory_limit; cancelled.
+FileContent read_file(const std::filesystem::path& path, const Context& context = {});
+
+/// Replaces the content of the file at `path`, or creates it. The bytes go to a temporary file in
+/// the same folder, are flushed to the disk and then renamed, so that a reader sees the old content
+/// or the new one, and no error leaves a trace. A file that exists keeps its permissions; where
+/// `path` is a symbolic link, the file it points to is replaced. Errors: file_is_directory;
+/// file_write_failed, also for a file that is read-only or not a regular one; cancelled.
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
+                           const Context& context = {});
+
+}  // namespace lissom

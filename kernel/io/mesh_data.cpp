@@ -1,0 +1,40 @@
+#include "kernel/io/mesh_data.h"
+
+#include <limits>
+#include <utility>
+
+#include "kernel/io/read_error.h"
+
+namespace lissom {
+
+std::size_t MeshData::memory_bytes() const {
+    return positions.size() * sizeof(Vec3) +
+           (faces.offsets.size() + faces.vertices.size()) * sizeof(Index) +
+           attributes.memory_bytes();
+}
+
+void add_face(FaceList& faces, std::span<const Index> face) {
+    constexpr std::size_t kMaximumCorners = std::numeric_limits<Index>::max();
+    if (face.size() > kMaximumCorners - faces.vertices.size()) {
+        refuse(ErrorCode::file_too_large, "the faces have more than the " +
+                                              std::to_string(kMaximumCorners) +
+                                              " corners that can be numbered; split the file");
+    }
+    faces.add(face);
+}
+
+void add_without_clash(AttributeSet& attributes, Attribute attribute) {
+    if (attribute.domain == Domain::face && attributes.find(attribute.name)) {
+        attribute.name = "face_" + attribute.name;
+    }
+    attributes.add(std::move(attribute));
+}
+
+std::string face_attribute_name(const AttributeSet& attributes, const Attribute& attribute) {
+    constexpr std::string_view kPrefix = "face_";
+    if (!attribute.name.starts_with(kPrefix)) return attribute.name;
+    const std::string base = attribute.name.substr(kPrefix.size());
+    return attributes.find(base) ? base : attribute.name;
+}
+
+}  // namespace lissom

@@ -1,0 +1,216 @@
+#include "kernel/io/mesh_file.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/io/file.h"
+#include "kernel/io/obj.h"
+#include "kernel/io/off.h"
+#include "kernel/io/ply.h"
+#include "kernel/io/sniff.h"
+#include "kernel/io/stl.h"
+
+namespace lissom {
+namespace {
+
+struct Format {
+    std::string_view extension, name;
+    MeshData (*read)(std::string_view bytes, const Context& context);
+    void (*write)(SavedParts& parts, const SaveOptions& options, std::string& bytes,
+                  const Context& context);
+};
+
+constexpr std::array<Format, 4> kFormats{{{"obj", "OBJ", read_obj, write_obj},
+                                          {"ply", "PLY", read_ply, write_ply},
+                                          {"off", "OFF", read_off, write_off},
+                                          {"stl", "STL", read_stl, write_stl}}};
+
+// Lower case and without a leading dot.
+std::string normalized(std::string_view extension) {
+    if (extension.starts_with('.')) extension.remove_prefix(1);
+    std::string result(extension);
+    for (char& c : result) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return result;
+}
+
+const Format& find_format(std::string_view extension) {
+    const std::string wanted = normalized(extension);
+    std::string known;
+    for (const Format& format : kFormats) {
+        if (format.extension == wanted) return format;
+        known += (known.empty() ? "" : ", ") + std::string(format.extension);
+    }
+    throw Error(
+        ErrorCode::unknown_format,
+        (wanted.empty() ? "there is no extension" : "the extension '" + wanted + "' is unknown") +
+            std::string("; known are ") + known);
+}
+
+void require_unit(double unit) {
+    if (unit > 0.0 && std::isfinite(unit)) return;
+    throw Error(ErrorCode::invalid_argument,
+                "unit is " + std::to_string(unit) + ", but must be positive and finite");
+}
+
+void require_expected_content(std::string_view bytes, const Format& format) {
+    const std::string_view found = sniff_format(bytes);
+    if (found.empty() || found == format.name) return;
+    throw Error(ErrorCode::file_syntax, "the extension says " + std::string(format.name) +
+                                            ", but the content looks like " + std::string(found) +
+                                            "; rename the file");
+}
+
+Vec3 turned_from_z_up(const Vec3& v) {
+    return {v.x(), v.z(), -v.y()};
+}
+
+Vec3 turned_to_z_up(const Vec3& v) {
+    return {v.x(), -v.z(), v.y()};
+}
+
+// Turns the normals of vertices, corners and faces.
+template <typename Turn>
+void turn_normals(AttributeSet& attributes, const Turn& turn) {
+    for (Attribute& attribute : attributes.all()) {
+        const bool is_normal = attribute.name == "normal" || attribute.name == "face_normal";
+        if (!is_normal || attribute.width != 3) continue;
+        for (Index i = 0; i < attribute.size(); ++i) {
+            const std::span<double> n = attribute.at(i);
+            const Vec3 turned = turn(Vec3(n[0], n[1], n[2]));
+            std::copy_n(turned.data(), 3, n.data());
+        }
+    }
+}
+
+void apply(const LoadOptions& options, MeshData& data) {
+    if (options.unit != 1.0) {
+        for (Vec3& p : data.positions) p *= options.unit;
+    }
+    if (options.up != UpAxis::z) return;
+    for (Vec3& p : data.positions) p = turned_from_z_up(p);
+    turn_normals(data.attributes, turned_from_z_up);
+}
+
+// The mesh in the file's axes and unit, or nothing where they are the kernel's own.
+std::optional<Mesh> in_file_frame(const Mesh& mesh, const SaveOptions& options) {
+    if (options.up != UpAxis::z && options.unit == 1.0) return std::nullopt;
+    Mesh result = mesh;
+    std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
+    for (Vec3& p : positions) {
+        p /= options.unit;
+        if (options.up == UpAxis::z) p = turned_to_z_up(p);
+    }
+    result.set_positions(std::move(positions));
+    if (options.up == UpAxis::z) turn_normals(result.attributes(), turned_to_z_up);
+    return result;
+}
+
+// Text editors put this mark before UTF-8.
+std::string_view without_byte_order_mark(std::string_view bytes) {
+    constexpr std::string_view kMark = "\xef\xbb\xbf";
+    return bytes.substr(bytes.starts_with(kMark) ? kMark.size() : 0);
+}
+
+Mesh decode(std::string_view bytes, const Format& format, const LoadOptions& options,
+            const Context& context) {
+    require_unit(options.unit);
+    bytes = without_byte_order_mark(bytes);
+    Progress progress(context, "load mesh");
+    progress.step(0.6);
+    require_expected_content(bytes, format);
+    MeshData data = format.read(bytes, context);
+    const MemoryCharge charge = context.charge(data.memory_bytes(), "the mesh of a file");
+    apply(options, data);
+    if (data.positions.empty()) context.log(LogLevel::warning, "the file has no vertices");
+
+    progress.step(0.4);
+    Mesh mesh(std::move(data.positions), std::move(data.faces), context);
+    mesh.attributes() = std::move(data.attributes);
+    mesh.material_libraries() = std::move(data.material_libraries);
+    return mesh;
+}
+
+std::string encode(const Mesh& mesh, const Format& format, const SaveOptions& options,
+                   const Context& context) {
+    require_unit(options.unit);
+    // The size of the file is not known yet, but of the order of the mesh's.
+    const MemoryCharge charge = context.charge(mesh.memory_bytes(), "saving a mesh");
+    const std::optional<Mesh> turned = in_file_frame(mesh, options);
+    SavedParts parts(turned ? *turned : mesh);
+    std::string bytes;
+    format.write(parts, options, bytes, context);
+    parts.log_losses(format.name, context);
+    return bytes;
+}
+
+// Runs an action and puts where it failed before the message: the file, and the line where there is
+// one.
+template <typename Action>
+auto with_place_in_errors(const std::string& file, const Action& action) {
+    try {
+        return action();
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::cancelled) throw;
+        std::string place = file;
+        const Elements& elements = error.elements();
+        if (elements.kind == ElementKind::line && !elements.ids.empty()) {
+            place += (file.empty() ? "line " : ":") + std::to_string(elements.ids[0] + 1LL);
+        }
+        if (!place.empty()) place += ": ";
+        throw Error(error.code(), place + error.message(), elements);
+    }
+}
+
+std::vector<std::string> extensions() {
+    std::vector<std::string> list;
+    for (const Format& format : kFormats) list.emplace_back(format.extension);
+    return list;
+}
+
+}  // namespace
+
+Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options,
+               const Context& context) {
+    require_file(path);
+    const std::string name = display_name(path);
+    const Format& format = with_place_in_errors(
+        name, [&]() -> const Format& { return find_format(display_name(path.extension())); });
+    const FileContent file = read_file(path, context);
+    return with_place_in_errors(name, [&] { return decode(file.bytes, format, options, context); });
+}
+
+void save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOptions& options,
+               const Context& context) {
+    const std::string bytes = with_place_in_errors(display_name(path), [&] {
+        return encode(mesh, find_format(display_name(path.extension())), options, context);
+    });
+    write_file_atomically(path, bytes, context);
+}
+
+Mesh decode_mesh(std::string_view bytes, std::string_view extension, const LoadOptions& options,
+                 const Context& context) {
+    const Format& format = find_format(extension);
+    return with_place_in_errors("", [&] { return decode(bytes, format, options, context); });
+}
+
+std::string encode_mesh(const Mesh& mesh, std::string_view extension, const SaveOptions& options,
+                        const Context& context) {
+    return encode(mesh, find_format(extension), options, context);
+}
+
+const std::vector<std::string>& readable_extensions() {
+    static const std::vector<std::string> list = extensions();
+    return list;
+}
+
+const std::vector<std::string>& writable_extensions() {
+    static const std::vector<std::string> list = extensions();
+    return list;
+}
+
+}  // namespace lissom

@@ -1,0 +1,82 @@
+/// Mesh files: loading and saving by extension. OBJ, PLY, OFF and STL; each format has a file of
+/// its own, which says what it reads and what it writes.
+///
+/// Vertices stay as in the file (only STL, which has none, is welded); a mesh that is not an
+/// oriented 2-manifold is refused by the errors of Topology. What a format cannot hold is named in
+/// a warning of the Context's log when a mesh is saved.
+///
+/// All functions may throw, besides what they list: cancelled, memory_limit. Messages begin with
+/// the file's path, and with the line where there is one: "cup.obj:12: ...". The ids of an error
+/// with ElementKind::line are 0-based as all ids.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// The axis that points up in a file. In the kernel it is y.
+enum class UpAxis {
+    none,  ///< as it is: nothing is turned
+    y,     ///< the kernel's own convention: nothing is turned
+    z,     ///< turned about x, so that the file's z is the kernel's y and its y the kernel's -z
+};
+
+enum class Endianness { little, big };
+
+/// How the coordinates of a file become those of the mesh. Normals are turned but not scaled.
+struct LoadOptions {
+    /// The file's up axis.
+    UpAxis up = UpAxis::none;
+    /// Length of the file's unit in the mesh's unit: positions are multiplied by it. Positive,
+    /// finite.
+    double unit = 1.0;
+};
+
+/// The inverse of LoadOptions, and how the file is encoded.
+struct SaveOptions {
+    /// The up axis the file shall have.
+    UpAxis up = UpAxis::none;
+    /// Length of the file's unit in the mesh's unit: positions are divided by it. Positive, finite.
+    double unit = 1.0;
+    /// Binary or text, for formats that have both (PLY, STL). OBJ and OFF are written as text.
+    bool binary = true;
+    /// Byte order of binary PLY.
+    Endianness endianness = Endianness::little;
+};
+
+/// Reads a mesh; the extension, in any case, names the format. A byte order mark is passed over.
+/// Errors: unknown_format; file_not_found, file_is_directory, file_empty, file_unreadable;
+/// file_syntax (also where the content is of another format than the extension says),
+/// file_truncated, file_too_large, face_index, unsupported; not_finite; those of Topology::create;
+/// invalid_argument for a bad unit.
+Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options = {},
+               const Context& context = {});
+
+/// Writes a mesh, whole or not at all; the extension, in any case, names the format.
+/// Errors: unknown_format; file_write_failed, file_is_directory; not_finite where positions exceed
+/// the format's number range; invalid_argument for a bad unit or attributes that do not fit the
+/// mesh.
+void save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOptions& options = {},
+               const Context& context = {});
+
+/// As `load_mesh`, from the content of a file in memory. `extension` as in `readable_extensions`.
+Mesh decode_mesh(std::string_view bytes, std::string_view extension,
+                 const LoadOptions& options = {}, const Context& context = {});
+
+/// As `save_mesh`, into memory. `extension` as in `writable_extensions`.
+std::string encode_mesh(const Mesh& mesh, std::string_view extension,
+                        const SaveOptions& options = {}, const Context& context = {});
+
+/// Extensions that `load_mesh` knows: lower case, without the dot.
+const std::vector<std::string>& readable_extensions();
+
+/// Extensions that `save_mesh` knows: lower case, without the dot.
+const std::vector<std::string>& writable_extensions();
+
+}  // namespace lissom

@@ -1,0 +1,43 @@
+/// Errors of readers of mesh files, and what they share to make them; private to kernel/io. A
+/// reader does not know the path of its file: it is put before the message where the file was
+/// opened.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "kernel/core/error.h"
+
+namespace lissom {
+
+/// Where in a file an error is: a line of a text, or an element of a binary file.
+struct Place {
+    ElementKind kind = ElementKind::none;
+    std::size_t id = 0;
+};
+
+/// Throws an error at a place.
+[[noreturn]] void refuse(ErrorCode code, const std::string& message, Place place = {});
+
+/// What is being read and how much of it was found, for a file that ends too early. `elements` is a
+/// plural; `announced` is 0 where the file does not say how many there are.
+struct Tally {
+    std::string_view elements = "statements";
+    std::size_t found = 0;
+    std::size_t announced = 0;
+};
+
+/// Throws file_truncated with the numbers of the tally.
+[[noreturn]] void refuse_truncated(const Tally& tally);
+
+/// A number of elements announced by a header, once it is known that a file of `file_bytes` bytes
+/// may hold as many. Errors: file_syntax for a negative count; file_too_large.
+std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::string_view elements,
+                          Place place);
+
+/// The beginning of `text` in quotes, with characters that cannot be printed replaced.
+std::string in_quotes(std::string_view text);
+
+}  // namespace lissom

@@ -1,0 +1,41 @@
+/// SavedParts: keeps account of what a writer takes of a mesh, so that the rest can be named;
+/// private to kernel/io.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// A mesh as a writer sees it: what it takes counts as saved, and what is left is lost.
+class SavedParts {
+  public:
+    /// Errors: invalid_argument where an attribute or label does not fit the mesh.
+    explicit SavedParts(const Mesh& mesh);
+
+    const Mesh& mesh() const { return mesh_; }
+
+    /// The attribute called `name` where it is in one of `domains` and has one of `widths`, else
+    /// null.
+    const Attribute* take(std::string_view name, std::initializer_list<Domain> domains,
+                          std::initializer_list<Index> widths);
+    void take(const Attribute& attribute) { taken_attributes_.insert(attribute.name); }
+    /// The labels of a kind, or null.
+    const FaceLabels* take_labels(std::string_view kind);
+    const std::vector<std::string>& take_material_libraries();
+
+    /// Logs a warning that names what was not taken, if there is any.
+    void log_losses(std::string_view format, const Context& context) const;
+
+  private:
+    const Mesh& mesh_;
+    std::set<std::string, std::less<>> taken_attributes_, taken_labels_;
+    bool libraries_taken_ = false;
+};
+
+}  // namespace lissom

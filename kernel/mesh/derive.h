@@ -1,0 +1,69 @@
+/// The one way to make a mesh from another: an ElementMap says for every new vertex, corner and
+/// face which old ones it comes from, and everything that the old mesh holds follows.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// For each new element, the old elements it comes from, with weights that sum to 1. An element
+/// with no sources comes from nowhere: its attributes are NaN, it has no labels and is in no
+/// region.
+class ElementMap {
+  public:
+    struct Source {
+        Index element = kNoIndex;
+        double weight = 1.0;
+    };
+
+    ElementMap() = default;
+    /// Element i comes from old element i.
+    static ElementMap identity(Index count);
+    /// Element i comes from old element sources[i]; kNoIndex for nowhere.
+    static ElementMap copies(std::span<const Index> sources);
+
+    void add_new();
+    void add_copy(Index source);
+    /// The mean of `sources`.
+    void add_mean(std::span<const Index> sources);
+    /// Weights are scaled to sum 1.
+    void add_blend(std::span<const Source> sources);
+
+    Index size() const { return static_cast<Index>(begin_.size()) - 1; }
+    std::span<const Source> operator[](Index element) const {
+        return {sources_.data() + begin_[element], sources_.data() + begin_[element + 1]};
+    }
+    /// The heaviest source of `element`, the first of equals, or kNoIndex.
+    Index main_source(Index element) const;
+
+  private:
+    std::vector<std::size_t> begin_{0};
+    std::vector<Source> sources_;
+};
+
+/// Where the elements of a new mesh come from. Corners are numbered as in Topology::first_corner.
+struct MeshMap {
+    ElementMap vertices, corners, faces;
+};
+
+/// Blends positions of `source` as `vertices` says. An element from nowhere gets the origin.
+std::vector<Vec3> blend_positions(const Mesh& source, const ElementMap& vertices);
+
+/// The mesh with the given positions and faces that carries what `source` holds:
+/// - attributes are blended; a source without a value (NaN) does not count. "normal" attributes are
+///   made unit again; integer attributes other than "color", "normal" and "uv" take the value of
+///   the heaviest source;
+/// - a face gets the labels of its heaviest source;
+/// - a vertex is in a named region when all of its sources are;
+/// - material libraries are kept.
+///
+/// Errors: invalid_argument where a map's size differs from the new element count, or as
+/// require_complete_attributes; as Mesh::Mesh.
+Mesh derive(const Mesh& source, std::vector<Vec3> positions, FaceList faces, const MeshMap& map,
+            const Context& context = {});
+
+}  // namespace lissom

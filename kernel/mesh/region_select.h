@@ -1,0 +1,56 @@
+/// Constructors of regions from geometry, labels and attributes. Each selects vertices; none is an
+/// error when it selects nothing. All from a list of vertices, and none, are in region.h.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+/// Vertices within `radius` of `center`, in space.
+/// Errors: invalid_argument unless the radius is finite and not negative; not_finite for the
+/// center.
+Region select_sphere(const Mesh& mesh, const Vec3& center, double radius);
+
+/// Vertices inside an axis-aligned box, its sides included. Sides may be infinite.
+/// Errors: invalid_argument where min exceeds max or is NaN.
+Region select_box(const Mesh& mesh, const Box& box);
+
+/// Vertices on the side of a plane that `normal` points to, the plane included.
+/// Errors: invalid_argument for a normal without length; not_finite.
+Region select_plane(const Mesh& mesh, const Vec3& point, const Vec3& normal);
+
+/// Vertices within the distance `radius` over the surface of any of the vertices `from`, by the
+/// heat method.
+/// Errors: invalid_argument without sources or for a radius that is negative or NaN; out_of_range
+/// naming the vertices; as HeatDistances.
+Region select_geodesic(const Mesh& mesh, std::span<const Index> from, double radius,
+                       const Context& context = {});
+
+/// Vertices of the faces that carry `label` of the given kind ("group", "material", "object", ...).
+/// Errors: invalid_argument naming the labels there are.
+Region select_label(const Mesh& mesh, std::string_view kind, std::string_view label);
+Region select_group(const Mesh& mesh, std::string_view group);
+Region select_material(const Mesh& mesh, std::string_view material);
+
+/// Vertices of one connected component, by number (ordered by smallest vertex).
+/// Errors: out_of_range.
+Region select_component(const Mesh& mesh, Index number);
+/// Vertices of the component that contains `vertex`. Errors: out_of_range.
+Region select_component_of(const Mesh& mesh, Index vertex);
+
+/// Vertices where a value of the attribute `name` lies in [min, max]. Of a wide attribute the first
+/// number counts. A corner or face attribute selects the vertices of the corners or faces in range.
+/// Errors: invalid_argument for an unknown name (naming those there are) or where min exceeds max.
+Region select_attribute(const Mesh& mesh, std::string_view name, double min, double max);
+
+/// Vertices for which `predicate(vertex, position)` holds. It is called in ascending order, once
+/// each.
+Region select_where(const Mesh& mesh,
+                    const std::function<bool(Index vertex, const Vec3& position)>& predicate);
+
+}  // namespace lissom

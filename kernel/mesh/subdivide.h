@@ -1,0 +1,32 @@
+/// Subdivision of a mesh.
+#pragma once
+
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+enum class SubdivisionScheme {
+    /// Splits edges in the middle and keeps the shape: a triangle becomes four, a polygon one quad
+    /// a corner. A polygon that cannot be seen whole from its mean point is triangulated first.
+    midpoint,
+    /// Loop 1987, with cubic B-splines as boundaries (Hoppe et al. 1994). Polygons are triangulated
+    /// first.
+    loop,
+    /// Catmull and Clark 1978, with cubic B-splines as boundaries. Every face becomes quads.
+    catmull_clark,
+};
+
+struct SubdivideOptions {
+    /// How often each face is split; 0 copies the mesh.
+    Index levels = 1;
+    SubdivisionScheme scheme = SubdivisionScheme::midpoint;
+};
+
+/// The subdivided mesh. Old vertices keep their ids; then follow those on edges, in the order of
+/// the edges, and those inside faces. Attributes are interpolated linearly, corner attributes
+/// within each face, so that seams stay; the faces made from one face follow each other.
+/// Errors: invalid_argument for negative levels; out_of_range where the result would have more
+/// elements than Index can number; memory_limit; cancelled.
+Mesh subdivide(const Mesh& mesh, const SubdivideOptions& options = {}, const Context& context = {});
+
+}  // namespace lissom

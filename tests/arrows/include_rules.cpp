@@ -1,0 +1,181 @@
+#include "tests/arrows/include_rules.h"
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+namespace lissom::test {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+/// What one file, or the files of one folder, may include. The longest matching rule counts.
+struct Rule {
+    std::string_view folder;
+    Names project;
+    Names libraries;
+};
+
+const std::vector<Rule>& rules() {
+    static const std::vector<Rule> table = {
+        {"kernel/core", {"kernel/core"}, {"Eigen", "TBB"}},
+        {"kernel/solve", {"kernel/core", "kernel/solve"}, {"Eigen", "CHOLMOD", "OpenMP"}},
+        {"kernel/mesh", {"kernel/core", "kernel/solve", "kernel/mesh"}, {"Eigen", "OpenMesh"}},
+        {"kernel/deform",
+         {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform"},
+         {"Eigen"}},
+        {"kernel/merge",
+         {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform", "kernel/merge"},
+         {"Eigen"}},
+        {"kernel/hair", {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/hair"}, {"Eigen"}},
+        {"kernel/sketch",
+         {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/sketch"},
+         {"Eigen"}},
+        {"kernel/scene",
+         {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform", "kernel/merge",
+          "kernel/hair", "kernel/sketch", "kernel/scene"},
+         {"Eigen"}},
+        {"kernel/io",
+         {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform", "kernel/merge",
+          "kernel/hair", "kernel/sketch", "kernel/io"},
+         {"Eigen", "platform"}},
+        {"bindings/c", {"kernel", "bindings/c"}, {"Eigen"}},
+        {"bindings/lua", {"kernel", "bindings/lua"}, {"Eigen", "Lua"}},
+        {"bindings/lua/reference_main.cpp", {"bindings/lua"}, {"printing"}},
+        {"bindings/cli",
+         {"kernel", "bindings"},
+         {"Eigen", "Lua", "CLI11", "JSON", "readline", "printing", "platform"}},
+        {"viewer",
+         {"kernel", "bindings", "viewer"},
+         {"Eigen", "Lua", "OpenGL", "CLI11", "JSON", "stb", "printing", "platform"}},
+        {"examples", {"kernel"}, {"printing"}},
+        {"tests/bench",
+         {"kernel", "bindings", "tests"},
+         {"Eigen", "CGAL", "JSON", "printing", "platform"}},
+        {"tests",
+         {"kernel", "bindings", "viewer", "tests"},
+         {"Eigen", "Lua", "CLI11", "JSON", "stb", "OpenGL", "doctest", "printing", "platform"}},
+    };
+    return table;
+}
+
+bool inside(std::string_view path, std::string_view folder) {
+    return path.size() > folder.size() && path.starts_with(folder) && path[folder.size()] == '/';
+}
+
+const Rule* rule_for(std::string_view path) {
+    const Rule* best = nullptr;
+    for (const Rule& rule : rules())
+        if ((path == rule.folder || inside(path, rule.folder)) &&
+            (!best || rule.folder.size() > best->folder.size()))
+            best = &rule;
+    return best;
+}
+
+/// The library that an angled include belongs to; empty for the C++ standard library. Headers that
+/// nobody claims are those of the platform.
+std::string_view library_of(std::string_view header) {
+    struct Prefix {
+        std::string_view prefix, library;
+    };
+    static constexpr Prefix kPrefixes[] = {
+        {"Eigen/", "Eigen"},
+        {"unsupported/Eigen/", "Eigen"},
+        {"OpenMesh/", "OpenMesh"},
+        {"cholmod", "CHOLMOD"},
+        {"suitesparse/", "CHOLMOD"},
+        {"SuiteSparse", "CHOLMOD"},
+        {"tbb/", "TBB"},
+        {"oneapi/", "TBB"},
+        {"lua", "Lua"},
+        {"lauxlib.h", "Lua"},
+        {"epoxy/", "OpenGL"},
+        {"GL/", "OpenGL"},
+        {"EGL/", "OpenGL"},
+        {"KHR/", "OpenGL"},
+        {"GLFW/", "GLFW"},
+        {"imgui", "ImGui"},
+        {"CLI/", "CLI11"},
+        {"nlohmann/", "JSON"},
+        {"stb", "stb"},
+        {"doctest/", "doctest"},
+        {"readline/", "readline"},
+        {"omp.h", "OpenMP"},
+        {"CGAL/", "CGAL"},
+        {"iostream", "printing"},
+        {"print", "printing"},
+        {"syncstream", "printing"},
+    };
+    for (const auto& [prefix, library] : kPrefixes)
+        if (header.starts_with(prefix)) return library;
+    const bool standard = header.find_first_of("/.") == std::string_view::npos;
+    return standard ? std::string_view{} : "platform";
+}
+
+struct Include {
+    bool quoted = false;
+    std::string header;
+};
+
+std::vector<Include> includes_of(std::string_view source) {
+    static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+    std::vector<Include> found;
+    std::istringstream lines{std::string(source)};
+    for (std::string line; std::getline(lines, line);) {
+        std::smatch match;
+        if (std::regex_search(line, match, pattern))
+            found.push_back({match[1].str() == "\"", match[2].str()});
+    }
+    return found;
+}
+
+bool project_allows(const Rule& rule, std::string_view header) {
+    return std::any_of(rule.project.begin(), rule.project.end(),
+                       [&](std::string_view folder) { return inside(header, folder); });
+}
+
+bool libraries_allow(const Rule& rule, std::string_view library) {
+    return library.empty() ||
+           std::find(rule.libraries.begin(), rule.libraries.end(), library) != rule.libraries.end();
+}
+
+void check_opening(std::string_view source, std::vector<std::string>& messages) {
+    if (!source.starts_with("///")) messages.push_back("does not open with a docstring (///)");
+    const auto pragma = source.find("#pragma once\n");
+    if (pragma == std::string_view::npos || pragma > source.find("\n#include"))
+        messages.push_back("has no #pragma once before its first #include");
+}
+
+}  // namespace
+
+std::vector<std::string> include_violations(std::string_view path, std::string_view source) {
+    std::vector<std::string> messages;
+    const Rule* rule = rule_for(path);
+    const bool header_file = path.ends_with(".h");
+    if (!rule) return {std::string(path) + ": lies in a folder that has no rule"};
+    for (const Include& include : includes_of(source)) {
+        if (include.quoted) {
+            if (!project_allows(*rule, include.header))
+                messages.push_back("may not include \"" + include.header + "\"");
+            continue;
+        }
+        const std::string_view library = library_of(include.header);
+        const bool installed = header_file && inside(path, "kernel");
+        if (!libraries_allow(*rule, library) ||
+            (installed && !library.empty() && library != "Eigen"))
+            messages.push_back("may not include <" + include.header + "> (" + std::string(library) +
+                               ")");
+    }
+    if (header_file) check_opening(source, messages);
+    for (std::string& message : messages) message = std::string(path) + ": " + message;
+    return messages;
+}
+
+std::vector<std::string> quoted_includes(std::string_view source) {
+    std::vector<std::string> headers;
+    for (const Include& include : includes_of(source))
+        if (include.quoted) headers.push_back(include.header);
+    return headers;
+}
+
+}  // namespace lissom::test

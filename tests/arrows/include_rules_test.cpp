@@ -1,0 +1,105 @@
+#include "tests/arrows/include_rules.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using lissom::test::include_violations;
+using lissom::test::quoted_includes;
+
+constexpr const char* kOpening = "/// What it is.\n#pragma once\n\n";
+
+fs::path root() {
+    const char* path = std::getenv("LISSOM_SOURCE_DIR");
+    REQUIRE_MESSAGE(path, "LISSOM_SOURCE_DIR must name the root of the source tree");
+    return path;
+}
+
+/// Path from the root and text of every C and C++ file of the project.
+std::vector<std::pair<std::string, std::string>> source_files() {
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const char* folder : {"kernel", "bindings", "viewer", "examples", "tests"}) {
+        if (!fs::exists(root() / folder)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(root() / folder)) {
+            const std::string extension = entry.path().extension().string();
+            if (extension != ".h" && extension != ".cpp" && extension != ".c") continue;
+            std::ifstream stream(entry.path(), std::ios::binary);
+            files.emplace_back(entry.path().lexically_relative(root()).generic_string(),
+                               std::string(std::istreambuf_iterator<char>(stream), {}));
+        }
+    }
+    return files;
+}
+
+std::size_t count(const char* path, const std::string& source) {
+    return include_violations(path, source).size();
+}
+
+}  // namespace
+
+TEST_CASE("every file of the project includes only what its folder may know") {
+    const auto files = source_files();
+    CHECK(files.size() > 20);
+    for (const auto& [path, source] : files)
+        for (const std::string& message : include_violations(path, source)) FAIL_CHECK(message);
+}
+
+TEST_CASE("every header included in quotes exists below the root") {
+    for (const auto& file : source_files())
+        for (const std::string& header : quoted_includes(file.second))
+            CHECK_MESSAGE(fs::exists(root() / header), file.first << " includes " << header);
+}
+
+TEST_CASE("an arrow that runs back is found") {
+    CHECK(count("kernel/core/a.cpp", "#include \"kernel/mesh/mesh.h\"\n") == 1);
+    CHECK(count("kernel/solve/a.cpp", "#include \"kernel/mesh/mesh.h\"\n") == 1);
+    CHECK(count("kernel/mesh/a.cpp", "#include \"kernel/deform/deformer.h\"\n") == 1);
+    CHECK(count("kernel/deform/a.cpp", "#include \"kernel/io/load.h\"\n") == 1);
+    CHECK(count("kernel/io/a.cpp", "#include \"bindings/lua/module.h\"\n") == 1);
+    CHECK(count("bindings/lua/a.cpp", "#include \"viewer/renderer.h\"\n") == 1);
+    CHECK(count("kernel/core/a.cpp", "  #  include \"viewer/renderer.h\"\n") == 1);
+    CHECK(count("kernel/core/a.cpp", "#include \"kernel/corex/a.h\"\n") == 1);
+    CHECK(count("kernel/core/a.cpp", "#include \"context.h\"\n") == 1);
+    CHECK(count("kernel/core/a.cpp", "#include \"../core/context.h\"\n") == 1);
+}
+
+TEST_CASE("a library outside the folders that own it is found") {
+    CHECK(count("kernel/deform/a.cpp", "#include <OpenMesh/Core/Mesh/Handles.hh>\n") == 1);
+    CHECK(count("kernel/mesh/a.cpp", "#include <cholmod.h>\n") == 1);
+    CHECK(count("kernel/mesh/a.cpp", "#include <tbb/parallel_for.h>\n") == 1);
+    CHECK(count("kernel/deform/a.cpp", "#include <iostream>\n") == 1);
+    CHECK(count("kernel/deform/a.cpp", "#include <lua.h>\n") == 1);
+    CHECK(count("kernel/io/a.cpp", "#include <epoxy/gl.h>\n") == 1);
+    CHECK(count("kernel/deform/a.cpp", "#include <unistd.h>\n") == 1);
+    CHECK(count("tests/unit/mesh/a.cpp", "#include <OpenMesh/Core/Mesh/Handles.hh>\n") == 1);
+}
+
+TEST_CASE("a kernel header shows no library but Eigen") {
+    CHECK(count("kernel/mesh/a.cpp", "#include <OpenMesh/Core/Mesh/Handles.hh>\n") == 0);
+    CHECK(count("kernel/mesh/a.h", kOpening + std::string("#include <Eigen/Core>\n")) == 0);
+    CHECK(count("kernel/mesh/a.h",
+                kOpening + std::string("#include <OpenMesh/Core/Mesh/Handles.hh>\n")) == 1);
+}
+
+TEST_CASE("a header without its opening is found") {
+    CHECK(count("kernel/mesh/a.h", kOpening) == 0);
+    CHECK(count("kernel/mesh/a.h", "#pragma once\n") == 1);
+    CHECK(count("kernel/mesh/a.h", "/// What it is.\n#include <vector>\n") == 1);
+    CHECK(count("kernel/mesh/a.h", "/// What it is.\n#include <vector>\n#pragma once\n") == 1);
+}
+
+TEST_CASE("what is allowed is left alone") {
+    CHECK(count("kernel/io/a.cpp", "#include \"kernel/mesh/mesh.h\"\n#include <vector>\n") == 0);
+    CHECK(count("viewer/a.cpp", "#include \"bindings/lua/module.h\"\n#include <lua.hpp>\n") == 0);
+    CHECK(count("kernel/core/a.cpp", "/// #include \"viewer/renderer.h\"\n") == 0);
+    CHECK(count("elsewhere/a.cpp", "") == 1);
+}

@@ -1,0 +1,64 @@
+/// Fuzzes the mesh readers: any bytes either make a mesh or an Error, and a mesh that was read can
+/// be written and read again. Run it with folders of sample files; the first collects what it
+/// finds.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "kernel/core/context.h"
+#include "kernel/core/error.h"
+#include "kernel/io/mesh_file.h"
+
+namespace {
+
+using namespace lissom;
+
+/// A limit that no honest file of the size that is fuzzed comes near.
+const Context& context() {
+    static const Context limited = [] {
+        ContextOptions options;
+        options.memory_limit = std::size_t{1} << 28;
+        return Context(options);
+    }();
+    return limited;
+}
+
+std::optional<Mesh> decoded(std::string_view bytes, std::string_view extension) {
+    try {
+        return decode_mesh(bytes, extension, {}, context());
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::internal) std::abort();
+        return std::nullopt;
+    }
+}
+
+/// Writing may refuse a mesh (coordinates beyond a format's range), but what it wrote must be
+/// readable with the same counts.
+void check_round_trip(const Mesh& mesh, std::string_view extension) {
+    std::string bytes;
+    try {
+        bytes = encode_mesh(mesh, extension, {}, context());
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::internal) std::abort();
+        return;
+    }
+    const std::optional<Mesh> again = decoded(bytes, extension);
+    if (!again || again->vertex_count() != mesh.vertex_count() ||
+        again->face_count() != mesh.face_count())
+        std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+    for (const std::string_view extension : {"obj", "ply", "off", "stl"}) {
+        const std::optional<Mesh> mesh = decoded(bytes, extension);
+        // STL keeps no vertices: welding may merge them.
+        if (mesh && extension != "stl") check_round_trip(*mesh, extension);
+    }
+    return 0;
+}

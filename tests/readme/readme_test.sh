@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# Runs what README.md shows: the commands of its sh blocks, its Lua scripts, its C++ programs against an
+# installed copy of the library; and checks that what it links to exists. Ends with the count.
+# Usage: readme_test.sh ROOT [COMMAND...]   A COMMAND that has been run already is not run again.
+set -uo pipefail
+
+root=$(cd "$1" && pwd)
+shift
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+passed=0 failed=0
+
+check() { # WHAT COMMAND...
+    local what=$1
+    shift
+    printf '== %s\n' "$what"
+    if "$@"; then
+        passed=$((passed + 1))
+    else
+        printf 'FAILED: %s\n' "$what"
+        failed=$((failed + 1))
+    fi
+}
+
+# Each fenced block becomes $work/blocks/NUMBER.LANGUAGE.
+extract_blocks() {
+    mkdir "$work/blocks"
+    awk -v folder="$work/blocks" '
+        /^```/ && file { close(file); file = ""; next }
+        /^```[a-z]/ { file = sprintf("%s/%02d.%s", folder, ++count, substr($0, 4)); printf "" >file; next }
+        file { print >file }' "$root/README.md"
+}
+
+run_command() { (cd "$root" && bash -euo pipefail -c "$1") </dev/null; }
+
+run_script() {
+    mkdir -p "$work/lua"
+    (cd "$work/lua" && "$root/dev" lissom run "$1")
+}
+
+run_program() {
+    local name prefix=$work/prefix
+    name=$(basename "$1" .cpp)
+    if [ ! -d "$prefix" ]; then
+        "$root/dev" build release && cmake --install "$root/build/release" --prefix "$prefix" >/dev/null
+    fi &&
+        cmake -S "$root/tests/embed/consumer" -B "$work/$name" -G Ninja -DHELLO="$1" \
+            -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null &&
+        cmake --build "$work/$name" && (cd "$work" && "$work/$name/consumer")
+}
+
+already_run() { # LINE COMMAND...
+    local line=$1 command
+    shift
+    for command in "$@"; do [ "$command" != "$line" ] || return 0; done
+    return 1
+}
+
+extract_blocks
+check "README.md has commands, a script and a program" \
+    bash -c "ls '$work'/blocks/*.sh '$work'/blocks/*.lua '$work'/blocks/*.cpp"
+for block in "$work"/blocks/*; do
+    case $block in
+    *.sh)
+        while read -r line; do
+            line=$(printf '%s' "${line%%#*}" | sed 's/ *$//')
+            [ -n "$line" ] || continue
+            already_run "$line" "$@" || check "$line" run_command "$line"
+        done <"$block"
+        ;;
+    *.lua) check "Lua block $(basename "$block")" run_script "$block" ;;
+    *.cpp) check "C++ block $(basename "$block")" run_program "$block" ;;
+    esac
+done
+
+while read -r link; do
+    check "link to $link" test -e "$root/$link"
+done < <(grep -oE '\]\([^)#:]+\)' "$root/README.md" | sed 's/^](//; s/)$//' | sort -u)
+
+printf '%d passed, %d failed\n' $passed $failed
+[ $failed -eq 0 ]

@@ -1,0 +1,158 @@
+local lissom = require "lissom"
+local expect = require "expect"
+
+local function bar()
+    local mesh = lissom.shapes.bar{ across = 2, along = 16 }
+    local edit = lissom.deform(mesh)
+    return mesh, edit, edit:handle(mesh:region("bottom")), edit:handle(mesh:region("top"))
+end
+
+-- Nothing moves without a reason, to the bit.
+local mesh, edit, _, top = bar()
+local rest = mesh:hash()
+expect.truthy(rawequal(edit:solve(), mesh))
+expect.equal(mesh:hash(), rest)
+expect.truthy(rawequal(edit:preview(), mesh))
+expect.equal(mesh:hash(), rest)
+
+-- Handles are exact, the rest follows; there and back is rest.
+top:translate(0, 1, 0)
+edit:solve()
+expect.near_list(mesh:region("top"):center(), { 0, 3.5, 0 }, 1e-12)
+expect.near_list(mesh:region("bottom"):center(), { 0, -2.5, 0 }, 1e-12)
+top:translate(0, -1, 0)
+edit:solve()
+expect.equal(mesh:hash(), rest)
+
+-- A global similarity is reproduced.
+mesh, edit = bar()
+for _, handle in ipairs(edit:handles()) do
+    handle:set{ rotate = { axis = "z", angle = 90, about = { 0, 0, 0 } }, translate = { 1, 2, 3 } }
+end
+local wanted = mesh:copy():transform{ rotate = { axis = "z", angle = 90 }, translate = { 1, 2, 3 } }
+edit:solve()
+local a, b = mesh:positions(), wanted:positions()
+for i = 1, #a do expect.near(a[i], b[i], 1e-9) end
+
+-- Moves accumulate about the handle's present center; set is absolute; degrees.
+mesh, edit, _, top = bar()
+top:translate(1, 0, 0):rotate{ axis = "y", angle = 90 }
+expect.near_list(top:center(), { 1, 2.5, 0 })
+top:rotate{ axis = "z", angle = 180, about = { 0, 2.5, 0 } }
+expect.near_list(top:center(), { -1, 2.5, 0 })
+top:scale(2)
+expect.near_list(top:center(), { -1, 2.5, 0 })
+top:scale({ 3, 1, 1 }, { about = { 0, 0, 0 } })
+expect.near_list(top:center(), { -3, 2.5, 0 })
+top:set{ rotate = { axis = "y", angle = 90 } }
+expect.near_list(top:center(), { 0, 2.5, 0 })
+expect.near_list(top:matrix()[1], { 0, 0, 1, 0 })
+top:reset()
+expect.near_list(top:matrix()[1], { 1, 0, 0, 0 }, 0)
+top:set_matrix{ { 1, 0, 0, 5 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 } }
+expect.near_list(top:center(), { 5, 2.5, 0 })
+
+-- Reset to the bit, constraints included.
+local v = mesh:nearest(0.5, 0, 0).vertex
+edit:constrain{ vertex = v, position = { 1, 0, 0 } }
+edit:solve()
+expect.near_list({ mesh:position(v) }, { 1, 0, 0 }, 0)
+expect.truthy(rawequal(edit:reset(), edit))
+expect.equal(mesh:hash(), rest)
+edit:constrain{ vertex = v, gradient = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }
+edit:constrain{ vertex = v }
+
+-- Handles: equality, removal, closing.
+expect.truthy(edit:handles()[2] == top and edit:handles()[1] ~= top)
+expect.truthy(top:region() == mesh:region("top"))
+local stats = edit:stats()
+expect.equal(stats.region_vertices, #mesh)
+top:remove()
+expect.error("[handle_removed]", function() top:translate(1, 0, 0) end)
+expect.equal(#edit:handles(), 1)
+
+-- Outside the region nothing moves.
+mesh = lissom.shapes.cactus{ vertices = 2000 }
+local region = mesh:region("left_arm"):grow(2)
+edit = lissom.deform(mesh, { region = region, local_size = "scale", second = "poisson" })
+edit:handle(region:minus(region:shrink(1)))
+edit:handle(mesh:region("left_tip")):rotate{ axis = "x", angle = 40 }
+local outside = region:invert():vertices()
+local before = mesh:copy()
+edit:solve()
+for _, i in ipairs(outside) do
+    expect.near_list({ mesh:position(i) }, { before:position(i) }, 0)
+end
+expect.truthy(mesh ~= before)
+
+-- The basis gives the preview.
+mesh, edit, _, top = bar()
+top:translate(0.3, 0.2, 0.1):rotate{ axis = "x", angle = 30 }
+edit:preview()
+local basis = edit:basis()
+local i = basis.vertices[100]
+local x, y, z = basis.fixed:get(100)
+for h, handle in ipairs(basis.handles) do
+    local w = { basis.weights[h]:get(100) }
+    local m = handle:matrix()
+    for k = 1, 4 do
+        x, y, z = x + m[1][k] * w[k], y + m[2][k] * w[k], z + m[3][k] * w[k]
+    end
+end
+expect.near_list({ mesh:position(i) }, { x, y, z }, 1e-9)
+expect.error("this buffer can only be read", function() basis.fixed[1] = 0 end)
+
+-- Every value of every option works.
+for _, options in ipairs{
+    { second = "laplacian" }, { local_size = "scale" }, { coherence = 2 }, { weights = "uniform" },
+    { displacement = 0.1 }, { degenerate_threshold = 1e4 }, { fidelity = "thesis" },
+    { fidelity = "thesis", second = "blend" },
+} do
+    mesh = lissom.shapes.bar{ across = 2, along = 8 }
+    edit = lissom.deform(mesh, options)
+    edit:handle(mesh:region("bottom"))
+    edit:handle(mesh:region("top"), { gradient = false }):translate(0.5, 0, 0)
+    expect.truthy(edit:solve())
+end
+
+-- Misuse.
+mesh, edit, _, top = bar()
+expect.error("[handle_overlap]", function() edit:handle(mesh:region("top"):grow()) end)
+expect.error("[region_empty]", function() edit:handle(mesh:region{ vertices = {} }) end)
+expect.error("[singular_transform]", function() top:scale(0) end)
+expect.error("integer from 1 to 2 expected", function() lissom.deform(mesh, { coherence = 3 }) end)
+expect.error("unknown option 'method' of 'deform'", function() lissom.deform(mesh, { method = "x" }) end)
+expect.error("unknown option 'weight' of 'handle'", function()
+    edit:handle(mesh:region("top"), { weight = 1 })
+end)
+expect.error("unknown option 'face' of 'constrain'", function() edit:constrain{ vertex = 1, face = 1 } end)
+expect.error("no method 'apply'", function() edit:apply() end)
+local part = lissom.deform(mesh, { region = mesh:region("top") })
+expect.error("[handle_outside_region]", function() part:handle(mesh:region("bottom")) end)
+local other = lissom.shapes.bar{ across = 2, along = 16 }
+expect.error("[topology_mismatch]", function() edit:handle(other:region("top")) end)
+
+-- Data that cannot be solved.
+mesh = lissom.shapes.bar{ across = 2, along = 8 }
+edit = lissom.deform(mesh)
+expect.failure("unconstrained", edit:solve())
+
+-- An older topology.
+mesh, edit, _, top = bar()
+mesh:triangulate()
+expect.error("[topology_mismatch]", function() edit:solve() end)
+expect.error("[topology_mismatch]", function() top:translate(1, 0, 0) end)
+
+-- A scanned mesh, where there is one.
+local data = os.getenv("LISSOM_TEST_DATA")
+local scan = data and lissom.load(data .. "/models/armadillo_43k.obj")
+if scan then
+    local box = scan:bounds()
+    local foot = scan:region{ box = { max = { 1 / 0, box.min[2] + 0.1 * box.diagonal, 1 / 0 } } }
+    local head = scan:region{ box = { min = { -1 / 0, box.max[2] - 0.1 * box.diagonal, -1 / 0 } } }
+    edit = lissom.deform(scan)
+    edit:handle(foot)
+    edit:handle(head):rotate{ axis = "y", angle = 45 }
+    expect.truthy(edit:solve())
+    expect.truthy(scan:check().zero_area_faces)
+end

@@ -1,0 +1,54 @@
+local lissom = require "lissom"
+local expect = require "expect"
+
+local name = os.tmpname()
+local function path(extension) return name .. extension end
+
+-- What is saved is loaded: faces, groups, regions where the format can.
+local cactus = lissom.shapes.cactus{ vertices = 2000 }
+for _, extension in ipairs{ ".obj", ".ply", ".off", ".stl" } do
+    expect.truthy(rawequal(cactus:save(path(extension)), cactus))
+    local back = assert(lissom.load(path(extension)))
+    expect.near(back:area(), cactus:area(), 1e-5)
+    if extension ~= ".stl" then expect.equal(back:face_count(), cactus:face_count()) end
+    os.remove(path(extension))
+end
+cactus:save(path(".ply"), { binary = false })
+expect.equal(#lissom.load(path(".ply")), #cactus)
+os.remove(path(".ply"))
+
+-- Axes and units.
+local box = lissom.shapes.box{ size = { 1, 2, 3 } }
+box:save(path(".obj"), { up = "z", unit = 10 })
+local turned = lissom.load(path(".obj"))
+expect.near_list(turned:bounds().max, { 0.05, 0.15, 0.1 })
+expect.near_list(lissom.load(path(".obj"), { up = "z", unit = 10 }):bounds().max, { 0.5, 1, 1.5 })
+os.remove(path(".obj"))
+
+-- The world's faults.
+expect.failure("file_not_found", lissom.load(path(".obj")))
+expect.failure("unknown_format", box:save(path(".doc")))
+expect.failure("file_write_failed", box:save("/no/such/folder/x.obj"))
+local function load_text(extension, text)
+    local file = assert(io.open(path(extension), "wb"))
+    file:write(text)
+    file:close()
+    local mesh, message, code, elements = lissom.load(path(extension))
+    os.remove(path(extension))
+    return mesh, message, code, elements
+end
+expect.failure("unknown_format", load_text(".doc", "text"))
+expect.failure("file_empty", load_text(".obj", ""))
+expect.failure("file_syntax", load_text(".obj", "v 1 2 x\n"))
+expect.failure("face_index", load_text(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"))
+expect.failure("not_finite", load_text(".obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
+local _, message, code, elements = load_text(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n")
+expect.equal(code, "repeated_vertex")
+expect.near_list(elements.ids, { 1 })
+expect.truthy(message:find("face 1;", 1, true))
+
+-- Misuse.
+expect.error("bad argument #1 to 'load' (string expected, got nil)", function() lissom.load(nil) end)
+expect.error("finite number above 0 expected, got 0", function() lissom.load("a.obj", { unit = 0 }) end)
+expect.error("unknown option 'weld'", function() lissom.load("a.obj", { weld = "all" }) end)
+os.remove(name)

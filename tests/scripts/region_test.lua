@@ -1,0 +1,74 @@
+local lissom = require "lissom"
+local expect = require "expect"
+
+local grid = lissom.shapes.grid{ size = 2, segments = 20 }
+
+-- Constructors.
+expect.equal(#grid:region{ all = true }, #grid)
+expect.equal(#grid:region{ sphere = { center = { 0, 0, 0 }, radius = 0.1 } }, 5)
+expect.equal(#grid:region{ box = { min = { 0, -1, 0 }, max = { 1, 1, 1 } } }, 121)
+expect.equal(#grid:region{ box = { min = { 0.95, -1 / 0, -1 / 0 } } }, 21)
+expect.equal(#grid:region{ plane = { point = { 0.9, 0, 0 }, normal = { 1, 0, 0 } } }, 42)
+expect.equal(#grid:region{ vertices = { 1, 5, 5, 7 } }, 3)
+expect.equal(#grid:region{ component = 1 }, #grid)
+expect.equal(#grid:region{ where = function(i) return i <= 10 end }, 10)
+local disk = grid:region{ geodesic = { from = grid:nearest(0, 0, 0).vertex, radius = 0.5 } }
+expect.truthy(#disk > 60 and #disk < 100)
+expect.truthy(#grid:region{ geodesic = { from = grid:region("border"), radius = 0 } } >= 80)
+grid:add_attribute{ name = "heat" }[3] = 7
+expect.near_list(grid:region{ attribute = { "heat", 5, 1 / 0 } }:vertices(), { 3 })
+
+-- Wrong ones.
+expect.error("'region' needs a name or exactly one of the options", function() grid:region{} end)
+expect.error("got 2", function() grid:region{ all = true, component = 1 } end)
+expect.error("{name, min, max} expected", function() grid:region{ attribute = { "heat", 5 } } end)
+expect.error("true expected, got false", function() grid:region{ all = false } end)
+expect.error("vertices 442 and 443", function() grid:region{ vertices = { 442, 443 } } end)
+expect.error("did you mean 'center'?", function() grid:region{ sphere = { centre = { 0, 0, 0 } } } end)
+expect.error("[invalid_argument]", function() grid:region{ group = "hand" } end)
+expect.failure("out_of_range", grid:region("boder"))
+expect.truthy(select(2, grid:region("boder")):find("did you mean 'border'?", 1, true))
+
+-- Set operations.
+local left = grid:region{ plane = { point = { 0, 0, 0 }, normal = { -1, 0, 0 } } }
+local right = grid:region{ plane = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } }
+expect.equal(#left:union(right), #grid)
+expect.equal(#left:intersect(right), 21)
+expect.equal(#left:minus(right), #left - 21)
+expect.truthy(left:invert() == right:minus(left))
+expect.equal(#left:grow(), #left + 21)
+expect.truthy(left:shrink():grow() == left)
+expect.truthy(#left:smooth(2) > 0)
+expect.truthy(left:contains(left:vertices()[1]) and not left:contains(right:vertices()[#right]))
+expect.near_list(left:center(), { -0.5, 0, 0 })
+expect.near_list(left:bounds().max, { 0, 0, 1 })
+expect.equal(#left:faces(), 200)
+expect.equal(#left:boundaries(), 1)
+expect.truthy(rawequal(left:mesh(), grid))
+expect.truthy(tostring(left):find("231 of 441"))
+
+-- Named regions stay with the mesh and move to copies.
+grid:set_region("left", left)
+expect.truthy(grid:region("left") == left)
+expect.equal(#grid:copy():region("left"), #left)
+expect.equal(table.concat(grid:regions(), " "), "border left")
+expect.truthy(grid:remove_region("left"))
+expect.truthy(not grid:remove_region("left"))
+
+-- Regions of another mesh, or of an older topology.
+local other = lissom.shapes.grid{ size = 2, segments = 20 }
+expect.error("[topology_mismatch]", function() left:union(other:region{ all = true }) end)
+expect.error("[topology_mismatch]", function() other:set_region("left", left) end)
+grid:triangulate()
+for _, use in ipairs{ "grow", "vertices", "center", "bounds", "faces", "invert", "boundaries" } do
+    expect.error("older version of this mesh's topology", function() return left[use](left) end)
+end
+expect.error("[topology_mismatch]", function() return #left end)
+expect.equal(tostring(left), "lissom.Region (of an older topology)")
+
+-- Empty regions.
+local none = grid:region{ vertices = {} }
+expect.equal(#none, 0)
+expect.error("[region_empty]", function() none:center() end)
+expect.error("[region_empty]", function() none:bounds() end)
+expect.error("[region_empty]", function() grid:extract(none) end)

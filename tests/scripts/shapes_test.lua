@@ -1,0 +1,25 @@
+local lissom = require "lissom"
+local expect = require "expect"
+
+for shape, genus in pairs{ box = 0, bar = 0, sphere = 0, cylinder = 0, torus = 1 } do
+    local mesh = lissom.shapes[shape]()
+    expect.equal(mesh:genus(), genus)
+    expect.truthy(mesh:is_closed() and mesh:volume() > 0)
+end
+expect.near(lissom.shapes.sphere{ radius = 2, segments = 64 }:area(), 16 * math.pi, 0.1)
+expect.near(lissom.shapes.box{ size = 3 }:volume(), 27)
+expect.equal(lissom.shapes.box{ segments = 2 }:face_count(), 24)
+expect.equal(lissom.shapes.box{ segments = { 1, 2, 3 } }:face_count(), 22)
+expect.equal(lissom.shapes.grid{ segments = { 4, 5 }, size = { 2, 1 } }:face_count(), 20)
+expect.equal(lissom.shapes.sphere{ kind = "triangles" }:check().triangles, true)
+local cactus = lissom.shapes.cactus{ vertices = 3000, height = 5 }
+expect.truthy(math.abs(#cactus - 3000) <= 300)
+expect.near(cactus:bounds().max[2], 5, 0.2)
+expect.equal(#cactus:regions(), 6)
+
+expect.error("finite number above 0 expected, got -1", function() lissom.shapes.sphere{ radius = -1 } end)
+expect.error("integer of at least 3 expected, got 2", function() lissom.shapes.torus{ segments = 2 } end)
+expect.error("integer or {x, y, z} expected", function() lissom.shapes.box{ segments = { 1, 2 } } end)
+expect.error("[invalid_argument]", function() lissom.shapes.torus{ radius = 1, tube_radius = 2 } end)
+expect.error("did you mean 'cactus'?", function() lissom.shapes.catcus() end)
+expect.error("no function 'head'", function() lissom.shapes.head() end)

@@ -1,0 +1,247 @@
+#include <cmath>
+
+#include "bindings/lua/call.h"
+#include "tests/unit/bindings/lua_state.h"
+
+namespace lissom::lua {
+namespace {
+
+using test::LuaState;
+
+// Values of every Lua type and of every type of object, none of which a parameter expects
+// everywhere.
+const char* const kValues[] = {"nil",
+                               "true",
+                               "-1",
+                               "0",
+                               "1",
+                               "1.5",
+                               "1e300",
+                               "0/0",
+                               "1/0",
+                               "\"\"",
+                               "\"text\"",
+                               "{}",
+                               "{ 1, 2, 3 }",
+                               "{ 1, 2 }",
+                               "{ { 1, 2, 3 } }",
+                               "{ { 0/0, 1, 2 } }",
+                               "{ nothing = 1 }",
+                               "{ true }",
+                               "{ { true } }",
+                               "function() error('called') end",
+                               "print",
+                               "io.stdout",
+                               "coroutine.create(print)",
+                               "lissom",
+                               "lissom.shapes",
+                               "box",
+                               "box:region('top')",
+                               "closed",
+                               "box:positions()",
+                               "grid:boundaries()[1]",
+                               "edit",
+                               "handle",
+                               "params"};
+
+// Objects of each type to call methods on.
+const char* const kSetup = R"(
+box, grid, closed = lissom.shapes.box(), lissom.shapes.grid(), lissom.shapes.box()
+closed:close()
+params = lissom.params{ length = { type = "number", default = 1 } }
+function fresh()
+    box = lissom.shapes.box()
+    edit = lissom.deform(box)
+    handle = edit:handle(box:region("top"))
+    objects = { ["lissom.Mesh"] = box, ["lissom.Region"] = box:region("top"),
+        ["lissom.Path"] = grid:boundaries()[1], ["lissom.Buffer"] = box:positions(),
+        ["lissom.Deformation"] = edit, ["lissom.Handle"] = handle, ["lissom.Params"] = params }
+end
+)";
+
+std::string call_of(const Entry& entry, const std::string& arguments) {
+    if (!entry.type) return "return pcall(lissom." + entry.function->name + ", " + arguments + ")";
+    return "local object = objects['" + entry.type->name + "'] return pcall(object." +
+           entry.function->name + ", object, " + arguments + ")";
+}
+
+// An option table with one key of one nested table.
+std::string option_text(const Entry::Slot& slot, const std::string& value) {
+    const std::size_t dot = slot.path.find('.');
+    if (dot == std::string::npos) return "{ " + slot.path + " = " + value + " }";
+    return "{ " + slot.path.substr(0, dot) + " = { " + slot.path.substr(dot + 1) + " = " + value +
+           " } }";
+}
+
+TEST_CASE("no function crashes on arguments of any type") {
+    const Registry registry = kernel_registry();
+    for (const auto& entry : registry.entries()) {
+        CAPTURE(entry->function->name);
+        LuaState lua;
+        REQUIRE(lua.run(kSetup) == "");
+        for (const char* value : kValues) {
+            CAPTURE(value);
+            const std::string v = value;
+            for (const std::string& arguments :
+                 {v, v + ", " + v, v + ", " + v + ", " + v + ", " + v, "1, " + v, "'text', " + v}) {
+                CHECK(lua.run("fresh() " + call_of(*entry, arguments)) == "");
+            }
+            for (const Entry::Slot& slot : entry->slots) {
+                if (slot.parameter == nullptr) continue;
+                CHECK(lua.run("fresh() " + call_of(*entry, option_text(slot, v))) == "");
+            }
+        }
+    }
+}
+
+TEST_CASE("every method refuses another object") {
+    const Registry registry = kernel_registry();
+    LuaState lua;
+    REQUIRE(lua.run(kSetup) == "");
+    REQUIRE(lua.run("fresh()") == "");
+    for (const auto& entry : registry.entries()) {
+        if (!entry->type) continue;
+        const std::string method = "objects['" + entry->type->name + "']." + entry->function->name;
+        const std::string expected = "test:1: bad argument #1 to '" + entry->function->name +
+                                     "' (" + entry->type->name + " expected, got nil)";
+        CHECK(lua.eval("select(2, pcall(" + method + ", nil))") == expected);
+        for (const char* other : {"1", "{}", "io.stdout", "print", "closed"}) {
+            CAPTURE(other);
+            CHECK(lua.eval("pcall(" + method + ", " + other + ")") == "false");
+        }
+    }
+}
+
+// A function with a parameter of every kind, whose body says what it read.
+int describe(Call& call) {
+    lua_State* L = call.lua();
+    lua_newtable(L);
+    const auto put = [&](const char* name, int pushed) { call.set_field(name, pushed); };
+    if (call.has("flag")) put("flag", call.push(call.boolean("flag")));
+    if (call.has("count")) put("count", call.push(call.integer("count")));
+    if (call.has("length")) put("length", call.push(call.number("length")));
+    if (call.has("mode")) put("mode", call.push(call.integer("mode")));
+    if (call.has("id")) put("id", call.push(call.id("id")));
+    if (call.has("scale")) put("scale", call.push_vector(call.vector("scale")));
+    if (call.has("axis")) put("axis", call.push_vector(call.vector("axis")));
+    if (call.has("ids")) put("ids", call.push(static_cast<int>(call.ids("ids").back())));
+    if (call.has("lists")) put("lists", call.push(static_cast<int>(call.id_lists("lists").ids[3])));
+    if (call.has("points")) put("points", call.push_vector(call.points("points")[1]));
+    if (call.has("matrix")) put("matrix", call.push_affine(call.affine("matrix")));
+    if (call.has("inner.deep")) put("deep", call.push(call.number("inner.deep")));
+    if (call.has("names")) put("names", call.push(call.strings("names")[0]));
+    return 1;
+}
+
+HostOptions described_host() {
+    Library library{.name = "test"};
+    library.functions = {
+        {.name = "describe",
+         .body = describe,
+         .summary = "Reads a parameter of every kind.",
+         .options = {boolean("flag", "f").defaults(true),
+                     integer("count", "c").defaults(3).between(0, 10),
+                     number("length", "l").optional().above(0),
+                     choice("mode", {"soft", "crisp"}, "m").defaults("crisp"),
+                     id("id", "i").optional(), factors("scale", "s").optional(),
+                     axis("axis", "a").optional(), ids("ids", "ids").optional(),
+                     id_lists("lists", "lists").optional(), points("points", "points").optional(),
+                     affine("matrix", "matrix").optional(),
+                     options("inner", {number("deep", "d")}, "inner").optional(),
+                     strings("names", "names").optional()},
+         .example = "lissom.describe()"}};
+    auto registry = std::make_shared<Registry>(kernel_registry());
+    registry->add(std::move(library));
+    HostOptions options;
+    options.registry = registry;
+    return options;
+}
+
+TEST_CASE("values are read and defaults filled in") {
+    LuaState lua(described_host());
+    CHECK(lua.eval("lissom.describe().count") == "3");
+    CHECK(lua.eval("lissom.describe().mode") == "1");
+    CHECK(lua.eval("lissom.describe().flag") == "true");
+    CHECK(lua.eval("lissom.describe().length") == "nil");
+    CHECK(lua.eval("lissom.describe{ mode = 'soft' }.mode") == "0");
+    CHECK(lua.eval("lissom.describe{ count = 4.0 }.count") == "4");
+    CHECK(lua.eval("lissom.describe{ id = 7 }.id") == "6");
+    CHECK(lua.eval("lissom.describe{ scale = 2 }.scale[3]") == "2.0");
+    CHECK(lua.eval("lissom.describe{ scale = { 1, 2, 3 } }.scale[3]") == "3.0");
+    CHECK(lua.eval("lissom.describe{ axis = 'y' }.axis[2]") == "1.0");
+    CHECK(lua.eval("lissom.describe{ ids = { 4, 5 } }.ids") == "4");
+    CHECK(lua.eval("lissom.describe{ lists = { { 1, 2, 3 }, { 8 } } }.lists") == "7");
+    CHECK(lua.eval("lissom.describe{ points = { { 1, 2, 3 }, { 4, 5, 6 } } }.points[2]") == "5.0");
+    CHECK(lua.eval("lissom.describe{ inner = { deep = 2 } }.deep") == "2.0");
+    CHECK(lua.eval("lissom.describe{ names = { 'a', 'b' } }.names") == "a");
+    CHECK(lua.eval("lissom.describe{ matrix = { { 1, 0, 0, 5 }, { 0, 1, 0, 6 }, { 0, 0, 1, 7 }, "
+                   "{ 0, 0, 0, 1 } } }.matrix[2][4]") == "6.0");
+}
+
+TEST_CASE("what does not fit is named with what is expected") {
+    LuaState lua(described_host());
+    const auto refuses = [&](const std::string& options, const std::string& message) {
+        CHECK(lua.run("lissom.describe{ " + options + " }") == "test:1: " + message);
+    };
+    refuses("count = 11",
+            "bad option 'count' of 'describe' (integer from 0 to 10 expected, got 11)");
+    refuses("count = '3'",
+            "bad option 'count' of 'describe' (integer from 0 to 10 expected, got \"3\")");
+    refuses("length = 0",
+            "bad option 'length' of 'describe' (finite number above 0 expected, got 0)");
+    refuses("length = 1/0",
+            "bad option 'length' of 'describe' (finite number above 0 expected, got inf)");
+    refuses("mode = 'sofd'",
+            "bad option 'mode' of 'describe' (\"soft\" or \"crisp\" expected, got "
+            "\"sofd\", did you mean \"soft\"?)");
+    refuses("id = 0", "bad option 'id' of 'describe' (id from 1 expected, got 0)");
+    refuses("ids = { 1, 'a' }",
+            "bad option 'ids' of 'describe' (list of ids expected at [2], got \"a\")");
+    refuses("axis = { 0, 0, 0 }",
+            "bad option 'axis' of 'describe' (\"x\", \"y\", \"z\" or {x, y, z} "
+            "with a length expected, got table)");
+    refuses("inner = { }", "missing option 'inner.deep' of 'describe' (finite number)");
+    refuses("inner = { depe = 1 }",
+            "unknown option 'inner.depe' of 'describe', did you mean 'deep'?");
+    refuses("cuont = 1", "unknown option 'cuont' of 'describe', did you mean 'count'?");
+    refuses("5",
+            "unknown option '1' of 'describe'; there is: flag, count, length, mode, id, scale, "
+            "axis, ids, lists, points, matrix, inner, names");
+    refuses(
+        "matrix = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 1, 1 } }",
+        "bad option 'matrix' of 'describe' (4 rows of 4 numbers, the last 0, 0, 0, 1 expected, got "
+        "table)");
+}
+
+TEST_CASE("arguments by position") {
+    LuaState lua;
+    CHECK(lua.run("lissom.load()") ==
+          "test:1: bad argument #1 to 'load' (string expected, got no value)");
+    CHECK(lua.run("lissom.load('a', 5)") ==
+          "test:1: bad argument #2 to 'load' (table of options expected, got 5)");
+    CHECK(lua.run("lissom.load('a', {}, 5)") ==
+          "test:1: bad argument #3 to 'load' (no further argument expected, got 5)");
+    CHECK(lua.run("lissom.shapes.box():subdivide{ scheme = 'loop' }") == "");
+    CHECK(lua.run("lissom.shapes.box():set_position(1, 2, 'x', 3)") ==
+          "test:1: bad argument #3 to 'set_position' ({x, y, z} expected, got \"x\")");
+    CHECK(lua.run("lissom.shapes.box():position(9)") ==
+          "test:1: vertex 9 is not one of the 8 of the mesh [out_of_range]");
+}
+
+TEST_CASE("work that comes later is an unknown name") {
+    LuaState lua;
+    for (const char* name : {"merge", "paste", "scalp", "hairstyle", "scene", "tool", "replay"}) {
+        CHECK(lua.run("return lissom." + std::string(name)).find("no function") !=
+              std::string::npos);
+    }
+    for (const char* option : {"method = 'implicit'", "refine = 1"}) {
+        CHECK(lua.run("lissom.deform(lissom.shapes.box(), { " + std::string(option) + " })")
+                  .find("unknown option") != std::string::npos);
+    }
+    CHECK(lua.run("lissom.load('a.obj', { weld = 'all' })").find("unknown option 'weld'") !=
+          std::string::npos);
+    CHECK(lua.run("lissom.shapes.box():cut()").find("no method 'cut'") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace lissom::lua

@@ -1,0 +1,133 @@
+// Life of objects: closing, collecting, several states, coroutines.
+#include "bindings/lua/mesh_object.h"
+#include "tests/unit/bindings/lua_state.h"
+
+namespace lissom::lua {
+namespace {
+
+using test::LuaState;
+
+std::size_t resident_kilobytes() {
+    long long pages = 0, resident = 0;
+    std::FILE* file = std::fopen("/proc/self/statm", "r");
+    if (!file) return 0;
+    if (std::fscanf(file, "%lld %lld", &pages, &resident) != 2) resident = 0;
+    std::fclose(file);
+    return static_cast<std::size_t>(resident) * 4;
+}
+
+TEST_CASE("objects close once and for all") {
+    LuaState lua;
+    CHECK(lua.run("mesh = lissom.shapes.box() region = mesh:region('top') "
+                  "buffer = mesh:positions() mesh:close() mesh:close()") == "");
+    CHECK(lua.eval("tostring(mesh)") == "lissom.Mesh (closed)");
+    CHECK(lua.run("mesh:area()") ==
+          "test:1: bad argument #1 to 'area' (lissom.Mesh expected, got a closed lissom.Mesh)");
+    CHECK(lua.run("return #mesh").find("closed") != std::string::npos);
+    CHECK(lua.run("return #region").find("the mesh of the region was closed") != std::string::npos);
+    CHECK(lua.run("return buffer[1]").find("the mesh of the buffer was closed") !=
+          std::string::npos);
+    CHECK(lua.run("lissom.deform(mesh)").find("a closed lissom.Mesh") != std::string::npos);
+    CHECK(lua.eval("mesh == mesh:close()") == "false");
+}
+
+TEST_CASE("a closed deformation frees its handles") {
+    LuaState lua;
+    CHECK(lua.run("box = lissom.shapes.box() edit = lissom.deform(box) "
+                  "handle = edit:handle(box:region('top')) edit:close()") == "");
+    CHECK(lua.run("handle:translate(1, 0, 0)").find("[handle_removed]") != std::string::npos);
+    CHECK(lua.eval("tostring(handle)") == "lissom.Handle (removed)");
+}
+
+#if LUA_VERSION_NUM >= 504
+TEST_CASE("a to-be-closed variable closes its object") {
+    LuaState lua;
+    CHECK(lua.run("do local mesh <close> = lissom.shapes.box() kept = mesh end") == "");
+    CHECK(lua.eval("tostring(kept)") == "lissom.Mesh (closed)");
+}
+#endif
+
+TEST_CASE("dependents keep their mesh alive") {
+    LuaState lua;
+    CHECK(lua.run("top = lissom.shapes.box():region('top')") == "");
+    lua.collect();
+    lua.collect();
+    CHECK(lua.eval("top:center()[2]") == "0.5");
+    CHECK(lua.eval("rawequal(top:mesh(), top:mesh())") == "true");
+}
+
+TEST_CASE("finalizers called by hand do no harm") {
+    LuaState lua;
+    CHECK(lua.run("local mesh = lissom.shapes.box() local gc = getmetatable(mesh).__gc "
+                  "gc(mesh) gc(mesh) gc({}) gc(io.stdout) pcall(gc)") == "");
+}
+
+TEST_CASE("native memory makes the collector work") {
+    LuaState lua;
+    const std::size_t before = resident_kilobytes();
+    // 300 meshes of about 4 MB each.
+    CHECK(lua.run("for i = 1, 300 do lissom.shapes.grid{ segments = 120 } end") == "");
+    CHECK(resident_kilobytes() < before + (std::size_t{100} << 10));
+}
+
+TEST_CASE("a mesh that grows is charged again") {
+    LuaState lua;
+    const std::size_t before = resident_kilobytes();
+    CHECK(lua.run("local big = lissom.shapes.grid{ segments = 100 } "
+                  "for i = 1, 200 do lissom.shapes.box():append(big) end") == "");
+    CHECK(resident_kilobytes() < before + (std::size_t{100} << 10));
+}
+
+TEST_CASE("a stopped collector stays stopped") {
+    LuaState lua;
+    CHECK(lua.run("collectgarbage('stop') local gone = setmetatable({}, { __gc = function() "
+                  "collected = true end }) gone = nil "
+                  "for i = 1, 20 do lissom.shapes.grid{ segments = 60 } end") == "");
+    CHECK(lua.eval("collected") == "nil");
+}
+
+TEST_CASE("two states have nothing in common") {
+    LuaState a, b;
+    CHECK(a.run("mesh = lissom.shapes.box()") == "");
+    CHECK(b.run("mesh = lissom.shapes.torus()") == "");
+    CHECK(a.run("lissom.listen{ progress = function() return false end }") == "");
+    CHECK(a.eval("lissom.shapes.cactus{ vertices = 2000 }") == "nil");
+    CHECK(b.eval("lissom.shapes.cactus{ vertices = 2000 } ~= nil") == "true");
+    CHECK(a.eval("#mesh") == "8");
+    a.binding().context.cancel();
+    CHECK(b.eval("#mesh:copy() > 8") == "true");
+}
+
+TEST_CASE("coroutines call the binding") {
+    LuaState lua;
+    CHECK(lua.run(R"(
+local box = lissom.shapes.box()
+local names = coroutine.wrap(function()
+    for _, name in ipairs(box:regions()) do coroutine.yield(#box:region(name), name) end
+    box:smoth()
+end)
+for i = 1, 6 do assert(names() == 4) end
+local done, message = pcall(names)
+assert(not done and message:find("did you mean 'smooth'"), message)
+)") == "");
+}
+
+TEST_CASE("opening twice gives the same module") {
+    LuaState lua;
+    open(lua.get(), {});
+    lua_setglobal(lua.get(), "again");
+    CHECK(lua.eval("rawequal(again, lissom)") == "true");
+}
+
+TEST_CASE("an object made in a state outlives its context's operations") {
+    // The collector frees objects after the binding's state would be gone, were it not collected
+    // last.
+    for (int i = 0; i < 10; ++i) {
+        LuaState lua;
+        CHECK(lua.run("keep = {} for i = 1, 20 do keep[i] = lissom.shapes.box():region('top') end "
+                      "edit = lissom.deform(keep[1]:mesh())") == "");
+    }
+}
+
+}  // namespace
+}  // namespace lissom::lua

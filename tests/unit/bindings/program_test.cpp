@@ -1,0 +1,228 @@
+#include "bindings/cli/program.h"
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "bindings/lua/compat.h"
+#include "tests/unit/support.h"
+
+namespace lissom::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Ended {
+    int status;
+    std::string out, err;
+};
+
+// Runs the program in this process with its streams caught.
+Ended run(std::vector<std::string> words) {
+    words.insert(words.begin(), "lissom");
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    std::ostringstream out, err;
+    std::streambuf* const old_out = std::cout.rdbuf(out.rdbuf());
+    std::streambuf* const old_err = std::cerr.rdbuf(err.rdbuf());
+    const int status = run_program(static_cast<int>(argv.size()), argv.data(), kernel_parts());
+    std::cout.rdbuf(old_out);
+    std::cerr.rdbuf(old_err);
+    return {status, out.str(), err.str()};
+}
+
+// A folder that goes with the test.
+class Folder {
+  public:
+    Folder() : path_(std::filesystem::temp_directory_path() / unique_name()) {
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(path_ / name, std::ios::binary) << text;
+        return (path_ / name).string();
+    }
+    std::string path(const std::string& name) const { return (path_ / name).string(); }
+
+  private:
+    static std::string unique_name() {
+        return "lissom_program_test_" +
+               std::to_string(std::chrono::steady_clock::now().time_since_epoch().count());
+    }
+    std::filesystem::path path_;
+};
+
+const char* const kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const char* const kTwisted = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n";
+
+TEST_CASE("the command line itself") {
+    CHECK(run({}).status == kUsage);
+    CHECK(run({"--help"}).status == kSuccess);
+    CHECK(run({"--help"}).out.find("lissom inspect MESH...") != std::string::npos);
+    CHECK(run({"--version"}).out.find("lissom ") == 0);
+    CHECK(Json::parse(run({"--version", "--json"}).out)["name"] == "lissom");
+    const Ended unknown = run({"inspct"});
+    CHECK(unknown.status == kUsage);
+    CHECK(unknown.err == "lissom: no verb 'inspct', did you mean 'inspect'?\n");
+    CHECK(run({"demo.lua"}).err.find("lissom run demo.lua") != std::string::npos);
+    for (const Verb& verb : kernel_parts().verbs) {
+        CAPTURE(verb.name);
+        const Ended help = run({verb.name, "--help"});
+        CHECK(help.status == kSuccess);
+        CHECK(help.out.find("--json") != std::string::npos);
+        CHECK(run({verb.name, "--no-such-option"}).status == kUsage);
+    }
+}
+
+TEST_CASE("inspect answers in text and JSON") {
+    const Folder folder;
+    const std::string good = folder.write("a.obj", kTriangle);
+    const std::string bad = folder.write("b.obj", kTwisted);
+    CHECK(run({"inspect", good}).status == kSuccess);
+    CHECK(run({"inspect", bad}).status == kFailure);
+    const Ended both = run({"inspect", good, bad, folder.path("none.obj"), "--json"});
+    CHECK(both.status == kFailure);
+    const Json answer = Json::parse(both.out);
+    CHECK(answer["meshes"][0]["vertices"] == 3);
+    CHECK(answer["meshes"][0]["boundaries"][0]["vertices"] == 3);
+    CHECK(answer["meshes"][0]["bounds"]["max"][0] == 1.0);
+    const Json& error = answer["meshes"][1]["error"];
+    CHECK(error["code"] == "inconsistent_orientation");
+    CHECK(error["elements"]["ids"] == Json::parse("[[1, 2]]"));
+    CHECK(answer["meshes"][2]["error"]["code"] == "file_not_found");
+    CHECK(Json::parse(run({"inspect", "--json"}).out)["error"]["code"] == "usage");
+}
+
+TEST_CASE("convert writes another format") {
+    const Folder folder;
+    const std::string in = folder.write("a.obj", kTriangle);
+    const Ended ended = run({"convert", in, folder.path("a.ply"), "--unit", "0.5", "--json"});
+    CHECK(ended.status == kSuccess);
+    CHECK(Json::parse(ended.out)["vertices"] == 3);
+    const Json answer = Json::parse(run({"inspect", folder.path("a.ply"), "--json"}).out);
+    CHECK(answer["meshes"][0]["bounds"]["max"][0] == 2.0);
+    CHECK(run({"convert", in}).status == kUsage);
+    CHECK(run({"convert", in, folder.path("a.ply"), "--unit", "0"}).status == kUsage);
+    CHECK(run({"convert", in, folder.path("a.nope")}).status == kFailure);
+    const Ended missing = run({"convert", folder.path("x.obj"), folder.path("y.obj"), "--json"});
+    CHECK(missing.status == kFailure);
+    CHECK(Json::parse(missing.out)["error"]["code"] == "file_not_found");
+}
+
+TEST_CASE("explain knows every code") {
+    for (const ErrorCode code : all_codes()) {
+        const Ended ended = run({"explain", std::string(code_name(code)), "--json"});
+        CHECK(ended.status == kSuccess);
+        CHECK(Json::parse(ended.out)["code"] == std::string(code_name(code)));
+    }
+    CHECK(Json::parse(run({"explain", "--json"}).out)["codes"].size() == all_codes().size());
+    CHECK(run({"explain", "unconstraned"}).err.find("did you mean 'unconstrained'?") !=
+          std::string::npos);
+}
+
+TEST_CASE("scripts end with a status and the place of their error") {
+    const Folder folder;
+    const auto ends = [&](const std::string& code, std::vector<std::string> words = {}) {
+        words.insert(words.begin(), {"run", folder.write("s.lua", code)});
+        Ended ended = run(words);
+        for (std::size_t at; (at = ended.err.find(folder.path(""))) != std::string::npos;) {
+            ended.err.erase(at, folder.path("").size());
+        }
+        return ended;
+    };
+    CHECK(ends("local lissom = require 'lissom'").status == kSuccess);
+    CHECK(ends("\nerror('no')").err == "s.lua:2: no\n");
+    CHECK(ends("\nerror('no')").status == kFailure);
+    CHECK(ends("x = = 1").err.find("s.lua:1:") == 0);
+    CHECK(ends("\n\nassert(require 'lissom'.load('none.obj'))").err.find("s.lua:3: none.obj") == 0);
+    folder.write("part.lua", "return function()\n  local t\n  return t.x\nend");
+    CHECK(ends("require 'part'()").err.find("part.lua:3: attempt to index a nil") == 0);
+    CHECK(run({"run", folder.path("s.lua"), "--debug"}).err.find("traceback") == std::string::npos);
+    CHECK(run({"run", "--debug", folder.path("s.lua")}).err.find("traceback") != std::string::npos);
+    CHECK(run({"run", folder.path("none.lua")}).status == kFailure);
+    CHECK(run({"run"}).status == kUsage);
+    const Ended nil = ends("local m = require 'lissom'.load('none.obj')\nprint(m:area())");
+    CHECK(nil.err.find("s.lua:2: attempt to index a nil value") == 0);
+    CHECK(nil.err.find("s.lua:1: the nil may come from here: none.obj: there is no such file "
+                       "[file_not_found]") != std::string::npos);
+    CHECK(ends("local t\nprint(t.x)").err.find("may come from") == std::string::npos);
+}
+
+TEST_CASE("errors of scripts as JSON") {
+    const Folder folder;
+    const std::string script =
+        folder.write("s.lua", "local m = require 'lissom'.load('none.obj')\nprint(m.x)");
+    const Ended ended = run({"run", "--json", script});
+    const Json error = Json::parse(ended.err)["error"];
+    CHECK(error["file"] == script);
+    CHECK(error["line"] == 2);
+    CHECK(error["code"] == "file_not_found");
+    CHECK(ended.status == kFailure);
+}
+
+TEST_CASE("scripts have parameters") {
+    const Folder folder;
+    const std::string script = folder.write(
+        "s.lua",
+        "local lissom = require 'lissom'\n"
+        "local p = lissom.params{ n = { type = 'integer', default = 1, help = 'Number' } }\n"
+        "if p.n == 7 then error('seven') end\n"
+        "if p.n == 1 and #arg == 0 then return end\n"
+        "assert(arg[1] == '--n')");
+    CHECK(run({"run", script}).status == kSuccess);
+    CHECK(run({"run", script, "--n", "2"}).status == kSuccess);
+    CHECK(run({"run", script, "--n", "7"}).status == kFailure);
+    const Ended wrong = run({"run", script, "--m", "7"});
+    CHECK(wrong.status == kUsage);
+    CHECK(wrong.err.find("no parameter '--m', did you mean 'n'?") == std::string::npos);
+    CHECK(Json::parse(run({"run", "--json", script, "--n", "x"}).err)["error"]["code"] == "usage");
+    const Ended help = run({"run", script, "--help"});
+    CHECK(help.status == kSuccess);
+    CHECK(help.out.find("--n integer  Number (default: 1)") != std::string::npos);
+    const Json schema = Json::parse(run({"run", "--json", script, "--help"}).out);
+    CHECK(schema["parameters"][0]["name"] == "n");
+}
+
+TEST_CASE("Ctrl-C stops Lua, in coroutines and past pcall") {
+    const Folder folder;
+    for (const char* loop :
+         {"while true do end", "while true do pcall(function() while true do end end) end",
+          "coroutine.wrap(function() while true do end end)()",
+          "while true do coroutine.resume(coroutine.create(function() while true do end end)) "
+          "end"}) {
+        CAPTURE(loop);
+        ProgramParts parts = kernel_parts();
+        parts.libraries.push_back([] {
+            lua::Library library{.name = "test"};
+            library.functions = {{.name = "press",
+                                  .body = [](lua::Call&) { return std::raise(SIGINT); },
+                                  .summary = "Presses Ctrl-C.",
+                                  .example = "-- none"}};
+            return library;
+        });
+        std::string path = folder.write("s.lua", "require 'lissom'.press() " + std::string(loop));
+        std::string name = "lissom", verb = "run";
+        char* argv[] = {name.data(), verb.data(), path.data()};
+        std::ostringstream err;
+        std::streambuf* const old = std::cerr.rdbuf(err.rdbuf());
+        CHECK(run_program(3, argv, parts) == kFailure);
+        std::cerr.rdbuf(old);
+        CHECK(err.str().find("cancelled") != std::string::npos);
+    }
+}
+
+TEST_CASE("the prompt evaluates, continues and goes on after errors") {
+    std::istringstream typed("1 + 1\nfor i = 1, 2 do\nx = i\nend\nerror('no')\nx\n");
+    std::streambuf* const old = std::cin.rdbuf(typed.rdbuf());
+    const Ended ended = run({"repl"});
+    std::cin.rdbuf(old);
+    CHECK(ended.status == kFailure);
+    CHECK(ended.err == "repl:1: no\n");
+}
+
+}  // namespace
+}  // namespace lissom::cli

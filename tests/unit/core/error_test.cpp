@@ -1,0 +1,82 @@
+#include "kernel/core/error.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "tests/unit/support.h"
+
+using namespace lissom;
+
+TEST_CASE("every code has a name and an explanation of its own") {
+    std::set<std::string_view> names, explanations;
+    for (const ErrorCode code : all_codes()) {
+        CHECK(code_name(code).size() > 2);
+        CHECK(code_explanation(code).size() > 20);
+        names.insert(code_name(code));
+        explanations.insert(code_explanation(code));
+    }
+    CHECK(names.size() == all_codes().size());
+    CHECK(explanations.size() == all_codes().size());
+}
+
+TEST_CASE("the table of codes follows the order of the enumeration") {
+    const auto& codes = all_codes();
+    for (std::size_t i = 0; i < codes.size(); ++i) CHECK(static_cast<std::size_t>(codes[i]) == i);
+    CHECK(codes.front() == ErrorCode::cancelled);
+    CHECK(codes.back() == ErrorCode::internal);
+}
+
+TEST_CASE("names are lower case words joined by underscores") {
+    for (const ErrorCode code : all_codes()) {
+        const std::string_view name = code_name(code);
+        CHECK(std::all_of(name.begin(), name.end(),
+                          [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); }));
+    }
+    CHECK(code_name(ErrorCode::nonmanifold_edge) == "nonmanifold_edge");
+    CHECK(code_name(ErrorCode::file_not_found) == "file_not_found");
+}
+
+TEST_CASE("an error keeps its code, message and elements") {
+    Elements elements{ElementKind::vertex, 0, {}};
+    elements.add(7);
+    const Error error(ErrorCode::out_of_range, "no such vertex", elements);
+    CHECK(error.code() == ErrorCode::out_of_range);
+    CHECK(std::string(error.what()) == "no such vertex");
+    CHECK(error.elements().ids == std::vector<Index>{7});
+}
+
+TEST_CASE("elements beyond the limit are counted but not kept") {
+    Elements vertices{ElementKind::vertex, 0, {}};
+    for (Index i = 0; i < 250; ++i) vertices.add(i);
+    CHECK(vertices.count == 250);
+    CHECK(vertices.ids.size() == Elements::kMaximumIds);
+
+    Elements edges{ElementKind::edge, 0, {}};
+    for (Index i = 0; i < 250; ++i) edges.add_edge(i, i + 1);
+    CHECK(edges.count == 250);
+    CHECK(edges.ids.size() == Elements::kMaximumIds);
+}
+
+TEST_CASE("elements are described in words, from the base asked for") {
+    Elements elements{ElementKind::vertex, 0, {}};
+    elements.add(2);
+    CHECK(describe(elements) == "vertex 2");
+    CHECK(describe(elements, 1) == "vertex 3");
+    elements.add(8);
+    elements.add(11);
+    CHECK(describe(elements, 1) == "vertices 3, 9 and 12");
+    for (Index i = 0; i < 247; ++i) elements.add(i);
+    CHECK(describe(elements, 1, 3) == "vertices 3, 9, 12 (of 250)");
+
+    Elements edges{ElementKind::edge, 0, {}};
+    edges.add_edge(0, 4);
+    edges.add_edge(4, 5);
+    CHECK(describe(edges, 1) == "edges 1-5 and 5-6");
+}
+
+TEST_CASE("every kind of element has a name") {
+    CHECK(kind_name(ElementKind::none) == "element");
+    CHECK(kind_name(ElementKind::component) == "component");
+    CHECK(kind_name(ElementKind::line) == "line");
+}

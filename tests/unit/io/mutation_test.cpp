@@ -1,0 +1,117 @@
+// Damaged files: whatever the bytes are, a reader returns a mesh or throws an Error.
+#include <functional>
+
+#include "tests/unit/io/io_support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+// A small mesh with everything that a format can hold.
+Mesh rich_mesh() {
+    Mesh mesh = prism(5);
+    const Index vertices = mesh.vertex_count(), corners = mesh.topology().corner_count();
+    mesh.attributes().add({"color", Domain::vertex, 3, ScalarType::uint8,
+                           rounded_to_bytes(numbers(3 * vertices, 1))});
+    mesh.attributes().add({"uv", Domain::corner, 2, ScalarType::float32, numbers(2 * corners, 2)});
+    mesh.attributes().add(
+        {"normal", Domain::vertex, 3, ScalarType::float32, numbers(3 * vertices, 3)});
+    mesh.attributes().add({"w", Domain::face, 2, ScalarType::int16, std::vector<double>(14, 5.0)});
+    mesh.attributes().labels()["object"] = {{"one", "two"}, {0, 0, 1, 1, 0, 0, 1}};
+    mesh.material_libraries() = {"a.mtl"};
+    return mesh;
+}
+
+std::string binary_off() {
+    Bytes bytes("OFF BINARY\n", true);
+    bytes.add(std::int32_t{4}, std::int32_t{2}, std::int32_t{5});
+    for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) bytes.add(x);
+    for (const std::int32_t i : {3, 0, 1, 2, 0, 3, 0, 2, 3, 0}) bytes.add(i);
+    return bytes;
+}
+
+struct Sample {
+    std::string extension, bytes;
+};
+
+std::vector<Sample> samples() {
+    const Mesh mesh = rich_mesh();
+    return {{"obj", encode_mesh(mesh, "obj")},
+            {"ply", encode_mesh(mesh, "ply")},
+            {"ply", encode_mesh(mesh, "ply", {.endianness = Endianness::big})},
+            {"ply", encode_mesh(mesh, "ply", {.binary = false})},
+            {"off", encode_mesh(mesh, "off")},
+            {"off", binary_off()},
+            {"stl", encode_mesh(mesh, "stl")},
+            {"stl", encode_mesh(mesh, "stl", {.binary = false})}};
+}
+
+// True where the bytes were read or refused as they should be.
+bool is_handled(const std::string& bytes, const std::string& extension) {
+    try {
+        decode_mesh(bytes, extension);
+        return true;
+    } catch (const Error& error) {
+        return error.code() != ErrorCode::internal && !error.message().empty();
+    }
+}
+
+std::string mutated(std::string bytes, std::mt19937& random) {
+    const int changes = 1 + static_cast<int>(random() % 4);
+    for (int i = 0; i < changes && !bytes.empty(); ++i) {
+        const std::size_t at = random() % bytes.size();
+        switch (random() % 5) {
+            case 0:
+                bytes[at] = static_cast<char>(random());
+                break;
+            case 1:
+                bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
+                break;
+            case 2:
+                bytes.erase(at, 1 + random() % 8);
+                break;
+            case 3:
+                bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 32));
+                break;
+            default:
+                bytes[at] = "0123456789-. \n"[random() % 14];
+                break;
+        }
+    }
+    return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("a file that is cut short anywhere is read or refused") {
+    for (const Sample& sample : samples()) {
+        CAPTURE(sample.extension);
+        for (std::size_t size = 0; size < sample.bytes.size(); size += 7) {
+            CAPTURE(size);
+            CHECK(is_handled(sample.bytes.substr(0, size), sample.extension));
+        }
+    }
+}
+
+TEST_CASE("a file with damaged bytes is read or refused") {
+    std::mt19937 random(7);
+    for (const Sample& sample : samples()) {
+        CAPTURE(sample.extension);
+        for (int i = 0; i < 200; ++i) {
+            CAPTURE(i);
+            CHECK(is_handled(mutated(sample.bytes, random), sample.extension));
+        }
+    }
+}
+
+TEST_CASE("noise is refused or read, under every extension") {
+    std::mt19937 random(8);
+    for (const std::string& extension : readable_extensions()) {
+        for (int i = 0; i < 50; ++i) {
+            std::string bytes(random() % 300, '\0');
+            for (char& c : bytes) c = static_cast<char>(random());
+            CHECK(is_handled(bytes, extension));
+        }
+    }
+}

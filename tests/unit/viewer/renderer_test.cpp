@@ -1,0 +1,405 @@
+#include "viewer/renderer.h"
+
+#include <limits>
+#include <thread>
+
+#include "kernel/mesh/shapes.h"
+#include "tests/unit/viewer/viewer_support.h"
+#include "viewer/colormap.h"
+
+using namespace lissom;
+using test::front_camera;
+using test::small_options;
+
+namespace {
+
+Drawing drawing_of(const Mesh& mesh, const MeshStyle& style = {}) {
+    return {.meshes = {{&mesh, style}}};
+}
+
+// The colour where a world point is seen.
+Color color_at(const Image& image, const Camera& camera, const Vec3& world) {
+    const Vec3 pixel = camera.project(world, {double(image.width), double(image.height)});
+    return image.color(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+}
+
+}  // namespace
+
+TEST_CASE("a sphere covers the area of its circle") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh sphere = make_sphere({.segments = 48});
+    for (const int supersample : {1, 2}) {
+        RenderOptions options = small_options(240, 200);
+        options.supersample = supersample;
+        const Image image = renderer->render(drawing_of(sphere), front_camera(2.5), options);
+        const double radius = 200.0 / 2.5;
+        CHECK(test::covered(image) == doctest::Approx(kPi * radius * radius).epsilon(0.003));
+    }
+}
+
+TEST_CASE("with perspective a sphere covers its silhouette cone") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh sphere = make_sphere({.segments = 48});
+    const Camera camera({.eye = Vec3(0, 0, 3), .fov = kPi / 3.0});
+    const Image image = renderer->render(drawing_of(sphere), camera, small_options(200, 200));
+    const double tangent = 1.0 / std::sqrt(8.0);  // of asin(1 / 3)
+    const double radius = 100.0 * tangent / std::tan(kPi / 6.0);
+    CHECK(test::covered(image) == doctest::Approx(kPi * radius * radius).epsilon(0.003));
+}
+
+TEST_CASE("the same input gives the same pixels, in any order") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh torus = make_torus();
+    MeshStyle style;
+    style.wire = true;
+    RenderOptions options = small_options();
+    options.occlusion = 1.0;
+    const Camera camera({.eye = Vec3(2, 3, 2)});
+    const Image image = renderer->render(drawing_of(torus, style), camera, options);
+    renderer->render(drawing_of(test::make_square()), camera, small_options());
+    CHECK(renderer->render(drawing_of(torus, style), camera, options) == image);
+}
+
+TEST_CASE("the region is blue, its handle purple, the rest gray") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh bar = make_bar();
+    MeshStyle style;
+    std::vector<Index> upper;
+    for (Index v = 0; v < bar.vertex_count(); ++v) {
+        if (bar.position(v).y() > -0.01) upper.push_back(v);
+    }
+    style.region = Region(bar.shared_topology(), upper);
+    style.handles = {*bar.find_region("top")};
+    const Camera camera({.eye = Vec3(3, 8, 9), .fov = 0.9});
+    const Image image = renderer->render(drawing_of(bar, style), camera, small_options());
+    CHECK(test::is_blue(color_at(image, camera, Vec3(0.01, 1.5, 0.5))));
+    CHECK(test::is_purple(color_at(image, camera, Vec3(0.01, 2.5, 0.01))));
+    CHECK(test::is_gray(color_at(image, camera, Vec3(0.01, -1.5, 0.5))));
+}
+
+TEST_CASE("wire draws the sides of a quad and not its diagonal") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    MeshStyle wire;
+    wire.wire = true;
+    wire.wire_width = 2.0;
+    const RenderOptions options = small_options(100, 100);
+    const Camera camera = front_camera(2.5);
+    const Image plain = renderer->render(drawing_of(square), camera, options);
+    const Image lines = renderer->render(drawing_of(square, wire), camera, options);
+    for (int i = 15; i < 85; ++i) {
+        CHECK(lines.color(i, i) == plain.color(i, i));
+        CHECK(lines.color(i, 99 - i) == plain.color(i, 99 - i));
+        CHECK(test::brightness(lines.color(i, 10)) < test::brightness(plain.color(i, 10)) - 0.2);
+        CHECK(test::brightness(lines.color(10, i)) < test::brightness(plain.color(10, i)) - 0.2);
+    }
+}
+
+TEST_CASE("edges are as wide near as far") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    MeshStyle wire;
+    wire.wire = true;
+    wire.wire_width = 6.0;
+    for (const double height : {2.5, 5.0}) {
+        const Image image = renderer->render(drawing_of(square, wire), front_camera(height),
+                                             small_options(200, 200));
+        int dark = 0;
+        for (int x = 0; x < 100; ++x) {
+            dark += image.pixel(x, 100)[3] == 255 && test::brightness(image.color(x, 100)) < 0.4;
+        }
+        CHECK(dark == 3);  // the inner half; the outer one lies beyond the surface
+    }
+}
+
+TEST_CASE("boundary loops are drawn in their colours, to the front of the surface") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    MeshStyle style;
+    style.boundaries = true;
+    const Image image =
+        renderer->render(drawing_of(square, style), front_camera(2.5), small_options(100, 100));
+    const Color color = image.color(50, 10);
+    const Color expected = category_color(0);
+    CHECK(color.r == doctest::Approx(expected.r).epsilon(0.02));
+    CHECK(color.g == doctest::Approx(expected.g).epsilon(0.02));
+    CHECK(test::is_gray(image.color(50, 50)));
+}
+
+TEST_CASE("lines have their width in pixels, are hidden by surfaces and cut at the eye") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    const Color red{1.0, 0.0, 0.0};
+    const DrawnLine across{{Vec3(-5, 0, 0), Vec3(5, 0, 0)}, false, red, 8.0};
+    const Image line = renderer->render({.lines = {across}}, front_camera(2.0), small_options());
+    CHECK(test::covered(line) == doctest::Approx(96.0 * 8.0).epsilon(0.01));
+
+    DrawnLine behind = across;
+    for (Vec3& p : behind.points) p.z() = -1.0;
+    const Image hidden = renderer->render({.meshes = {{&square}}, .lines = {behind}},
+                                          front_camera(4.0), small_options());
+    CHECK(test::is_gray(hidden.color(48, 48)));
+    CHECK(hidden.color(5, 48).r > 0.9);
+
+    const Camera inside({.eye = Vec3(0, 0, 0), .target = Vec3(0, 0, -1)});
+    const DrawnLine past{{Vec3(0.1, -0.1, -9), Vec3(0.1, -0.1, 2)}, false, red, 4.0};
+    const Image cut = renderer->render({.lines = {past}}, inside, small_options());
+    CHECK(test::covered(cut) > 100.0);
+    CHECK(cut.color(95, 95).r > 0.9);
+    CHECK(cut.pixel(10, 10)[3] == 0);
+}
+
+TEST_CASE("points have their radius in pixels and stand before the surface they are on") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    const DrawnPoint point{Vec3::Zero(), kHandleColor, 10.0};
+    const Image alone = renderer->render({.points = {point}}, front_camera(2.0), small_options());
+    CHECK(test::covered(alone) == doctest::Approx(kPi * 100.0).epsilon(0.02));
+    const Image image = renderer->render({.meshes = {{&square}}, .points = {point}},
+                                         front_camera(2.5), small_options(97, 97));
+    CHECK(test::is_purple(image.color(48, 48)));
+    CHECK(test::is_gray(image.color(48, 70)));
+}
+
+TEST_CASE("values are drawn in the colours of the scale") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    MeshStyle style;
+    style.values = {0.0, 1.0, 1.0, 0.0};
+    const Image image =
+        renderer->render(drawing_of(square, style), front_camera(2.0), small_options());
+    const Color low = image.color(1, 48), high = image.color(94, 48);
+    CHECK(low.b > low.g + 0.2);
+    CHECK(high.r > high.b + 0.4);
+    CHECK(lightness(image.color(48, 48)) > lightness(low));
+    CHECK(lightness(image.color(48, 48)) < lightness(high));
+}
+
+TEST_CASE("the inside of an open surface has another tint") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    const Camera behind({.eye = Vec3(0, 0, -10), .ortho = 3.0});
+    const Image front = renderer->render(drawing_of(square), front_camera(3.0), small_options());
+    const Image back = renderer->render(drawing_of(square), behind, small_options());
+    CHECK(test::is_gray(front.color(48, 48)));
+    CHECK(back.color(48, 48).r > back.color(48, 48).b + 0.05);
+    CHECK(test::covered(back) == doctest::Approx(test::covered(front)));
+}
+
+TEST_CASE("folds are darker with occlusion, ridges are not") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    for (const double side : {1.0, -1.0}) {  // a valley, then a roof
+        FaceList faces;
+        faces.add({0, 1, 2, 3});
+        faces.add({1, 4, 5, 2});
+        const Mesh mesh({Vec3(-1, -1, side), Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(-1, 1, side),
+                         Vec3(1, -1, side), Vec3(1, 1, side)},
+                        std::move(faces));
+        RenderOptions options = small_options(200, 200);
+        const Image open = renderer->render(drawing_of(mesh), front_camera(2.2), options);
+        options.occlusion = 1.0;
+        const Image image = renderer->render(drawing_of(mesh), front_camera(2.2), options);
+        const auto darker = [&](int x) {
+            return test::brightness(open.color(x, 100)) - test::brightness(image.color(x, 100));
+        };
+        CHECK((side > 0.0 ? darker(104) > 0.05 : std::abs(darker(104)) < 0.01));
+        CHECK(std::abs(darker(185)) < 0.01);
+    }
+}
+
+TEST_CASE("nothing but the background is drawn where there is nothing") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    RenderOptions options = small_options(20, 10);
+    CHECK(test::covered(renderer->render({}, front_camera(1.0), options)) == 0.0);
+    for (const char* name : {"white", "#336699", "#010203", "black"}) {
+        options.background = parse_color(name);
+        const Image image = renderer->render({}, front_camera(1.0), options);
+        CHECK(image.is_opaque());
+        for (int i = 0; i < 3; ++i) {
+            CHECK(std::abs(image.pixel(3, 3)[i] - to_bytes(*options.background)[i]) <= 1);
+        }
+    }
+}
+
+TEST_CASE("edges blend with the background in linear light") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh sphere = make_sphere({.segments = 32});
+    RenderOptions options = small_options();
+    const Image alone = renderer->render(drawing_of(sphere), front_camera(2.5), options);
+    options.background = Color{};
+    const Image on_black = renderer->render(drawing_of(sphere), front_camera(2.5), options);
+    int edges = 0;
+    for (int x = 0; x < 48; ++x) {
+        const std::uint8_t alpha = alone.pixel(x, 48)[3];
+        if (alpha == 0 || alpha == 255) continue;
+        const double blended = srgb_to_linear(alone.color(x, 48).r) * alpha / 255.0;
+        CHECK(on_black.color(x, 48).r == doctest::Approx(linear_to_srgb(blended)).epsilon(0.03));
+        ++edges;
+    }
+    CHECK(edges > 0);
+}
+
+TEST_CASE("a mirrored mesh gives the mirrored silhouette, lit from outside") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh cactus = make_cactus({.vertices = 2000});
+    DrawnMesh mirrored{&cactus};
+    mirrored.transform = scaling(Vec3(-1, 1, 1), Vec3::Zero());
+    const Camera camera({.eye = Vec3(0, 1, 10), .target = Vec3(0, 1, 0), .ortho = 2.4});
+    const Image plain = renderer->render(drawing_of(cactus), camera, small_options());
+    const Image image = renderer->render({.meshes = {mirrored}}, camera, small_options());
+    CHECK(test::covered(image) == doctest::Approx(test::covered(plain)).epsilon(0.002));
+    for (int y = 0; y < 96; y += 4) {
+        for (int x = 0; x < 96; x += 4) {
+            if (image.pixel(x, y)[3] == 255) CHECK(test::is_gray(image.color(x, y)));
+        }
+    }
+}
+
+TEST_CASE("a mesh far from the origin is drawn as well as one at it") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh torus = make_torus();
+    const Vec3 far_away(1e7, -2e7, 3e7);
+    const Vec3 eye(2, 3, 2);
+    const Image near = renderer->render(drawing_of(torus), Camera({.eye = eye}), small_options());
+    DrawnMesh moved{&torus};
+    moved.transform = translation(far_away);
+    const Camera camera({.eye = far_away + eye, .target = far_away});
+    const Image image = renderer->render({.meshes = {moved}}, camera, small_options());
+    CHECK(test::difference(near, image) <= 3);
+}
+
+TEST_CASE("large pictures are drawn in parts without a seam") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh sphere = make_sphere({.segments = 24});
+    MeshStyle style;
+    style.wire = true;
+    style.boundaries = true;
+    RenderOptions options = small_options(2304, 128);
+    options.occlusion = 1.0;
+    // A pixel is 1 / 64; the sphere's center is seen at column 2048, where a part ends, or at 1024.
+    const auto camera_at = [](double column) {
+        const double x = (1152.0 - column) / 64.0;
+        return Camera({.eye = Vec3(x, 0, 10), .target = Vec3(x, 0, 0), .ortho = 2.0});
+    };
+    const Image split = renderer->render(drawing_of(sphere, style), camera_at(2048), options);
+    const Image whole = renderer->render(drawing_of(sphere, style), camera_at(1024), options);
+    CHECK(test::difference(test::crop(split, 1972, 0, 152, 128),
+                           test::crop(whole, 948, 0, 152, 128)) <= 12);
+}
+
+TEST_CASE("pictures of one pixel and of uneven sizes are drawn") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    RenderOptions options = small_options(1, 1);
+    options.occlusion = 1.0;
+    CHECK(renderer->render(drawing_of(square), front_camera(1.0), options).pixel(0, 0)[3] == 255);
+    const Image strip =
+        renderer->render(drawing_of(square), front_camera(2.0), small_options(301, 7));
+    CHECK(test::covered(strip) == doctest::Approx(49.0).epsilon(0.02));
+}
+
+TEST_CASE("a camera inside a mesh or looking away draws what is there") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh sphere = make_sphere();
+    const Camera inside({.eye = Vec3(0, 0, 0.1)});
+    CHECK(test::covered(renderer->render(drawing_of(sphere), inside, small_options())) ==
+          doctest::Approx(96.0 * 96.0));
+    const Camera away({.eye = Vec3(0, 0, 5), .target = Vec3(0, 0, 9)});
+    CHECK(test::covered(renderer->render(drawing_of(sphere), away, small_options())) == 0.0);
+    const Camera parallel_inside({.eye = Vec3(0, 0, 0.1), .ortho = 1.0});
+    CHECK(test::covered(renderer->render(drawing_of(sphere), parallel_inside, small_options())) ==
+          doctest::Approx(96.0 * 96.0));
+}
+
+TEST_CASE("sizes and options that cannot be drawn are refused") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const auto code = [&](auto change) {
+        RenderOptions options = small_options();
+        change(options);
+        return test::error_of([&] { renderer->render({}, front_camera(1.0), options); }).code();
+    };
+    CHECK(code([](RenderOptions& o) { o.width = 0; }) == ErrorCode::invalid_argument);
+    CHECK(code([](RenderOptions& o) { o.height = -5; }) == ErrorCode::invalid_argument);
+    CHECK(code([](RenderOptions& o) { o.width = 1 << 20; }) == ErrorCode::out_of_range);
+    CHECK(code([](RenderOptions& o) { o.samples = 3; }) == ErrorCode::out_of_range);
+    CHECK(code([](RenderOptions& o) { o.samples = 1024; }) == ErrorCode::out_of_range);
+    CHECK(code([](RenderOptions& o) { o.supersample = 0; }) == ErrorCode::out_of_range);
+    CHECK(code([](RenderOptions& o) { o.occlusion = 1.5; }) == ErrorCode::out_of_range);
+    CHECK(code([](RenderOptions& o) { o.occlusion = std::nan(""); }) == ErrorCode::out_of_range);
+}
+
+TEST_CASE("NaN in a drawing is refused") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    const Vec3 nan = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+    DrawnMesh drawn{&square};
+    drawn.transform.translation = nan;
+    const auto code = [&](const Drawing& drawing) {
+        return test::error_of([&] { renderer->render(drawing, front_camera(1.0)); }).code();
+    };
+    CHECK(code({.meshes = {drawn}}) == ErrorCode::not_finite);
+    CHECK(code({.lines = {{{nan, nan}}}}) == ErrorCode::not_finite);
+    CHECK(code({.points = {{nan}}}) == ErrorCode::not_finite);
+}
+
+TEST_CASE("a cancel ends drawing, and the renderer draws again afterwards") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    const Context context;
+    context.cancel();
+    const auto draw = [&] {
+        return renderer->render(drawing_of(square), front_camera(1.0), small_options(), context);
+    };
+    CHECK(test::error_of(draw).code() == ErrorCode::cancelled);
+    context.clear_cancel();
+    CHECK(test::covered(draw()) == doctest::Approx(96.0 * 96.0));
+}
+
+TEST_CASE("memory is charged, and given back") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh sphere = make_sphere();
+    ContextOptions options;
+    options.memory_limit = 1000;
+    const Context context(options);
+    const auto draw = [&] {
+        renderer->render(drawing_of(sphere), front_camera(1.0), small_options(), context);
+    };
+    CHECK(test::error_of(draw).code() == ErrorCode::memory_limit);
+    CHECK(context.memory()->used() == 0);
+}
+
+TEST_CASE("a renderer may move between threads") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    const auto draw = [&] {
+        return renderer->render(drawing_of(square), front_camera(3.0), small_options());
+    };
+    const Image here = draw();
+    Image there;
+    std::thread([&] { there = draw(); }).join();
+    CHECK(there == here);
+}

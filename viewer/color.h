@@ -1,0 +1,48 @@
+/// Colours as people write them: sRGB, each part 0 to 1. Light is added up in linear values, which
+/// the renderer converts to and from.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace lissom {
+
+struct Color {
+    double r = 0.0, g = 0.0, b = 0.0;
+
+    bool operator==(const Color&) const = default;
+};
+
+/// The colour called `text`: "#rrggbb", "#rgb" or one of `color_names()`.
+/// Errors: invalid_argument that says what is accepted.
+Color parse_color(std::string_view text);
+
+/// Names that `parse_color` accepts, separated by commas.
+std::string_view color_names();
+
+/// One sRGB part to its linear value and back.
+double srgb_to_linear(double value);
+double linear_to_srgb(double value);
+
+/// Perceived lightness, 0 (black) to 1 (white).
+double lightness(const Color& color);
+
+/// `a` for share 0, `b` for share 1.
+Color mix(const Color& a, const Color& b, double share);
+
+/// As four bytes: red, green, blue and an alpha of 255.
+std::array<std::uint8_t, 4> to_bytes(const Color& color);
+
+/// Colours that pictures of this project are drawn in.
+inline constexpr Color kClayColor{0.80, 0.795, 0.785};
+inline constexpr Color kRegionColor{0.45, 0.63, 0.89};
+inline constexpr Color kHandleColor{0.61, 0.39, 0.79};
+inline constexpr Color kWireColor{0.13, 0.14, 0.17};
+inline constexpr Color kWhite{1.0, 1.0, 1.0};
+
+/// Colours of things that are told apart by number; they repeat after eight.
+Color category_color(std::size_t number);
+
+}  // namespace lissom

@@ -1,0 +1,120 @@
+/// OpenGL objects that end with their C++ owner. All of it needs a current context, also to end.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "kernel/core/geometry.h"
+
+namespace lissom::gl {
+
+/// Owns one OpenGL name; `destroy` ends it.
+template <void (*destroy)(GLuint)>
+class Name {
+  public:
+    Name() = default;
+    explicit Name(GLuint id) : id_(id) {}
+    Name(Name&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+    Name& operator=(Name&& other) noexcept {
+        std::swap(id_, other.id_);
+        return *this;
+    }
+    Name(const Name&) = delete;
+    Name& operator=(const Name&) = delete;
+    ~Name() {
+        if (id_) destroy(id_);
+    }
+
+    GLuint id() const { return id_; }
+
+  private:
+    GLuint id_ = 0;
+};
+
+void destroy_buffer(GLuint id);
+void destroy_vertex_array(GLuint id);
+void destroy_texture(GLuint id);
+void destroy_renderbuffer(GLuint id);
+void destroy_framebuffer(GLuint id);
+void destroy_program(GLuint id);
+
+using Buffer = Name<destroy_buffer>;
+using VertexArray = Name<destroy_vertex_array>;
+using Texture = Name<destroy_texture>;
+using Renderbuffer = Name<destroy_renderbuffer>;
+using FramebufferName = Name<destroy_framebuffer>;
+
+/// A vertex buffer with `bytes` copied into it, bound to GL_ARRAY_BUFFER.
+Buffer make_vertex_buffer(std::span<const std::byte> bytes);
+VertexArray make_vertex_array();
+/// A texture without mipmaps that is read clamped, at its texels or (`linear`) between them.
+Texture make_texture(int width, int height, GLenum format, bool linear = false);
+
+/// Size in pixels.
+struct Extent {
+    int width = 0;
+    int height = 0;
+
+    bool operator==(const Extent&) const = default;
+};
+
+/// A framebuffer with one colour texture and no depth, or a multisampled one with both.
+class Framebuffer {
+  public:
+    Framebuffer() = default;
+    /// Errors: memory_limit where the driver has no memory for it.
+    static Framebuffer texture(Extent extent, GLenum color_format, bool with_depth);
+    static Framebuffer multisampled(Extent extent, GLenum color_format, int samples);
+
+    const Extent& extent() const { return extent_; }
+    /// Colour texture of a framebuffer made by `texture`.
+    GLuint color() const { return color_texture_.id(); }
+    /// Directs drawing here, onto all of it.
+    void bind() const;
+    /// Copies colours to `target`, averaging samples.
+    void resolve_to(const Framebuffer& target) const;
+
+  private:
+    void attach_depth(int samples);
+    void finish() const;
+
+    Extent extent_;
+    FramebufferName name_;
+    Texture color_texture_;
+    Renderbuffer color_buffer_, depth_buffer_;
+};
+
+/// A linked pair of shaders. Uniforms are set on the program that `use` was last called for.
+class Program {
+  public:
+    Program() = default;
+    /// Both sources follow after `common`; `name` is for messages. Errors: internal, with the
+    /// driver's message.
+    Program(std::string_view name, const char* common, const char* vertex, const char* fragment);
+
+    void use() const { glUseProgram(program_.id()); }
+    void set(const char* uniform, int value) const;
+    void set(const char* uniform, float value) const;
+    void set(const char* uniform, const Vec2& value) const;
+    void set(const char* uniform, const Vec3& value) const;
+    void set(const char* uniform, const Mat4& value) const;
+    /// Binds `texture` to the unit numbered `unit` and tells the sampler.
+    void set_texture(const char* uniform, int unit, GLuint texture) const;
+
+  private:
+    GLint location(const char* uniform) const {
+        return glGetUniformLocation(program_.id(), uniform);
+    }
+
+    Name<destroy_program> program_;
+};
+
+/// Throws where the driver reported an error since the last call: memory_limit where it has no
+/// memory left, else internal. `doing` is for the message.
+void check_errors(std::string_view doing);
+
+}  // namespace lissom::gl

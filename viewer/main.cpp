@@ -1,0 +1,12 @@
+// The `lissom` program with the viewer's verbs and functions.
+#include "bindings/cli/program.h"
+#include "viewer/render_verb.h"
+#include "viewer/viewer_library.h"
+
+int main(int argc, char** argv) {
+    lissom::cli::ProgramParts parts = lissom::cli::kernel_parts();
+    parts.libraries.push_back(lissom::lua::viewer_library);
+    parts.verbs.push_back(
+        {"render", "MESH... -o FILE", "Draws meshes into a picture.", lissom::cli::render});
+    return lissom::cli::run_program(argc, argv, parts);
+}

@@ -1,0 +1,135 @@
+---@meta lissom
+-- Made from the registration table; do not edit.
+
+---How a world is seen in a picture. It does not change. Pixels count from the top left corner of the picture.
+---@class lissom.Camera
+local Camera = {}
+
+---Where the camera stands.
+---@return number[] vector # {x, y, z}.
+function Camera:eye() end
+
+---The point in the middle of the picture.
+---@return number[] vector # {x, y, z}.
+function Camera:target() end
+
+---Unit vector to the right of the picture.
+---@return number[] vector # {x, y, z}.
+function Camera:right() end
+
+---Unit vector upwards in the picture, orthogonal to the view.
+---@return number[] vector # {x, y, z}.
+function Camera:up() end
+
+---Unit vector into the scene.
+---@return number[] vector # {x, y, z}.
+function Camera:forward() end
+
+---Vertical opening angle in degrees.
+---@return number? angle # nil for a camera without perspective.
+function Camera:fov() end
+
+---Height of the picture in world units, of a camera without perspective.
+---@return number? height # nil for a camera with perspective.
+function Camera:ortho() end
+
+---Where a point is seen: pixels from the top left, and its depth along the view. With perspective, x and y are NaN for a point that is not in front of the camera.
+---@param point lissom.Vector The point.
+---@param size? integer[] Width and height of the picture in pixels. Default: {1280, 960}.
+---@return number x # Pixels to the right.
+---@return number y # Pixels down.
+---@return number depth # Mesh units.
+---@overload fun(self: lissom.Camera, x: number, y: number, z: number, size?: integer[]): number
+function Camera:project(point, size) end
+
+---The inverse of project.
+---@param pixel lissom.Vector {x, y, depth}.
+---@param size? integer[] Width and height of the picture in pixels. Default: {1280, 960}.
+---@return number[] point # The point, {x, y, z}.
+---@overload fun(self: lissom.Camera, x: number, y: number, z: number, size?: integer[]): number[]
+function Camera:unproject(pixel, size) end
+
+---The ray of points that are seen at a pixel; mesh:pick takes it.
+---@param x number Pixels from the left.
+---@param y number Pixels from the top.
+---@param size? integer[] Width and height of the picture in pixels. Default: {1280, 960}.
+---@return number[] origin # Where the ray starts.
+---@return number[] direction # Where it goes; unit length.
+function Camera:ray(x, y, size) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Camera:close() end
+
+---Cameras and pictures.
+---@class lissom
+local lissom = {}
+
+---@class lissom.CameraOptions
+---@field eye lissom.Vector Where it stands.
+---@field target? lissom.Vector The point in the middle of the picture. Default: {0, 0, 0}.
+---@field up? "x"|"y"|"z"|lissom.Vector The direction that is up in the picture. Default: "y".
+---@field fov? number Vertical opening angle. In degrees. Default: 30.
+---@field ortho? number Height of the picture in world units; the camera then has no perspective.
+
+---A camera that stands at a point and looks at another.
+---@param options lissom.CameraOptions
+---@return lissom.Camera camera # The camera.
+function lissom.camera(options) end
+
+---@class lissom.FrameOptions
+---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from. With y upwards, front looks along -z and right along -x; three-quarter stands to the right of the front, and above. Default: three-quarter.
+---@field up? "y"|"z" The axis that points up in the view. Default: y.
+---@field parallel? boolean Without perspective. Default: false.
+---@field margin? number Share of the picture left free on every side. Default: 0.06.
+---@field fov? number Vertical opening angle. In degrees. Default: 30.
+---@field size? integer[] Width and height of the picture in pixels. Default: {1280, 960}.
+
+---The camera of a standard view that shows all of a mesh, as large as the margin allows. Use it for several pictures that are to be compared.
+---@param mesh lissom.Mesh What to show.
+---@param options? lissom.FrameOptions
+---@return lissom.Camera camera # The camera.
+function lissom.frame(mesh, options) end
+
+---@class lissom.RenderOptions
+---@field file string The picture to write; its name ends with .png.
+---@field size? integer[] {width, height} in pixels. Default: {1280, 960}.
+---@field camera? lissom.Camera Where the picture is seen from, instead of `view`.
+---@field background? string A colour as for `color`, or "transparent". Default: "white".
+---@field samples? integer Samples a pixel along edges: 1, 2, 4, ... as far as the driver has them. Default: 4.
+---@field supersample? integer Pixels drawn along each side of one in the picture; 2 is for print. Default: 1.
+---@field occlusion? number How much folds and contacts darken; 0 draws faster. Default: 1.
+---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from. With y upwards, front looks along -z and right along -x; three-quarter stands to the right of the front, and above. Default: three-quarter.
+---@field up? "y"|"z" The axis that points up in the view. Default: y.
+---@field parallel? boolean Without perspective. Default: false.
+---@field margin? number Share of the picture left free on every side. Default: 0.06.
+---@field mesh? lissom.Mesh The mesh to draw.
+---@field meshes? lissom.Mesh[] Several meshes to draw, instead of `mesh`.
+---@field offsets? lissom.Vector[] Moves each mesh by a vector, in the picture only.
+---@field columns? integer 0: all meshes in one space. Else each in a cell of its own, this many a row, all seen by the same camera. Default: 0.
+---@field fit? "all"|"each" In cells, a view frames all meshes at one scale, or each by itself. Default: "all".
+---@field color? string|string[] Colour of the meshes: "#rrggbb" or one of white, black, gray, lightgray, darkgray, clay, red, orange, yellow, green, teal, blue, purple, sand. Default: clay.
+---@field vertex_colors? boolean Draws the attribute "color" where a mesh has it. Default: true.
+---@field shading? "smooth"|"flat" flat shows the faces. Default: "smooth".
+---@field crease? number Smooth shading keeps edges sharp where faces meet at more than this angle. In degrees. Default: 50.
+---@field wire? boolean Draws the edges of the faces. Default: false.
+---@field wire_width? number Their width. In pixels. Default: 1.
+---@field region? lissom.Region|string The region of interest, drawn in blue.
+---@field handles? string[]|lissom.Region[] Handles, drawn in purple; single vertices as balls.
+---@field boundaries? boolean Draws the open boundaries, each in a colour of its own. Default: false.
+---@field paths? lissom.Path[] Paths to draw as lines.
+---@field points? lissom.Vector[] Points to draw as balls.
+---@field line_width? number Width of boundaries and paths; balls are three times as wide. In pixels. Default: 4.
+---@field scalars? string|lissom.Buffer|number[] Numbers to draw in the colours of a scale.
+---@field range? number[] {low, high}: the numbers at the ends of the scale. Default: the least and the greatest.
+---@field legend? boolean Draws the scale with its numbers, where there are scalars. Default: true.
+---@field label? string Stands above the scale. Default: the name of the scalars.
+
+---Draws meshes into a picture file. Needs no window and no display.
+---@param options lissom.RenderOptions
+---@return string file # The file that was written; nil, message, code where it could not be, or where nothing can draw here.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.render(options) end
+
+return lissom

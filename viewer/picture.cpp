@@ -1,0 +1,133 @@
+#include "viewer/picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/core/error.h"
+#include "viewer/legend.h"
+#include "viewer/overlay.h"
+
+namespace lissom {
+namespace {
+
+// Ink that reads on the background.
+constexpr Color kDarkInk{0.16, 0.17, 0.20};
+constexpr Color kLightInk{0.92, 0.92, 0.93};
+
+void require(bool condition, const char* message) {
+    if (!condition) throw Error(ErrorCode::invalid_argument, message);
+}
+
+void require_faces(const std::vector<DrawnMesh>& meshes) {
+    for (const DrawnMesh& drawn : meshes) {
+        if (drawn.mesh->face_count() > 0) continue;
+        throw Error(ErrorCode::mesh_empty, "a mesh without faces cannot be drawn");
+    }
+}
+
+Color ink_on(const std::optional<Color>& background) {
+    return background && lightness(*background) < 0.5 ? kLightInk : kDarkInk;
+}
+
+// Everything that a standard view frames.
+std::vector<Vec3> framed_points(const Drawing& drawing) {
+    std::vector<Vec3> points;
+    for (const DrawnMesh& drawn : drawing.meshes) {
+        for (const Vec3& p : drawn.mesh->positions()) points.push_back(drawn.transform(p));
+    }
+    for (const DrawnLine& line : drawing.lines) {
+        points.insert(points.end(), line.points.begin(), line.points.end());
+    }
+    for (const DrawnPoint& point : drawing.points) points.push_back(point.position);
+    return points;
+}
+
+// Cells of a picture: one for everything, or one a mesh.
+class Cells {
+  public:
+    Cells(const Picture& picture, int width, int height)
+        : width_(width), height_(height), count_(static_cast<int>(picture.meshes.size())) {
+        if (picture.columns > 0) columns_ = std::min(picture.columns, std::max(count_, 1));
+        if (picture.columns > 0) rows_ = (count_ + columns_ - 1) / columns_;
+        rows_ = std::max(rows_, 1);
+        require(columns_ <= width && rows_ <= height,
+                "the picture is too small for its cells or its legend; make it larger");
+    }
+
+    double aspect() const {
+        return (static_cast<double>(width_) / columns_) / (static_cast<double>(height_) / rows_);
+    }
+    int left(int cell) const { return edge(cell % columns_, width_, columns_); }
+    int top(int cell) const { return edge(cell / columns_, height_, rows_); }
+    int width(int cell) const { return edge(cell % columns_ + 1, width_, columns_) - left(cell); }
+    int height(int cell) const { return edge(cell / columns_ + 1, height_, rows_) - top(cell); }
+
+  private:
+    static int edge(int i, int size, int parts) {
+        return static_cast<int>(static_cast<long long>(size) * i / parts);
+    }
+
+    int width_, height_, count_;
+    int columns_ = 1, rows_ = 1;
+};
+
+// What every cell shows; only the first where all is in one space.
+std::vector<Drawing> drawings_of(const Picture& picture, const ValueRange& range) {
+    if (picture.columns == 0) return {{picture.meshes, picture.lines, picture.points, range}};
+    std::vector<Drawing> drawings;
+    for (const DrawnMesh& drawn : picture.meshes) {
+        drawings.push_back({{drawn}, picture.lines, picture.points, range});
+    }
+    return drawings;
+}
+
+ValueRange range_of(const Picture& picture, const std::optional<ValueRange>& of_values) {
+    require(!picture.range || picture.range->low < picture.range->high,
+            "the range of values must have its low end below its high end");
+    return picture.range.value_or(of_values.value_or(ValueRange{}));
+}
+
+Camera camera_for(const Picture& picture, const Drawing& drawing, double aspect) {
+    if (picture.camera) return *picture.camera;
+    FramingOptions framing = picture.framing;
+    framing.aspect = aspect;
+    const Drawing everything{picture.meshes, picture.lines, picture.points, {}};
+    const bool alone = picture.fit_each && picture.columns > 0;
+    return frame_points(picture.view, framed_points(alone ? drawing : everything), framing);
+}
+
+}  // namespace
+
+Image draw_picture(Renderer& renderer, const Picture& picture, const Context& context) {
+    require_faces(picture.meshes);
+    require(picture.columns >= 0, "columns must be 0 (all meshes in one space) or more");
+    const RenderOptions& options = picture.options;
+    renderer.require_valid(options);
+
+    const std::optional<ValueRange> of_values = range_of_values(picture.meshes);
+    const Legend legend{range_of(picture, of_values), picture.legend_label};
+    const bool has_legend = picture.legend && of_values;
+    const int strip = has_legend ? legend_width(legend, options.height) : 0;
+    const Cells cells(picture, options.width - strip, options.height);
+    const std::vector<Drawing> drawings = drawings_of(picture, legend.range);
+
+    Image image(options.width, options.height);
+    if (options.background) {
+        fill_rectangle(image, 0, 0, image.width, image.height, *options.background);
+    }
+    Progress progress(context, "render");
+    for (std::size_t i = 0; i < drawings.size(); ++i) {
+        progress.step(1.0 / static_cast<double>(drawings.size()));
+        const int cell = static_cast<int>(i);
+        RenderOptions part = options;
+        part.width = cells.width(cell);
+        part.height = cells.height(cell);
+        const Camera camera = camera_for(picture, drawings[i], cells.aspect());
+        image.paste(renderer.render(drawings[i], camera, part, context), cells.left(cell),
+                    cells.top(cell));
+    }
+    if (has_legend) draw_legend(image, legend, ink_on(options.background));
+    return image;
+}
+
+}  // namespace lissom

@@ -1,0 +1,47 @@
+/// Picture: a finished image of one or several meshes, framed, in one space or side by side, with a
+/// legend where values are drawn.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/drawing.h"
+#include "viewer/renderer.h"
+
+namespace lissom {
+
+struct Picture {
+    std::vector<DrawnMesh> meshes = {};
+    /// Drawn with every mesh, in the world of the camera.
+    std::vector<DrawnLine> lines = {};
+    std::vector<DrawnPoint> points = {};
+
+    /// Where it is seen from; without one, a standard view that frames everything.
+    std::optional<Camera> camera = std::nullopt;
+    StandardView view = StandardView::three_quarter;
+    /// Up axis, perspective and margin of the standard view; its aspect is that of the picture.
+    FramingOptions framing = {};
+
+    /// 0: all meshes in one space. Otherwise each in a cell of its own, this many a row, seen by
+    /// the same camera, so that they can be compared.
+    int columns = 0;
+    /// In cells, each mesh is framed by itself: for meshes that have nothing to do with each other.
+    bool fit_each = false;
+
+    /// Ends of the colour scale; without them, the least and greatest value drawn.
+    std::optional<ValueRange> range = std::nullopt;
+    /// Draw the colour scale and its numbers at the right, where a mesh has values.
+    bool legend = true;
+    /// Stands above the colour scale.
+    std::string legend_label = {};
+
+    RenderOptions options = {};
+};
+
+/// Draws `picture`. Errors: those of Renderer::render and frame_points; mesh_empty for a mesh
+/// without faces; invalid_argument where the range is empty, or the size leaves no room for cells
+/// or legend.
+Image draw_picture(Renderer& renderer, const Picture& picture, const Context& context = {});
+
+}  // namespace lissom

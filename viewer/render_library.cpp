@@ -1,0 +1,329 @@
+// lissom.render.
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "bindings/lua/buffer.h"
+#include "bindings/lua/mesh_object.h"
+#include "bindings/lua/path_object.h"
+#include "viewer/camera_object.h"
+#include "viewer/paint.h"
+#include "viewer/png_file.h"
+#include "viewer/viewer_library.h"
+
+namespace lissom::lua {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+
+// ---- The renderer of a Lua state: made by its first picture, ended with the state.
+
+using RendererSlot = std::unique_ptr<Renderer>;
+const char kRendererKey = 0;
+
+RendererSlot& renderer_slot(const Call& call) {
+    lua_State* L = call.lua();
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kRendererKey);
+    if (lua_isnil(L, -1)) {
+        lua_pop(L, 1);
+        call.hold<RendererSlot>();
+        lua_pushvalue(L, -1);
+        raw_set_pointer(L, LUA_REGISTRYINDEX, &kRendererKey);
+    }
+    auto* held = static_cast<char*>(lua_touserdata(L, -1)) + Call::kHeldOffset;
+    return *reinterpret_cast<RendererSlot*>(held);
+}
+
+// ---- The script's options. All of these run inside `attempt`.
+
+std::filesystem::path file_path(const char* text) {
+    const std::string bytes(text);
+    return std::filesystem::path(std::u8string(bytes.begin(), bytes.end()));
+}
+
+void require_count(std::size_t given, std::size_t meshes, const char* what) {
+    if (given == meshes) return;
+    throw Error(ErrorCode::invalid_argument, std::to_string(given) + " " + what +
+                                                 " were given for " + std::to_string(meshes) +
+                                                 " meshes; give one for each");
+}
+
+MeshStyle read_style(const Call& call) {
+    MeshStyle style;
+    style.vertex_colors = call.boolean("vertex_colors");
+    style.shading = call.choice<Shading>("shading");
+    style.crease = call.number("crease") * kDegree;
+    style.wire = call.boolean("wire");
+    style.wire_width = call.number("wire_width");
+    style.boundaries = call.boolean("boundaries");
+    style.line_width = call.number("line_width");
+    return style;
+}
+
+void add_meshes(const Call& call, Picture& picture) {
+    const MeshStyle style = read_style(call);
+    if (call.has("mesh")) {
+        picture.meshes.push_back({&call.object<MeshObject>("mesh")->mesh, style});
+        return;
+    }
+    for (std::size_t i = 0; i < call.object_count("meshes"); ++i) {
+        picture.meshes.push_back({&call.object_at<MeshObject>("meshes", i)->mesh, style});
+    }
+}
+
+void color_meshes(const Call& call, Picture& picture) {
+    if (!call.has("color")) return;
+    if (call.kind("color") == Kind::string) {
+        const Color color = parse_color(call.string("color"));
+        for (DrawnMesh& drawn : picture.meshes) drawn.style.color = color;
+        return;
+    }
+    const auto colors = call.strings("color");
+    require_count(colors.size(), picture.meshes.size(), "colours");
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        picture.meshes[i].style.color = parse_color(colors[i]);
+    }
+}
+
+void move_meshes(const Call& call, Picture& picture) {
+    if (!call.has("offsets")) return;
+    const auto offsets = call.points("offsets");
+    require_count(offsets.size(), picture.meshes.size(), "offsets");
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        picture.meshes[i].transform = translation(offsets[i]);
+    }
+}
+
+void paint_regions(const Call& call, Picture& picture) {
+    if (!call.has("region")) return;
+    if (call.kind("region") == Kind::string) return paint_region(picture, call.string("region"));
+    paint_region(picture, call.object<RegionObject>("region")->current());
+}
+
+void paint_handles(const Call& call, Picture& picture) {
+    if (!call.has("handles")) return;
+    if (call.kind("handles") == Kind::strings) {
+        for (const char* name : call.strings("handles")) paint_handle(picture, name);
+        return;
+    }
+    for (std::size_t i = 0; i < call.object_count("handles"); ++i) {
+        paint_handle(picture, call.object_at<RegionObject>("handles", i)->current());
+    }
+}
+
+void paint_scalars(const Call& call, Picture& picture) {
+    if (!call.has("scalars")) return;
+    switch (call.kind("scalars")) {
+        case Kind::string:
+            return paint_values(picture, call.string("scalars"));
+        case Kind::object: {
+            const auto values = call.object<BufferObject>("scalars")->numbers();
+            return paint_values(picture, std::vector<double>(values.begin(), values.end()));
+        }
+        default: {
+            const auto values = call.numbers("scalars");
+            return paint_values(picture, std::vector<double>(values.begin(), values.end()));
+        }
+    }
+}
+
+void read_scale(const Call& call, Picture& picture) {
+    picture.legend = call.boolean("legend");
+    if (call.has("label")) picture.legend_label = call.string("label");
+    if (!call.has("range")) return;
+    const auto ends = call.numbers("range");
+    if (ends.size() != 2) {
+        throw Error(ErrorCode::invalid_argument, "the range of values is {low, high}");
+    }
+    picture.range = ValueRange{ends[0], ends[1]};
+}
+
+// Paths are drawn where their meshes are drawn.
+Affine place_of(const Picture& picture, const Mesh& mesh) {
+    for (const DrawnMesh& drawn : picture.meshes) {
+        if (drawn.mesh == &mesh) return drawn.transform;
+    }
+    return {};
+}
+
+void add_paths(const Call& call, Picture& picture) {
+    const double width = call.number("line_width");
+    for (std::size_t i = 0; call.has("paths") && i < call.object_count("paths"); ++i) {
+        const auto object = call.object_at<PathObject>("paths", i);
+        const Mesh& mesh = object->mesh->mesh;
+        const Affine place = place_of(picture, mesh);
+        DrawnLine line{object->current().points(mesh), object->current().closed(),
+                       category_color(i), width};
+        for (Vec3& point : line.points) point = place(point);
+        picture.lines.push_back(std::move(line));
+    }
+}
+
+void add_points(const Call& call, Picture& picture) {
+    if (!call.has("points")) return;
+    for (const Vec3& point : call.points("points")) {
+        picture.points.push_back({point, kHandleColor, 1.5 * call.number("line_width")});
+    }
+}
+
+RenderOptions read_options(const Call& call, const SizeRequest& size) {
+    RenderOptions options;
+    options.width = size.width;
+    options.height = size.height;
+    const std::string background = call.string("background");
+    options.background =
+        background == "transparent" ? std::nullopt : std::optional<Color>(parse_color(background));
+    options.samples = call.integer("samples");
+    options.supersample = call.integer("supersample");
+    options.occlusion = call.number("occlusion");
+    return options;
+}
+
+Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& size) {
+    Picture picture;
+    if (call.has("camera")) picture.camera = call.object<CameraObject>("camera")->camera;
+    picture.view = view.view;
+    picture.framing = view.framing;
+    picture.columns = call.integer("columns");
+    picture.fit_each = call.integer("fit") == 1;
+    picture.options = read_options(call, size);
+    add_meshes(call, picture);
+    color_meshes(call, picture);
+    move_meshes(call, picture);
+    paint_regions(call, picture);
+    paint_handles(call, picture);
+    paint_scalars(call, picture);
+    read_scale(call, picture);
+    add_paths(call, picture);
+    add_points(call, picture);
+    return picture;
+}
+
+int render(Call& call) {
+    if (call.has("mesh") == call.has("meshes")) {
+        call.reject("mesh", "give either 'mesh', one, or 'meshes', a list");
+    }
+    if (call.has("camera") && call.has("view")) {
+        call.reject("view", "give either 'camera' or 'view'");
+    }
+    const ViewRequest view = ViewRequest::read(call);
+    const SizeRequest size = SizeRequest::read(call, "size");
+    const char* file = call.string("file");
+    RendererSlot& renderer = renderer_slot(call);
+    const bool done = call.attempt([&] {
+        require_picture_path(file_path(file));
+        const Picture picture = compose(call, view, size);
+        if (!renderer) renderer = std::make_unique<Renderer>();
+        const Image image = draw_picture(*renderer, picture, call.context());
+        save_picture(image, file_path(file), call.context());
+    });
+    return done ? call.push(file) : call.fail();
+}
+
+// ---- Description
+
+std::vector<Parameter> content_options() {
+    const MeshStyle style;
+    return {
+        object("mesh", "lissom.Mesh", "The mesh to draw.").optional(),
+        objects("meshes", "lissom.Mesh", "Several meshes to draw, instead of `mesh`.").optional(),
+        points("offsets", "Moves each mesh by a vector, in the picture only.").optional(),
+        integer("columns",
+                "0: all meshes in one space. Else each in a cell of its own, this many a row, "
+                "all seen by the same camera.")
+            .defaults(0)
+            .at_least(0),
+        choice("fit", {"all", "each"},
+               "In cells, a view frames all meshes at one scale, or each by itself.")
+            .defaults("all"),
+        either("color", {string("name", "One for all."), strings("names", "One for each mesh.")},
+               "Colour of the meshes: \"#rrggbb\" or one of " + std::string(color_names()) + ".")
+            .optional("clay"),
+        boolean("vertex_colors", "Draws the attribute \"color\" where a mesh has it.")
+            .defaults(style.vertex_colors),
+        choice("shading", {"smooth", "flat"}, "flat shows the faces.").defaults("smooth"),
+        number("crease",
+               "Smooth shading keeps edges sharp where faces meet at more than this angle.")
+            .defaults(50.0)
+            .between(0.0, 180.0)
+            .in("degrees"),
+        boolean("wire", "Draws the edges of the faces.").defaults(style.wire),
+        number("wire_width", "Their width.").defaults(style.wire_width).above(0.0).in("pixels"),
+        either("region",
+               {object("region", "lissom.Region", "A region of a mesh."),
+                string("name", "A region by its name, on every mesh that has it.")},
+               "The region of interest, drawn in blue.")
+            .optional(),
+        either("handles",
+               {strings("names", "Regions by their names, on every mesh that has them."),
+                objects("regions", "lissom.Region", "Regions of the meshes.")},
+               "Handles, drawn in purple; single vertices as balls.")
+            .optional(),
+        boolean("boundaries", "Draws the open boundaries, each in a colour of its own.")
+            .defaults(style.boundaries),
+        objects("paths", "lissom.Path", "Paths to draw as lines.").optional(),
+        points("points", "Points to draw as balls.").optional(),
+        number("line_width", "Width of boundaries and paths; balls are three times as wide.")
+            .defaults(style.line_width)
+            .above(0.0)
+            .in("pixels"),
+        either("scalars",
+               {string("name", "An attribute of the vertices, on every mesh that has it."),
+                object("buffer", "lissom.Buffer", "One number a vertex."),
+                numbers("list", "One number a vertex.")},
+               "Numbers to draw in the colours of a scale.")
+            .optional(),
+        numbers("range", "{low, high}: the numbers at the ends of the scale.")
+            .optional("the least and the greatest"),
+        boolean("legend", "Draws the scale with its numbers, where there are scalars.")
+            .defaults(true),
+        string("label", "Stands above the scale.").optional("the name of the scalars")};
+}
+
+std::vector<Parameter> picture_options() {
+    const RenderOptions options;
+    return {string("file", "The picture to write; its name ends with .png."),
+            integers("size", "{width, height} in pixels.").optional("{1280, 960}"),
+            object("camera", "lissom.Camera", "Where the picture is seen from, instead of `view`.")
+                .optional(),
+            string("background", "A colour as for `color`, or \"transparent\".").defaults("white"),
+            integer("samples",
+                    "Samples a pixel along edges: 1, 2, 4, ... as far as the driver has them.")
+                .defaults(options.samples)
+                .at_least(1),
+            integer("supersample",
+                    "Pixels drawn along each side of one in the picture; 2 is for print.")
+                .defaults(options.supersample)
+                .between(1, 4),
+            number("occlusion", "How much folds and contacts darken; 0 draws faster.")
+                .defaults(options.occlusion)
+                .between(0.0, 1.0)};
+}
+
+}  // namespace
+
+std::vector<Function> render_functions() {
+    std::vector<Parameter> options = picture_options();
+    for (Parameter& option : view_options()) options.push_back(std::move(option));
+    for (Parameter& option : content_options()) options.push_back(std::move(option));
+    return {
+        {.name = "render",
+         .body = render,
+         .summary = "Draws meshes into a picture file. Needs no window and no display.",
+         .options = options,
+         .results = {{"string", "file",
+                      "The file that was written; nil, message, code where it could "
+                      "not be, or where nothing can draw here."}},
+         .errors = {ErrorCode::no_display, ErrorCode::unknown_format, ErrorCode::file_write_failed,
+                    ErrorCode::file_is_directory, ErrorCode::mesh_empty,
+                    ErrorCode::invalid_argument, ErrorCode::out_of_range,
+                    ErrorCode::topology_mismatch, ErrorCode::memory_limit, ErrorCode::cancelled},
+         .example = R"(local path = os.tmpname() .. ".png"
+local mesh = lissom.shapes.cactus{ vertices = 2000 }
+local file, message, code = lissom.render{ mesh = mesh, file = path, size = { 320, 240 },
+    view = "front", region = "left_arm", handles = { "left_tip" } }
+assert(file == path or code == "no_display", message)
+os.remove(path))"}};
+}
+
+}  // namespace lissom::lua

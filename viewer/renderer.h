@@ -1,0 +1,60 @@
+/// Renderer: draws meshes, lines and points into pictures with OpenGL, into a framebuffer of its
+/// own: no window, no display.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "kernel/sketch/camera.h"
+#include "viewer/drawing.h"
+#include "viewer/image.h"
+#include "viewer/platform.h"
+
+namespace lissom {
+
+/// How a drawing becomes pixels.
+struct RenderOptions {
+    /// Size in pixels: at least 1, at most `Renderer::maximum_size`.
+    int width = 1280;
+    int height = 960;
+    /// Nothing: transparent.
+    std::optional<Color> background = kWhite;
+    /// Samples a pixel along edges: 1, 2, 4, ... as far as the driver has them.
+    int samples = 4;
+    /// Pixels that are drawn along each side of one in the picture, 1 to 4; 2 is for print.
+    int supersample = 1;
+    /// How much folds and contacts darken, 0 (not at all; quicker) to 1.
+    double occlusion = 1.0;
+};
+
+class Renderer {
+  public:
+    /// Errors: no_display; internal where the driver refuses a shader.
+    explicit Renderer(std::unique_ptr<Platform> platform = make_egl_platform());
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    /// The picture of `drawing` as `camera` sees it. The same input gives the same pixels on the
+    /// same driver. May be called on any thread, by one at a time. Errors: invalid_argument and
+    /// out_of_range for options; not_finite for a transform, line or point; those of build_surface;
+    /// memory_limit; no_display where the context is in use on another thread; cancelled.
+    Image render(const Drawing& drawing, const Camera& camera, const RenderOptions& options = {},
+                 const Context& context = {});
+
+    /// Throws where `options` cannot be drawn: invalid_argument, out_of_range.
+    void require_valid(const RenderOptions& options) const;
+    /// Most pixels along a side of a picture.
+    int maximum_size() const;
+    /// Most samples a pixel.
+    int maximum_samples() const;
+    /// Name of what draws, for instance "llvmpipe (LLVM 15.0.6, 256 bits)".
+    const std::string& driver() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lissom
