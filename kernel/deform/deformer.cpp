@@ -203,13 +203,14 @@ const std::vector<Vec3>& Deformer::preview(const Context& context) {
     }
     if (s.prepared->solution) {
         const LinearSolution& solution = *s.prepared->solution;
-        const Mat4 base = s.base_transform();
+        const Mat4 shift = s.base_transform() - matrix_of({});
+        const Mat4* moved = shift.isZero(0.0) ? nullptr : &shift;
         const std::vector<Mat4> differences = s.differences();
         context.parallel_for(0, solution.rows(), kFrameGrain, [&](Index begin, Index end) {
             for (Index row = begin; row < end; ++row) {
                 const Index target = s.prepared->region_row[row];
                 if (target == kNoIndex) continue;
-                s.positions[target] = solution.position(row, base, differences) + s.patch.origin;
+                s.positions[target] = solution.position(row, moved, differences) + s.patch.origin;
             }
         });
     }

@@ -261,10 +261,17 @@ Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
 void Deformer::State::solve_second(const Context& context) {
     const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
     const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
+    // Handles turn as a whole.
+    std::vector<Mat3> handle_turns;
+    for (const HandleState& h : handles) {
+        handle_turns.push_back(rotation_of(h.transform.linear) - base_rotation);
+    }
     turns.resize(static_cast<std::size_t>(patch.real_count), Mat3::Zero());
     context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
         for (Index row = begin; row < end; ++row) {
-            turns[patch.of_region[row]] = rotation_of(gradients[row]) - base_rotation;
+            const Index v = patch.of_region[row], owner = prepared->owner[v];
+            const bool known = owner >= 0 && prepared->known.gradient[v];
+            turns[v] = known ? handle_turns[owner] : rotation_of(gradients[row]) - base_rotation;
         }
     });
     std::vector<Vec3>& at = second_positions;

@@ -61,15 +61,17 @@ class LinearSolution {
         }
         return fixed_.empty() ? Vec3(x.head<3>()) : Vec3(x.head<3>() + fixed_[row]);
     }
-    /// The position of the free vertex `row`.
-    Vec3 position(Index row, const Mat4& base, std::span<const Mat4> differences) const {
+    /// The position of the free vertex `row`, for a base whose transform differs from the identity
+    /// by `shift`, or not at all where that is null.
+    Vec3 position(Index row, const Mat4* shift, std::span<const Mat4> differences) const {
         Vec3 x = rest_[row] + deviation(row, differences);
-        if (base_ != kNoIndex) x += ((base - Mat4::Identity()) * homogeneous(rest_[row])).head<3>();
+        if (shift) x += (*shift * homogeneous(rest_[row])).head<3>();
         const Index f = fold_of_[row];
         if (f == kNoIndex) return x;
-        for (std::size_t h = 0; h < handles_.size(); ++h)
+        for (std::size_t h = 0; h < handles_.size(); ++h) {
             x += (differences[h] * fold_[h][f]).head<3>();
-        return fixed_fold_.empty() ? x : x + fixed_fold_[f];
+        }
+        return fixed_fold_.empty() ? x : Vec3(x + fixed_fold_[f]);
     }
 
     /// Weight of handle number h of `handles()` in `position(row)`, and its fixed part.

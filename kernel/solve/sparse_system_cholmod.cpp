@@ -126,7 +126,7 @@ struct SparseSystem::State {
 
     Workspace workspace;
     cholmod_factor* factor = nullptr;
-    std::vector<Eigen::Array4d> scratch;
+    std::vector<double> scratch;
     std::vector<Index> begin, row;
     bool factored = false;
     MemoryCharge charge;

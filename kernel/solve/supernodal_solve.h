@@ -29,6 +29,6 @@ inline constexpr Index kSolveWidth = 4;
 /// Solves L L^T x = b for up to `kSolveWidth` columns, stored one after the other; x may be b.
 /// `scratch` is sized as needed and may be kept for the next call.
 void solve_supernodal(const SupernodalFactor& factor, const double* b, double* x, Index columns,
-                      std::vector<Eigen::Array4d>& scratch);
+                      std::vector<double>& scratch);
 
 }  // namespace lissom
