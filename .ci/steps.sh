@@ -42,11 +42,11 @@ finish() {
     [ $ci_failed -eq 0 ]
 }
 
-# sources EXTENSION... : the project's own files with one of these extensions, below any of its folders.
+# sources EXTENSION... : the project's own files with one of these extensions.
 sources() {
     local extension
     for extension in "$@"; do
-        find kernel bindings viewer tests examples scripts -name "*.$extension" -not -path '*/build/*'
+        find . \( -path ./build -o -path ./out -o -path ./.git \) -prune -o -name "*.$extension" -print
     done | sort
 }
 

@@ -43,7 +43,7 @@ if(TARGET lissom_lua54_module)
 endif()
 if(TARGET lissom)
     install(TARGETS lissom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts ${PROJECT_SOURCE_DIR}/examples
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples
             DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
             FILES_MATCHING PATTERN "*.lua")
     # Annotations of the Lua functions for editors.

@@ -188,8 +188,8 @@ ViewRequest ViewRequest::read(const Call& call) {
     ViewRequest request;
     if (call.has("view")) request.view = call.choice<StandardView>("view");
     if (call.has("up")) request.framing.up = call.choice<ViewUp>("up");
-    request.framing.ortho = call.boolean("parallel");
-    request.framing.margin = call.number("margin");
+    if (call.has("parallel")) request.framing.ortho = call.boolean("parallel");
+    if (call.has("margin")) request.framing.margin = call.number("margin");
     return request;
 }
 
@@ -212,10 +212,10 @@ std::vector<Parameter> view_options() {
                "three-quarter stands to the right of the front, and above.")
             .optional("three-quarter"),
         choice("up", {"y", "z"}, "The axis that points up in the view.").optional("y"),
-        boolean("parallel", "Without perspective.").defaults(false),
+        boolean("parallel", "Without perspective.").optional("false"),
         number("margin", "Share of the picture left free on every side.")
-            .defaults(FramingOptions{}.margin)
-            .between(0.0, 0.49)};
+            .between(0.0, 0.49)
+            .optional("0.06")};
 }
 
 Type camera_type() {

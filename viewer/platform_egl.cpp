@@ -130,7 +130,7 @@ class EglPlatform : public Platform {
         if (!eglInitialize(display, &major, &minor)) return "does not start";
         const Current before;
         if (!eglBindAPI(EGL_OPENGL_API)) return "has no OpenGL";
-        const std::optional<std::string> reason = make_context();
+        std::optional<std::string> reason = make_context();
         eglBindAPI(before.api);
         if (reason) return reason;
         return check_context();

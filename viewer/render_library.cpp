@@ -48,15 +48,19 @@ void require_count(std::size_t given, std::size_t meshes, const char* what) {
                                                  " meshes; give one for each");
 }
 
+double line_width(const Call& call) {
+    return call.has("line_width") ? call.number("line_width") : MeshStyle{}.line_width;
+}
+
 MeshStyle read_style(const Call& call) {
     MeshStyle style;
     style.vertex_colors = call.boolean("vertex_colors");
     style.shading = call.choice<Shading>("shading");
-    style.crease = call.number("crease") * kDegree;
+    if (call.has("crease")) style.crease = call.number("crease") * kDegree;
     style.wire = call.boolean("wire");
-    style.wire_width = call.number("wire_width");
+    if (call.has("wire_width")) style.wire_width = call.number("wire_width");
     style.boundaries = call.boolean("boundaries");
-    style.line_width = call.number("line_width");
+    style.line_width = line_width(call);
     return style;
 }
 
@@ -128,7 +132,7 @@ void paint_scalars(const Call& call, Picture& picture) {
 }
 
 void read_scale(const Call& call, Picture& picture) {
-    picture.legend = call.boolean("legend");
+    if (call.has("legend")) picture.legend = call.boolean("legend");
     if (call.has("label")) picture.legend_label = call.string("label");
     if (!call.has("range")) return;
     const auto ends = call.numbers("range");
@@ -147,7 +151,7 @@ Affine place_of(const Picture& picture, const Mesh& mesh) {
 }
 
 void add_paths(const Call& call, Picture& picture) {
-    const double width = call.number("line_width");
+    const double width = line_width(call);
     for (std::size_t i = 0; call.has("paths") && i < call.object_count("paths"); ++i) {
         const auto object = call.object_at<PathObject>("paths", i);
         const Mesh& mesh = object->mesh->mesh;
@@ -162,7 +166,7 @@ void add_paths(const Call& call, Picture& picture) {
 void add_points(const Call& call, Picture& picture) {
     if (!call.has("points")) return;
     for (const Vec3& point : call.points("points")) {
-        picture.points.push_back({point, kHandleColor, 1.5 * call.number("line_width")});
+        picture.points.push_back({point, kHandleColor, 1.5 * line_width(call)});
     }
 }
 
@@ -185,7 +189,7 @@ Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& si
     picture.view = view.view;
     picture.framing = view.framing;
     picture.columns = call.integer("columns");
-    picture.fit_each = call.integer("fit") == 1;
+    picture.fit_each = call.has("fit") && call.integer("fit") == 1;
     picture.options = read_options(call, size);
     add_meshes(call, picture);
     color_meshes(call, picture);
@@ -199,13 +203,35 @@ Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& si
     return picture;
 }
 
-int render(Call& call) {
+// Options that exclude each other, or would do nothing without another.
+void check_options(const Call& call) {
     if (call.has("mesh") == call.has("meshes")) {
         call.reject("mesh", "give either 'mesh', one, or 'meshes', a list");
     }
-    if (call.has("camera") && call.has("view")) {
-        call.reject("view", "give either 'camera' or 'view'");
+    for (const char* option : {"view", "up", "parallel", "margin"}) {
+        if (call.has(option) && call.has("camera")) {
+            call.reject(option, "it describes a standard view; leave it out or leave out 'camera'");
+        }
     }
+    for (const char* option : {"range", "legend", "label"}) {
+        if (call.has(option) && !call.has("scalars")) call.reject(option, "it needs 'scalars'");
+    }
+    if (call.has("fit") && call.integer("columns") == 0) call.reject("fit", "it needs 'columns'");
+    if (call.has("wire_width") && !call.boolean("wire")) {
+        call.reject("wire_width", "it needs 'wire = true'");
+    }
+    if (call.has("crease") && call.choice<Shading>("shading") == Shading::flat) {
+        call.reject("crease", "it is for smooth shading");
+    }
+    const bool has_lines = call.boolean("boundaries") || call.has("paths") || call.has("points") ||
+                           call.has("handles");
+    if (call.has("line_width") && !has_lines) {
+        call.reject("line_width", "it needs 'boundaries', 'paths', 'points' or 'handles'");
+    }
+}
+
+int render(Call& call) {
+    check_options(call);
     const ViewRequest view = ViewRequest::read(call);
     const SizeRequest size = SizeRequest::read(call, "size");
     const char* file = call.string("file");
@@ -235,7 +261,7 @@ std::vector<Parameter> content_options() {
             .at_least(0),
         choice("fit", {"all", "each"},
                "In cells, a view frames all meshes at one scale, or each by itself.")
-            .defaults("all"),
+            .optional("all"),
         either("color", {string("name", "One for all."), strings("names", "One for each mesh.")},
                "Colour of the meshes: \"#rrggbb\" or one of " + std::string(color_names()) + ".")
             .optional("clay"),
@@ -244,11 +270,11 @@ std::vector<Parameter> content_options() {
         choice("shading", {"smooth", "flat"}, "flat shows the faces.").defaults("smooth"),
         number("crease",
                "Smooth shading keeps edges sharp where faces meet at more than this angle.")
-            .defaults(50.0)
             .between(0.0, 180.0)
-            .in("degrees"),
+            .in("degrees")
+            .optional("50"),
         boolean("wire", "Draws the edges of the faces.").defaults(style.wire),
-        number("wire_width", "Their width.").defaults(style.wire_width).above(0.0).in("pixels"),
+        number("wire_width", "Their width.").above(0.0).in("pixels").optional("1"),
         either("region",
                {object("region", "lissom.Region", "A region of a mesh."),
                 string("name", "A region by its name, on every mesh that has it.")},
@@ -264,9 +290,9 @@ std::vector<Parameter> content_options() {
         objects("paths", "lissom.Path", "Paths to draw as lines.").optional(),
         points("points", "Points to draw as balls.").optional(),
         number("line_width", "Width of boundaries and paths; balls are three times as wide.")
-            .defaults(style.line_width)
             .above(0.0)
-            .in("pixels"),
+            .in("pixels")
+            .optional("4"),
         either("scalars",
                {string("name", "An attribute of the vertices, on every mesh that has it."),
                 object("buffer", "lissom.Buffer", "One number a vertex."),
@@ -275,8 +301,7 @@ std::vector<Parameter> content_options() {
             .optional(),
         numbers("range", "{low, high}: the numbers at the ends of the scale.")
             .optional("the least and the greatest"),
-        boolean("legend", "Draws the scale with its numbers, where there are scalars.")
-            .defaults(true),
+        boolean("legend", "Draws the scale with its numbers.").optional("true"),
         string("label", "Stands above the scale.").optional("the name of the scalars")};
 }
 
@@ -303,9 +328,9 @@ std::vector<Parameter> picture_options() {
 }  // namespace
 
 std::vector<Function> render_functions() {
-    std::vector<Parameter> options = picture_options();
+    std::vector<Parameter> options = content_options();
+    for (Parameter& option : picture_options()) options.push_back(std::move(option));
     for (Parameter& option : view_options()) options.push_back(std::move(option));
-    for (Parameter& option : content_options()) options.push_back(std::move(option));
     return {
         {.name = "render",
          .body = render,

@@ -61,19 +61,24 @@ void declare_view(CLI::App& app, Request& request) {
             CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "three-quarter"}));
     app.add_option("--up", request.up, "The axis that points up (default: y)")
         ->check(CLI::IsMember({"y", "z"}));
-    app.add_flag("--parallel", request.picture.framing.ortho, "A view without perspective");
+    auto* parallel =
+        app.add_flag("--parallel", request.picture.framing.ortho, "A view without perspective");
     auto* camera =
         app.add_option("--camera", request.camera,
                        "X,Y,Z,X,Y,Z: where the camera stands and looks, instead of --view")
             ->delimiter(',')
             ->expected(6)
-            ->excludes("--view");
-    app.add_option("--fov", request.fov, "Vertical opening angle in degrees (default: 30)")
-        ->check(CLI::Range(1.0, 170.0));
+            ->excludes("--view")
+            ->excludes(parallel);
+    auto* fov =
+        app.add_option("--fov", request.fov, "Vertical opening angle in degrees (default: 30)")
+            ->check(CLI::Range(1.0, 170.0))
+            ->excludes(parallel);
     app.add_option("--ortho", request.ortho,
                    "Height that a camera without perspective sees, in mesh units")
         ->check(CLI::PositiveNumber)
-        ->needs(camera);
+        ->needs(camera)
+        ->excludes(fov);
 }
 
 void declare_content(CLI::App& app, Request& request) {
@@ -89,18 +94,21 @@ void declare_content(CLI::App& app, Request& request) {
     app.add_option("--region", request.region, "Name of a region to draw in blue");
     app.add_option("--handles", request.handles, "Names of regions to draw in purple");
     app.add_flag("--boundaries", style.boundaries, "Draw the open boundaries in colours");
-    app.add_option("--scalars", request.scalars,
-                   "Name of an attribute of the vertices to draw in the colours of a scale");
+    auto* scalars =
+        app.add_option("--scalars", request.scalars,
+                       "Name of an attribute of the vertices to draw in the colours of a scale");
     app.add_option("--range", request.range, "LOW,HIGH: the ends of the scale")
         ->delimiter(',')
-        ->expected(2);
-    app.add_flag("--no-legend", request.no_legend, "Leave out the scale's legend");
-    app.add_option("--columns", request.picture.columns,
-                   "Draw each mesh in a cell of its own, so many a row")
-        ->check(CLI::NonNegativeNumber);
+        ->expected(2)
+        ->needs(scalars);
+    app.add_flag("--no-legend", request.no_legend, "Leave out the scale's legend")->needs(scalars);
+    auto* columns = app.add_option("--columns", request.picture.columns,
+                                   "Draw each mesh in a cell of its own, so many a row")
+                        ->check(CLI::PositiveNumber);
     app.add_option("--fit", request.fit,
                    "In cells, frame all meshes at one scale or each by itself (default: all)")
-        ->check(CLI::IsMember({"all", "each"}));
+        ->check(CLI::IsMember({"all", "each"}))
+        ->needs(columns);
 }
 
 void declare_quality(CLI::App& app, Request& request) {

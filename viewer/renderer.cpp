@@ -94,6 +94,10 @@ ViewParameters view_parameters(const Drawing& drawing, const Camera& given, doub
             Vec2(aspect * half_height, half_height), !camera.is_ortho(), range.near};
 }
 
+std::size_t picture_bytes(const RenderOptions& options) {
+    return 4 * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+}
+
 std::string text_of(GLenum name) {
     const GLubyte* const text = glGetString(name);
     return text ? reinterpret_cast<const char*>(text) : "";
@@ -149,6 +153,7 @@ Image Renderer::render(const Drawing& drawing, const Camera& camera, const Rende
     const double seen = 2.0 * camera.half_height(std::max(depth, view.near));
     const double radius = std::min(kOcclusionOfSize * placement.size, kOcclusionOfView * seen);
 
+    const MemoryCharge charge = context.charge(picture_bytes(options), "the picture");
     const PlatformScope scope(*state_->platform);
     progress.step(0.3);
     const GpuDrawing uploaded = upload(drawing, placement.center, context);

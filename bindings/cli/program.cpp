@@ -35,7 +35,8 @@ bool Program::parse(CLI::App& app, const std::vector<std::string>& words, int& s
                  "Write all log messages, and where in a script an error came from");
     app.add_option("--threads", threads,
                    "Threads of the kernel's loops (default: one for each core)")
-        ->check(CLI::Range(1, 1024));
+        ->check(CLI::Range(1, 1024))
+        ->envname("LISSOM_THREADS");
     // CLI11 takes words from the end.
     std::vector<std::string> reversed(words.rbegin(), words.rend());
     const bool asked = std::find(words.begin(), words.end(), "--json") != words.end();

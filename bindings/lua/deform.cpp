@@ -1,52 +1,25 @@
 // lissom.deform: Deformation and Handle.
-#include <optional>
-
 #include "bindings/lua/buffer.h"
+#include "bindings/lua/deform_object.h"
 #include "bindings/lua/library.h"
-#include "bindings/lua/mesh_object.h"
 #include "bindings/lua/transform_options.h"
-#include "kernel/deform/deformer.h"
 
 namespace lissom::lua {
+
+std::size_t DeformObject::memory_bytes() const {
+    if (!content) return 0;
+    return content->stats().factor_bytes + content->positions().size() * 4 * sizeof(Mat3);
+}
+
+Deformer& DeformObject::deformer() {
+    if (!content) {
+        throw Error(ErrorCode::handle_removed, "the deformation was closed; make a new one");
+    }
+    require_current(*mesh, topology, "the deformation");
+    return *content;
+}
+
 namespace {
-
-struct DeformObject {
-    static constexpr const char* kTypeName = "lissom.Deformation";
-
-    DeformObject(std::shared_ptr<MeshObject> owner, Deformer made)
-        : mesh(std::move(owner)),
-          topology(mesh->mesh.shared_topology()),
-          content(std::move(made)) {}
-
-    std::shared_ptr<MeshObject> mesh;
-    std::shared_ptr<const Topology> topology;
-    /// Empty once it was closed.
-    std::optional<Deformer> content;
-    std::size_t charged_bytes = 0;
-
-    std::size_t memory_bytes() const {
-        return content
-                   ? content->stats().factor_bytes + content->positions().size() * 4 * sizeof(Mat3)
-                   : 0;
-    }
-
-    /// Throws handle_removed where it was closed, topology_mismatch where the mesh has another
-    /// topology.
-    Deformer& deformer() {
-        if (!content) {
-            throw Error(ErrorCode::handle_removed, "the deformation was closed; make a new one");
-        }
-        require_current(*mesh, topology, "the deformation");
-        return *content;
-    }
-};
-
-struct HandleObject {
-    static constexpr const char* kTypeName = "lissom.Handle";
-
-    std::shared_ptr<DeformObject> edit;
-    HandleId id;
-};
 
 // ---- lissom.deform
 
@@ -234,7 +207,7 @@ int basis(Call& call) {
 }
 
 int deformation_mesh(Call& call) {
-    return call.push_shared(call.self<DeformObject>()->mesh);
+    return push_owner(call, call.self<DeformObject>()->mesh);
 }
 
 int deformation_region(Call& call) {

@@ -63,6 +63,13 @@ void require_current(const MeshObject& mesh, const std::shared_ptr<const Topolog
     require_same_topology(mesh.mesh, topology, what);
 }
 
+int push_owner(Call& call, const std::shared_ptr<MeshObject>& mesh) {
+    const bool open = call.attempt_quick([&] {
+        if (mesh->closed) throw Error(ErrorCode::topology_mismatch, "the mesh was closed");
+    });
+    return open ? call.push_shared(mesh) : call.fail();
+}
+
 void refuse_absent(const char* what, std::string_view name,
                    const std::vector<std::string_view>& names) {
     throw Error(ErrorCode::out_of_range, std::string("the mesh has no ") + what + " '" +

@@ -74,6 +74,9 @@ struct RegionObject {
 void require_current(const MeshObject& mesh, const std::shared_ptr<const Topology>& topology,
                      const char* what);
 
+/// Pushes the mesh that an object belongs to. Fails where it was closed.
+int push_owner(Call& call, const std::shared_ptr<MeshObject>& mesh);
+
 /// Runs work(Mesh&), which changes the mesh of a method in place, and returns that mesh.
 template <typename Work>
 int change_mesh(Call& call, const Work& work) {

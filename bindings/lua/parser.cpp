@@ -94,6 +94,11 @@ std::vector<std::string_view> slot_names(const Entry& entry, int first, int last
     return names;
 }
 
+// The unit vector of the axis called "x", "y" or "z".
+void set_axis(const char* name, Value& value) noexcept {
+    for (int k = 0; k < 3; ++k) value.xyz[k] = name[0] - 'x' == k ? 1.0 : 0.0;
+}
+
 }  // namespace
 
 std::string expectation(const Parameter& p) {
@@ -321,6 +326,7 @@ void Parser::fill_default(const Parameter& p, Value& value) {
         value.size = text->size();
         const auto found = std::find(p.choices.begin(), p.choices.end(), *text);
         value.number = static_cast<double>(found - p.choices.begin());
+        if (p.kind == Kind::axis) set_axis(text->c_str(), value);
     }
 }
 
@@ -455,7 +461,7 @@ void Parser::read_axis(const Parameter& p, int index, Value& value, const Place&
     const char* name = lua_tostring(L_, index);
     const bool is_name = name[0] >= 'x' && name[0] <= 'z' && name[1] == '\0';
     if (!is_name) mismatch(p, index, place);
-    for (int k = 0; k < 3; ++k) value.xyz[k] = name[0] - 'x' == k ? 1.0 : 0.0;
+    set_axis(name, value);
 }
 
 // Reads rows into a row-major list of numbers.

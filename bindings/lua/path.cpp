@@ -176,7 +176,7 @@ int path_region(Call& call) {
 }
 
 int path_mesh(Call& call) {
-    return call.push_shared(call.self<PathObject>()->mesh);
+    return push_owner(call, call.self<PathObject>()->mesh);
 }
 
 int path_size(Call& call) {

@@ -51,16 +51,6 @@ std::string capitalized(std::string text) {
     return text;
 }
 
-// Lua's reserved words cannot follow a dot in a definition.
-bool is_reserved(const std::string& name) {
-    for (const char* word : {"and",      "break",  "do",   "else", "elseif", "end",  "false", "for",
-                             "function", "goto",   "if",   "in",   "local",  "nil",  "not",   "or",
-                             "repeat",   "return", "then", "true", "until",  "while"}) {
-        if (name == word) return true;
-    }
-    return false;
-}
-
 void add_fields(std::string& text, const std::vector<Parameter>& fields, const std::string& owner);
 
 // A class for the option table `owner`, after those of its nested tables.
@@ -95,7 +85,61 @@ std::string options_class(const std::string& owner, const Function& function) {
     return owner + "." + capitalized(name) + "Options";
 }
 
-// Parameters in the order of the call; a positional vector is shown as a table.
+// "x: number, y: number, z: number" in place of a vector: the other way to call the function.
+std::string spread_parameters(const Function& function, const std::string& class_name) {
+    std::vector<std::string> words;
+    for (const Parameter& p : function.arguments) {
+        if (p.kind == Kind::vector) {
+            words.insert(words.end(), {"x: number", "y: number", "z: number"});
+        } else {
+            words.push_back(p.name + (p.required ? ": " : "?: ") + field_type(p, class_name));
+        }
+    }
+    if (!function.options.empty()) words.push_back("options?: " + class_name);
+    return joined(words, ", ");
+}
+
+// Adds ---@param lines and returns the names.
+std::vector<std::string> add_parameters(std::string& text, const Function& function,
+                                        const std::string& class_name) {
+    std::vector<std::string> names;
+    for (const Parameter& p : function.arguments) {
+        names.push_back(p.name);
+        text += "---@param " + p.name + (p.required ? " " : "? ") + field_type(p, class_name) +
+                " " + explanation(p) + "\n";
+    }
+    if (function.options.empty()) return names;
+    names.push_back("options");
+    const bool instead = function.one_option && !function.arguments.empty();
+    const bool required = (has_required(function.options) || function.one_option) && !instead;
+    text += "---@param options" + std::string(required ? " " : "? ") + class_name + "\n";
+    return names;
+}
+
+void add_results(std::string& text, const Function& function) {
+    for (const Result& r : function.results) {
+        text +=
+            "---@return " + r.type + " " + r.name + (r.help.empty() ? "" : " # " + r.help) + "\n";
+    }
+    const bool may_fail = std::any_of(function.errors.begin(), function.errors.end(),
+                                      [](ErrorCode code) { return !is_misuse(code); });
+    if (!may_fail || function.results.size() != 1) return;
+    text +=
+        "---@return string? message # What is wrong, where the first result is nil.\n"
+        "---@return string? code # Its code.\n"
+        "---@return lissom.Elements? elements # The elements concerned.\n";
+}
+
+void add_overload(std::string& text, const Function& function, const std::string& owner,
+                  const std::string& class_name, bool is_method) {
+    const bool has_vector = std::any_of(function.arguments.begin(), function.arguments.end(),
+                                        [](const Parameter& p) { return p.kind == Kind::vector; });
+    if (!has_vector || function.results.empty()) return;
+    text += "---@overload fun(" + (is_method ? "self: " + owner + ", " : "") +
+            spread_parameters(function, class_name) + "): " + function.results[0].type + "\n";
+}
+
+// `call` is how it is defined: "lissom.load" or "Mesh:smooth".
 void add_function(std::string& text, const Function& function, const std::string& owner,
                   const std::string& call) {
     const std::string class_name = options_class(owner, function);
@@ -105,46 +149,9 @@ void add_function(std::string& text, const Function& function, const std::string
     }
     if (!function.options.empty()) add_option_class(text, function.options, class_name);
     text += "---" + function.summary + "\n";
-    std::vector<std::string> names;
-    std::vector<std::string> spread;
-    for (const Parameter& p : function.arguments) {
-        names.push_back(p.name);
-        text += "---@param " + p.name + (p.required ? " " : "? ") + field_type(p, class_name) +
-                " " + explanation(p) + "\n";
-        if (p.kind == Kind::vector) {
-            spread.insert(spread.end(), {"x: number", "y: number", "z: number"});
-        } else {
-            spread.push_back(p.name + (p.required ? ": " : "?: ") + field_type(p, class_name));
-        }
-    }
-    if (!function.options.empty()) {
-        const bool required = has_required(function.options) || function.one_option;
-        const bool instead = function.one_option && !function.arguments.empty();
-        names.push_back("options");
-        text += "---@param options" + std::string(required && !instead ? " " : "? ") + class_name +
-                "\n";
-        spread.push_back("options?: " + class_name);
-    }
-    for (const Result& r : function.results) {
-        text +=
-            "---@return " + r.type + " " + r.name + (r.help.empty() ? "" : " # " + r.help) + "\n";
-    }
-    const bool may_fail = std::any_of(function.errors.begin(), function.errors.end(),
-                                      [](ErrorCode code) { return !is_misuse(code); });
-    if (may_fail && function.results.size() == 1) {
-        text +=
-            "---@return string? message # What is wrong, where the first result is nil.\n"
-            "---@return string? code # Its code.\n"
-            "---@return lissom.Elements? elements # The elements concerned.\n";
-    }
-    const bool has_vector = std::any_of(function.arguments.begin(), function.arguments.end(),
-                                        [](const Parameter& p) { return p.kind == Kind::vector; });
-    if (has_vector && !function.results.empty()) {
-        const std::string self = call.find(':') == std::string::npos ? "" : "self: " + owner;
-        text += "---@overload fun(" + self + (self.empty() || spread.empty() ? "" : ", ") +
-                joined(spread, ", ") + "): " + function.results[0].type + "\n";
-    }
-    if (is_reserved(function.name)) return;
+    const std::vector<std::string> names = add_parameters(text, function, class_name);
+    add_results(text, function);
+    add_overload(text, function, owner, class_name, call.find(':') != std::string::npos);
     text += "function " + call + "(" + joined(names, ", ") + ") end\n\n";
 }
 

@@ -245,7 +245,7 @@ int region_boundaries(Call& call) {
 }
 
 int region_mesh(Call& call) {
-    return call.push_shared(call.self<RegionObject>()->mesh);
+    return push_owner(call, call.self<RegionObject>()->mesh);
 }
 
 int region_size(Call& call) {

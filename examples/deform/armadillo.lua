@@ -5,6 +5,7 @@
 --
 -- It expects the armadillo of the Stanford 3D Scanning Repository upright along y, facing +z.
 
+local before_after = require "before_after"
 local lissom = require "lissom"
 
 local params = lissom.params{
@@ -45,15 +46,11 @@ edit:handle(mesh:region("head")):rotate{ axis = "y", angle = params.turn, about 
 
 assert(edit:solve())
 
-local function path(extension) return params.out .. "/armadillo." .. extension end
-assert(mesh:save(path("obj")))
-assert(mesh:save(path("ply")))
-assert(lissom.render{
-    meshes = { rest, mesh }, columns = 2, view = "front",
-    region = "movable", handles = { "left_hand", "right_hand", "head" },
-    file = path("png"), size = { 1200, 720 },
-})
+local file = before_after.write{
+    name = "armadillo", out = params.out, before = rest, after = mesh,
+    view = "front", region = "movable", handles = { "left_hand", "right_hand", "head" }, size = { 1200, 720 },
+}
 local stats = edit:stats()
 print(string.format("%d vertices, %d of them free, prepared in %.2f s: %s, .ply, .png", mesh:vertex_count(),
     stats.free_vertices, stats.assemble_seconds + stats.first_factor_seconds + stats.second_factor_seconds,
-    path("obj")))
+    file))

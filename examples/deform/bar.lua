@@ -3,6 +3,7 @@
 --     lissom run examples/deform/bar.lua
 --     lissom run examples/deform/bar.lua --twist 180 --bend 0
 
+local before_after = require "before_after"
 local lissom = require "lissom"
 
 local params = lissom.params{
@@ -24,6 +25,8 @@ for _, name in ipairs{ "bottom", "top" } do
     rest:set_region(name, rest:region(name):grow(params.across // 2))
 end
 
+rest:set_region("movable", rest:region{ all = true })
+
 -- Without a region the whole mesh may move. The lower handle is not moved: it holds its place.
 local mesh = rest:copy()
 local edit = lissom.deform(mesh)
@@ -38,12 +41,9 @@ top:rotate{ axis = "z", angle = -params.bend, about = { 2 * width, 0, 0 } }
 assert(edit:solve())
 
 -- Before and after, with the faces' edges: the handles in purple.
-local function path(extension) return params.out .. "/bar." .. extension end
-assert(mesh:save(path("obj")))
-assert(mesh:save(path("ply")))
-assert(lissom.render{
-    meshes = { rest, mesh }, columns = 2, wire = true, region = rest:region{ all = true },
-    handles = { "bottom", "top" }, file = path("png"), size = { 1200, 640 },
-})
+local file = before_after.write{
+    name = "bar", out = params.out, before = rest, after = mesh,
+    wire = true, region = "movable", handles = { "bottom", "top" },
+}
 print(string.format("%d vertices, %d of them free: %s, .ply, .png",
-    mesh:vertex_count(), edit:stats().free_vertices, path("obj")))
+    mesh:vertex_count(), edit:stats().free_vertices, file))

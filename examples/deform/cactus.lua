@@ -3,6 +3,7 @@
 --     lissom run examples/deform/cactus.lua
 --     lissom run examples/deform/cactus.lua --bend 90 --vertices 40000 --out /tmp
 
+local before_after = require "before_after"
 local lissom = require "lissom"
 
 local params = lissom.params{
@@ -42,13 +43,9 @@ open_arm("right_tip", 1)
 assert(edit:solve())
 
 -- Before and after, side by side: the region in blue, the handles in purple.
-local function path(extension) return params.out .. "/cactus." .. extension end
-assert(mesh:save(path("obj")))
-assert(mesh:save(path("ply")))
-assert(lissom.render{
-    meshes = { rest, mesh }, columns = 2, view = "front",
-    region = "movable", handles = { "tip", "left_tip", "right_tip" },
-    file = path("png"), size = { 960, 520 },
-})
+local file = before_after.write{
+    name = "cactus", out = params.out, before = rest, after = mesh,
+    view = "front", region = "movable", handles = { "tip", "left_tip", "right_tip" }, size = { 960, 520 },
+}
 print(string.format("%d vertices, %d of them free: %s, .ply, .png",
-    mesh:vertex_count(), edit:stats().free_vertices, path("obj")))
+    mesh:vertex_count(), edit:stats().free_vertices, file))

@@ -108,7 +108,8 @@ void join_labels(const Mesh& mesh, const Mesh& other, AttributeSet& result) {
             joined.of_face.push_back(label == kNoIndex ? kNoIndex : renumbered[label]);
         }
     }
-    const auto faces = static_cast<std::size_t>(mesh.face_count() + other.face_count());
+    const auto faces =
+        static_cast<std::size_t>(mesh.face_count()) + static_cast<std::size_t>(other.face_count());
     for (auto& [kind, labels] : result.labels()) labels.of_face.resize(faces, kNoIndex);
 }
 

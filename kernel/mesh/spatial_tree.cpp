@@ -159,7 +159,7 @@ void SpatialTree::build(const Context& context) {
 
     std::vector<std::pair<Index, int>> open{{0, 0}};
     nodes_.push_back({{}, 0, static_cast<Index>(order_.size())});
-    for (std::size_t steps = 1; !open.empty(); ++steps) {
+    for (std::size_t steps = 0; !open.empty(); ++steps) {
         if (steps % 4096 == 0) context.checkpoint();
         const auto [at, depth] = open.back();
         open.pop_back();

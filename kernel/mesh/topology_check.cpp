@@ -1,6 +1,7 @@
 #include "kernel/mesh/topology_check.h"
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 namespace lissom {
@@ -101,15 +102,11 @@ class DirectedEdges {
     const std::vector<Index>& vertices_;
 };
 
-bool same_cycle(std::span<const Index> a, std::span<const Index> b) {
-    if (a.size() != b.size()) return false;
-    const auto start = std::find(b.begin(), b.end(), a[0]);
-    if (start == b.end()) return false;
-    const auto shift = static_cast<std::size_t>(start - b.begin());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        if (a[i] != b[(i + shift) % b.size()]) return false;
-    }
-    return true;
+// The vertices of a face, turned so that the smallest comes first: equal for faces that are equal.
+std::vector<Index> canonical_cycle(std::span<const Index> face) {
+    std::vector<Index> cycle(face.begin(), face.end());
+    std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
+    return cycle;
 }
 
 struct EdgeDefects {
@@ -146,15 +143,13 @@ std::vector<Index> pair_edges(Index vertex_count, const FaceList& faces) {
             return;
         }
         std::size_t distinct = corners.size();
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                const Index f = edges.face(corners[j]), g = edges.face(corners[i]);
-                if (!same_cycle(faces[f], faces[g])) continue;
-                if (!is_duplicate[g]) defects.duplicates.add(g);
-                is_duplicate[g] = 1;
-                --distinct;
-                break;
-            }
+        std::set<std::vector<Index>> cycles;
+        for (const Index corner : corners) {
+            const Index f = edges.face(corner);
+            if (cycles.insert(canonical_cycle(faces[f])).second) continue;
+            if (!is_duplicate[f]) defects.duplicates.add(f);
+            is_duplicate[f] = 1;
+            --distinct;
         }
         if (distinct > 2) {
             defects.nonmanifold.add_edge(edges.low(corners[0]), edges.high(corners[0]));

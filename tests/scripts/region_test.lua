@@ -61,9 +61,14 @@ expect.error("[topology_mismatch]", function() left:union(other:region{ all = tr
 expect.error("[topology_mismatch]", function() other:set_region("left", left) end)
 grid:triangulate()
 for _, use in ipairs{ "grow", "vertices", "center", "bounds", "faces", "invert", "boundaries" } do
-    expect.error("older version of this mesh's topology", function() return left[use](left) end)
+    expect.error("older version of this mesh's topology", function()
+        local result = left[use](left) -- not returned at once: a tail call knows no line
+        return result
+    end)
 end
-expect.error("[topology_mismatch]", function() return #left end)
+-- Under LuaJIT an operator knows no line, so the message alone is looked at.
+local counted, refusal = pcall(function() return #left end)
+expect.truthy(not counted and refusal:find("[topology_mismatch]", 1, true))
 expect.equal(tostring(left), "lissom.Region (of an older topology)")
 
 -- Empty regions.

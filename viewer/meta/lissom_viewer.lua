@@ -91,22 +91,11 @@ function lissom.camera(options) end
 function lissom.frame(mesh, options) end
 
 ---@class lissom.RenderOptions
----@field file string The picture to write; its name ends with .png.
----@field size? integer[] {width, height} in pixels. Default: {1280, 960}.
----@field camera? lissom.Camera Where the picture is seen from, instead of `view`.
----@field background? string A colour as for `color`, or "transparent". Default: "white".
----@field samples? integer Samples a pixel along edges: 1, 2, 4, ... as far as the driver has them. Default: 4.
----@field supersample? integer Pixels drawn along each side of one in the picture; 2 is for print. Default: 1.
----@field occlusion? number How much folds and contacts darken; 0 draws faster. Default: 1.
----@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from. With y upwards, front looks along -z and right along -x; three-quarter stands to the right of the front, and above. Default: three-quarter.
----@field up? "y"|"z" The axis that points up in the view. Default: y.
----@field parallel? boolean Without perspective. Default: false.
----@field margin? number Share of the picture left free on every side. Default: 0.06.
 ---@field mesh? lissom.Mesh The mesh to draw.
 ---@field meshes? lissom.Mesh[] Several meshes to draw, instead of `mesh`.
 ---@field offsets? lissom.Vector[] Moves each mesh by a vector, in the picture only.
 ---@field columns? integer 0: all meshes in one space. Else each in a cell of its own, this many a row, all seen by the same camera. Default: 0.
----@field fit? "all"|"each" In cells, a view frames all meshes at one scale, or each by itself. Default: "all".
+---@field fit? "all"|"each" In cells, a view frames all meshes at one scale, or each by itself. Default: all.
 ---@field color? string|string[] Colour of the meshes: "#rrggbb" or one of white, black, gray, lightgray, darkgray, clay, red, orange, yellow, green, teal, blue, purple, sand. Default: clay.
 ---@field vertex_colors? boolean Draws the attribute "color" where a mesh has it. Default: true.
 ---@field shading? "smooth"|"flat" flat shows the faces. Default: "smooth".
@@ -121,8 +110,19 @@ function lissom.frame(mesh, options) end
 ---@field line_width? number Width of boundaries and paths; balls are three times as wide. In pixels. Default: 4.
 ---@field scalars? string|lissom.Buffer|number[] Numbers to draw in the colours of a scale.
 ---@field range? number[] {low, high}: the numbers at the ends of the scale. Default: the least and the greatest.
----@field legend? boolean Draws the scale with its numbers, where there are scalars. Default: true.
+---@field legend? boolean Draws the scale with its numbers. Default: true.
 ---@field label? string Stands above the scale. Default: the name of the scalars.
+---@field file string The picture to write; its name ends with .png.
+---@field size? integer[] {width, height} in pixels. Default: {1280, 960}.
+---@field camera? lissom.Camera Where the picture is seen from, instead of `view`.
+---@field background? string A colour as for `color`, or "transparent". Default: "white".
+---@field samples? integer Samples a pixel along edges: 1, 2, 4, ... as far as the driver has them. Default: 4.
+---@field supersample? integer Pixels drawn along each side of one in the picture; 2 is for print. Default: 1.
+---@field occlusion? number How much folds and contacts darken; 0 draws faster. Default: 1.
+---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from. With y upwards, front looks along -z and right along -x; three-quarter stands to the right of the front, and above. Default: three-quarter.
+---@field up? "y"|"z" The axis that points up in the view. Default: y.
+---@field parallel? boolean Without perspective. Default: false.
+---@field margin? number Share of the picture left free on every side. Default: 0.06.
 
 ---Draws meshes into a picture file. Needs no window and no display.
 ---@param options lissom.RenderOptions

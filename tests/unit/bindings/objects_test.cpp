@@ -7,14 +7,10 @@ namespace {
 
 using test::LuaState;
 
-std::size_t resident_kilobytes() {
-    long long pages = 0, resident = 0;
-    std::FILE* file = std::fopen("/proc/self/statm", "r");
-    if (!file) return 0;
-    if (std::fscanf(file, "%lld %lld", &pages, &resident) != 2) resident = 0;
-    std::fclose(file);
-    return static_cast<std::size_t>(resident) * 4;
-}
+// Counts, in `live`, the objects that the collector has left.
+const char* const kCounting = "live = setmetatable({}, { __mode = 'k' }) ";
+const char* const kCount =
+    "(function() local n = 0 for _ in pairs(live) do n = n + 1 end return n end)()";
 
 TEST_CASE("objects close once and for all") {
     LuaState lua;
@@ -27,6 +23,7 @@ TEST_CASE("objects close once and for all") {
     CHECK(lua.run("return #region").find("the mesh of the region was closed") != std::string::npos);
     CHECK(lua.run("return buffer[1]").find("the mesh of the buffer was closed") !=
           std::string::npos);
+    CHECK(lua.run("region:mesh()").find("the mesh was closed") != std::string::npos);
     CHECK(lua.run("lissom.deform(mesh)").find("a closed lissom.Mesh") != std::string::npos);
     CHECK(lua.eval("mesh == mesh:close()") == "false");
 }
@@ -64,18 +61,19 @@ TEST_CASE("finalizers called by hand do no harm") {
 
 TEST_CASE("native memory makes the collector work") {
     LuaState lua;
-    const std::size_t before = resident_kilobytes();
-    // 300 meshes of about 4 MB each.
-    CHECK(lua.run("for i = 1, 300 do lissom.shapes.grid{ segments = 120 } end") == "");
-    CHECK(resident_kilobytes() < before + (std::size_t{100} << 10));
+    // 300 meshes of about 3 MB each, and next to nothing for Lua.
+    CHECK(lua.run(std::string(kCounting) +
+                  "for i = 1, 300 do "
+                  "live[lissom.shapes.grid{ segments = 100 }] = true end") == "");
+    CHECK(std::stoi(lua.eval(kCount)) < 30);
 }
 
 TEST_CASE("a mesh that grows is charged again") {
     LuaState lua;
-    const std::size_t before = resident_kilobytes();
-    CHECK(lua.run("local big = lissom.shapes.grid{ segments = 100 } "
-                  "for i = 1, 200 do lissom.shapes.box():append(big) end") == "");
-    CHECK(resident_kilobytes() < before + (std::size_t{100} << 10));
+    CHECK(lua.run(std::string(kCounting) +
+                  "local big = lissom.shapes.grid{ segments = 60 } "
+                  "for i = 1, 200 do live[lissom.shapes.box():append(big)] = true end") == "");
+    CHECK(std::stoi(lua.eval(kCount)) < 30);
 }
 
 TEST_CASE("a stopped collector stays stopped") {

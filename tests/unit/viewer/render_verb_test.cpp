@@ -34,7 +34,9 @@ Ended run(std::vector<std::string> words) {
 }
 
 std::string box_in(const PictureFolder& folder) {
-    save_mesh(make_box(), folder.path("box.obj"));
+    BoxOptions options;
+    options.size = {1.0, 2.0, 3.0};
+    save_mesh(make_box(options), folder.path("box.obj"));
     return folder.path("box.obj");
 }
 

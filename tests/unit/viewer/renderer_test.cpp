@@ -377,18 +377,20 @@ TEST_CASE("a cancel ends drawing, and the renderer draws again afterwards") {
     CHECK(test::covered(draw()) == doctest::Approx(96.0 * 96.0));
 }
 
-TEST_CASE("memory is charged, and given back") {
+TEST_CASE("memory for the picture and its geometry is charged, and given back") {
     const auto renderer = test::make_renderer();
     if (!renderer) return;
     const Mesh sphere = make_sphere();
-    ContextOptions options;
-    options.memory_limit = 1000;
-    const Context context(options);
-    const auto draw = [&] {
-        renderer->render(drawing_of(sphere), front_camera(1.0), small_options(), context);
-    };
-    CHECK(test::error_of(draw).code() == ErrorCode::memory_limit);
-    CHECK(context.memory()->used() == 0);
+    for (const std::size_t limit : {std::size_t{1000}, std::size_t{60000}}) {
+        ContextOptions options;
+        options.memory_limit = limit;
+        const Context context(options);
+        const auto draw = [&] {
+            renderer->render(drawing_of(sphere), front_camera(1.0), small_options(), context);
+        };
+        CHECK(test::error_of(draw).code() == ErrorCode::memory_limit);
+        CHECK(context.memory()->used() == 0);
+    }
 }
 
 TEST_CASE("a renderer may move between threads") {

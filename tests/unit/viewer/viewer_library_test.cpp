@@ -77,37 +77,39 @@ TEST_CASE("every option of a picture changes it") {
                   "heights = {}\n"
                   "for i = 1, #mesh do heights[i] = select(2, mesh:position(i)) end") == "");
     const auto picture = [&](const std::string& options) {
-        CHECK(lua.run("assert(lissom.render{ mesh = mesh, size = { 64, 48 }, file = '" +
+        CHECK(lua.run("assert(lissom.render{ mesh = mesh, size = { 192, 144 }, file = '" +
                       folder.path("p.png") + "', " + options + " })") == "");
         return folder.read("p.png");
     };
     const std::string plain = picture("");
-    for (const char* options : {"view = 'top'",
-                                "up = 'z'",
-                                "parallel = true",
-                                "margin = 0.2",
-                                "background = '#123456'",
-                                "background = 'transparent'",
-                                "samples = 1",
-                                "supersample = 2",
-                                "occlusion = 0",
-                                "offsets = { { 0.1, 0, 0 } }, camera = lissom.frame(mesh)",
-                                "color = 'red'",
-                                "color = { '#0f0' }",
-                                "shading = 'flat'",
-                                "crease = 10",
-                                "wire = true",
-                                "region = 'top'",
-                                "region = mesh:region{ all = true }",
-                                "handles = { 'top' }",
-                                "handles = { mesh:region{ vertices = { 5 } } }",
-                                "boundaries = true",
-                                "paths = mesh:boundaries()",
-                                "points = { { 0, 0, 0.5 } }",
-                                "scalars = heights",
-                                "camera = lissom.camera{ eye = { 3, 0, 0 }, ortho = 3 }"}) {
-        CAPTURE(options);
-        CHECK(picture(options) != plain);
+    for (const char* options :
+         {"view = 'top'",
+          "up = 'z'",
+          "parallel = true",
+          "margin = 0.2",
+          "background = '#123456'",
+          "background = 'transparent'",
+          "samples = 1",
+          "supersample = 2",
+          "occlusion = 0",
+          "offsets = { { 0.1, 0, 0 } }, camera = lissom.frame(mesh)",
+          "color = 'red'",
+          "color = { '#0f0' }",
+          "shading = 'flat'",
+          "crease = 10",
+          "wire = true",
+          "region = mesh:region('top'):grow(1)",
+          "region = mesh:region{ all = true }",
+          "handles = { 'top' }",
+          "handles = { mesh:region{ where = function(_, _, _, z) return z > 0.4 end } }",
+          "boundaries = true",
+          "paths = mesh:boundaries()",
+          "points = { { 0, 0, 0.5 } }",
+          "scalars = heights",
+          "camera = lissom.camera{ eye = { 3, 0, 0 }, ortho = 3 }"}) {
+        CAPTURE(std::string(options));
+        const bool changed = picture(options) != plain;
+        CHECK(changed);
     }
     const std::string wire = picture("wire = true");
     CHECK(picture("wire = true, wire_width = 3") != wire);

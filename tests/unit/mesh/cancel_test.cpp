@@ -1,0 +1,88 @@
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "kernel/mesh/append.h"
+#include "kernel/mesh/distances.h"
+#include "kernel/mesh/extract.h"
+#include "kernel/mesh/fill.h"
+#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/smooth.h"
+#include "kernel/mesh/spatial_tree.h"
+#include "kernel/mesh/subdivide.h"
+#include "kernel/mesh/transform.h"
+#include "kernel/mesh/triangulate.h"
+#include "tests/unit/mesh/mesh_support.h"
+
+using namespace lissom;
+
+namespace {
+
+using Operation = std::function<void(Mesh&, const Context&)>;
+
+// Runs the operation with a cancel at its `report`-th report of progress; true where it ran to its
+// end.
+bool completes(const Operation& operation, Mesh& mesh, int report) {
+    std::optional<Context> context;
+    int reports = 0;
+    ContextOptions options;
+    options.progress = [&](std::string_view, double) {
+        if (reports++ == report) context->cancel();
+    };
+    context.emplace(options);
+    try {
+        operation(mesh, *context);
+        return true;
+    } catch (const Error& error) {
+        CHECK(error.code() == ErrorCode::cancelled);
+        return false;
+    }
+}
+
+// Cancels at every report in turn: the mesh stays as it was until the operation is not reached.
+void check_cancel(const std::string& name, const Mesh& original, const Operation& operation) {
+    CAPTURE(name);
+    const std::uint64_t before = hash(original);
+    int cancelled = 0;
+    for (int report = 0; report < 100; ++report) {
+        Mesh mesh = original;
+        if (completes(operation, mesh, report)) {
+            if (cancelled > 0) return;
+            continue;
+        }
+        ++cancelled;
+        CHECK(hash(mesh) == before);
+        CHECK(mesh.shared_topology() == original.shared_topology());
+    }
+    CHECK(cancelled > 0);
+}
+
+}  // namespace
+
+TEST_CASE("a cancel at any report of progress leaves the mesh as it was") {
+    const Mesh open = test::decorated(make_cylinder({.caps = false}));
+    check_cancel("append", open, [&](Mesh& m, const Context& c) { append(m, open, c); });
+    check_cancel("flip", open, [](Mesh& m, const Context& c) { flip(m, c); });
+    check_cancel("triangulate", open, [](Mesh& m, const Context& c) { triangulate(m, c); });
+    check_cancel("smooth", open, [](Mesh& m, const Context& c) { smooth(m, {}, c); });
+    check_cancel("fill", open, [](Mesh& m, const Context& c) { fill(m, boundaries(m)[0], {}, c); });
+    check_cancel("subdivide", open,
+                 [](Mesh& m, const Context& c) { m = subdivide(m, {.levels = 3}, c); });
+    check_cancel("extract", open, [](Mesh& m, const Context& c) {
+        m = extract(m, Region::all(m.shared_topology()), c).mesh;
+    });
+    check_cancel("distances", open,
+                 [](Mesh& m, const Context& c) { HeatDistances(m, c).from(std::array{0}, c); });
+    check_cancel("tree", open, [](Mesh& m, const Context& c) { SpatialTree(m, c).bounds(); });
+}
+
+TEST_CASE("memory charged by an operation is given back") {
+    const Context context;
+    Mesh mesh = make_cylinder({.caps = false});
+    fill(mesh, boundaries(mesh)[0], {}, context);
+    (void)subdivide(mesh, {.levels = 2}, context);
+    (void)heat_distances(mesh, std::array{0}, context);
+    CHECK(context.memory()->used() == 0);
+    CHECK(context.memory()->peak() > 0);
+}
