@@ -63,7 +63,7 @@ tidy() {
 # unit_tests PRESET : builds and runs the unit tests of a preset.
 unit_tests() {
     local status=0
-    ./dev build "$1" tests/unit/all || return 1
+    ./dev build "$1" tests/unit/all tests/arrows/all || return 1
     ./dev ctest "$1" -L unit || status=1
     ./dev summary "$1"
     return $status

@@ -318,7 +318,7 @@ class CactusBuilder {
         for (const std::size_t arm : {1, 2}) holes_[arm] = hole_outline(arm, rings);
         add_patch(rings.back(), 0, false);
         add_patch({rings.front().rbegin(), rings.front().rend()}, 0, true);
-        drop_hidden(rings);
+        drop_hidden();
     }
 
     // A ring of the rounded foot; angle 0 is on the ground, pi / 2 at the wall.
@@ -421,7 +421,7 @@ class CactusBuilder {
     }
 
     // Vertices of the trunk inside the holes have no faces: they go, and the others close up.
-    void drop_hidden(std::vector<std::vector<Index>>& rings) {
+    void drop_hidden() {
         std::vector<char> used(vertices_.size(), 0);
         for (const Index v : faces_.vertices) used[v] = 1;
         std::vector<Index> renumbered(vertices_.size(), kNoIndex);
@@ -436,7 +436,6 @@ class CactusBuilder {
         for (auto& hole : holes_) {
             for (Index& v : hole) v = renumbered[v];
         }
-        rings.clear();
     }
 
     // Evens out the vertices of patches and around joints, on the smooth surface.
