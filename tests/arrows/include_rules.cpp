@@ -1,7 +1,7 @@
 #include "tests/arrows/include_rules.h"
 
 #include <algorithm>
-#include <regex>
+#include <optional>
 #include <sstream>
 
 namespace lissom::test {
@@ -117,15 +117,31 @@ struct Include {
     std::string header;
 };
 
+/// The rest of `line` after blanks and `token`; nothing where it does not go on so.
+std::optional<std::string_view> after(std::string_view line, std::string_view token) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (!line.starts_with(token)) return std::nullopt;
+    return line.substr(token.size());
+}
+
+std::optional<Include> include_of(std::string_view line) {
+    const auto directive = after(line, "#");
+    const auto name = directive ? after(*directive, "include") : std::nullopt;
+    if (!name) return std::nullopt;
+    for (const bool quoted : {false, true})
+        if (const auto header = after(*name, quoted ? "\"" : "<")) {
+            const auto end = header->find(quoted ? '"' : '>');
+            if (end == std::string_view::npos) return std::nullopt;
+            return Include{quoted, std::string(header->substr(0, end))};
+        }
+    return std::nullopt;
+}
+
 std::vector<Include> includes_of(std::string_view source) {
-    static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
     std::vector<Include> found;
     std::istringstream lines{std::string(source)};
-    for (std::string line; std::getline(lines, line);) {
-        std::smatch match;
-        if (std::regex_search(line, match, pattern))
-            found.push_back({match[1].str() == "\"", match[2].str()});
-    }
+    for (std::string line; std::getline(lines, line);)
+        if (auto include = include_of(line)) found.push_back(*std::move(include));
     return found;
 }
 
