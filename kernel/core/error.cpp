@@ -13,7 +13,7 @@ struct CodeEntry {
     std::string_view explanation;
 };
 
-constexpr std::array<CodeEntry, 34> kCodes{{
+constexpr std::array<CodeEntry, 36> kCodes{{
     {ErrorCode::cancelled, "cancelled",
      "The operation was asked to stop and stopped; nothing was changed. Start it again."},
     {ErrorCode::invalid_argument, "invalid_argument",
@@ -48,6 +48,9 @@ constexpr std::array<CodeEntry, 34> kCodes{{
      "damaged, or it must be split."},
     {ErrorCode::unknown_format, "unknown_format",
      "The extension is none that can be read or written. Use one that the message lists."},
+    {ErrorCode::unsafe_path, "unsafe_path",
+     "A file refers to another file outside its own folder. Put the files together and use plain "
+     "relative names."},
     {ErrorCode::not_finite, "not_finite",
      "A position or value is NaN or infinite. Find the element in the program that wrote it."},
     {ErrorCode::mesh_empty, "mesh_empty",
@@ -72,10 +75,12 @@ constexpr std::array<CodeEntry, 34> kCodes{{
      "Two neighbouring faces run along their common edge in the same direction, so one is inside "
      "out. "
      "Orient the faces consistently."},
+    {ErrorCode::unreferenced_vertex, "unreferenced_vertex",
+     "Vertices are used by no face. Load with repair = true to drop them."},
     {ErrorCode::zero_area, "zero_area",
-     "All faces around a vertex have no area, so no surface operator exists there. Collapse or "
-     "remove "
-     "those faces, or keep the vertex out of the region."},
+     "Faces have no area, so no surface operator exists at a vertex that has no others. Collapse "
+     "or "
+     "remove those faces, or keep the vertex out of the region."},
     {ErrorCode::region_empty, "region_empty",
      "The region has no vertices. Enlarge the sphere, box or radius that selects it."},
     {ErrorCode::topology_mismatch, "topology_mismatch",

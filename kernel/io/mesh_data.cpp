@@ -7,12 +7,6 @@
 
 namespace lissom {
 
-std::size_t MeshData::memory_bytes() const {
-    return positions.size() * sizeof(Vec3) +
-           (faces.offsets.size() + faces.vertices.size()) * sizeof(Index) +
-           attributes.memory_bytes();
-}
-
 void add_face(FaceList& faces, std::span<const Index> face) {
     constexpr std::size_t kMaximumCorners = std::numeric_limits<Index>::max();
     if (face.size() > kMaximumCorners - faces.vertices.size()) {

@@ -1,23 +1,34 @@
 /// What a reader takes from a file, before a Mesh is made of it; private to kernel/io.
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "kernel/mesh/attributes.h"
-#include "kernel/mesh/topology.h"
+#include "kernel/mesh/asset.h"
+#include "kernel/mesh/report.h"
+#include "kernel/mesh/soup.h"
 
 namespace lissom {
 
-struct MeshData {
-    std::vector<Vec3> positions;
-    FaceList faces;
-    AttributeSet attributes;
-    std::vector<std::string> material_libraries;
+/// A file to read.
+struct FileInput {
+    std::string_view bytes;
+    /// The folder that files it refers to are in; empty where no other file may be opened.
+    std::filesystem::path folder;
+};
 
-    std::size_t memory_bytes() const;
+struct MeshData : Soup {
+    std::vector<std::string> material_libraries;
+    std::shared_ptr<const Asset> asset;
+    /// What the reader left out, or found amiss.
+    Report report;
+    /// True for formats that store each face by itself: all vertices at one place are one.
+    bool faces_are_separate = false;
 };
 
 /// Adds a face. Errors: file_too_large beyond the number of corners that can be numbered.

@@ -12,21 +12,28 @@
 #include "kernel/io/ply.h"
 #include "kernel/io/sniff.h"
 #include "kernel/io/stl.h"
+#include "kernel/mesh/repair.h"
 
 namespace lissom {
 namespace {
 
 struct Format {
     std::string_view extension, name;
-    MeshData (*read)(std::string_view bytes, const Context& context);
+    MeshData (*read)(const FileInput& file, const Context& context);
     void (*write)(SavedParts& parts, const SaveOptions& options, std::string& bytes,
                   const Context& context);
 };
 
-constexpr std::array<Format, 4> kFormats{{{"obj", "OBJ", read_obj, write_obj},
-                                          {"ply", "PLY", read_ply, write_ply},
-                                          {"off", "OFF", read_off, write_off},
-                                          {"stl", "STL", read_stl, write_stl}}};
+// A format that keeps all in one file.
+template <MeshData (*Read)(std::string_view, const Context&)>
+MeshData read_alone(const FileInput& file, const Context& context) {
+    return Read(file.bytes, context);
+}
+
+constexpr std::array<Format, 4> kFormats{{{"obj", "OBJ", read_alone<read_obj>, write_obj},
+                                          {"ply", "PLY", read_alone<read_ply>, write_ply},
+                                          {"off", "OFF", read_alone<read_off>, write_off},
+                                          {"stl", "STL", read_alone<read_stl>, write_stl}}};
 
 // Lower case and without a leading dot.
 std::string normalized(std::string_view extension) {
@@ -116,22 +123,43 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
     return bytes.substr(bytes.starts_with(kMark) ? kMark.size() : 0);
 }
 
-Mesh decode(std::string_view bytes, const Format& format, const LoadOptions& options,
+RepairOptions repair_options(const LoadOptions& options, const MeshData& data) {
+    const Weld usual = data.faces_are_separate ? Weld::all : Weld::seams;
+    return {options.weld.value_or(usual), options.repair};
+}
+
+// What was changed is a warning; that seams were closed, or that a face is poor, is not.
+void log_findings(const Report& report, const Context& context) {
+    for (const Finding& finding : report.findings()) {
+        const bool is_flag = finding.kind == FindingKind::vertices_welded ||
+                             finding.kind == FindingKind::points_only ||
+                             (finding.kind >= FindingKind::faces_zero_area &&
+                              finding.kind <= FindingKind::components_inverted);
+        std::string text = describe(finding);
+        if (!finding.message.empty()) text += ": " + finding.message;
+        context.log(is_flag ? LogLevel::info : LogLevel::warning, text);
+    }
+}
+
+Mesh decode(FileInput file, const Format& format, const LoadOptions& options,
             const Context& context) {
     require_unit(options.unit);
-    bytes = without_byte_order_mark(bytes);
+    file.bytes = without_byte_order_mark(file.bytes);
     Progress progress(context, "load mesh");
     progress.step(0.6);
-    require_expected_content(bytes, format);
-    MeshData data = format.read(bytes, context);
+    require_expected_content(file.bytes, format);
+    MeshData data = format.read(file, context);
     const MemoryCharge charge = context.charge(data.memory_bytes(), "the mesh of a file");
     apply(options, data);
     if (data.positions.empty()) context.log(LogLevel::warning, "the file has no vertices");
 
     progress.step(0.4);
-    Mesh mesh(std::move(data.positions), std::move(data.faces), context);
-    mesh.attributes() = std::move(data.attributes);
+    const RepairOptions repair_with = repair_options(options, data);
+    Mesh mesh =
+        repair(std::move(static_cast<Soup&>(data)), repair_with, context, std::move(data.report));
     mesh.material_libraries() = std::move(data.material_libraries);
+    mesh.set_asset(std::move(data.asset));
+    log_findings(mesh.report(), context);
     return mesh;
 }
 
@@ -181,7 +209,10 @@ Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options,
     const Format& format = with_place_in_errors(
         name, [&]() -> const Format& { return find_format(display_name(path.extension())); });
     const FileContent file = read_file(path, context);
-    return with_place_in_errors(name, [&] { return decode(file.bytes, format, options, context); });
+    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    return with_place_in_errors(name, [&] {
+        return decode({file.bytes, folder}, format, options, context);
+    });
 }
 
 void save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOptions& options,
@@ -195,7 +226,7 @@ void save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOp
 Mesh decode_mesh(std::string_view bytes, std::string_view extension, const LoadOptions& options,
                  const Context& context) {
     const Format& format = find_format(extension);
-    return with_place_in_errors("", [&] { return decode(bytes, format, options, context); });
+    return with_place_in_errors("", [&] { return decode({bytes, {}}, format, options, context); });
 }
 
 std::string encode_mesh(const Mesh& mesh, std::string_view extension, const SaveOptions& options,

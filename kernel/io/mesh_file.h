@@ -1,9 +1,9 @@
 /// Mesh files: loading and saving by extension. OBJ, PLY, OFF and STL; each format has a file of
 /// its own, which says what it reads and what it writes.
 ///
-/// Vertices stay as in the file (only STL, which has none, is welded); a mesh that is not an
-/// oriented 2-manifold is refused by the errors of Topology. What a format cannot hold is named in
-/// a warning of the Context's log when a mesh is saved.
+/// What is read is checked and repaired (repair.h); the mesh's report() says what was changed, and
+/// so does the Context's log. What a format cannot hold is named in a warning of the log when a
+/// mesh is saved.
 ///
 /// All functions may throw, besides what they list: cancelled, memory_limit. Messages begin with
 /// the file's path, and with the line where there is one: "cup.obj:12: ...". The ids of an error
@@ -11,12 +11,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kernel/core/context.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/repair.h"
 
 namespace lissom {
 
@@ -31,6 +33,11 @@ enum class Endianness { little, big };
 
 /// How the coordinates of a file become those of the mesh. Normals are turned but not scaled.
 struct LoadOptions {
+    /// Which vertices at the same place become one; where absent, Weld::all for STL, which stores
+    /// each triangle by itself, and Weld::seams for all others.
+    std::optional<Weld> weld;
+    /// False: what would be mended (see repair.h) is an error instead.
+    bool repair = true;
     /// The file's up axis.
     UpAxis up = UpAxis::none;
     /// Length of the file's unit in the mesh's unit: positions are multiplied by it. Positive,

@@ -18,9 +18,17 @@ enum class Domain { vertex, corner, face };
 /// The number type a file stored, so that it can be written back; values are kept as double.
 enum class ScalarType { float32, float64, int8, uint8, int16, uint16, int32, uint32 };
 
-/// One attribute: `width` numbers an element. A value of NaN means that the element has none. Names
-/// with a meaning: "uv" (width 2; corner), "normal" (3; corner or vertex), "color" (3 or 4, linear
-/// scale 0 to 1; vertex, corner or face).
+/// One attribute: `width` numbers an element. A value of NaN means that the element has none.
+///
+/// Names with a meaning; operations treat their values accordingly:
+/// - "uv", "uv2", "uv3", ... (width 2; corner or vertex): texture coordinates, v pointing up
+/// - "normal" (3; corner, vertex or face), "tangent" (4: direction and handedness; corner or
+/// vertex)
+/// - "color", "color2", ... (3 or 4, linear scale 0 to 1; corner, vertex or face)
+/// - "joints" and "weights" (both of one width, a multiple of 4; vertex): the joints of a skin that
+///   move a vertex, and how much
+/// - "morph.N.position", "morph.N.normal", "morph.N.tangent" (3; vertex or corner): what the N-th
+///   morph target, from 1, adds
 struct Attribute {
     std::string name;
     Domain domain = Domain::vertex;

@@ -184,6 +184,7 @@ Mesh derive(const Mesh& source, std::vector<Vec3> positions, FaceList faces, con
     carry_labels(source, map.faces, result);
     carry_regions(source, map.vertices, result);
     result.material_libraries() = source.material_libraries();
+    result.set_asset(source.asset());
     return result;
 }
 

@@ -14,8 +14,10 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/mesh/asset.h"
 #include "kernel/mesh/attributes.h"
 #include "kernel/mesh/region.h"
+#include "kernel/mesh/report.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {
@@ -59,6 +61,14 @@ class Mesh {
     std::vector<std::string>& material_libraries() { return material_libraries_; }
     const std::vector<std::string>& material_libraries() const { return material_libraries_; }
 
+    /// What the file held beside the surface, or null. Travels through every operation.
+    const std::shared_ptr<const Asset>& asset() const { return asset_; }
+    void set_asset(std::shared_ptr<const Asset> asset) { asset_ = std::move(asset); }
+
+    /// What was found when the mesh was loaded; empty for a mesh made otherwise.
+    const Report& report() const { return report_; }
+    void set_report(Report report) { report_ = std::move(report); }
+
     /// Becomes `other` with all it holds, as an in-place change of topology does; the revision
     /// grows.
     void replace_by(Mesh other);
@@ -74,6 +84,8 @@ class Mesh {
     AttributeSet attributes_;
     std::map<std::string, Region, std::less<>> regions_;
     std::vector<std::string> material_libraries_;
+    std::shared_ptr<const Asset> asset_;
+    Report report_;
     std::uint64_t revision_ = 0;
 };
 

@@ -1,0 +1,32 @@
+/// Asset: what a file holds beside surfaces (materials, textures, nodes, skins, animations),
+/// kept untouched so that it can be saved again.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace lissom {
+
+/// New names for labels of an appended mesh that mean something else in the mesh it joins:
+/// by kind of label ("object", "material") and old name.
+using LabelRenames = std::map<std::string, std::map<std::string, std::string>, std::less<>>;
+
+/// Immutable and shared by the meshes that were made from one another. Faces refer to it by the
+/// names of their labels "object" and "material". Made and understood by one format of kernel/io.
+class Asset {
+  public:
+    virtual ~Asset();
+    /// This asset and what `other` holds; names of `other` that mean something else here are given
+    /// new ones and entered in `renames`.
+    virtual std::shared_ptr<const Asset> joined(const Asset& other,
+                                                LabelRenames& renames) const = 0;
+    virtual std::size_t memory_bytes() const = 0;
+
+  protected:
+    Asset() = default;
+    Asset(const Asset&) = default;
+    Asset& operator=(const Asset&) = default;
+};
+
+}  // namespace lissom

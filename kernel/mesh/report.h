@@ -1,0 +1,79 @@
+/// Report: what was found, mended or left out when a mesh was loaded, with the elements concerned.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/core/error.h"
+
+namespace lissom {
+
+/// What a finding says. The name in scripts is that of `finding_name`.
+enum class FindingKind {
+    // Mended: the surface of the file was not an oriented 2-manifold, or was torn.
+    vertices_welded,        ///< merged with another vertex at the same place
+    vertices_unreferenced,  ///< dropped: no face uses them
+    corners_repeated,       ///< faces that named a vertex twice in a row; the repeats were dropped
+    faces_collapsed,        ///< dropped: fewer than three different vertices
+    faces_pinched,          ///< split where they passed a vertex twice
+    faces_duplicate,        ///< dropped: copies of other faces
+    faces_flipped,          ///< turned over to agree with their neighbours
+    edges_nonmanifold,      ///< cut open where more than two faces met
+    edges_unorientable,     ///< cut open where no turning of faces makes both sides agree
+    vertices_nonmanifold,   ///< split: separate fans of faces touched there
+    // Flagged: kept as they are.
+    faces_zero_area,      ///< no area
+    faces_sliver,         ///< an angle below one degree
+    components_small,     ///< less than a thousandth of the largest component's area
+    components_inverted,  ///< closed, but inside out
+    points_only,          ///< no faces: the vertices were kept
+    // Left out by the reader of the file, which says what it was.
+    indices_dangling,    ///< references to texture coordinates or normals that do not exist
+    values_not_finite,   ///< attribute values that were NaN or infinite
+    content_skipped,     ///< what a mesh has no place for
+    files_missing,       ///< textures and other files that were not found
+    extensions_dropped,  ///< extensions of the format that are not understood
+};
+
+/// The name of a kind in scripts and reports: "vertices_welded".
+std::string_view finding_name(FindingKind kind);
+
+/// All kinds, in the order of their declaration.
+const std::vector<FindingKind>& all_finding_kinds();
+
+struct Finding {
+    FindingKind kind = FindingKind::content_skipped;
+    /// What `ids` number. Edges are pairs of vertex ids, so that `ids` holds two entries an edge.
+    ElementKind element = ElementKind::none;
+    /// Whether the ids are those of the file (what was changed) or of the mesh (what is in it).
+    bool in_file = false;
+    std::size_t count = 0;
+    /// 0-based; all of them, in ascending order. Empty where there is nothing to number.
+    std::vector<Index> ids;
+    /// One sentence, or the names of what was left out.
+    std::string message;
+};
+
+/// Findings in the order in which they were made; at most one of each kind.
+class Report {
+  public:
+    /// Adds a finding. Where there is one of its kind, counts and ids are added to it and the
+    /// messages joined.
+    void add(Finding finding);
+    /// Adds `count` elements that have no numbers.
+    void add(FindingKind kind, std::size_t count, std::string message);
+
+    const std::vector<Finding>& findings() const { return findings_; }
+    const Finding* find(FindingKind kind) const;
+    bool empty() const { return findings_.empty(); }
+
+  private:
+    std::vector<Finding> findings_;
+};
+
+/// "3 vertices welded", "2 faces without area": a finding in a few words.
+std::string describe(const Finding& finding);
+
+}  // namespace lissom
