@@ -193,9 +193,12 @@ FanVertices Gluing::fans() const {
     for (const Index fan : first_fan) {
         if (fan != kNoIndex) order.push_back(fan);
     }
+    const auto first_count = static_cast<std::ptrdiff_t>(order.size());
     for (Index fan = 0; fan < fan_count; ++fan) {
         if (first_fan[result.source[fan]] != fan) order.push_back(fan);
     }
+    std::stable_sort(order.begin() + first_count, order.end(),
+                     [&](Index a, Index b) { return result.source[a] < result.source[b]; });
     std::vector<Index> number(order.size()), source(order.size());
     for (Index i = 0; i < fan_count; ++i) {
         number[order[i]] = i;
