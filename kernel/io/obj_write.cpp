@@ -6,7 +6,7 @@
 #include "kernel/io/percent.h"
 #include "kernel/io/text_writer.h"
 #include "kernel/io/ticker.h"
-#include "kernel/io/value_pool.h"
+#include "kernel/mesh/value_pool.h"
 
 namespace lissom {
 namespace {
