@@ -2,6 +2,7 @@
 /// private to kernel/io.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -28,6 +29,7 @@ class SavedParts {
     /// The labels of a kind, or null.
     const FaceLabels* take_labels(std::string_view kind);
     const std::vector<std::string>& take_material_libraries();
+    const std::map<std::string, Region, std::less<>>& take_regions();
 
     /// Logs a warning that names what was not taken, if there is any.
     void log_losses(std::string_view format, const Context& context) const;
@@ -35,7 +37,7 @@ class SavedParts {
   private:
     const Mesh& mesh_;
     std::set<std::string, std::less<>> taken_attributes_, taken_labels_;
-    bool libraries_taken_ = false;
+    bool libraries_taken_ = false, regions_taken_ = false;
 };
 
 }  // namespace lissom
