@@ -82,6 +82,16 @@ const std::vector<std::string>& SavedParts::take_material_libraries() {
     return mesh_.material_libraries();
 }
 
+const std::map<std::string, Region, std::less<>>& SavedParts::take_regions() {
+    regions_taken_ = true;
+    return mesh_.regions();
+}
+
+const std::shared_ptr<const Asset>& SavedParts::take_asset() {
+    asset_taken_ = true;
+    return mesh_.asset();
+}
+
 void SavedParts::log_losses(std::string_view format, const Context& context) const {
     std::string lost;
     const auto lose = [&](std::string_view what, std::string_view name, std::string_view detail) {
@@ -97,9 +107,15 @@ void SavedParts::log_losses(std::string_view format, const Context& context) con
     for (const auto& [kind, labels] : mesh_.attributes().labels()) {
         if (!taken_labels_.contains(kind)) lose("face labels", kind, "");
     }
-    for (const auto& [name, region] : mesh_.regions()) lose("region", name, "");
+    if (!regions_taken_) {
+        for (const auto& [name, region] : mesh_.regions()) lose("region", name, "");
+    }
     if (!libraries_taken_) {
         for (const std::string& name : mesh_.material_libraries()) lose("material file", name, "");
+    }
+    if (!asset_taken_ && mesh_.asset()) {
+        lost += lost.empty() ? " " : ", ";
+        lost += "materials, textures, nodes and animations of the file it came from";
     }
     if (lost.empty()) return;
     context.log(LogLevel::warning,

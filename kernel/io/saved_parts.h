@@ -28,6 +28,9 @@ class SavedParts {
     /// The labels of a kind, or null.
     const FaceLabels* take_labels(std::string_view kind);
     const std::vector<std::string>& take_material_libraries();
+    const std::map<std::string, Region, std::less<>>& take_regions();
+    /// What the mesh holds beside its surface, or null.
+    const std::shared_ptr<const Asset>& take_asset();
 
     /// Logs a warning that names what was not taken, if there is any.
     void log_losses(std::string_view format, const Context& context) const;
@@ -35,7 +38,7 @@ class SavedParts {
   private:
     const Mesh& mesh_;
     std::set<std::string, std::less<>> taken_attributes_, taken_labels_;
-    bool libraries_taken_ = false;
+    bool libraries_taken_ = false, regions_taken_ = false, asset_taken_ = false;
 };
 
 }  // namespace lissom
