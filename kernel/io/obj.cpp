@@ -13,7 +13,7 @@
 #include "kernel/io/text_reader.h"
 #include "kernel/io/text_writer.h"
 #include "kernel/io/ticker.h"
-#include "kernel/io/value_pool.h"
+#include "kernel/mesh/value_pool.h"
 
 namespace lissom {
 namespace {

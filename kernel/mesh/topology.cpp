@@ -20,6 +20,12 @@ Topology::~Topology() = default;
 std::shared_ptr<const Topology> Topology::create(Index vertex_count, FaceList faces,
                                                  const Context& context) {
     const std::vector<Index> twin = check_and_pair_edges(vertex_count, faces, context);
+    return create_paired(vertex_count, std::move(faces), twin, context);
+}
+
+std::shared_ptr<const Topology> Topology::create_paired(Index vertex_count, FaceList faces,
+                                                        const std::vector<Index>& twin,
+                                                        const Context& context) {
     std::shared_ptr<Topology> topology(new Topology);
     topology->vertex_count_ = vertex_count;
     topology->faces_ = std::move(faces);

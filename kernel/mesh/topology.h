@@ -44,6 +44,11 @@ class Topology {
     /// cancelled.
     static std::shared_ptr<const Topology> create(Index vertex_count, FaceList faces,
                                                   const Context& context = {});
+    /// The same for faces that are known to be a manifold. `twin` pairs the corners: for each, the
+    /// one that runs along its edge the other way, or kNoIndex on a boundary.
+    static std::shared_ptr<const Topology> create_paired(Index vertex_count, FaceList faces,
+                                                         const std::vector<Index>& twin,
+                                                         const Context& context = {});
     ~Topology();
     Topology(const Topology&) = delete;
     Topology& operator=(const Topology&) = delete;

@@ -1,8 +1,9 @@
 #include "kernel/mesh/topology_check.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
+
+#include "kernel/mesh/directed_edges.h"
 
 namespace lissom {
 namespace {
@@ -47,68 +48,6 @@ void check_each_face(Index vertex_count, const FaceList& faces) {
     }
 }
 
-// The directed edges of all faces, grouped by the smaller of their two vertices.
-class DirectedEdges {
-  public:
-    DirectedEdges(Index vertex_count, const FaceList& faces)
-        : begin_(static_cast<std::size_t>(vertex_count) + 1, 0),
-          corner_(faces.vertices.size()),
-          next_(faces.vertices.size()),
-          face_(faces.vertices.size()),
-          vertices_(faces.vertices) {
-        for (Index f = 0; f < faces.size(); ++f) {
-            const Index first = faces.offsets[f], end = faces.offsets[f + 1];
-            for (Index c = first; c < end; ++c) {
-                next_[c] = vertices_[c + 1 < end ? c + 1 : first];
-                face_[c] = f;
-                ++begin_[std::min(vertices_[c], next_[c]) + 1];
-            }
-        }
-        for (std::size_t v = 0; v + 1 < begin_.size(); ++v) begin_[v + 1] += begin_[v];
-        std::vector<Index> fill(begin_.begin(), begin_.end() - 1);
-        for (Index c = 0; c < static_cast<Index>(next_.size()); ++c) {
-            corner_[fill[std::min(vertices_[c], next_[c])]++] = c;
-        }
-        for (Index v = 0; v < vertex_count; ++v) {
-            std::sort(corner_.begin() + begin_[v], corner_.begin() + begin_[v + 1],
-                      [&](Index a, Index b) {
-                          const Index high_a = high(a), high_b = high(b);
-                          return high_a != high_b ? high_a < high_b : a < b;
-                      });
-        }
-    }
-
-    Index low(Index c) const { return std::min(vertices_[c], next_[c]); }
-    Index high(Index c) const { return std::max(vertices_[c], next_[c]); }
-    bool ascending(Index c) const { return vertices_[c] < next_[c]; }
-    Index face(Index c) const { return face_[c]; }
-
-    // Calls use(corners) once for each undirected edge, with the corners that run along it.
-    template <typename Use>
-    void for_each_edge(const Use& use) const {
-        const auto size = static_cast<Index>(corner_.size());
-        for (Index i = 0; i < size;) {
-            Index j = i + 1;
-            while (j < size && low(corner_[j]) == low(corner_[i]) &&
-                   high(corner_[j]) == high(corner_[i]))
-                ++j;
-            use(std::span<const Index>(corner_.data() + i, static_cast<std::size_t>(j - i)));
-            i = j;
-        }
-    }
-
-  private:
-    std::vector<Index> begin_, corner_, next_, face_;
-    const std::vector<Index>& vertices_;
-};
-
-// The vertices of a face, turned so that the smallest comes first: equal for faces that are equal.
-std::vector<Index> canonical_cycle(std::span<const Index> face) {
-    std::vector<Index> cycle(face.begin(), face.end());
-    std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
-    return cycle;
-}
-
 struct EdgeDefects {
     Elements duplicates{ElementKind::face, 0, {}};
     Elements nonmanifold{ElementKind::edge, 0, {}};
@@ -132,6 +71,7 @@ struct EdgeDefects {
 
 std::vector<Index> pair_edges(Index vertex_count, const FaceList& faces) {
     const DirectedEdges edges(vertex_count, faces);
+    FaceCycles cycles(faces);
     std::vector<Index> twin(faces.vertices.size(), kNoIndex);
     std::vector<char> is_duplicate(static_cast<std::size_t>(faces.size()), 0);
     EdgeDefects defects;
@@ -143,10 +83,10 @@ std::vector<Index> pair_edges(Index vertex_count, const FaceList& faces) {
             return;
         }
         std::size_t distinct = corners.size();
-        std::set<std::vector<Index>> cycles;
+        FaceCycles::Seen seen;
         for (const Index corner : corners) {
             const Index f = edges.face(corner);
-            if (cycles.insert(canonical_cycle(faces[f])).second) continue;
+            if (!is_duplicate[f] && !cycles.is_copy(f, seen)) continue;
             if (!is_duplicate[f]) defects.duplicates.add(f);
             is_duplicate[f] = 1;
             --distinct;

@@ -1,5 +1,5 @@
 /// ValuePool: numbers each different tuple of values once, in the order of first use; private to
-/// kernel/io.
+/// the kernel.
 #pragma once
 
 #include <array>

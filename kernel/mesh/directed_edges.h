@@ -1,0 +1,67 @@
+/// DirectedEdges: the edges of faces that need not be a manifold; private to kernel/mesh.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "kernel/mesh/topology.h"
+
+namespace lissom {
+
+/// The directed edges of all faces, grouped by the two vertices they join. Corner c stands for the
+/// edge from its vertex to the next vertex of its face. Refers to the faces it was made of.
+class DirectedEdges {
+  public:
+    DirectedEdges(Index vertex_count, const FaceList& faces);
+
+    Index low(Index c) const { return std::min(vertices_[c], next_[c]); }
+    Index high(Index c) const { return std::max(vertices_[c], next_[c]); }
+    /// Whether the corner's edge runs from its lower vertex to its higher one.
+    bool ascending(Index c) const { return vertices_[c] < next_[c]; }
+    Index face(Index c) const { return face_[c]; }
+
+    /// Calls use(corners) once for each undirected edge, with the corners that run along it, in
+    /// ascending order.
+    template <typename Use>
+    void for_each_edge(const Use& use) const {
+        const auto size = static_cast<Index>(corner_.size());
+        for (Index i = 0; i < size;) {
+            Index j = i + 1;
+            while (j < size && low(corner_[j]) == low(corner_[i]) &&
+                   high(corner_[j]) == high(corner_[i]))
+                ++j;
+            use(std::span<const Index>(corner_.data() + i, static_cast<std::size_t>(j - i)));
+            i = j;
+        }
+    }
+
+  private:
+    std::vector<Index> begin_, corner_, next_, face_;
+    const std::vector<Index>& vertices_;
+};
+
+/// Tells which faces are copies of one another: the same vertices in the same cyclic order.
+class FaceCycles {
+  public:
+    explicit FaceCycles(const FaceList& faces)
+        : faces_(faces), key_(static_cast<std::size_t>(faces.size()), 0) {}
+
+    /// Faces that were seen, by their keys.
+    using Seen = std::multimap<std::uint64_t, Index>;
+    /// Whether `f` is a copy of a face in `seen`; if not, it is added.
+    bool is_copy(Index f, Seen& seen);
+
+  private:
+    bool equal(Index f, Index g);
+    // A hash of the vertices from the smallest on, computed when first asked for.
+    std::uint64_t key(Index f);
+    Index first(Index f) const;
+
+    const FaceList& faces_;
+    std::vector<std::uint64_t> key_;
+};
+
+}  // namespace lissom

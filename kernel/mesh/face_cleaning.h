@@ -1,0 +1,16 @@
+/// Cleaning of single faces: repeats, pinches and copies; private to kernel/mesh.
+#pragma once
+
+#include "kernel/mesh/corner_faces.h"
+#include "kernel/mesh/report.h"
+
+namespace lissom {
+
+/// Drops repeats of a vertex in a row, splits faces at vertices that they pass twice and drops what
+/// keeps fewer than three vertices. Adds to `report` the faces concerned, as numbered in the file.
+void clean_faces(CornerFaces& work, Report& report);
+
+/// Drops faces with the vertices of an earlier face in the same cyclic order.
+void drop_duplicates(Index vertex_count, CornerFaces& work, Report& report);
+
+}  // namespace lissom

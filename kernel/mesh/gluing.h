@@ -1,0 +1,64 @@
+/// Gluing: which faces are joined along which edges while polygons are made a manifold, and the
+/// vertices that follow from it; private to kernel/mesh.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/mesh/corner_faces.h"
+#include "kernel/mesh/report.h"
+
+namespace lissom {
+
+/// Vertices of a manifold: one for each fan of glued corners.
+struct FanVertices {
+    std::vector<Index> of_corner;
+    /// The lowest vertex of the soup at the fan's corners.
+    std::vector<Index> source;
+    /// True where the vertices are those of the soup: none joined, split or without faces.
+    bool unchanged = false;
+};
+
+class Gluing {
+  public:
+    /// `positions` and `work` must live as long.
+    Gluing(std::span<const Vec3> positions, const CornerFaces& work);
+
+    /// Glues faces where exactly two meet in opposite directions. False where other edges exist.
+    bool glue_regular_edges();
+    /// Glues faces along the edges where they share vertices: the two of a regular edge; where more
+    /// meet, those that bound the same piece of space. Adds the edges left open to `report`.
+    void glue_edges(Report& report);
+    /// Glues pairs of open edges that lie at the same place in opposite directions, but not faces
+    /// that are back to back, nor those with different `label_of_face` (empty: no labels).
+    void glue_seams(std::span<const Index> label_of_face);
+    /// Numbers the fans: in the order of the soup's vertices, further fans of a vertex last. Opens
+    /// what would join the same two vertices by more than one edge.
+    FanVertices number_fans();
+
+    /// For each corner, the one along the same edge the other way, or kNoIndex.
+    const std::vector<Index>& twin() const { return twin_; }
+    bool is_closed() const;
+
+  private:
+    void glue(Index a, Index b);
+    void open(Index corner);
+    void glue_around_edge(std::span<const Index> corners, Index low, Index high);
+    bool may_join(Index a, Index b, std::span<const Index> label_of_face) const;
+    FanVertices fans() const;
+    // Corners on edges that join the same two vertices as another edge does.
+    std::vector<Index> doubled_edges(const FanVertices& vertices);
+    void open_seams_at(Index corner);
+    void open_around(Index corner);
+
+    std::span<const Vec3> positions_;
+    const CornerFaces* work_;
+    std::vector<Index> twin_;
+    // Corners whose edges were glued as seams.
+    std::vector<char> is_seam_;
+    bool regular_ = false;
+    // How often an edge of each face was found doubled.
+    std::vector<char> attempts_;
+};
+
+}  // namespace lissom
