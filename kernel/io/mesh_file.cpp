@@ -7,6 +7,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/io/file.h"
+#include "kernel/io/gltf.h"
 #include "kernel/io/obj.h"
 #include "kernel/io/off.h"
 #include "kernel/io/ply.h"
@@ -31,10 +32,12 @@ MeshData read_alone(const FileInput& file, const Context& context) {
     return Read(file.bytes, context);
 }
 
-constexpr std::array<Format, 4> kFormats{{{"obj", "OBJ", read_alone<read_obj>, write_obj},
+constexpr std::array<Format, 6> kFormats{{{"obj", "OBJ", read_alone<read_obj>, write_obj},
                                           {"ply", "PLY", read_alone<read_ply>, write_ply},
                                           {"off", "OFF", read_alone<read_off>, write_off},
-                                          {"stl", "STL", read_alone<read_stl>, write_stl}}};
+                                          {"stl", "STL", read_alone<read_stl>, write_stl},
+                                          {"gltf", "glTF", read_gltf, write_gltf},
+                                          {"glb", "glTF", read_gltf, write_glb}}};
 
 // Lower case and without a leading dot.
 std::string normalized(std::string_view extension) {
