@@ -350,6 +350,8 @@ class ObjReader {
 }  // namespace
 
 MeshData read_obj(std::string_view text, const Context& context) {
+    // Some programs end the file with the zero byte of their string.
+    text = text.substr(0, text.find_last_not_of('\0') + 1);
     return ObjReader(text, context).read();
 }
 
