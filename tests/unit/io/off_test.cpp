@@ -164,10 +164,10 @@ TEST_CASE("binary OFF is read with little endian numbers and no colours") {
 TEST_CASE("the byte order of binary OFF is found where both counts are possible") {
     // Read in the wrong order, 65536 vertices would be 256.
     Bytes bytes("OFF BINARY\n");
-    bytes.add(std::uint32_t{65536}, std::uint32_t{1}, std::uint32_t{0});
+    bytes.add(std::uint32_t{65536}, std::uint32_t{21846}, std::uint32_t{0});
     for (int i = 0; i < 65536; ++i) bytes.add(float(i), float(i % 7), 0.f);
-    bytes.add(std::uint32_t{65536});
-    for (std::uint32_t i = 0; i < 65536; ++i) bytes.add(i);
+    for (std::uint32_t i = 0; i < 65535; i += 3) bytes.add(std::uint32_t{3}, i, i + 1, i + 2);
+    bytes.add(std::uint32_t{3}, std::uint32_t{65533}, std::uint32_t{65534}, std::uint32_t{65535});
     CHECK(off(bytes).vertex_count() == 65536);
 }
 
