@@ -279,11 +279,11 @@ const std::vector<Vec3>& Deformer::rest_positions() const {
 void Deformer::apply_to(Mesh& mesh) const {
     State& s = *state_;
     require_same_topology(mesh, s.region.topology(), "the deformer");
-    if (!s.normals.empty()) s.find_gradients({});
+    if (!s.directions.empty()) s.find_gradients({});
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row)
         out[s.region.vertices()[row]] = s.positions[row];
-    if (!s.normals.empty()) s.normals.apply_to(mesh, s.gradients);
+    if (!s.directions.empty()) s.directions.apply_to(mesh, s.gradients);
 }
 
 void Deformer::reset() {

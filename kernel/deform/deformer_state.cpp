@@ -17,7 +17,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen)
-    : region(given), options(chosen), patch(build_patch(mesh, given, 1)), normals(mesh, given) {
+    : region(given), options(chosen), patch(build_patch(mesh, given, 1)), directions(mesh, given) {
     rings = build_rings(patch.vertex_count, patch.split_triangles);
     geometry = ring_geometry(rings, patch.split_triangles, patch.rest);
     laplacian = make_laplacian(rings, geometry, options.weights, options.scale_free);

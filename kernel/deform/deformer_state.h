@@ -11,7 +11,7 @@
 #include "kernel/deform/linear_solution.h"
 #include "kernel/deform/operators.h"
 #include "kernel/deform/patch.h"
-#include "kernel/deform/rest_normals.h"
+#include "kernel/deform/rest_directions.h"
 #include "kernel/deform/rotation_system.h"
 
 namespace lissom {
@@ -77,7 +77,7 @@ struct Deformer::State {
     std::vector<Vec3> rest;
     /// Greatest distance of a vertex of the region from the origin of the patch.
     double size = 0.0;
-    RestNormals normals;
+    RestDirections directions;
 
     std::vector<HandleState> handles;
     VertexConstraints constraints;

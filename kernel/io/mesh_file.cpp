@@ -7,11 +7,13 @@
 
 #include "kernel/core/error.h"
 #include "kernel/io/file.h"
+#include "kernel/io/gltf.h"
 #include "kernel/io/obj.h"
 #include "kernel/io/off.h"
 #include "kernel/io/ply.h"
 #include "kernel/io/sniff.h"
 #include "kernel/io/stl.h"
+#include "kernel/mesh/directions.h"
 #include "kernel/mesh/repair.h"
 
 namespace lissom {
@@ -30,10 +32,12 @@ MeshData read_alone(const FileInput& file, const Context& context) {
     return Read(file.bytes, context);
 }
 
-constexpr std::array<Format, 4> kFormats{{{"obj", "OBJ", read_alone<read_obj>, write_obj},
+constexpr std::array<Format, 6> kFormats{{{"obj", "OBJ", read_alone<read_obj>, write_obj},
                                           {"ply", "PLY", read_alone<read_ply>, write_ply},
                                           {"off", "OFF", read_alone<read_off>, write_off},
-                                          {"stl", "STL", read_alone<read_stl>, write_stl}}};
+                                          {"stl", "STL", read_alone<read_stl>, write_stl},
+                                          {"gltf", "glTF", read_gltf, write_gltf},
+                                          {"glb", "glTF", read_gltf, write_glb}}};
 
 // Lower case and without a leading dot.
 std::string normalized(std::string_view extension) {
@@ -72,48 +76,33 @@ void require_expected_content(std::string_view bytes, const Format& format) {
                                             "; rename the file");
 }
 
-Vec3 turned_from_z_up(const Vec3& v) {
-    return {v.x(), v.z(), -v.y()};
+// The linear map from a file's axes and unit to the kernel's.
+Mat3 from_file(UpAxis up, double unit) {
+    Mat3 turned = Mat3::Identity();
+    if (up == UpAxis::z) turned << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+    return unit * turned;
 }
 
-Vec3 turned_to_z_up(const Vec3& v) {
-    return {v.x(), -v.z(), v.y()};
-}
-
-// Turns the normals of vertices, corners and faces.
-template <typename Turn>
-void turn_normals(AttributeSet& attributes, const Turn& turn) {
-    for (Attribute& attribute : attributes.all()) {
-        const bool is_normal = attribute.name == "normal" || attribute.name == "face_normal";
-        if (!is_normal || attribute.width != 3) continue;
-        for (Index i = 0; i < attribute.size(); ++i) {
-            const std::span<double> n = attribute.at(i);
-            const Vec3 turned = turn(Vec3(n[0], n[1], n[2]));
-            std::copy_n(turned.data(), 3, n.data());
-        }
-    }
+bool is_kernel_frame(UpAxis up, double unit) {
+    return up != UpAxis::z && unit == 1.0;
 }
 
 void apply(const LoadOptions& options, MeshData& data) {
-    if (options.unit != 1.0) {
-        for (Vec3& p : data.positions) p *= options.unit;
-    }
-    if (options.up != UpAxis::z) return;
-    for (Vec3& p : data.positions) p = turned_from_z_up(p);
-    turn_normals(data.attributes, turned_from_z_up);
+    if (is_kernel_frame(options.up, options.unit)) return;
+    const Mat3 map = from_file(options.up, options.unit);
+    for (Vec3& p : data.positions) p = map * p;
+    map_directions(data.attributes, map);
 }
 
 // The mesh in the file's axes and unit, or nothing where they are the kernel's own.
 std::optional<Mesh> in_file_frame(const Mesh& mesh, const SaveOptions& options) {
-    if (options.up != UpAxis::z && options.unit == 1.0) return std::nullopt;
+    if (is_kernel_frame(options.up, options.unit)) return std::nullopt;
+    const Mat3 turn = from_file(options.up, 1.0).transpose();
     Mesh result = mesh;
     std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
-    for (Vec3& p : positions) {
-        p /= options.unit;
-        if (options.up == UpAxis::z) p = turned_to_z_up(p);
-    }
+    for (Vec3& p : positions) p = turn * (p / options.unit);
     result.set_positions(std::move(positions));
-    if (options.up == UpAxis::z) turn_normals(result.attributes(), turned_to_z_up);
+    map_directions(result.attributes(), turn / options.unit);
     return result;
 }
 

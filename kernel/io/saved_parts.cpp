@@ -89,6 +89,11 @@ const std::map<std::string, Region, std::less<>>& SavedParts::take_regions() {
     return mesh_.regions();
 }
 
+const std::shared_ptr<const Asset>& SavedParts::take_asset() {
+    asset_taken_ = true;
+    return mesh_.asset();
+}
+
 void SavedParts::log_losses(std::string_view format, const Context& context) const {
     std::string lost;
     const auto lose = [&](std::string_view what, std::string_view name, std::string_view detail) {
@@ -109,6 +114,10 @@ void SavedParts::log_losses(std::string_view format, const Context& context) con
     }
     if (!libraries_taken_) {
         for (const std::string& name : mesh_.material_libraries()) lose("material file", name, "");
+    }
+    if (!asset_taken_ && mesh_.asset()) {
+        lost += lost.empty() ? " " : ", ";
+        lost += "materials, textures, nodes and animations of the file it came from";
     }
     if (lost.empty()) return;
     context.log(LogLevel::warning,

@@ -30,6 +30,8 @@ class SavedParts {
     const FaceLabels* take_labels(std::string_view kind);
     const std::vector<std::string>& take_material_libraries();
     const std::map<std::string, Region, std::less<>>& take_regions();
+    /// What the mesh holds beside its surface, or null.
+    const std::shared_ptr<const Asset>& take_asset();
 
     /// Logs a warning that names what was not taken, if there is any.
     void log_losses(std::string_view format, const Context& context) const;
@@ -37,7 +39,7 @@ class SavedParts {
   private:
     const Mesh& mesh_;
     std::set<std::string, std::less<>> taken_attributes_, taken_labels_;
-    bool libraries_taken_ = false, regions_taken_ = false;
+    bool libraries_taken_ = false, regions_taken_ = false, asset_taken_ = false;
 };
 
 }  // namespace lissom

@@ -97,13 +97,31 @@ AttributeSet joined_attributes(const Mesh& mesh, const Mesh& other) {
     return result;
 }
 
-void join_labels(const Mesh& mesh, const Mesh& other, AttributeSet& result) {
+const std::string& renamed(const LabelRenames& renames, const std::string& kind,
+                           const std::string& name) {
+    const auto of_kind = renames.find(kind);
+    if (of_kind == renames.end()) return name;
+    const auto found = of_kind->second.find(name);
+    return found == of_kind->second.end() ? name : found->second;
+}
+
+// Both assets as one; `renames` gets the labels of `other` that mean something else in `mesh`.
+std::shared_ptr<const Asset> joined_asset(const Mesh& mesh, const Mesh& other,
+                                          LabelRenames& renames) {
+    if (!mesh.asset()) return other.asset();
+    if (!other.asset() || other.asset() == mesh.asset()) return mesh.asset();
+    return mesh.asset()->joined(*other.asset(), renames);
+}
+
+void join_labels(const Mesh& mesh, const Mesh& other, const LabelRenames& renames,
+                 AttributeSet& result) {
     result.labels() = mesh.attributes().labels();
     for (const auto& [kind, labels] : other.attributes().labels()) {
         FaceLabels& joined = result.labels()[kind];
         joined.of_face.resize(static_cast<std::size_t>(mesh.face_count()), kNoIndex);
         std::vector<Index> renumbered;
-        for (const std::string& name : labels.names) renumbered.push_back(joined.add(name));
+        for (const std::string& name : labels.names)
+            renumbered.push_back(joined.add(renamed(renames, kind, name)));
         for (const Index label : labels.of_face) {
             joined.of_face.push_back(label == kNoIndex ? kNoIndex : renumbered[label]);
         }
@@ -146,7 +164,9 @@ void append(Mesh& mesh, const Mesh& other, const Context& context) {
     positions.insert(positions.end(), other.positions().begin(), other.positions().end());
     Mesh result(std::move(positions), joined_faces(mesh, other), context);
     result.attributes() = joined_attributes(mesh, other);
-    join_labels(mesh, other, result.attributes());
+    LabelRenames renames;
+    result.set_asset(joined_asset(mesh, other, renames));
+    join_labels(mesh, other, renames, result.attributes());
     for (auto& [name, vertices] : joined_regions(mesh, other)) {
         result.set_region(name, Region(result.shared_topology(), std::move(vertices)));
     }

@@ -6,6 +6,36 @@
 #include "kernel/core/error.h"
 
 namespace lissom {
+namespace {
+
+// "uv", "uv2", "uv17", ...: the name of a set and its number, which the first does not write.
+bool is_set(std::string_view name, std::string_view base) {
+    if (!name.starts_with(base)) return false;
+    const std::string_view number = name.substr(base.size());
+    return std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+AttributeRole role_in_morph(std::string_view name) {
+    const std::string_view part = name.substr(name.rfind('.') + 1);
+    if (part == "position") return AttributeRole::morph_position;
+    if (part == "normal") return AttributeRole::morph_normal;
+    return part == "tangent" ? AttributeRole::morph_tangent : AttributeRole::value;
+}
+
+}  // namespace
+
+AttributeRole role_of(const Attribute& attribute) {
+    const std::string_view name = attribute.name;
+    const Index width = attribute.width;
+    if (width == 2 && is_set(name, "uv")) return AttributeRole::texture_coordinates;
+    if ((width == 3 || width == 4) && is_set(name, "color")) return AttributeRole::color;
+    if (width == 3 && (name == "normal" || name == "face_normal")) return AttributeRole::normal;
+    if (width == 4 && name == "tangent") return AttributeRole::tangent;
+    if (width == 3 && name.starts_with("morph.")) return role_in_morph(name);
+    if (width % 4 != 0) return AttributeRole::value;
+    if (name == "joints") return AttributeRole::joints;
+    return name == "weights" ? AttributeRole::weights : AttributeRole::value;
+}
 
 Index FaceLabels::add(std::string_view label) {
     const auto found = std::find(names.begin(), names.end(), label);

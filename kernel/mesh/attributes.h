@@ -22,8 +22,8 @@ enum class ScalarType { float32, float64, int8, uint8, int16, uint16, int32, uin
 ///
 /// Names with a meaning; operations treat their values accordingly:
 /// - "uv", "uv2", "uv3", ... (width 2; corner or vertex): texture coordinates, v pointing up
-/// - "normal" (3; corner, vertex or face), "tangent" (4: direction and handedness; corner or
-/// vertex)
+/// - "normal" and "face_normal" (3; corner, vertex or face), "tangent" (4: direction and
+/// handedness; corner or vertex)
 /// - "color", "color2", ... (3 or 4, linear scale 0 to 1; corner, vertex or face)
 /// - "joints" and "weights" (both of one width, a multiple of 4; vertex): the joints of a skin that
 ///   move a vertex, and how much
@@ -46,6 +46,22 @@ struct Attribute {
                 static_cast<std::size_t>(width)};
     }
 };
+
+/// What the values of an attribute mean, which its name and width tell.
+enum class AttributeRole {
+    value,
+    texture_coordinates,
+    color,
+    normal,
+    tangent,
+    joints,
+    weights,
+    morph_position,
+    morph_normal,
+    morph_tangent,
+};
+
+AttributeRole role_of(const Attribute& attribute);
 
 /// Labels of faces, for instance the group or material that each belongs to. Kinds with a meaning:
 /// "object", "group", "material", "smoothing".

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -15,9 +16,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 bool is_discrete(const Attribute& attribute) {
     const bool real =
         attribute.type == ScalarType::float32 || attribute.type == ScalarType::float64;
-    const bool measure =
-        attribute.name == "color" || attribute.name == "normal" || attribute.name == "uv";
-    return !real && !measure;
+    const AttributeRole role = role_of(attribute);
+    return role == AttributeRole::joints || (!real && role == AttributeRole::value);
 }
 
 double blend(const Attribute& attribute, std::span<const ElementMap::Source> sources, Index k) {
@@ -44,6 +44,7 @@ Attribute carry(const Attribute& old, const ElementMap& map) {
     Attribute result{old.name, old.domain, old.width, old.type, {}};
     result.values.assign(static_cast<std::size_t>(map.size()) * old.width, kNone);
     const bool discrete = is_discrete(old);
+    const AttributeRole role = role_of(old);
     for (Index i = 0; i < map.size(); ++i) {
         const std::span<const ElementMap::Source> sources = map[i];
         if (sources.empty()) continue;
@@ -54,9 +55,64 @@ Attribute carry(const Attribute& old, const ElementMap& map) {
             continue;
         }
         for (Index k = 0; k < old.width; ++k) to[k] = blend(old, sources, k);
-        if (old.name == "normal") normalize(to);
+        if (role == AttributeRole::normal) normalize(to);
+        if (role == AttributeRole::tangent) {
+            normalize(to.first(3));
+            to[3] = old.at(map.main_source(i))[3];
+        }
     }
     return result;
+}
+
+// The joints that move one vertex and their weights, gathered from several vertices.
+class Influences {
+  public:
+    void gather(const Attribute& joints, const Attribute& weights,
+                std::span<const ElementMap::Source> sources) {
+        weight_of_joint_.clear();
+        for (const ElementMap::Source& s : sources) {
+            for (Index k = 0; k < joints.width; ++k) {
+                const double weight = weights.at(s.element)[k];
+                if (weight > 0.0) weight_of_joint_[joints.at(s.element)[k]] += s.weight * weight;
+            }
+        }
+    }
+
+    // The strongest that there is room for, with weights that sum to 1.
+    void write(std::span<double> joints, std::span<double> weights) {
+        std::vector<std::pair<double, double>> order;
+        for (const auto& [joint, weight] : weight_of_joint_) order.emplace_back(-weight, joint);
+        std::sort(order.begin(), order.end());
+        order.resize(std::min(order.size(), joints.size()));
+        double sum = 0.0;
+        for (const auto& [weight, joint] : order) sum -= weight;
+        std::fill(joints.begin(), joints.end(), 0.0);
+        std::fill(weights.begin(), weights.end(), 0.0);
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            joints[k] = order[k].second;
+            weights[k] = -order[k].first / sum;
+        }
+    }
+
+  private:
+    std::map<double, double> weight_of_joint_;
+};
+
+// A vertex between others is moved by the joints of all of them.
+void blend_skin(const Mesh& source, const ElementMap& vertices, Mesh& target) {
+    const Attribute* joints = source.attributes().find("joints");
+    const Attribute* weights = source.attributes().find("weights");
+    const bool is_skin = joints && weights && joints->width == weights->width &&
+                         joints->domain == Domain::vertex && weights->domain == Domain::vertex;
+    if (!is_skin) return;
+    Attribute& new_joints = *target.attributes().find("joints");
+    Attribute& new_weights = *target.attributes().find("weights");
+    Influences influences;
+    for (Index v = 0; v < vertices.size(); ++v) {
+        if (vertices[v].size() < 2) continue;
+        influences.gather(*joints, *weights, vertices[v]);
+        influences.write(new_joints.at(v), new_weights.at(v));
+    }
 }
 
 void carry_attributes(const Mesh& source, const MeshMap& map, Mesh& target,
@@ -68,6 +124,7 @@ void carry_attributes(const Mesh& source, const MeshMap& map, Mesh& target,
                                                                           : map.faces;
         target.attributes().add(carry(attribute, elements));
     }
+    blend_skin(source, map.vertices, target);
 }
 
 void carry_labels(const Mesh& source, const ElementMap& faces, Mesh& target) {

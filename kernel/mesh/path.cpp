@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "kernel/mesh/normals.h"
+#include "kernel/mesh/directions.h"
 #include "kernel/mesh/shortest_path.h"
 
 namespace lissom {
@@ -213,10 +213,10 @@ void smooth_path(Mesh& mesh, const Path& path, Index iterations, double strength
     }
     std::vector<Vec3> points = path.points(mesh);
     smooth_polyline(points, path.closed(), iterations, strength);
-    const NormalCarrier normals(mesh);
+    const DirectionCarrier directions(mesh);
     const std::span<Vec3> positions = mesh.edit_positions();
     for (std::size_t i = 0; i < points.size(); ++i) positions[path.vertices()[i]] = points[i];
-    normals.follow(mesh);
+    directions.follow(mesh);
 }
 
 void smooth_path(Path& path, Index iterations, double strength) {

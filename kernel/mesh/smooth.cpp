@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/mesh/normals.h"
+#include "kernel/mesh/directions.h"
 #include "kernel/mesh/triangulation.h"
 
 namespace lissom {
@@ -126,7 +126,7 @@ void check(const Mesh& mesh, const SmoothOptions& options) {
 void smooth(Mesh& mesh, const SmoothOptions& options, const Context& context) {
     check(mesh, options);
     Progress progress(context, "smooth");
-    const NormalCarrier normals(mesh);
+    const DirectionCarrier directions(mesh);
     const Stencils stencils = stencils_for(mesh, options);
     // Taubin's second factor: 1 / strength + 1 / outward = pass band.
     const double outward = 1.0 / (kPassBand - 1.0 / options.strength);
@@ -138,7 +138,7 @@ void smooth(Mesh& mesh, const SmoothOptions& options, const Context& context) {
         if (options.keep_volume) step(stencils, outward, positions, next, context);
     }
     mesh.set_positions(std::move(positions));
-    normals.follow(mesh);
+    directions.follow(mesh);
 }
 
 }  // namespace lissom

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "kernel/mesh/derive.h"
-#include "kernel/mesh/normals.h"
+#include "kernel/mesh/directions.h"
 
 namespace lissom {
 namespace {
@@ -52,15 +52,14 @@ void transform(Mesh& mesh, const Affine& map, const Context& context) {
     } else {
         mesh.set_positions(std::move(positions));
     }
-    const double scale = map.linear.cwiseAbs().maxCoeff();
-    map_normals(mesh, (map.linear / scale).inverse().transpose());
+    map_directions(mesh.attributes(), map.linear);
 }
 
 void flip(Mesh& mesh, const Context& context) {
     Progress progress(context, "flip");
     mesh.replace_by(
         with_reversed_faces(mesh, {mesh.positions().begin(), mesh.positions().end()}, context));
-    negate_normals(mesh);
+    negate_normals(mesh.attributes());
 }
 
 }  // namespace lissom

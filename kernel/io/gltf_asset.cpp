@@ -1,0 +1,162 @@
+#include "kernel/io/gltf_asset.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "kernel/io/gltf_extensions.h"
+#include "kernel/io/gltf_extras.h"
+#include "kernel/io/gltf_join.h"
+#include "kernel/io/read_error.h"
+
+namespace lissom {
+namespace {
+
+constexpr std::size_t kKeptPerByte = 4, kLeastKept = std::size_t{1} << 20;
+
+// Copies accessors out of a document.
+class AccessorKeeper {
+  public:
+    AccessorKeeper(const GltfDocument& document, const AccessorReader& reader, GltfAsset& asset)
+        : document_(document),
+          reader_(reader),
+          asset_(asset),
+          left_(std::max(kLeastKept, kKeptPerByte * document.bytes_read)) {}
+
+    // Replaces the number of an accessor, if there is one, by that of its copy.
+    void keep(Json& object, const char* key, const std::string& owner) {
+        const int number = index_member(object, key, owner);
+        if (number < 0) return;
+        const auto [known, is_new] = copies_.emplace(number, asset_.accessors.size());
+        if (is_new) asset_.accessors.push_back(copy(number));
+        object[key] = known->second;
+    }
+
+  private:
+    KeptAccessor copy(int number) {
+        PackedNumbers packed = reader_.packed(number);
+        if (packed.bytes.size() > left_) {
+            refuse(ErrorCode::file_too_large,
+                   "the data of animations and skins overlap in the file");
+        }
+        left_ -= packed.bytes.size();
+        Json json = document_.json["accessors"][static_cast<std::size_t>(number)];
+        for (const char* key : {"bufferView", "byteOffset", "sparse", "extensions"}) {
+            json.erase(key);
+        }
+        return {std::move(json), std::make_shared<const std::string>(std::move(packed.bytes))};
+    }
+
+    const GltfDocument& document_;
+    const AccessorReader& reader_;
+    GltfAsset& asset_;
+    std::map<int, std::size_t> copies_;
+    std::size_t left_;
+};
+
+void keep_accessors(Json& json, AccessorKeeper& keeper) {
+    if (Json* skins = member(json, "skins")) {
+        for (Json& skin : *skins) keeper.keep(skin, "inverseBindMatrices", "a skin");
+    }
+    Json* animations = member(json, "animations");
+    if (!animations) return;
+    for (Json& animation : *animations) {
+        Json* samplers = member(animation, "samplers");
+        if (!samplers || !samplers->is_array()) continue;
+        for (Json& sampler : *samplers) {
+            keeper.keep(sampler, "input", "an animation");
+            keeper.keep(sampler, "output", "an animation");
+        }
+    }
+}
+
+// Leaves of a primitive what is not surface, or null.
+Json reduced(const Json& primitive) {
+    Json rest;
+    for (const char* key : {"extras", "extensions"}) {
+        if (const Json* value = member(primitive, key)) rest[key] = *value;
+    }
+    if (!rest.is_null() && primitive.contains("material")) rest["material"] = primitive["material"];
+    return rest;
+}
+
+void reduce_meshes(Json& json) {
+    Json* meshes = member(json, "meshes");
+    if (!meshes) return;
+    for (Json& mesh : *meshes) {
+        bool fits = true;
+        take_extras(mesh, 0, 0, fits);
+        Json primitives = Json::array();
+        if (const Json* all = member(mesh, "primitives"); all && all->is_array()) {
+            for (const Json& primitive : *all) {
+                Json rest = reduced(primitive);
+                if (!rest.is_null()) primitives.push_back(std::move(rest));
+            }
+        }
+        mesh.erase("primitives");
+        if (!primitives.empty()) mesh["primitives"] = std::move(primitives);
+    }
+}
+
+std::string sniffed_media_type(std::string_view bytes) {
+    if (bytes.starts_with("\x89PNG")) return "image/png";
+    if (bytes.starts_with("\xff\xd8\xff")) return "image/jpeg";
+    if (bytes.starts_with("\xabKTX 20")) return "image/ktx2";
+    if (bytes.starts_with("RIFF") && bytes.substr(8).starts_with("WEBP")) return "image/webp";
+    return "";
+}
+
+void describe_images(Json& json, const std::vector<SharedBytes>& images) {
+    Json* list = member(json, "images");
+    for (std::size_t i = 0; list && i < list->size(); ++i) {
+        Json& image = (*list)[i];
+        image.erase("bufferView");
+        if (!images[i]) continue;
+        const std::string uri = text_member(image, "uri");
+        if (!uri.empty() && !image.contains("name")) image["name"] = uri;
+        image.erase("uri");
+        const std::string type = sniffed_media_type(*images[i]);
+        if (!type.empty()) image["mimeType"] = type;
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<const Asset> GltfAsset::joined(const Asset& other, LabelRenames& renames) const {
+    auto result = std::make_shared<GltfAsset>(*this);
+    const auto* added = dynamic_cast<const GltfAsset*>(&other);
+    if (added && added != this && added->json != json) join_assets(*result, *added, renames);
+    return result;
+}
+
+std::size_t GltfAsset::memory_bytes() const {
+    // Of the order of what the JSON takes.
+    constexpr std::size_t kBytesPerNode = 256;
+    std::size_t bytes = kBytesPerNode * json.size();
+    if (const Json* nodes = member(json, "nodes")) bytes += kBytesPerNode * nodes->size();
+    for (const KeptAccessor& accessor : accessors) bytes += accessor.bytes->size();
+    for (const SharedBytes& image : images) bytes += image ? image->size() : 0;
+    return bytes;
+}
+
+std::shared_ptr<const GltfAsset> keep_asset(GltfDocument& document, const AccessorReader& accessors,
+                                            const std::vector<GltfInstance>& instances,
+                                            const std::vector<std::string>& materials,
+                                            Report& report) {
+    auto asset = std::make_shared<GltfAsset>();
+    drop_bound_extensions(document.json, report);
+    AccessorKeeper keeper(document, accessors, *asset);
+    keep_accessors(document.json, keeper);
+    for (const char* key : {"accessors", "bufferViews", "buffers"}) document.json.erase(key);
+    reduce_meshes(document.json);
+    describe_images(document.json, document.images);
+    asset->images = std::move(document.images);
+    for (const GltfInstance& instance : instances) {
+        if (instance.node < 0) continue;
+        asset->node_of_object[instance.label] = static_cast<std::size_t>(instance.node);
+    }
+    for (std::size_t m = 0; m < materials.size(); ++m) asset->material_of_label[materials[m]] = m;
+    asset->json = std::move(document.json);
+    return asset;
+}
+
+}  // namespace lissom

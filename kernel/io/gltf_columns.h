@@ -1,0 +1,35 @@
+/// Attributes of vertices while a mesh is put together of parts that do not all have the same;
+/// private to kernel/io.
+#pragma once
+
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "kernel/mesh/attributes.h"
+
+namespace lissom {
+
+/// Collects attributes of vertices block by block. What a block does not have is NaN there.
+class AttributeColumns {
+  public:
+    /// Values of an attribute for the vertices from `first` on, which are not before those that
+    /// were given to it last. Of different widths the larger counts: a color gets an alpha of 1,
+    /// and others NaN.
+    void add(const std::string& name, Index width, ScalarType type, std::size_t first,
+             std::span<const double> values);
+    /// Numbers that `finish` will hold.
+    std::size_t number_count(std::size_t vertex_count) const;
+    /// Adds all attributes of `vertex_count` vertices.
+    void finish(AttributeSet& attributes, std::size_t vertex_count);
+
+  private:
+    std::vector<Attribute> columns_;
+    std::unordered_map<std::string, std::size_t> number_of_;
+};
+
+/// `values` of `from` numbers each with `to` numbers, the new ones being `fill`.
+std::vector<double> widened(std::span<const double> values, Index from, Index to, double fill);
+
+}  // namespace lissom

@@ -1,0 +1,36 @@
+/// Polygons as triangles that a reader can put together again (FB_ngon_encoding); private to
+/// kernel/io.
+#pragma once
+
+#include <vector>
+
+#include "kernel/core/geometry.h"
+
+namespace lissom {
+
+/// Collects the triangles of one primitive. Each polygon is a fan: consecutive triangles with the
+/// same first vertex, which differs from that of the polygon before.
+class FanWriter {
+  public:
+    /// Adds a polygon of pool vertices `vertices` at `points`. A triangle of a surface of triangles
+    /// keeps its first vertex. Returns the number of faces that a reader will find: 1, or more
+    /// where no fan covers the polygon.
+    Index add(const std::vector<Index>& vertices, const std::vector<Vec3>& points);
+
+    /// Three vertices a triangle.
+    const std::vector<Index>& corners() const { return corners_; }
+    /// True where a polygon has more than three corners, so that the encoding has to be declared.
+    bool has_polygons() const { return has_polygons_; }
+    /// Tells that polygons will come, before the first is added: triangles too then need different
+    /// first vertices.
+    void expect_polygons() { has_polygons_ = true; }
+
+  private:
+    void add_fan(const std::vector<Index>& vertices, std::size_t start);
+
+    std::vector<Index> corners_;
+    Index last_first_ = kNoIndex;
+    bool has_polygons_ = false;
+};
+
+}  // namespace lissom

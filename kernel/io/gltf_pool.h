@@ -1,0 +1,49 @@
+/// VertexPool: the vertices of one glTF mesh, of which a vertex of the surface has as many as its
+/// corners have different values; private to kernel/io.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// Pool vertices in the order of the surface's vertices, and of its corners at each of them.
+struct VertexPool {
+    /// For each pool vertex, the vertex of the mesh, and one of the corners that it stands for
+    /// (kNoIndex for a vertex without faces).
+    std::vector<Index> vertices, corners;
+
+    std::size_t size() const { return vertices.size(); }
+    /// What pool vertex `i` has of an attribute of vertices or corners.
+    std::span<const double> value(const Attribute& attribute, std::size_t i) const {
+        return attribute.at(attribute.domain == Domain::vertex ? vertices[i] : corners[i]);
+    }
+};
+
+/// Pools of the faces of a mesh. `pool_of_face` gives the pool of every face; `split_by` are
+/// attributes of corners. Corners with values that are equal as 32-bit numbers share a vertex.
+class VertexPools {
+  public:
+    VertexPools(const Mesh& mesh, const std::vector<Index>& pool_of_face, Index pool_count,
+                const std::vector<const Attribute*>& split_by);
+
+    const VertexPool& pool(Index i) const { return pools_[static_cast<std::size_t>(i)]; }
+    /// The vertex of its pool that stands for a corner of the mesh.
+    Index vertex_of_corner(Index corner) const {
+        return vertex_of_corner_[static_cast<std::size_t>(corner)];
+    }
+
+  private:
+    Index find_or_add(VertexPool& pool, Index vertex, Index corner, std::size_t first,
+                      const std::vector<const Attribute*>& split_by);
+
+    std::vector<VertexPool> pools_;
+    std::vector<Index> vertex_of_corner_;
+};
+
+/// All vertices of a mesh without faces.
+VertexPool pool_of_points(const Mesh& mesh);
+
+}  // namespace lissom

@@ -1,0 +1,74 @@
+#include "kernel/io/gltf_primitives.h"
+
+#include <tiny_gltf.h>
+
+#include "kernel/io/read_error.h"
+
+namespace lissom {
+namespace {
+
+FaceList join_triangles(const std::vector<Index>& v) {
+    FaceList faces;
+    const std::size_t count = v.size() / 3;
+    faces.vertices.assign(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(3 * count));
+    faces.offsets.reserve(count + 1);
+    for (std::size_t t = 1; t <= count; ++t) faces.offsets.push_back(static_cast<Index>(3 * t));
+    return faces;
+}
+
+FaceList join_strip(const std::vector<Index>& v) {
+    FaceList faces;
+    for (std::size_t i = 0; i + 2 < v.size(); ++i) {
+        const Index a = v[i], b = v[i + 1 + i % 2], c = v[i + 2 - i % 2];
+        if (a != b && b != c && c != a) faces.add({a, b, c});
+    }
+    return faces;
+}
+
+FaceList join_fan(const std::vector<Index>& v) {
+    FaceList faces;
+    for (std::size_t i = 0; i + 2 < v.size(); ++i) faces.add({v[i + 1], v[i + 2], v[0]});
+    return faces;
+}
+
+FaceList join_polygons(const std::vector<Index>& v) {
+    FaceList faces;
+    std::vector<Index> polygon;
+    for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
+        const bool goes_on = !polygon.empty() && polygon[0] == v[i] && polygon.back() == v[i + 1];
+        if (goes_on) {
+            polygon.push_back(v[i + 2]);
+            continue;
+        }
+        if (!polygon.empty()) faces.add(polygon);
+        polygon.assign({v[i], v[i + 1], v[i + 2]});
+    }
+    if (!polygon.empty()) faces.add(polygon);
+    return faces;
+}
+
+}  // namespace
+
+PrimitiveShape shape_of_mode(int mode) {
+    if (mode == TINYGLTF_MODE_POINTS) return PrimitiveShape::points;
+    if (mode >= TINYGLTF_MODE_LINE && mode <= TINYGLTF_MODE_LINE_STRIP) {
+        return PrimitiveShape::lines;
+    }
+    if (mode >= TINYGLTF_MODE_TRIANGLES && mode <= TINYGLTF_MODE_TRIANGLE_FAN) {
+        return PrimitiveShape::faces;
+    }
+    refuse(ErrorCode::file_syntax,
+           "a primitive has the mode " + std::to_string(mode) + ", which does not exist");
+}
+
+FaceList join_primitive(const std::vector<Index>& indices, const PrimitiveJoin& join,
+                        std::size_t& left_over) {
+    if (join.mode == TINYGLTF_MODE_TRIANGLES) {
+        left_over += indices.size() % 3;
+        return join.has_polygons ? join_polygons(indices) : join_triangles(indices);
+    }
+    if (indices.size() < 3) left_over += indices.size();
+    return join.mode == TINYGLTF_MODE_TRIANGLE_STRIP ? join_strip(indices) : join_fan(indices);
+}
+
+}  // namespace lissom

@@ -1,0 +1,30 @@
+/// The polygons of a glTF primitive; private to kernel/io.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kernel/mesh/topology.h"
+
+namespace lissom {
+
+/// What the vertices of a primitive make.
+enum class PrimitiveShape { points, lines, faces };
+
+/// The shape of a mode of glTF, 0 to 6. Errors: file_syntax for others.
+PrimitiveShape shape_of_mode(int mode);
+
+/// How the vertices of a primitive are joined.
+struct PrimitiveJoin {
+    /// One of the modes with faces.
+    int mode = 4;
+    /// Triangles in a row that share their first vertex are a polygon (FB_ngon_encoding).
+    bool has_polygons = false;
+};
+
+/// Polygons of the vertices `indices`. Triangles of strips without area, which join strips, are
+/// left out; vertices that make no triangle are added to `left_over`.
+FaceList join_primitive(const std::vector<Index>& indices, const PrimitiveJoin& join,
+                        std::size_t& left_over);
+
+}  // namespace lissom

@@ -1,0 +1,57 @@
+/// URIs in glTF files: data inside the text, and files beside it; private to kernel/io.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lissom {
+
+/// Bytes that several owners may refer to.
+using SharedBytes = std::shared_ptr<const std::string>;
+
+/// The content of a data URI.
+struct UriData {
+    std::string bytes;
+    std::string media_type;
+};
+
+/// The data in `uri`, or nothing where it is not a data URI. Errors: file_syntax.
+std::optional<UriData> decode_data_uri(std::string_view uri);
+
+/// A data URI of `bytes`.
+std::string make_data_uri(std::string_view bytes);
+
+/// True for http and https.
+bool is_on_the_web(std::string_view uri);
+
+/// The files in one folder, each read once.
+class GltfFolder {
+  public:
+    /// An empty path is no folder: no file can be opened then.
+    explicit GltfFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    /// The first `length` bytes, if it has as many, of the file at the relative `uri`.
+    /// Errors: unsafe_path where it is not inside the folder; unsupported for the web;
+    /// file_not_found; file_truncated; those of require_file.
+    SharedBytes read(std::string_view uri, std::size_t length);
+    /// All of a file, or null where there is none. Errors: as `read`; file_too_large.
+    SharedBytes read_if_there(std::string_view uri);
+
+    /// Bytes that were read.
+    std::size_t bytes_read() const { return bytes_read_; }
+
+  private:
+    std::filesystem::path path_of(const std::filesystem::path& relative,
+                                  std::string_view uri) const;
+    SharedBytes read_path(const std::filesystem::path& path, std::size_t length);
+
+    std::filesystem::path folder_;
+    std::map<std::filesystem::path, SharedBytes> content_;
+    std::size_t bytes_read_ = 0;
+};
+
+}  // namespace lissom

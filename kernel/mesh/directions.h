@@ -1,0 +1,34 @@
+/// Attributes that are directions (normals, tangents and what morph targets add) while the shape
+/// under them changes.
+#pragma once
+
+#include <vector>
+
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// True for attributes whose values turn when the surface turns.
+bool is_direction(const Attribute& attribute);
+
+/// Turns the directions of a mesh with its surface. Make it before the change of positions, call
+/// `follow` after: each value is rotated as the vertex's normal was, by the smallest rotation.
+/// Costs nothing where there is no such attribute.
+class DirectionCarrier {
+  public:
+    explicit DirectionCarrier(const Mesh& mesh);
+    void follow(Mesh& mesh) const;
+
+  private:
+    std::vector<Vec3> before_;
+};
+
+/// Applies the linear map of positions to directions: what morph targets add to positions follows
+/// it, tangents keep their length, normals stay at right angles to the surface. `linear` must not
+/// be singular.
+void map_directions(AttributeSet& attributes, const Mat3& linear);
+
+/// Turns every custom normal the other way.
+void negate_normals(AttributeSet& attributes);
+
+}  // namespace lissom
