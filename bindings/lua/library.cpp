@@ -1,5 +1,7 @@
 #include "bindings/lua/library.h"
 
+#include "kernel/mesh/report.h"
+
 #include <iterator>
 #include <utility>
 
@@ -22,6 +24,7 @@ Type whole_mesh_type() {
     add(mesh.methods, mesh_edit_methods());
     add(mesh.methods, mesh_query_methods());
     add(mesh.methods, mesh_file_methods());
+    add(mesh.methods, mesh_report_methods());
     add(mesh.methods, buffer_methods_of_mesh());
     add(mesh.methods, region_methods_of_mesh());
     add(mesh.methods, path_methods_of_mesh());
@@ -50,6 +53,15 @@ std::vector<Parameter> rotation_fields(const std::string& about_default) {
     return {axis("axis", "Axis of the rotation."),
             number("angle", "Angle, counter-clockwise seen against the axis.").in("degrees"),
             vector("about", "A point on the axis.").optional(about_default)};
+}
+
+std::vector<Result> finding_fields() {
+    std::vector<Result> fields{{"lissom.Finding", "[integer]", "The findings in order."}};
+    for (const FindingKind kind : all_finding_kinds()) {
+        fields.push_back({"lissom.Finding|nil", std::string(finding_name(kind)),
+                          std::string(finding_explanation(kind))});
+    }
+    return fields;
 }
 
 std::vector<Record> kernel_records() {
@@ -106,6 +118,18 @@ std::vector<Record> kernel_records() {
           {"boolean", "triangles", "All faces are triangles."},
           {"integer[]", "isolated_vertices", "Vertices without faces."},
           {"integer[]", "zero_area_faces", "Faces without area."}}},
+        {"lissom.Finding",
+         "One finding of a report.",
+         {{"string", "kind", "What was found: vertices_welded, edges_nonmanifold, ..."},
+          {"integer", "count", "Number of elements or items."},
+          {"string", "summary", "The same in a few words."},
+          {"string|nil", "message", "Details, where there are any."},
+          {"string|nil", "element", "What the ids number: vertex, edge, face or component."},
+          {"string|nil", "of",
+           "file where the ids are those of the file, mesh where they are the mesh's."},
+          {"integer[]|nil", "ids", "The elements; edges are pairs of vertex ids."}}},
+        {"lissom.Report", "Findings as a list, and each under the name of its kind.",
+         finding_fields()},
         {"lissom.DeformStats",
          "Sizes and times of the last preparation of a deformation.",
          {{"integer", "region_vertices", "Vertices of the region."},

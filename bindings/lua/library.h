@@ -12,6 +12,7 @@ std::vector<Function> mesh_edit_methods();
 std::vector<Function> mesh_query_methods();
 std::vector<Function> mesh_file_functions();
 std::vector<Function> mesh_file_methods();
+std::vector<Function> mesh_report_methods();
 
 Type region_type();
 std::vector<Function> region_methods_of_mesh();

@@ -4,6 +4,7 @@
 #include "bindings/lua/buffer.h"
 #include "bindings/lua/library.h"
 #include "bindings/lua/mesh_object.h"
+#include "bindings/lua/weld_option.h"
 #include "kernel/mesh/measures.h"
 
 namespace lissom::lua {
@@ -25,11 +26,19 @@ std::vector<Vec3> given_positions(const Call& call) {
 
 int make_mesh(Call& call) {
     const IdLists faces = call.id_lists("faces");
+    const bool mend = call.boolean("repair");
+    const Weld weld = call.has("weld") ? given_weld(call) : Weld::none;
     return new_mesh(call, [&] {
         FaceList list;
         list.offsets.assign(faces.offsets.begin(), faces.offsets.end());
         list.vertices.assign(faces.ids.begin(), faces.ids.end());
-        return Mesh(given_positions(call), std::move(list), call.context());
+        std::vector<Vec3> positions = given_positions(call);
+        if (!mend && weld == Weld::none)
+            return Mesh(std::move(positions), std::move(list), call.context());
+        Soup soup;
+        soup.positions = std::move(positions);
+        soup.faces = std::move(list);
+        return repair(std::move(soup), {weld, mend}, call.context());
     });
 }
 
@@ -341,23 +350,27 @@ mesh:set_position(1, 0, 0, 0):set_position(2, { 1, 0, 0 }))"},
 }
 
 std::vector<Function> mesh_functions() {
-    return {{.name = "mesh",
-             .body = make_mesh,
-             .summary = "Makes a mesh from positions and faces.",
-             .options = {either("positions",
-                                {points("list", "A list of {x, y, z}."),
-                                 object("buffer", "lissom.Buffer", "Rows of three numbers.")},
-                                "Where the vertices are."),
-                         id_lists("faces",
-                                  "For each face the ids of its vertices, counter-clockwise seen "
-                                  "from outside.")},
-             .results = {{"lissom.Mesh", "mesh",
-                          "The mesh; nil, message, code where it is not manifold."}},
-             .errors = {ErrorCode::face_index, ErrorCode::face_too_small,
-                        ErrorCode::repeated_vertex, ErrorCode::duplicate_face,
-                        ErrorCode::nonmanifold_edge, ErrorCode::inconsistent_orientation,
-                        ErrorCode::nonmanifold_vertex, ErrorCode::cancelled},
-             .example = R"(local mesh = lissom.mesh{
+    return {
+        {.name = "mesh",
+         .body = make_mesh,
+         .summary = "Makes a mesh from positions and faces.",
+         .options = {either("positions",
+                            {points("list", "A list of {x, y, z}."),
+                             object("buffer", "lissom.Buffer", "Rows of three numbers.")},
+                            "Where the vertices are."),
+                     id_lists("faces",
+                              "For each face the ids of its vertices, counter-clockwise seen "
+                              "from outside."),
+                     weld_option().optional("false"),
+                     boolean("repair", "Whether defects are mended, as lissom.load does.")
+                         .defaults(false)},
+         .results = {{"lissom.Mesh", "mesh",
+                      "The mesh; nil, message, code where it is not manifold."}},
+         .errors = {ErrorCode::face_index, ErrorCode::face_too_small, ErrorCode::repeated_vertex,
+                    ErrorCode::duplicate_face, ErrorCode::nonmanifold_edge,
+                    ErrorCode::inconsistent_orientation, ErrorCode::nonmanifold_vertex,
+                    ErrorCode::unreferenced_vertex, ErrorCode::zero_area, ErrorCode::cancelled},
+         .example = R"(local mesh = lissom.mesh{
     positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } },
     faces = { { 1, 2, 3 } },
 }

@@ -3,6 +3,7 @@
 
 #include "bindings/lua/library.h"
 #include "bindings/lua/mesh_object.h"
+#include "bindings/lua/weld_option.h"
 #include "kernel/io/mesh_file.h"
 
 namespace lissom::lua {
@@ -21,7 +22,11 @@ std::filesystem::path file_path(const char* text) {
 
 int load(Call& call) {
     const char* path = call.string("path");
-    const LoadOptions options{up_axis(call), call.number("unit")};
+    LoadOptions options;
+    options.up = up_axis(call);
+    options.unit = call.number("unit");
+    options.repair = call.boolean("repair");
+    if (call.has("weld")) options.weld = given_weld(call);
     return new_mesh(call, [&] { return load_mesh(file_path(path), options, call.context()); });
 }
 
@@ -53,21 +58,42 @@ std::vector<Function> mesh_file_functions() {
         {.name = "load",
          .body = load,
          .summary =
-             "Reads a mesh from an .obj, .ply, .off or .stl file, with its groups, materials, "
-             "texture coordinates, normals and colours.",
+             "Reads a mesh from an .obj, .ply, .off, .stl, .gltf or .glb file, with its groups, "
+             "materials, texture coordinates, normals, colours, skins and morph targets. It is "
+             "checked and repaired: mesh:report() says what was done.",
          .arguments = {string("path", "The file; its extension names the format.")},
-         .options = {up_option("The file's up axis; z is turned to y, which is up here."),
+         .options = {weld_option().optional("\"all\" for .stl, \"seams\" for others"),
+                     boolean("repair",
+                             "false makes each defect that would be mended, and each face without "
+                             "area, an error that names the elements.")
+                         .defaults(true),
+                     up_option("The file's up axis; z is turned to y, which is up here."),
                      unit_option("Length of the file's unit in the unit of the mesh: positions are "
                                  "multiplied by it.")},
          .results = {{"lissom.Mesh", "mesh",
                       "The mesh; nil, message, code where the file is at fault."}},
-         .errors = {ErrorCode::file_not_found, ErrorCode::file_is_directory, ErrorCode::file_empty,
-                    ErrorCode::file_unreadable, ErrorCode::file_syntax, ErrorCode::file_truncated,
-                    ErrorCode::file_too_large, ErrorCode::unknown_format, ErrorCode::unsupported,
-                    ErrorCode::not_finite, ErrorCode::face_index, ErrorCode::face_too_small,
-                    ErrorCode::repeated_vertex, ErrorCode::duplicate_face,
-                    ErrorCode::nonmanifold_edge, ErrorCode::inconsistent_orientation,
-                    ErrorCode::nonmanifold_vertex, ErrorCode::memory_limit, ErrorCode::cancelled},
+         .errors = {ErrorCode::file_not_found,
+                    ErrorCode::file_is_directory,
+                    ErrorCode::file_empty,
+                    ErrorCode::file_unreadable,
+                    ErrorCode::file_syntax,
+                    ErrorCode::file_truncated,
+                    ErrorCode::file_too_large,
+                    ErrorCode::unknown_format,
+                    ErrorCode::unsafe_path,
+                    ErrorCode::unsupported,
+                    ErrorCode::not_finite,
+                    ErrorCode::face_index,
+                    ErrorCode::face_too_small,
+                    ErrorCode::repeated_vertex,
+                    ErrorCode::duplicate_face,
+                    ErrorCode::nonmanifold_edge,
+                    ErrorCode::inconsistent_orientation,
+                    ErrorCode::nonmanifold_vertex,
+                    ErrorCode::unreferenced_vertex,
+                    ErrorCode::zero_area,
+                    ErrorCode::memory_limit,
+                    ErrorCode::cancelled},
          .example = R"(local mesh, message, code = lissom.load("missing.obj")
 assert(mesh == nil and code == "file_not_found"))"}};
 }

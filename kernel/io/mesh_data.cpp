@@ -18,7 +18,7 @@ void add_face(FaceList& faces, std::span<const Index> face) {
 }
 
 void add_without_clash(AttributeSet& attributes, Attribute attribute) {
-    if (attribute.domain == Domain::face && attributes.find(attribute.name)) {
+    while (attribute.domain == Domain::face && attributes.find(attribute.name)) {
         attribute.name = "face_" + attribute.name;
     }
     attributes.add(std::move(attribute));
@@ -28,7 +28,8 @@ std::string face_attribute_name(const AttributeSet& attributes, const Attribute&
     constexpr std::string_view kPrefix = "face_";
     if (!attribute.name.starts_with(kPrefix)) return attribute.name;
     const std::string base = attribute.name.substr(kPrefix.size());
-    return attributes.find(base) ? base : attribute.name;
+    const Attribute* const other = attributes.find(base);
+    return other && other->domain != Domain::face ? base : attribute.name;
 }
 
 }  // namespace lissom

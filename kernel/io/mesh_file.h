@@ -35,7 +35,7 @@ enum class Endianness { little, big };
 struct LoadOptions {
     /// Which vertices at the same place become one; where absent, Weld::all for STL, which stores
     /// each triangle by itself, and Weld::seams for all others.
-    std::optional<Weld> weld;
+    std::optional<Weld> weld = std::nullopt;
     /// False: what would be mended (see repair.h) is an error instead.
     bool repair = true;
     /// The file's up axis.

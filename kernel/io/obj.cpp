@@ -10,65 +10,54 @@
 #include "kernel/io/color_reader.h"
 #include "kernel/io/index_check.h"
 #include "kernel/io/label_reader.h"
+#include "kernel/io/line_finding.h"
+#include "kernel/io/percent.h"
+#include "kernel/io/skipped_content.h"
 #include "kernel/io/text_reader.h"
-#include "kernel/io/text_writer.h"
 #include "kernel/io/ticker.h"
-#include "kernel/mesh/value_pool.h"
 
 namespace lissom {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Statements that were passed over, by keyword.
-class SkippedStatements {
-  public:
-    void add(std::string_view keyword) {
-        const auto found = counts_.find(keyword);
-        if (found != counts_.end()) {
-            ++found->second;
-        } else {
-            counts_.emplace(keyword, 1);
-        }
-    }
-    bool empty() const { return counts_.empty(); }
-
-    void log(const Context& context) const {
-        constexpr std::size_t kShown = 10;
-        if (empty()) return;
-        std::string list;
-        std::size_t shown = 0;
-        for (const auto& [keyword, count] : counts_) {
-            if (++shown > kShown) break;
-            list +=
-                (list.empty() ? "" : ", ") + std::to_string(count) + " of " + in_quotes(keyword);
-        }
-        if (counts_.size() > kShown) list += ", ...";
-        context.log(LogLevel::warning,
-                    "statements that a mesh has no place for were skipped: " + list);
-    }
-
-  private:
-    std::map<std::string, std::size_t, std::less<>> counts_;
-};
-
 // Numbered values that corners refer to: texture coordinates or normals.
 class CornerValues {
   public:
-    CornerValues(std::string_view element, Index width) : check_(element, 1), width_(width) {}
+    CornerValues(std::string_view plural, Index width) : plural_(plural), width_(width) {}
 
-    std::vector<double>& pool() { return pool_; }
-    std::size_t count() const { return pool_.size() / static_cast<std::size_t>(width_); }
+    // The values of the next number; without values (NaN) where one is not finite.
+    void add(std::initializer_list<double> values, std::size_t line) {
+        const bool finite =
+            std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+        if (finite) {
+            pool_.insert(pool_.end(), values);
+        } else {
+            pool_.insert(pool_.end(), values.size(), kNone);
+            not_finite_.add(line);
+        }
+    }
 
-    void refer(std::size_t corner, std::int64_t index, Place place) {
+    // Gives a corner the values of a number as written, which is negative where it counts back
+    // from the last one before.
+    void refer(std::size_t corner, std::int64_t written, std::size_t line) {
+        const auto known = static_cast<std::int64_t>(count());
+        const std::int64_t index = written > 0 ? written - 1 : known + written;
+        if (written == 0 || index < 0 || index > kLargest) return dangling_.add(line);
+        if (index >= known) forward_.push_back({corner, line});
         index_of_corner_.resize(corner, kNoIndex);
-        index_of_corner_.push_back(check_.checked(index, place));
+        index_of_corner_.push_back(static_cast<Index>(index));
     }
 
     // The values of all corners as an attribute, where any corner has one.
-    void finish(AttributeSet& attributes, std::string_view name, std::size_t corner_count) {
-        check_.require_below(count());
-        if (index_of_corner_.empty()) return;
+    void finish(MeshData& mesh, std::string_view name) {
+        drop_dangling();
+        dangling_.finish(mesh.report, FindingKind::indices_dangling, std::string(plural_));
+        not_finite_.finish(mesh.report, FindingKind::values_not_finite, std::string(plural_));
+        const bool has_values = std::any_of(index_of_corner_.begin(), index_of_corner_.end(),
+                                            [](Index i) { return i != kNoIndex; });
+        if (!has_values) return;
+        const std::size_t corner_count = mesh.faces.vertices.size();
         index_of_corner_.resize(corner_count, kNoIndex);
         Attribute attribute{std::string(name), Domain::corner, width_, ScalarType::float64, {}};
         const auto width = static_cast<std::size_t>(width_);
@@ -79,14 +68,78 @@ class CornerValues {
             std::copy_n(pool_.begin() + static_cast<std::ptrdiff_t>(from), width,
                         attribute.values.begin() + static_cast<std::ptrdiff_t>(c * width));
         }
-        attributes.add(std::move(attribute));
+        mesh.attributes.add(std::move(attribute));
     }
 
   private:
+    static constexpr std::int64_t kLargest = std::numeric_limits<Index>::max() - 1;
+
+    // A corner whose values come later in the file, if at all.
+    struct Forward {
+        std::size_t corner, line;
+    };
+
+    std::size_t count() const { return pool_.size() / static_cast<std::size_t>(width_); }
+
+    void drop_dangling() {
+        for (const Forward& forward : forward_) {
+            Index& index = index_of_corner_[forward.corner];
+            if (static_cast<std::size_t>(index) < count()) continue;
+            index = kNoIndex;
+            dangling_.add(forward.line);
+        }
+    }
+
     std::vector<double> pool_;
     std::vector<Index> index_of_corner_;
-    IndexCheck check_;
+    std::vector<Forward> forward_;
+    LineFinding dangling_, not_finite_;
+    std::string_view plural_;
     Index width_;
+};
+
+// Regions are groups of points: see kObjRegionPrefix.
+class RegionReader {
+  public:
+    // A group begins whose name, after the prefix, is `name`. It is a region unless a face comes
+    // before any point.
+    void begin(std::string_view name) {
+        end();
+        name_ = percent_decoded(name);
+        state_ = State::open;
+    }
+    // Another group begins, or the file ends.
+    void end() {
+        if (state_ == State::open) regions_[name_];
+        state_ = State::none;
+    }
+    // True where a face now makes a group of faces of what could have been a region.
+    bool give_way() {
+        if (state_ != State::open) return false;
+        state_ = State::none;
+        return true;
+    }
+
+    // Adds a vertex to the present region, within one.
+    void add(Index vertex) {
+        if (state_ == State::open) points_ = &regions_[name_];
+        state_ = State::region;
+        points_->push_back(vertex);
+    }
+    bool is_within() const { return state_ != State::none; }
+
+    void finish(MeshData& mesh) {
+        end();
+        mesh.regions = std::move(regions_);
+    }
+
+  private:
+    enum class State { none, open, region };
+
+    State state_ = State::none;
+    std::string name_;
+    std::vector<Index>* points_ = nullptr;
+    std::map<std::string, std::vector<Index>, std::less<>> regions_;
 };
 
 class ObjReader {
@@ -111,11 +164,13 @@ class ObjReader {
         if (keyword == "f") return read_face();
         if (keyword == "vt") return read_texture_coordinates();
         if (keyword == "vn") return read_normal();
-        if (keyword == "g") return groups_.set(group_names(), mesh_.faces.size());
+        if (keyword == "g") return read_group();
         if (keyword == "o") return objects_.set(text_.rest_of_line(), mesh_.faces.size());
         if (keyword == "usemtl") return materials_.set(text_.rest_of_line(), mesh_.faces.size());
         if (keyword == "s") return smoothing_.set(smoothing_group(), mesh_.faces.size());
         if (keyword == "mtllib") return read_material_libraries();
+        if (keyword == "p") return read_points();
+        if (keyword == "l") return skipped_.add("lines");
         skip_statement(keyword);
     }
 
@@ -125,46 +180,69 @@ class ObjReader {
         if (text_.at_line_end()) return;
         const double fourth = text_.number();
         if (text_.at_line_end()) {
-            weights_ += fourth != 1.0;
+            skipped_.add("weights of vertices", fourth != 1.0 ? 1 : 0);
             return;
         }
         std::array<double, 4> color{fourth, text_.number(), text_.number(), 0.0};
         const std::size_t width = text_.at_line_end() ? 3 : 4;
         if (width == 4) color[3] = text_.number();
         require_line_end("a vertex has 3 coordinates, and then a weight or 3 or 4 colour values");
-        colors_.set(mesh_.positions.size() - 1, {color.data(), width});
+        const std::span<const double> values(color.data(), width);
+        if (std::all_of(values.begin(), values.end(), [](double c) { return std::isfinite(c); })) {
+            colors_.set(mesh_.positions.size() - 1, values);
+        } else {
+            colors_not_finite_.add(text_.line());
+        }
     }
 
     void read_texture_coordinates() {
         const double u = text_.number();
         const double v = text_.at_line_end() ? 0.0 : text_.number();
-        if (!text_.at_line_end()) third_coordinates_ += text_.number() != 0.0;
+        const double w = text_.at_line_end() ? 0.0 : text_.number();
+        skipped_.add("third texture coordinates", w != 0.0 ? 1 : 0);
         require_line_end("texture coordinates are 1 to 3 numbers");
-        uvs_.pool().insert(uvs_.pool().end(), {u, v});
+        uvs_.add({u, v}, text_.line());
     }
 
     void read_normal() {
         const double x = text_.number(), y = text_.number(), z = text_.number();
         require_line_end("a normal is 3 numbers");
-        normals_.pool().insert(normals_.pool().end(), {x, y, z});
+        normals_.add({x, y, z}, text_.line());
     }
 
     void read_face() {
+        if (regions_.give_way()) groups_.set(group_, mesh_.faces.size());
         face_.clear();
         const std::size_t first_corner = mesh_.faces.vertices.size();
         const Place place = text_.place();
         while (!text_.at_line_end()) {
             const std::size_t corner = first_corner + face_.size();
-            face_.push_back(vertices_.checked(read_index("vertex", mesh_.positions.size()), place));
+            face_.push_back(vertices_.checked(read_vertex_index(), place));
             if (!text_.take('/')) continue;
-            if (at_index()) {
-                uvs_.refer(corner, read_index("texture coordinate", uvs_.count()), place);
-            }
-            if (text_.take('/') && at_index()) {
-                normals_.refer(corner, read_index("normal", normals_.count()), place);
-            }
+            if (at_index()) uvs_.refer(corner, text_.integer(), place.id);
+            if (text_.take('/') && at_index()) normals_.refer(corner, text_.integer(), place.id);
         }
         add_face(mesh_.faces, face_);
+    }
+
+    // Points make regions; others are skipped.
+    void read_points() {
+        if (!regions_.is_within()) return skipped_.add("points");
+        while (!text_.at_line_end()) {
+            const Place place = text_.place();
+            regions_.add(vertices_.checked(read_vertex_index(), place));
+        }
+    }
+
+    void read_group() {
+        group_ = group_names();
+        const bool may_be_region = std::string_view(group_).starts_with(kObjRegionPrefix);
+        if (may_be_region) {
+            regions_.begin(std::string_view(group_).substr(kObjRegionPrefix.size()));
+        } else {
+            regions_.end();
+        }
+        groups_.set(may_be_region ? "" : group_, mesh_.faces.size());
     }
 
     bool at_index() const {
@@ -172,18 +250,17 @@ class ObjReader {
         return (c >= '0' && c <= '9') || c == '-' || c == '+';
     }
 
-    // The 0-based index; negative numbers in the file count back from the last of the `count`
-    // elements before the face.
-    std::int64_t read_index(std::string_view element, std::size_t count) {
+    // The 0-based index of a vertex; negative numbers in the file count back from the last before.
+    std::int64_t read_vertex_index() {
         const std::int64_t written = text_.integer();
         if (written > 0) return written - 1;
-        const auto known = static_cast<std::int64_t>(count);
+        const auto known = static_cast<std::int64_t>(mesh_.positions.size());
         if (written < 0 && written >= -known) return known + written;
-        refuse(ErrorCode::face_index,
-               std::string(element) + " " + std::to_string(written) + " does not exist; " +
-                   (written == 0 ? "indices count from 1"
-                                 : std::to_string(count) + " come before the face"),
-               text_.place());
+        refuse(
+            ErrorCode::face_index,
+            "vertex " + std::to_string(written) + " does not exist; " +
+                (written == 0 ? "indices count from 1" : std::to_string(known) + " come before it"),
+            text_.place());
     }
 
     std::string group_names() {
@@ -225,8 +302,8 @@ class ObjReader {
             refuse(ErrorCode::file_syntax, "expected an OBJ statement, found " + in_quotes(keyword),
                    text_.place());
         }
-        if (skipped_.empty()) first_skipped_ = text_.place();
-        skipped_.add(keyword);
+        if (first_unknown_.kind == ElementKind::none) first_unknown_ = text_.place();
+        skipped_.add("of " + in_quotes(keyword));
     }
 
     void require_line_end(const char* rule) {
@@ -236,32 +313,22 @@ class ObjReader {
     }
 
     void finish() {
-        if (mesh_.positions.empty() && mesh_.faces.size() == 0 && !skipped_.empty()) {
+        const bool has_unknown = first_unknown_.kind != ElementKind::none;
+        if (mesh_.positions.empty() && mesh_.faces.size() == 0 && has_unknown) {
             refuse(ErrorCode::file_syntax,
-                   "the file has no vertex and statements that OBJ does not know", first_skipped_);
+                   "the file has no vertex and statements that OBJ does not know", first_unknown_);
         }
         vertices_.require_below(mesh_.positions.size());
         colors_.finish(mesh_.attributes, Domain::vertex, mesh_.positions.size());
-        const std::size_t corner_count = mesh_.faces.vertices.size();
-        uvs_.finish(mesh_.attributes, "uv", corner_count);
-        normals_.finish(mesh_.attributes, "normal", corner_count);
+        uvs_.finish(mesh_, "uv");
+        normals_.finish(mesh_, "normal");
         objects_.finish(mesh_.attributes, "object", mesh_.faces.size());
         groups_.finish(mesh_.attributes, "group", mesh_.faces.size());
         materials_.finish(mesh_.attributes, "material", mesh_.faces.size());
         smoothing_.finish(mesh_.attributes, "smoothing", mesh_.faces.size());
-        log_skipped();
-    }
-
-    void log_skipped() const {
-        skipped_.log(context_);
-        if (weights_ > 0) {
-            context_.log(LogLevel::warning, "the weights of " + std::to_string(weights_) +
-                                                " vertices were skipped; polygons have none");
-        }
-        if (third_coordinates_ > 0) {
-            context_.log(LogLevel::warning, std::to_string(third_coordinates_) +
-                                                " third texture coordinates were skipped");
-        }
+        colors_not_finite_.finish(mesh_.report, FindingKind::values_not_finite, "colours");
+        regions_.finish(mesh_);
+        skipped_.finish(mesh_.report);
     }
 
     const Context& context_;
@@ -269,133 +336,21 @@ class ObjReader {
     MeshData mesh_;
     std::vector<Index> face_;
     IndexCheck vertices_{"vertex", 1};
-    CornerValues uvs_{"texture coordinate", 2};
-    CornerValues normals_{"normal", 3};
+    CornerValues uvs_{"texture coordinates", 2};
+    CornerValues normals_{"normals", 3};
     ColorReader colors_;
     LabelReader objects_, groups_, materials_, smoothing_;
-    SkippedStatements skipped_;
-    Place first_skipped_;
-    std::size_t weights_ = 0, third_coordinates_ = 0;
+    RegionReader regions_;
+    std::string group_;
+    SkippedContent skipped_;
+    LineFinding colors_not_finite_;
+    Place first_unknown_;
 };
-
-// The values of one attribute as OBJ writes them: each different one once, and a number for each
-// corner.
-template <std::size_t Width>
-class WrittenValues {
-  public:
-    WrittenValues(const Attribute* attribute, const Topology& topology) {
-        if (!attribute) return;
-        number_of_corner_.assign(static_cast<std::size_t>(topology.corner_count()), kNoIndex);
-        for (Index c = 0; c < topology.corner_count(); ++c) {
-            const Index element =
-                attribute->domain == Domain::corner ? c : topology.faces().vertices[c];
-            const std::span<const double> values = attribute->at(element);
-            if (std::any_of(values.begin(), values.end(), [](double x) { return std::isnan(x); })) {
-                continue;
-            }
-            std::array<double, Width> tuple;
-            std::copy(values.begin(), values.end(), tuple.begin());
-            number_of_corner_[c] = pool_.add(tuple);
-        }
-    }
-
-    void write(std::string_view keyword, std::string& text) const {
-        for (const auto& tuple : pool_.tuples()) {
-            text += keyword;
-            append_numbers(text, tuple);
-            text += '\n';
-        }
-    }
-    // 1-based, or 0 where the corner has none.
-    Index number(Index corner) const {
-        return number_of_corner_.empty() ? 0 : number_of_corner_[corner] + 1;
-    }
-
-  private:
-    ValuePool<Width> pool_;
-    std::vector<Index> number_of_corner_;
-};
-
-// Writes a statement where the label of one kind changes from one face to the next.
-class LabelWriter {
-  public:
-    LabelWriter(const FaceLabels* labels, std::string_view keyword, std::string_view none)
-        : labels_(labels), keyword_(keyword), none_(none) {}
-
-    void write_change(Index face, std::string& text) {
-        if (!labels_ || labels_->of_face[face] == current_) return;
-        current_ = labels_->of_face[face];
-        text += keyword_;
-        text +=
-            current_ == kNoIndex ? std::string(none_) : " " + one_line(labels_->names[current_]);
-        text += '\n';
-    }
-
-  private:
-    const FaceLabels* labels_;
-    std::string_view keyword_, none_;
-    Index current_ = kNoIndex;
-};
-
-void write_vertices(const Mesh& mesh, const Attribute* colors, std::string& text) {
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-        text += 'v';
-        append_numbers(text, mesh.position(v));
-        if (colors && !std::isnan(colors->at(v)[0])) append_numbers(text, colors->at(v));
-        text += '\n';
-    }
-}
-
-void append_corner(std::string& text, Index vertex, Index uv, Index normal) {
-    text += ' ';
-    append_number(text, vertex + 1);
-    if (uv == 0 && normal == 0) return;
-    text += '/';
-    if (uv != 0) append_number(text, uv);
-    if (normal == 0) return;
-    text += '/';
-    append_number(text, normal);
-}
 
 }  // namespace
 
 MeshData read_obj(std::string_view text, const Context& context) {
     return ObjReader(text, context).read();
-}
-
-void write_obj(SavedParts& parts, const SaveOptions&, std::string& text, const Context& context) {
-    const Mesh& mesh = parts.mesh();
-    const Topology& topology = mesh.topology();
-    Progress progress(context, "write OBJ");
-    text += "# Written by Lissom\n";
-    for (const std::string& library : parts.take_material_libraries()) {
-        text += "mtllib " + one_line(library) + "\n";
-    }
-    write_vertices(mesh, parts.take("color", {Domain::vertex}, {3, 4}), text);
-    progress.update(0.3);
-    const WrittenValues<2> uvs(parts.take("uv", {Domain::corner, Domain::vertex}, {2}), topology);
-    const WrittenValues<3> normals(parts.take("normal", {Domain::corner, Domain::vertex}, {3}),
-                                   topology);
-    uvs.write("vt", text);
-    normals.write("vn", text);
-    progress.update(0.6);
-
-    LabelWriter labels[] = {{parts.take_labels("object"), "o", ""},
-                            {parts.take_labels("group"), "g", ""},
-                            {parts.take_labels("material"), "usemtl", ""},
-                            {parts.take_labels("smoothing"), "s", " off"}};
-    Ticker ticker(progress);
-    for (Index f = 0; f < topology.face_count(); ++f) {
-        ticker.tick([&] { return 0.6 + 0.4 * f / topology.face_count(); });
-        for (LabelWriter& label : labels) label.write_change(f, text);
-        text += 'f';
-        Index corner = topology.first_corner(f);
-        for (const Index v : topology.face(f)) {
-            append_corner(text, v, uvs.number(corner), normals.number(corner));
-            ++corner;
-        }
-        text += '\n';
-    }
 }
 
 }  // namespace lissom

@@ -3,26 +3,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
-#include <set>
+#include <optional>
 #include <utility>
 
 #include "kernel/io/byte_reader.h"
+#include "kernel/io/finite_values.h"
 #include "kernel/io/index_check.h"
 #include "kernel/io/ply_header.h"
 #include "kernel/io/ply_layout.h"
+#include "kernel/io/scalar.h"
+#include "kernel/io/skipped_content.h"
 #include "kernel/io/text_reader.h"
-#include "kernel/io/text_writer.h"
 #include "kernel/io/ticker.h"
 
 namespace lissom {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-constexpr std::string_view kCornerUv = "texcoord";
-
-// ---- reading ----
 
 // Numbers of a PLY file's text or binary data, one after the other.
 class TextSource {
@@ -55,17 +54,77 @@ class BinarySource {
     ByteReader bytes_;
 };
 
+// The values of the corners of faces, which a list of each face holds.
+class CornerList {
+  public:
+    explicit CornerList(Attribute attribute)
+        : attribute_(std::move(attribute)),
+          divisor_(is_ply_color(attribute_.name, attribute_.width) ? color_divisor(attribute_.type)
+                                                                   : 1.0) {}
+
+    // The list of the face that is being read.
+    std::vector<double>& row() { return row_; }
+    const Attribute& attribute() const { return attribute_; }
+
+    // Adds the values of a face; none where the list is of another length. Returns the number of
+    // values that were made up so.
+    std::size_t add_face(std::size_t corners) {
+        const std::size_t count = corners * static_cast<std::size_t>(attribute_.width);
+        if (row_.size() != count) {
+            mismatched_ += row_.empty() ? 0 : 1;
+            attribute_.values.insert(attribute_.values.end(), count, kNone);
+            return count;
+        }
+        for (const double value : row_) attribute_.values.push_back(value / divisor_);
+        return 0;
+    }
+    // Lists that were not of the length that their face needs.
+    std::size_t mismatched() const { return mismatched_; }
+    Attribute take() { return std::move(attribute_); }
+
+  private:
+    Attribute attribute_;
+    double divisor_;
+    std::vector<double> row_;
+    std::size_t mismatched_ = 0;
+};
+
+FaceLabels to_labels(const Attribute& numbers, std::vector<std::string> names,
+                     std::size_t& dangling) {
+    FaceLabels labels{std::move(names), {}};
+    labels.of_face.reserve(numbers.values.size());
+    for (const double number : numbers.values) {
+        const bool exists = number >= 0.0 && number < static_cast<double>(labels.names.size());
+        labels.of_face.push_back(exists ? static_cast<Index>(number) : kNoIndex);
+        dangling += !exists && number != kNoIndex ? 1 : 0;
+    }
+    return labels;
+}
+
+// The elements whose number is 1, or nothing where numbers are not 0 or 1.
+std::optional<std::vector<Index>> to_region(const Attribute& numbers) {
+    std::vector<Index> region;
+    for (std::size_t i = 0; i < numbers.values.size(); ++i) {
+        if (numbers.values[i] == 1.0) {
+            region.push_back(static_cast<Index>(i));
+        } else if (numbers.values[i] != 0.0) {
+            return std::nullopt;
+        }
+    }
+    return region;
+}
+
 template <typename Source>
 class BodyReader {
   public:
     BodyReader(Source source, const PlyHeader& header, const Context& context)
         : source_(std::move(source)),
           header_(header),
-          context_(context),
           progress_(context, "read PLY"),
           ticker_(progress_) {}
 
     MeshData read() {
+        file_bytes_ = source_.remaining();
         const bool has_faces = declares("face");
         for (const PlyElement& element : header_.elements) {
             if (element.name == "vertex") {
@@ -80,10 +139,7 @@ class BodyReader {
         }
         if (!declares("vertex")) refuse(ErrorCode::file_syntax, "the file has no element 'vertex'");
         vertices_.require_below(mesh_.positions.size());
-        for (Attribute& attribute : face_attributes_) {
-            add_without_clash(mesh_.attributes, std::move(attribute));
-        }
-        log_skipped();
+        finish();
         return std::move(mesh_);
     }
 
@@ -95,7 +151,7 @@ class BodyReader {
 
     static std::string_view plural(std::string_view element) {
         if (element == "vertex") return "vertices";
-        return element == "face" ? "faces" : element;
+        return element == "face" ? "faces" : "elements that a mesh has no place for";
     }
 
     // Reads the rows of an element into its slots and calls after_row(row) for each.
@@ -145,17 +201,17 @@ class BodyReader {
         return std::min(element.count, source_.remaining() / bytes + 2);
     }
 
-    // Reads the rows of an element into the layout's attributes and lists.
+    // Reads the rows of an element into the layout's columns and lists.
     template <typename AfterRow>
-    std::vector<Attribute> read_attributes(const PlyElement& element, PlyLayout& layout,
-                                           const AfterRow& after_row) {
+    std::vector<PlyColumn> read_columns(const PlyElement& element, PlyLayout& layout,
+                                        const AfterRow& after_row) {
         layout.allocate(possible_rows(element));
         read_rows(element, layout.slots(), after_row);
         for (const std::string& property : layout.unplaced()) {
-            skipped_.push_back("property " + in_quotes(property) + " of " +
-                               in_quotes(element.name));
+            skipped_.add("of property " + in_quotes(property) + " of " + in_quotes(element.name),
+                         element.count);
         }
-        return layout.take_attributes();
+        return layout.take_columns();
     }
 
     void read_vertices(const PlyElement& element) {
@@ -164,11 +220,21 @@ class BodyReader {
             if (property != kNoIndex && !element.properties[property].is_list) continue;
             refuse(ErrorCode::file_syntax, "vertices have no number '" + std::string(name) + "'");
         }
-        PlyLayout layout(element, Domain::vertex);
-        std::vector<Attribute> attributes = read_attributes(element, layout, [](std::size_t) {});
-        take_positions(attributes.front().values);
-        for (std::size_t i = 1; i < attributes.size(); ++i) {
-            mesh_.attributes.add(std::move(attributes[i]));
+        PlyLayout layout(header_, element, Domain::vertex);
+        for (PlyColumn& column : read_columns(element, layout, [](std::size_t) {})) {
+            take_vertex_column(std::move(column));
+        }
+    }
+
+    void take_vertex_column(PlyColumn column) {
+        if (column.role == PlyRole::position) return take_positions(column.attribute.values);
+        if (column.role != PlyRole::region) {
+            mesh_.attributes.add(std::move(column.attribute));
+        } else if (auto region = to_region(column.attribute)) {
+            mesh_.regions.emplace(column.attribute.name, std::move(*region));
+        } else {
+            column.attribute.name = std::string(kPlyRegionPrefix) + column.attribute.name;
+            mesh_.attributes.add(std::move(column.attribute));
         }
     }
 
@@ -180,15 +246,16 @@ class BodyReader {
     }
 
     void read_faces(const PlyElement& element) {
-        PlyLayout layout(element, Domain::face);
+        PlyLayout layout(header_, element, Domain::face);
         attach_indices(layout, element);
-        const PlyProperty* const uv_list = layout.attach_list(kCornerUv, corner_uvs_);
-        Attribute uv{"uv", Domain::corner, 2, uv_list ? uv_list->type : ScalarType::float32, {}};
-        face_attributes_ = read_attributes(element, layout, [&](std::size_t row) {
+        for (const PlyProperty& property : element.properties) attach_corners(layout, property);
+        face_columns_ = read_columns(element, layout, [&](std::size_t row) {
             add_polygon(row);
-            if (uv_list) append_corner_uvs(uv.values);
+            for (CornerList& list : corner_lists_) {
+                made_up_ += list.add_face(face_.size());
+            }
+            require_reasonable_size();
         });
-        if (uv_list) face_attributes_.push_back(std::move(uv));
     }
 
     void attach_indices(PlyLayout& layout, const PlyElement& element) {
@@ -196,6 +263,25 @@ class BodyReader {
         if (layout.attach_list("vertex_index", indices_) || element.count == 0) return;
         refuse(ErrorCode::file_syntax,
                "the element " + in_quotes(element.name) + " has no list 'vertex_indices'");
+    }
+
+    void attach_corners(PlyLayout& layout, const PlyProperty& property) {
+        if (!property.is_list) return;
+        std::optional<Attribute> attribute = ply_corner_attribute(property);
+        if (!attribute) return;
+        corner_lists_.emplace_back(std::move(*attribute));
+        if (!layout.attach_list(property.name, corner_lists_.back().row())) {
+            corner_lists_.pop_back();
+        }
+    }
+
+    // An empty list takes one byte of the file, but stands for many values.
+    void require_reasonable_size() const {
+        constexpr std::size_t kValuesInByte = 32, kAlways = 1 << 20;
+        if (made_up_ < kAlways || made_up_ / kValuesInByte < file_bytes_) return;
+        refuse(ErrorCode::file_too_large,
+               "the values of corners, most of which are absent, would take more than 250 times as "
+               "much memory as the file");
     }
 
     std::int64_t to_index(double value, std::size_t row) const {
@@ -216,17 +302,8 @@ class BodyReader {
         add_face(mesh_.faces, face_);
     }
 
-    void append_corner_uvs(std::vector<double>& uvs) const {
-        const std::size_t count = 2 * face_.size();
-        if (corner_uvs_.size() == count) {
-            uvs.insert(uvs.end(), corner_uvs_.begin(), corner_uvs_.end());
-        } else {
-            uvs.insert(uvs.end(), count, kNone);
-        }
-    }
-
     void read_strips(const PlyElement& element) {
-        PlyLayout layout(element, Domain::face);
+        PlyLayout layout(header_, element, Domain::face);
         attach_indices(layout, element);
         read_rows(element, layout.slots(), [&](std::size_t row) { add_strip(row); });
     }
@@ -254,244 +331,55 @@ class BodyReader {
     void skip(const PlyElement& element) {
         std::vector<PlySlot> nowhere(element.properties.size());
         read_rows(element, nowhere, [](std::size_t) {});
-        if (element.count > 0) skipped_.push_back("element " + in_quotes(element.name));
+        skipped_.add("of element " + in_quotes(element.name), element.count);
     }
 
-    void log_skipped() const {
-        if (skipped_.empty()) return;
-        std::string list;
-        for (const std::string& what : skipped_) list += (list.empty() ? "" : ", ") + what;
-        context_.log(LogLevel::warning, "skipped, because a mesh has no place for it: " + list);
+    void finish() {
+        mesh_.material_libraries = header_.material_libraries;
+        for (CornerList& list : corner_lists_) {
+            add_corner_values(list.take());
+            skipped_.add("lists of another length than their face", list.mismatched());
+        }
+        for (PlyColumn& column : face_columns_) {
+            if (column.role == PlyRole::labels) {
+                add_labels(column.attribute);
+            } else {
+                add_without_clash(mesh_.attributes, std::move(column.attribute));
+            }
+        }
+        drop_infinite_values(mesh_.attributes, mesh_.report);
+        skipped_.finish(mesh_.report);
+    }
+
+    void add_corner_values(Attribute attribute) {
+        if (mesh_.attributes.find(attribute.name)) {
+            skipped_.add("values of vertices that corners have too", mesh_.positions.size());
+        }
+        mesh_.attributes.add(std::move(attribute));
+    }
+
+    void add_labels(const Attribute& numbers) {
+        std::size_t dangling = 0;
+        const auto names = header_.label_names.find(numbers.name);
+        mesh_.attributes.labels()[numbers.name] = to_labels(numbers, names->second, dangling);
+        if (dangling == 0) return;
+        mesh_.report.add(FindingKind::indices_dangling, dangling,
+                         "labels " + in_quotes(numbers.name));
     }
 
     Source source_;
     const PlyHeader& header_;
-    const Context& context_;
     Progress progress_;
     Ticker ticker_;
     MeshData mesh_;
-    std::vector<Attribute> face_attributes_;
+    std::vector<PlyColumn> face_columns_;
+    std::deque<CornerList> corner_lists_;
+    // Values of corners that the file does not give, against the size of its data.
+    std::size_t made_up_ = 0, file_bytes_ = 0;
     IndexCheck vertices_{"vertex", 0};
-    std::vector<double> indices_, corner_uvs_;
+    std::vector<double> indices_;
     std::vector<Index> face_;
-    std::vector<std::string> skipped_;
-};
-
-// ---- writing ----
-
-// An attribute, or the positions, as properties of an element.
-struct Column {
-    std::vector<std::string> names;
-    const double* values;
-    Index width;
-    ScalarType type;
-    double scale;
-};
-
-bool can_hold(ScalarType type, double value) {
-    return !std::isnan(value) && rounded_to(type, value) == value;
-}
-
-// The type that the attribute remembers, or double where that is an integer that cannot hold its
-// values. Colours are rounded, so only those outside 0..1 do not fit.
-ScalarType written_type(const Attribute& attribute, bool is_color) {
-    if (!is_integer(attribute.type)) return attribute.type;
-    const bool fits =
-        std::all_of(attribute.values.begin(), attribute.values.end(), [&](double value) {
-            return is_color ? value >= 0.0 && value <= 1.0 : can_hold(attribute.type, value);
-        });
-    return fits ? attribute.type : ScalarType::float64;
-}
-
-// The properties of one element that are single numbers.
-class Columns {
-  public:
-    void add_positions(std::span<const Vec3> positions) {
-        const bool floats = std::all_of(positions.begin(), positions.end(), [](const Vec3& p) {
-            return is_float(p.x()) && is_float(p.y()) && is_float(p.z());
-        });
-        const ScalarType type = floats ? ScalarType::float32 : ScalarType::float64;
-        const double* values = positions.empty() ? nullptr : positions.data()->data();
-        columns_.push_back({{"x", "y", "z"}, values, 3, type, 1.0});
-    }
-
-    // Takes the attributes of a domain, but those whose properties would be read as something else.
-    void add_attributes(SavedParts& parts, Domain domain) {
-        const AttributeSet& attributes = parts.mesh().attributes();
-        for (const Attribute& attribute : attributes.all()) {
-            if (attribute.domain != domain) continue;
-            const std::string name = face_attribute_name(attributes, attribute);
-            std::vector<std::string> names = ply_property_names(name, attribute.width, domain);
-            if (names.empty() || !reserve(names)) continue;
-            parts.take(attribute);
-            const bool is_color = is_ply_color(name, attribute.width);
-            const ScalarType type = written_type(attribute, is_color);
-            columns_.push_back({std::move(names), attribute.values.data(), attribute.width, type,
-                                is_color ? color_divisor(type) : 1.0});
-        }
-    }
-
-    std::vector<PlyProperty> properties() const {
-        std::vector<PlyProperty> list;
-        for (const Column& column : columns_) {
-            for (const std::string& name : column.names) list.push_back({name, column.type});
-        }
-        return list;
-    }
-
-    const std::vector<Column>& all() const { return columns_; }
-
-  private:
-    bool reserve(const std::vector<std::string>& names) {
-        for (const std::string& name : names) {
-            if (used_.contains(name)) return false;
-        }
-        used_.insert(names.begin(), names.end());
-        return true;
-    }
-
-    std::vector<Column> columns_;
-    std::set<std::string> used_{"x", "y", "z", "vertex_indices", "vertex_index", "texcoord"};
-};
-
-// Appends rows of numbers to a file's data.
-class RowWriter {
-  public:
-    RowWriter(const PlyHeader& header, std::string& bytes) : header_(header), bytes_(bytes) {}
-
-    void write(ScalarType type, double value) {
-        if (header_.binary) return write_binary(type, value);
-        if (!row_is_empty_) bytes_ += ' ';
-        row_is_empty_ = false;
-        if (is_integer(type)) {
-            append_number(bytes_, static_cast<std::int64_t>(value));
-        } else {
-            append_number(bytes_, value);
-        }
-    }
-    void write(const std::vector<Column>& columns, Index row) {
-        for (const Column& column : columns) {
-            const double* values = column.values + static_cast<std::size_t>(row) * column.width;
-            for (Index k = 0; k < column.width; ++k) {
-                const double value = values[k] * column.scale;
-                write(column.type,
-                      is_integer(column.type) ? rounded_to(column.type, value) : value);
-            }
-        }
-    }
-    template <typename Numbers>
-    void write_list(const PlyProperty& property, const Numbers& numbers) {
-        write(property.count_type, static_cast<double>(numbers.size()));
-        for (const auto number : numbers) write(property.type, number);
-    }
-    void end_row() {
-        if (!header_.binary) bytes_ += '\n';
-        row_is_empty_ = true;
-    }
-
-  private:
-    void write_binary(ScalarType type, double value) {
-        with_scalar(type, [&](auto zero) {
-            const auto number =
-                with_byte_order(static_cast<decltype(zero)>(value), header_.endianness);
-            char raw[sizeof(number)];
-            std::memcpy(raw, &number, sizeof(number));
-            bytes_.append(raw, sizeof(number));
-        });
-    }
-
-    const PlyHeader& header_;
-    std::string& bytes_;
-    bool row_is_empty_ = true;
-};
-
-Index largest_face(const Topology& topology) {
-    Index largest = 0;
-    for (Index f = 0; f < topology.face_count(); ++f) {
-        largest = std::max(largest, static_cast<Index>(topology.face(f).size()));
-    }
-    return largest;
-}
-
-ScalarType count_type(Index largest) {
-    return largest < 256 ? ScalarType::uint8 : ScalarType::uint32;
-}
-
-// Values of one face's corners; none where a corner has none.
-std::span<const double> corner_values(const Attribute& attribute, Index first, Index count) {
-    const std::span<const double> values(
-        attribute.values.data() + static_cast<std::size_t>(first) * attribute.width,
-        static_cast<std::size_t>(count) * attribute.width);
-    const bool none =
-        std::all_of(values.begin(), values.end(), [](double x) { return std::isnan(x); });
-    return none ? std::span<const double>() : values;
-}
-
-class PlyWriter {
-  public:
-    PlyWriter(SavedParts& parts, const SaveOptions& options, std::string& bytes)
-        : mesh_(parts.mesh()),
-          corner_uv_(parts.take("uv", {Domain::corner}, {2})),
-          header_{options.binary, options.endianness, {}},
-          rows_(header_, bytes),
-          bytes_(bytes) {
-        vertex_columns_.add_positions(mesh_.positions());
-        vertex_columns_.add_attributes(parts, Domain::vertex);
-        face_columns_.add_attributes(parts, Domain::face);
-    }
-
-    void write(const Context& context) {
-        Progress progress(context, "write PLY");
-        Ticker ticker(progress);
-        declare_elements();
-        bytes_ += to_text(header_);
-        for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-            ticker.tick([&] { return 0.5 * v / mesh_.vertex_count(); });
-            rows_.write(vertex_columns_.all(), v);
-            rows_.end_row();
-        }
-        for (Index f = 0; f < mesh_.face_count(); ++f) {
-            ticker.tick([&] { return 0.5 + 0.5 * f / mesh_.face_count(); });
-            write_face(f);
-        }
-    }
-
-  private:
-    void declare_elements() {
-        const Index largest = largest_face(mesh_.topology());
-        indices_ = {"vertex_indices", ScalarType::int32, true, count_type(largest)};
-        std::vector<PlyProperty> of_faces{indices_};
-        if (corner_uv_) {
-            uvs_ = {std::string(kCornerUv), written_type(*corner_uv_, false), true,
-                    count_type(2 * largest)};
-            of_faces.push_back(uvs_);
-        }
-        const std::vector<PlyProperty> numbers = face_columns_.properties();
-        of_faces.insert(of_faces.end(), numbers.begin(), numbers.end());
-        header_.elements = {
-            {"vertex", static_cast<std::size_t>(mesh_.vertex_count()),
-             vertex_columns_.properties()},
-            {"face", static_cast<std::size_t>(mesh_.face_count()), std::move(of_faces)}};
-    }
-
-    void write_face(Index f) {
-        const std::span<const Index> face = mesh_.topology().face(f);
-        rows_.write_list(indices_, face);
-        if (corner_uv_) {
-            rows_.write_list(uvs_, corner_values(*corner_uv_, mesh_.topology().first_corner(f),
-                                                 static_cast<Index>(face.size())));
-        }
-        rows_.write(face_columns_.all(), f);
-        rows_.end_row();
-    }
-
-    const Mesh& mesh_;
-    const Attribute* corner_uv_;
-    Columns vertex_columns_, face_columns_;
-    PlyHeader header_;
-    PlyProperty indices_, uvs_;
-    RowWriter rows_;
-    std::string& bytes_;
+    SkippedContent skipped_;
 };
 
 }  // namespace
@@ -500,11 +388,6 @@ MeshData read_ply(std::string_view bytes, const Context& context) {
     const PlyHeader header = read_ply_header(bytes);
     if (header.binary) return BodyReader(BinarySource(bytes, header), header, context).read();
     return BodyReader(TextSource(bytes, header), header, context).read();
-}
-
-void write_ply(SavedParts& parts, const SaveOptions& options, std::string& bytes,
-               const Context& context) {
-    PlyWriter(parts, options, bytes).write(context);
 }
 
 }  // namespace lissom

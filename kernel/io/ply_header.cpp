@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "kernel/io/percent.h"
 #include "kernel/io/read_error.h"
 #include "kernel/io/scalar.h"
 #include "kernel/io/text_reader.h"
@@ -63,7 +64,8 @@ class HeaderReader {
         if (keyword == "format") return read_format();
         if (keyword == "element") return read_element();
         if (keyword == "property") return read_property();
-        if (keyword.empty() || keyword == "comment" || keyword == "obj_info") return;
+        if (keyword == "comment") return read_comment();
+        if (keyword.empty() || keyword == "obj_info") return;
         refuse_here("expected a line of a PLY header, found " + in_quotes(keyword));
     }
 
@@ -76,6 +78,24 @@ class HeaderReader {
         if (format == "binary_big_endian") return;
         refuse_here("unknown PLY format " + in_quotes(format) +
                     "; known are ascii, binary_little_endian and binary_big_endian");
+    }
+
+    // Comments of other programs, and what is not as expected, say nothing.
+    void read_comment() {
+        const std::string_view kind = text_.word();
+        if (kind == "lissom_mtllib") {
+            header_.material_libraries.push_back(percent_decoded(text_.word()));
+        } else if (kind == "lissom") {
+            read_label_name();
+        }
+    }
+
+    void read_label_name() {
+        const std::string kind = percent_decoded(text_.word());
+        std::vector<std::string>& names = header_.label_names[kind];
+        if (text_.word() == std::to_string(names.size())) {
+            names.push_back(percent_decoded(text_.word()));
+        }
     }
 
     void count_declaration() {
@@ -173,6 +193,15 @@ std::string to_text(const PlyHeader& header) {
             : header.endianness == Endianness::little ? "binary_little_endian"
                                                       : "binary_big_endian";
     text += " 1.0\ncomment Written by Lissom\n";
+    for (const std::string& file : header.material_libraries) {
+        text += "comment lissom_mtllib " + percent_encoded(file) + "\n";
+    }
+    for (const auto& [kind, names] : header.label_names) {
+        const std::string start = "comment lissom " + percent_encoded(kind) + " ";
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            text += start + std::to_string(i) + " " + percent_encoded(names[i]) + "\n";
+        }
+    }
     for (const PlyElement& element : header.elements) {
         text += "element " + element.name + " " + std::to_string(element.count) + "\n";
         for (const PlyProperty& p : element.properties) {

@@ -1,6 +1,7 @@
 /// The header of a PLY file; private to kernel/io.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,11 @@ struct PlyHeader {
     bool binary = false;
     Endianness endianness = Endianness::little;
     std::vector<PlyElement> elements;
+    /// What PLY has no place for stands in comments, with percent-encoded names:
+    /// names of face labels by kind, as "comment lissom group 0 left%20hand" for the number 0 of
+    /// the faces' property "group", and names of material files, as "comment lissom_mtllib a.mtl".
+    std::map<std::string, std::vector<std::string>, std::less<>> label_names;
+    std::vector<std::string> material_libraries;
     /// Where the data begin: bytes and, for text, lines of the header.
     std::size_t size = 0, lines = 0;
 };

@@ -8,6 +8,24 @@ namespace {
 
 constexpr std::size_t kMaximumElements = std::numeric_limits<Index>::max();
 
+// Bytes of the character of UTF-8 that begins `text`; 0 where none does or it cannot be printed.
+std::size_t printable_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+    };
+    const unsigned lead = byte(0), second = byte(1);
+    if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+    if (lead < 0xc2 || lead > 0xf4) return 0;
+    const std::size_t length = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xc0) != 0x80) return 0;
+    }
+    const bool is_control = lead == 0xc2 && second < 0xa0;
+    const bool is_overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
+    const bool is_no_character = (lead == 0xed && second > 0x9f) || (lead == 0xf4 && second > 0x8f);
+    return is_control || is_overlong || is_no_character ? 0 : length;
+}
+
 }  // namespace
 
 void refuse(ErrorCode code, const std::string& message, Place place) {
@@ -46,11 +64,14 @@ std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::strin
 
 std::string in_quotes(std::string_view text) {
     constexpr std::size_t kShown = 40;
-    std::string shown(text.substr(0, kShown));
-    for (char& c : shown) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    std::string shown;
+    std::size_t at = 0;
+    while (at < text.size() && shown.size() < kShown) {
+        const std::size_t length = printable_length(text.substr(at));
+        shown += length == 0 ? "?" : text.substr(at, length);
+        at += std::max<std::size_t>(1, length);
     }
-    return "'" + shown + (text.size() > kShown ? "...'" : "'");
+    return "'" + shown + (at < text.size() ? "...'" : "'");
 }
 
 }  // namespace lissom

@@ -37,7 +37,7 @@ struct Tally {
 std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::string_view elements,
                           Place place);
 
-/// The beginning of `text` in quotes, with characters that cannot be printed replaced.
+/// The beginning of `text` in quotes: valid UTF-8, with '?' for what cannot be printed.
 std::string in_quotes(std::string_view text);
 
 }  // namespace lissom

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernel/core/error.h"
+#include "kernel/io/read_error.h"
 
 namespace lissom {
 namespace {
@@ -33,7 +34,7 @@ void require_fit(const Mesh& mesh, const Attribute& attribute) {
     const auto expected = static_cast<std::size_t>(element_count(mesh, attribute.domain)) *
                           static_cast<std::size_t>(attribute.width);
     if (attribute.values.size() == expected) return;
-    throw Error(ErrorCode::invalid_argument, "attribute '" + attribute.name + "' has " +
+    throw Error(ErrorCode::invalid_argument, "attribute " + in_quotes(attribute.name) + " has " +
                                                  std::to_string(attribute.values.size()) +
                                                  " values, but the mesh needs " +
                                                  std::to_string(expected));
@@ -45,8 +46,9 @@ void require_fit(const Mesh& mesh, const std::string& kind, const FaceLabels& la
                       std::all_of(labels.of_face.begin(), labels.of_face.end(),
                                   [&](Index i) { return i >= kNoIndex && i < names; });
     if (fits) return;
-    throw Error(ErrorCode::invalid_argument,
-                "labels '" + kind + "' do not give one of their names for each face of the mesh");
+    throw Error(
+        ErrorCode::invalid_argument,
+        "labels " + in_quotes(kind) + " do not give one of their names for each face of the mesh");
 }
 
 }  // namespace
@@ -96,7 +98,7 @@ void SavedParts::log_losses(std::string_view format, const Context& context) con
     std::string lost;
     const auto lose = [&](std::string_view what, std::string_view name, std::string_view detail) {
         lost += lost.empty() ? " " : ", ";
-        lost += std::string(what) + " '" + std::string(name) + "'" + std::string(detail);
+        lost += std::string(what) + " " + in_quotes(name) + std::string(detail);
     };
     for (const Attribute& a : mesh_.attributes().all()) {
         if (taken_attributes_.contains(a.name)) continue;
@@ -108,7 +110,7 @@ void SavedParts::log_losses(std::string_view format, const Context& context) con
         if (!taken_labels_.contains(kind)) lose("face labels", kind, "");
     }
     if (!regions_taken_) {
-        for (const auto& [name, region] : mesh_.regions()) lose("region", name, "");
+        for (const auto& entry : mesh_.regions()) lose("region", entry.first, "");
     }
     if (!libraries_taken_) {
         for (const std::string& name : mesh_.material_libraries()) lose("material file", name, "");

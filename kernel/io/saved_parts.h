@@ -2,6 +2,7 @@
 /// private to kernel/io.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>

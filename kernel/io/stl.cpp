@@ -13,7 +13,6 @@
 #include "kernel/io/text_reader.h"
 #include "kernel/io/text_writer.h"
 #include "kernel/io/ticker.h"
-#include "kernel/mesh/value_pool.h"
 #include "kernel/mesh/triangulation.h"
 
 namespace lissom {
@@ -22,39 +21,33 @@ namespace {
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kTriangleBytes = 50;
 
-// Makes vertices of the corners of triangles.
-class Welder {
+using Corners = std::array<Vec3, 3>;
+
+// Collects triangles that share no vertices, as they are in the file.
+class TriangleList {
   public:
-    using Corners = std::array<ValuePool<3>::Tuple, 3>;
+    TriangleList() { mesh_.faces_are_separate = true; }
 
+    void reserve(std::size_t count) {
+        mesh_.positions.reserve(3 * count);
+        mesh_.faces.vertices.reserve(3 * count);
+        mesh_.faces.offsets.reserve(count + 1);
+    }
     void add(const Corners& corners) {
-        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
-            ++dropped_;
-            return;
+        constexpr std::size_t kMaximumCorners = std::numeric_limits<Index>::max();
+        if (mesh_.positions.size() > kMaximumCorners - 3) {
+            refuse(ErrorCode::file_too_large, "the file has more triangles than can be numbered");
         }
-        add_face(faces_,
-                 Triangle{pool_.add(corners[0]), pool_.add(corners[1]), pool_.add(corners[2])});
+        const auto first = static_cast<Index>(mesh_.positions.size());
+        mesh_.positions.insert(mesh_.positions.end(), corners.begin(), corners.end());
+        mesh_.faces.add({first, first + 1, first + 2});
     }
 
-    Index face_count() const { return faces_.size(); }
-
-    MeshData finish(const Context& context) {
-        if (dropped_ > 0) {
-            context.log(LogLevel::warning,
-                        std::to_string(dropped_) +
-                            " triangles were dropped; two of their corners coincide");
-        }
-        MeshData mesh;
-        mesh.faces = std::move(faces_);
-        mesh.positions.reserve(pool_.tuples().size());
-        for (const auto& p : pool_.tuples()) mesh.positions.emplace_back(p[0], p[1], p[2]);
-        return mesh;
-    }
+    Index face_count() const { return mesh_.faces.size(); }
+    MeshData take() { return std::move(mesh_); }
 
   private:
-    ValuePool<3> pool_;
-    FaceList faces_;
-    std::size_t dropped_ = 0;
+    MeshData mesh_;
 };
 
 std::string lower_case(std::string_view word) {
@@ -76,15 +69,15 @@ class StlTextReader {
         text_.tally.elements = "triangles";
         while (!text_.at_end()) {
             expect("solid");
-            objects_.set(text_.rest_of_line(), welder_.face_count());
+            objects_.set(text_.rest_of_line(), triangles_.face_count());
             while (!next_is("endsolid")) {
                 ticker.tick([&] { return text_.fraction(); });
                 read_triangle();
             }
             text_.skip_line();
         }
-        const Index face_count = welder_.face_count();
-        MeshData mesh = welder_.finish(context_);
+        const Index face_count = triangles_.face_count();
+        MeshData mesh = triangles_.take();
         objects_.finish(mesh.attributes, "object", face_count);
         return mesh;
     }
@@ -97,14 +90,14 @@ class StlTextReader {
         for (int k = 0; k < 3; ++k) text_.next_number();
         expect("outer");
         expect("loop");
-        Welder::Corners corners;
-        for (auto& corner : corners) {
+        Corners corners;
+        for (Vec3& corner : corners) {
             expect("vertex");
             for (double& coordinate : corner) coordinate = text_.next_number();
         }
         expect("endloop");
         expect("endfacet");
-        welder_.add(corners);
+        triangles_.add(corners);
         ++text_.tally.found;
     }
 
@@ -124,7 +117,7 @@ class StlTextReader {
 
     const Context& context_;
     TextReader text_;
-    Welder welder_;
+    TriangleList triangles_;
     LabelReader objects_;
 };
 
@@ -137,18 +130,19 @@ MeshData read_binary(std::string_view bytes, const Context& context) {
     const std::size_t count =
         checked_count(data.read<std::uint32_t>(), bytes.size(), "triangles", {});
     data.tally.announced = count;
-    Welder welder;
+    TriangleList triangles;
+    triangles.reserve(std::min(count, data.remaining() / kTriangleBytes));
     for (; data.tally.found < count; ++data.tally.found) {
         ticker.tick([&] { return data.fraction(); });
         data.skip(3 * sizeof(float));
-        Welder::Corners corners;
-        for (auto& corner : corners) {
+        Corners corners;
+        for (Vec3& corner : corners) {
             for (double& coordinate : corner) coordinate = data.read<float>();
         }
         data.skip(sizeof(std::uint16_t));
-        welder.add(corners);
+        triangles.add(corners);
     }
-    return welder.finish(context);
+    return triangles.take();
 }
 
 // Text has no zero bytes; in binary data the number of triangles has one, unless there are

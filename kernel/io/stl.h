@@ -11,10 +11,9 @@
 namespace lissom {
 
 /// Reads text and binary; which of them is told by the size, for binary files may begin with
-/// "solid" too. Corners at exactly the same position (-0 is 0) become one vertex, numbered by first
-/// use. Triangles that then use a vertex twice are dropped and counted in the log. The names of
-/// solids in text are face labels "object"; normals and attribute bytes are skipped. Errors:
-/// file_syntax, file_truncated, file_too_large, cancelled.
+/// "solid" too. Each triangle has three vertices of its own (MeshData::faces_are_separate). The
+/// names of solids in text are face labels "object"; normals and attribute bytes are skipped.
+/// Errors: file_syntax, file_truncated, file_too_large, cancelled.
 MeshData read_stl(std::string_view bytes, const Context& context);
 
 /// True where the size of the data is exactly that of the binary STL which they would be.

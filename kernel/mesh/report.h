@@ -40,6 +40,9 @@ enum class FindingKind {
 /// The name of a kind in scripts and reports: "vertices_welded".
 std::string_view finding_name(FindingKind kind);
 
+/// A sentence on what a kind means: "Copies of other faces were dropped."
+std::string_view finding_explanation(FindingKind kind);
+
 /// All kinds, in the order of their declaration.
 const std::vector<FindingKind>& all_finding_kinds();
 

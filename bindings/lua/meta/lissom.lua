@@ -68,6 +68,40 @@
 ---@field isolated_vertices integer[] Vertices without faces.
 ---@field zero_area_faces integer[] Faces without area.
 
+---One finding of a report.
+---@class lissom.Finding
+---@field kind string What was found: vertices_welded, edges_nonmanifold, ...
+---@field count integer Number of elements or items.
+---@field summary string The same in a few words.
+---@field message string|nil Details, where there are any.
+---@field element string|nil What the ids number: vertex, edge, face or component.
+---@field of string|nil file where the ids are those of the file, mesh where they are the mesh's.
+---@field ids integer[]|nil The elements; edges are pairs of vertex ids.
+
+---Findings as a list, and each under the name of its kind.
+---@class lissom.Report
+---@field [integer] lissom.Finding The findings in order.
+---@field vertices_welded lissom.Finding|nil Merged with another vertex at the same place.
+---@field vertices_unreferenced lissom.Finding|nil Used by no face; dropped.
+---@field corners_repeated lissom.Finding|nil Faces that name a vertex twice in a row; the repeats were dropped.
+---@field faces_collapsed lissom.Finding|nil Faces with fewer than three different vertices; dropped.
+---@field faces_pinched lissom.Finding|nil Faces that pass a vertex twice; split there.
+---@field faces_duplicate lissom.Finding|nil Copies of other faces; dropped.
+---@field faces_flipped lissom.Finding|nil Faces that ran against their neighbours; turned over.
+---@field edges_nonmanifold lissom.Finding|nil Edges where more than two faces meet; cut open between the pieces.
+---@field edges_unorientable lissom.Finding|nil Edges cut open because no turning of faces makes both sides agree.
+---@field vertices_nonmanifold lissom.Finding|nil Vertices where separate fans of faces touch; each fan got one of its own.
+---@field faces_zero_area lissom.Finding|nil Faces without area; kept.
+---@field faces_sliver lissom.Finding|nil Triangles with an angle below one degree; kept.
+---@field components_small lissom.Finding|nil Components with less than a thousandth of the largest one's area; kept.
+---@field components_inverted lissom.Finding|nil Closed components that face inward; kept.
+---@field points_only lissom.Finding|nil The file has no faces; its points were kept.
+---@field indices_dangling lissom.Finding|nil References to texture coordinates or normals that do not exist.
+---@field values_not_finite lissom.Finding|nil Attribute values that were NaN or infinite; dropped.
+---@field content_skipped lissom.Finding|nil Content of the file that a mesh has no place for.
+---@field files_missing lissom.Finding|nil Textures and other files that were not found.
+---@field extensions_dropped lissom.Finding|nil Extensions of the format that are not understood; dropped.
+
 ---Sizes and times of the last preparation of a deformation.
 ---@class lissom.DeformStats
 ---@field region_vertices integer Vertices of the region.
@@ -328,6 +362,10 @@ function Mesh:distances(options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function Mesh:save(path, options) end
+
+---What was welded, split, dropped, flagged or left out when the mesh was loaded: a list of findings, each also under the name of its kind. Empty for a mesh that was made otherwise.
+---@return lissom.Report report # The findings.
+function Mesh:report() end
 
 ---The positions as a typed buffer without a copy: x, y, z of vertex 1, of vertex 2, and so on.
 ---@return lissom.Buffer positions # Three numbers a vertex.
@@ -773,10 +811,12 @@ local lissom = {}
 lissom.shapes = {}
 
 ---@class lissom.LoadOptions
+---@field weld? "seams"|"all"|boolean Which vertices at the same place become one. "seams": those that join open edges at the same place and of opposite direction, so that surfaces that only touch, as closed lips do, stay apart; "all": all of them; false: none. Default: "all" for .stl, "seams" for others.
+---@field repair? boolean false makes each defect that would be mended, and each face without area, an error that names the elements. Default: true.
 ---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: as it is.
 ---@field unit? number Length of the file's unit in the unit of the mesh: positions are multiplied by it. In mesh units. Default: 1.
 
----Reads a mesh from an .obj, .ply, .off or .stl file, with its groups, materials, texture coordinates, normals and colours.
+---Reads a mesh from an .obj, .ply, .off, .stl, .gltf or .glb file, with its groups, materials, texture coordinates, normals, colours, skins and morph targets. It is checked and repaired: mesh:report() says what was done.
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.LoadOptions
 ---@return lissom.Mesh mesh # The mesh; nil, message, code where the file is at fault.
@@ -788,6 +828,8 @@ function lissom.load(path, options) end
 ---@class lissom.MeshOptions
 ---@field positions lissom.Vector[]|lissom.Buffer Where the vertices are.
 ---@field faces integer[][] For each face the ids of its vertices, counter-clockwise seen from outside.
+---@field weld? "seams"|"all"|boolean Which vertices at the same place become one. "seams": those that join open edges at the same place and of opposite direction, so that surfaces that only touch, as closed lips do, stay apart; "all": all of them; false: none. Default: false.
+---@field repair? boolean Whether defects are mended, as lissom.load does. Default: false.
 
 ---Makes a mesh from positions and faces.
 ---@param options lissom.MeshOptions
