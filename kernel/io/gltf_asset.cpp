@@ -1,12 +1,15 @@
 #include "kernel/io/gltf_asset.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
+#include "kernel/io/byte_reader.h"
 #include "kernel/io/gltf_extensions.h"
 #include "kernel/io/gltf_extras.h"
 #include "kernel/io/gltf_join.h"
 #include "kernel/io/read_error.h"
+#include "kernel/io/scalar.h"
 
 namespace lissom {
 namespace {
@@ -22,13 +25,14 @@ class AccessorKeeper {
           asset_(asset),
           left_(std::max(kLeastKept, kKeptPerByte * document.bytes_read)) {}
 
-    // Replaces the number of an accessor, if there is one, by that of its copy.
-    void keep(Json& object, const char* key, const std::string& owner) {
+    // Replaces the number of an accessor, if there is one, by that of its copy. Returns the copy.
+    KeptAccessor* keep(Json& object, const char* key, const std::string& owner) {
         const int number = index_member(object, key, owner);
-        if (number < 0) return;
+        if (number < 0) return nullptr;
         const auto [known, is_new] = copies_.emplace(number, asset_.accessors.size());
         if (is_new) asset_.accessors.push_back(copy(number));
         object[key] = known->second;
+        return &asset_.accessors[known->second];
     }
 
   private:
@@ -40,7 +44,7 @@ class AccessorKeeper {
         }
         left_ -= packed.bytes.size();
         Json json = document_.json["accessors"][static_cast<std::size_t>(number)];
-        for (const char* key : {"bufferView", "byteOffset", "sparse", "extensions"}) {
+        for (const char* key : {"bufferView", "byteOffset", "sparse", "extensions", "min", "max"}) {
             json.erase(key);
         }
         return {std::move(json), std::make_shared<const std::string>(std::move(packed.bytes))};
@@ -53,19 +57,66 @@ class AccessorKeeper {
     std::size_t left_;
 };
 
-void keep_accessors(Json& json, AccessorKeeper& keeper) {
+// Times of animations have bounds.
+void add_bounds(KeptAccessor& times) {
+    if (times.json.value("componentType", 0) != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+    ByteReader reader(*times.bytes, Endianness::little);
+    double least = 0.0, largest = 0.0;
+    for (bool is_first = true; reader.remaining() >= sizeof(float); is_first = false) {
+        const double time = reader.read<float>();
+        least = is_first ? time : std::min(least, time);
+        largest = is_first ? time : std::max(largest, time);
+    }
+    times.json["min"] = Json::array({least});
+    times.json["max"] = Json::array({largest});
+}
+
+// The last row of an affine matrix is known; files have been seen with garbage in it.
+void restore_last_rows(KeptAccessor& kept) {
+    constexpr std::size_t kFloats = 16, kBytes = kFloats * sizeof(float);
+    const bool are_floats = kept.json.value("componentType", 0) == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    if (text_member(kept.json, "type") != "MAT4" || !are_floats) return;
+    std::string bytes = *kept.bytes;
+    for (std::size_t at = 0; at + kBytes <= bytes.size(); at += kBytes) {
+        for (std::size_t column = 0; column < 4; ++column) {
+            const float value = with_byte_order(column == 3 ? 1.0f : 0.0f, Endianness::little);
+            std::memcpy(bytes.data() + at + (4 * column + 3) * sizeof(float), &value,
+                        sizeof(float));
+        }
+    }
+    if (bytes == *kept.bytes) return;
+    kept.bytes = std::make_shared<const std::string>(std::move(bytes));
+}
+
+void keep_accessors(Json& json, AccessorKeeper& keeper, GltfAsset& asset) {
     if (Json* skins = member(json, "skins")) {
         for (Json& skin : *skins) keeper.keep(skin, "inverseBindMatrices", "a skin");
     }
+    for (KeptAccessor& kept : asset.accessors) restore_last_rows(kept);
     Json* animations = member(json, "animations");
     if (!animations) return;
     for (Json& animation : *animations) {
         Json* samplers = member(animation, "samplers");
         if (!samplers || !samplers->is_array()) continue;
         for (Json& sampler : *samplers) {
-            keeper.keep(sampler, "input", "an animation");
+            if (KeptAccessor* times = keeper.keep(sampler, "input", "an animation")) {
+                add_bounds(*times);
+            }
             keeper.keep(sampler, "output", "an animation");
         }
+    }
+}
+
+// Names that are no text, and references of nodes that are none.
+void repair_members(Json& json) {
+    for_each_object(json, [](Json& object) {
+        const Json* name = member(object, "name");
+        if (name && !name->is_string()) object.erase("name");
+    });
+    const Json* nodes = member(json, "nodes");
+    if (!nodes) return;
+    for (const Json& node : *nodes) {
+        for (const char* key : {"mesh", "skin", "camera"}) index_member(node, key, "a node");
     }
 }
 
@@ -144,8 +195,9 @@ std::shared_ptr<const GltfAsset> keep_asset(GltfDocument& document, const Access
                                             Report& report) {
     auto asset = std::make_shared<GltfAsset>();
     drop_bound_extensions(document.json, report);
+    repair_members(document.json);
     AccessorKeeper keeper(document, accessors, *asset);
-    keep_accessors(document.json, keeper);
+    keep_accessors(document.json, keeper, *asset);
     for (const char* key : {"accessors", "bufferViews", "buffers"}) document.json.erase(key);
     reduce_meshes(document.json);
     describe_images(document.json, document.images);

@@ -163,13 +163,32 @@ class Loader {
     std::string missing_;
 };
 
-// What tinygltf is given: the lists that place the surface.
-Json surface_part(const Json& json) {
-    Json part{{"asset", {{"version", "2.0"}}}};
-    for (const char* key : {"accessors", "bufferViews", "meshes"}) {
-        if (const Json* list = member(json, key)) part[key] = *list;
+// What tinygltf is given: all that refers to no bytes outside the text. Skins and animations are
+// not given to it either, because it refuses some that glTF allows.
+Json part_for_parser(Json json) {
+    for (const char* key : {"buffers", "images", "skins", "animations"}) json.erase(key);
+    return json;
+}
+
+// tinygltf refuses indices without a buffer view, which are zeros. Gives all accessors without one
+// a view that is added at the end, and returns which these are.
+std::vector<std::size_t> add_stand_in_view(Json& json) {
+    std::vector<std::size_t> without_view;
+    Json& views = json["bufferViews"];
+    if (views.is_null()) views = Json::array();
+    Json* accessors = member(json, "accessors");
+    for (std::size_t a = 0; accessors && a < accessors->size(); ++a) {
+        if ((*accessors)[a].contains("bufferView")) continue;
+        (*accessors)[a]["bufferView"] = views.size();
+        without_view.push_back(a);
     }
-    return part;
+    views.push_back({{"buffer", 0}, {"byteLength", 1}});
+    return without_view;
+}
+
+void remove_stand_in_view(tinygltf::Model& model, const std::vector<std::size_t>& without_view) {
+    for (const std::size_t a : without_view) model.accessors[a].bufferView = -1;
+    model.bufferViews.pop_back();
 }
 
 std::string one_line_of(std::string text) {
@@ -178,8 +197,10 @@ std::string one_line_of(std::string text) {
     return text;
 }
 
-tinygltf::Model parse_surface(const Json& json) {
-    const std::string text = to_text(surface_part(json));
+tinygltf::Model parse_model(const Json& json) {
+    Json part = part_for_parser(json);
+    const std::vector<std::size_t> without_view = add_stand_in_view(part);
+    const std::string text = to_text(part);
     tinygltf::Model model;
     tinygltf::TinyGLTF parser;
     std::string error, warning;
@@ -191,6 +212,7 @@ tinygltf::Model parse_surface(const Json& json) {
         error = exception.what();
     }
     if (!good || !error.empty()) refuse(ErrorCode::file_syntax, one_line_of(error));
+    remove_stand_in_view(model, without_view);
     return model;
 }
 
@@ -237,7 +259,7 @@ GltfDocument open_gltf(const FileInput& file, Report& report, const Context& con
     Loader loader(file, document, report);
     loader.load_buffers(container.binary);
     document.charge = context.charge(2 * document.bytes_read, "the content of a glTF file");
-    document.model = parse_surface(document.json);
+    document.model = parse_model(document.json);
     loader.load_images();
     return document;
 }

@@ -1,8 +1,8 @@
 /// GltfDocument: a glTF file opened and checked; private to kernel/io and not installed.
 ///
-/// tinygltf parses what places numbers: accessors, buffer views and meshes. It does so after the
-/// text was checked and freed of buffers and images, so that it opens no file and decodes nothing.
-/// All else is kept as JSON, of which nothing is lost when it is saved again.
+/// tinygltf parses the text once it was checked and freed of buffers and images, so that it opens
+/// no file and decodes nothing. Its model places numbers and shapes, and what it finds wrong with
+/// the rest is an error. The rest is kept as JSON, of which nothing is lost when it is saved again.
 #pragma once
 
 #include <tiny_gltf.h>

@@ -40,6 +40,18 @@ bool read_labels(const Json& json, std::int64_t face_count, FaceLabels& labels) 
     return static_cast<std::int64_t>(labels.of_face.size()) == face_count;
 }
 
+bool read_turns(const Json& runs, std::size_t face_count, std::vector<Index>& turns) {
+    for (const Run& run : runs_of(runs)) {
+        const auto left = static_cast<std::int64_t>(face_count - turns.size());
+        if (run.first < 0 || run.first > 0x7fffffff || run.count < 0 || run.count > left) {
+            return false;
+        }
+        turns.insert(turns.end(), static_cast<std::size_t>(run.count),
+                     static_cast<Index>(run.first));
+    }
+    return turns.size() == face_count;
+}
+
 bool read_region(const Json& json, std::int64_t vertex_count, std::vector<Index>& vertices) {
     std::int64_t next = 0;
     for (const Run& run : runs_of(json)) {
@@ -73,6 +85,14 @@ bool read(const Json& json, std::size_t vertex_count, std::size_t face_count, Me
         for (const auto& item : regions->items()) {
             good = good && read_region(item.value(), static_cast<std::int64_t>(vertex_count),
                                        extras.regions[item.key()]);
+        }
+    }
+    if (const Json* turns = member(json, "turns")) {
+        good = good && read_turns(*turns, face_count, extras.turns);
+    }
+    if (const Json* corners = member(json, "corners"); corners && corners->is_array()) {
+        for (const Json& name : *corners) {
+            if (name.is_string()) extras.corners.push_back(name.get<std::string>());
         }
     }
     return good;
@@ -118,7 +138,9 @@ MeshExtras take_extras(Json& mesh, std::size_t vertex_count, std::size_t face_co
 
 void put_extras(Json& mesh, const MeshExtras& extras, std::size_t vertex_count,
                 std::size_t face_count) {
-    if (extras.labels.empty() && extras.regions.empty()) return;
+    const bool is_empty = extras.labels.empty() && extras.regions.empty() && extras.turns.empty() &&
+                          extras.corners.empty();
+    if (is_empty) return;
     Json ours{{"vertices", vertex_count}, {"faces", face_count}};
     for (const auto& [kind, labels] : extras.labels) {
         ours["labels"][kind] = {{"names", labels.names}, {"runs", label_runs(labels.of_face)}};
@@ -126,6 +148,8 @@ void put_extras(Json& mesh, const MeshExtras& extras, std::size_t vertex_count,
     for (const auto& [name, vertices] : extras.regions) {
         ours["regions"][name] = vertex_runs(vertices);
     }
+    if (!extras.turns.empty()) ours["turns"] = label_runs(extras.turns);
+    if (!extras.corners.empty()) ours["corners"] = extras.corners;
     object_in(mesh, "extras")[kKey] = std::move(ours);
 }
 

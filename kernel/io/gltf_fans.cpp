@@ -39,18 +39,19 @@ void FanWriter::add_fan(const std::vector<Index>& vertices, std::size_t start) {
     last_first_ = vertices[start];
 }
 
-Index FanWriter::add(const std::vector<Index>& vertices, const std::vector<Vec3>& points) {
+std::vector<Index> FanWriter::add(const std::vector<Index>& vertices,
+                                  const std::vector<Vec3>& points) {
     const std::size_t n = vertices.size();
     if (n == 3 && !has_polygons_) {
         add_fan(vertices, 0);
-        return 1;
+        return {0};
     }
     const Vec3 area = area_vector(points);
     for (std::size_t start = 0; start < n; ++start) {
         if (vertices[start] == last_first_) continue;
         if (n > 3 && !is_fan(points, start, area)) continue;
         add_fan(vertices, start);
-        return 1;
+        return {static_cast<Index>((n - start) % n)};
     }
     std::vector<Triangle> triangles;
     triangulate_polygon(points, triangles);
@@ -58,7 +59,7 @@ Index FanWriter::add(const std::vector<Index>& vertices, const std::vector<Vec3>
         const std::vector<Index> corners{vertices[t[0]], vertices[t[1]], vertices[t[2]]};
         add_fan(corners, corners[0] == last_first_ ? 1 : 0);
     }
-    return static_cast<Index>(triangles.size());
+    return std::vector<Index>(triangles.size(), 0);
 }
 
 }  // namespace lissom

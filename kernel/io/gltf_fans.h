@@ -13,9 +13,9 @@ namespace lissom {
 class FanWriter {
   public:
     /// Adds a polygon of pool vertices `vertices` at `points`. A triangle of a surface of triangles
-    /// keeps its first vertex. Returns the number of faces that a reader will find: 1, or more
-    /// where no fan covers the polygon.
-    Index add(const std::vector<Index>& vertices, const std::vector<Vec3>& points);
+    /// keeps its first vertex. Returns for each face that a reader will find where in it the first
+    /// corner of the polygon is; there are several, with 0, where no fan covers the polygon.
+    std::vector<Index> add(const std::vector<Index>& vertices, const std::vector<Vec3>& points);
 
     /// Three vertices a triangle.
     const std::vector<Index>& corners() const { return corners_; }

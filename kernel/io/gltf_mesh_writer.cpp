@@ -136,9 +136,17 @@ class MeshWriter::Object {
                 vertices.push_back(pools.vertex_of_corner(topology.first_corner(f) + k));
                 points.push_back(mesh.position(v));
             }
-            const Index count = fans.add(vertices, points);
-            if (count > 1) ++writer_.split_polygons_;
-            faces_.insert(faces_.end(), static_cast<std::size_t>(count), f);
+            if (place_.to_node.mirrors()) {
+                std::reverse(vertices.begin() + 1, vertices.end());
+                std::reverse(points.begin() + 1, points.end());
+            }
+            std::vector<Index> turns = fans.add(vertices, points);
+            if (place_.to_node.mirrors() && turns[0] != 0) {
+                turns[0] = static_cast<Index>(vertices.size()) - turns[0];
+            }
+            if (turns.size() > 1) ++writer_.split_polygons_;
+            faces_.insert(faces_.end(), turns.size(), f);
+            turns_.insert(turns_.end(), turns.begin(), turns.end());
         }
         return fans;
     }
@@ -256,6 +264,14 @@ class MeshWriter::Object {
             }
             if (!inside.empty()) result.regions[name] = std::move(inside);
         }
+        if (std::any_of(turns_.begin(), turns_.end(), [](Index t) { return t != 0; })) {
+            result.turns = turns_;
+        }
+        if (!faces_.empty()) {
+            for (const Attribute* attribute : writer_.attributes_.of_corners()) {
+                result.corners.push_back(attribute->name);
+            }
+        }
         return result;
     }
 
@@ -271,6 +287,8 @@ class MeshWriter::Object {
     bool has_joints_ = false;
     // The face of the mesh that each polygon read back will be.
     std::vector<Index> faces_;
+    // Where in that polygon its first corner is.
+    std::vector<Index> turns_;
 };
 
 MeshWriter::MeshWriter(SavedParts& parts, const WrittenAttributes& attributes, GltfBinary& binary,

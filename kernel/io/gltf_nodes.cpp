@@ -132,16 +132,19 @@ Forest forest_of(const Json& document) {
     return forest;
 }
 
+void require_default_scene(const Json& document) {
+    const int scene = index_member(document, "scene", "the file");
+    if (scene < 0 || static_cast<std::size_t>(scene) < list_of(document, "scenes").size()) return;
+    refuse(ErrorCode::file_syntax,
+           "the default scene " + std::to_string(scene) + " does not exist");
+}
+
 // Nodes that the default scene starts at.
 std::vector<std::size_t> scene_nodes(const Json& document, const Forest& forest) {
     const Json& scenes = list_of(document, "scenes");
-    const int wanted = index_member(document, "scene", "the file");
     if (scenes.empty()) return forest.roots;
-    const auto scene = static_cast<std::size_t>(wanted < 0 ? 0 : wanted);
-    if (scene >= scenes.size()) {
-        refuse(ErrorCode::file_syntax,
-               "the default scene " + std::to_string(scene) + " does not exist");
-    }
+    const auto scene =
+        static_cast<std::size_t>(std::max(index_member(document, "scene", "the file"), 0));
     return node_list(scenes[scene], "nodes", forest.parent.size(), "a scene");
 }
 
@@ -269,6 +272,7 @@ std::vector<Affine> world_transforms(const Json& document) {
 
 std::vector<GltfInstance> find_instances(const Json& document, Report& report) {
     const Json &nodes = list_of(document, "nodes"), &meshes = list_of(document, "meshes");
+    require_default_scene(document);
     if (nodes.empty()) return meshes_alone(meshes);
     const Forest forest = forest_of(document);
     const std::vector<Affine> world = world_transforms(document);

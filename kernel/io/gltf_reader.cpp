@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "kernel/io/gltf.h"
@@ -412,10 +413,34 @@ class SurfaceReader {
                          "regions and groups that no longer fit the surface");
         }
         for (const auto& [kind, labels] : extras.labels) add_labels(kind, labels, first_face);
+        turn_faces(extras.turns, first_face);
+        corner_attributes_.insert(extras.corners.begin(), extras.corners.end());
         for (const auto& [name, vertices] : extras.regions) {
             std::vector<Index>& region = mesh_.regions[name];
             for (const Index v : vertices) region.push_back(v + static_cast<Index>(first_vertex));
         }
+    }
+
+    // Makes the corner at place `turns[i]` of face `first_face` + i its first.
+    void turn_faces(const std::vector<Index>& turns, Index first_face) {
+        for (std::size_t i = 0; i < turns.size(); ++i) {
+            const auto f = static_cast<std::size_t>(first_face) + i;
+            const auto begin = mesh_.faces.vertices.begin() + mesh_.faces.offsets[f];
+            const auto end = mesh_.faces.vertices.begin() + mesh_.faces.offsets[f + 1];
+            if (turns[i] < end - begin) std::rotate(begin, begin + turns[i], end);
+        }
+    }
+
+    // Gives the values of vertices to corners.
+    void move_to_corners(Attribute& attribute) const {
+        std::vector<double> values;
+        values.reserve(mesh_.faces.vertices.size() * static_cast<std::size_t>(attribute.width));
+        for (const Index v : mesh_.faces.vertices) {
+            const std::span<const double> value = std::as_const(attribute).at(v);
+            values.insert(values.end(), value.begin(), value.end());
+        }
+        attribute.values = std::move(values);
+        attribute.domain = Domain::corner;
     }
 
     void add_labels(const std::string& kind, const FaceLabels& labels, Index first_face) {
@@ -430,6 +455,9 @@ class SurfaceReader {
 
     void finish() {
         columns_.finish(mesh_.attributes, mesh_.positions.size());
+        for (Attribute& attribute : mesh_.attributes.all()) {
+            if (corner_attributes_.contains(attribute.name)) move_to_corners(attribute);
+        }
         auto& labels = mesh_.attributes.labels();
         if (!object_labels_.names.empty()) labels["object"] = std::move(object_labels_);
         const auto& of_face = material_labels_.of_face;
@@ -450,12 +478,11 @@ class SurfaceReader {
     AttributeColumns columns_;
     FaceLabels object_labels_, material_labels_;
     Skipped skipped_;
+    std::set<std::string> corner_attributes_;
     bool only_points_ = false;
 };
 
-}  // namespace
-
-MeshData read_gltf(const FileInput& file, const Context& context) {
+MeshData read_document(const FileInput& file, const Context& context) {
     Report report;
     GltfDocument document = open_gltf(file, report, context);
     GltfBudget budget(document.bytes_read);
@@ -468,6 +495,18 @@ MeshData read_gltf(const FileInput& file, const Context& context) {
     for (const Finding& finding : mesh.report.findings()) report.add(finding);
     mesh.report = std::move(report);
     return mesh;
+}
+
+}  // namespace
+
+MeshData read_gltf(const FileInput& file, const Context& context) {
+    try {
+        return read_document(file, context);
+    } catch (const Json::exception& error) {
+        refuse(ErrorCode::file_syntax,
+               "something in the JSON is of another type than glTF wants: " +
+                   std::string(error.what()));
+    }
 }
 
 }  // namespace lissom

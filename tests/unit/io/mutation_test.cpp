@@ -45,6 +45,8 @@ std::vector<Sample> samples() {
             {"ply", encode_mesh(mesh, "ply", {.binary = false})},
             {"off", encode_mesh(mesh, "off")},
             {"off", binary_off()},
+            {"glb", encode_mesh(mesh, "glb")},
+            {"gltf", encode_mesh(mesh, "gltf")},
             {"stl", encode_mesh(mesh, "stl")},
             {"stl", encode_mesh(mesh, "stl", {.binary = false})}};
 }
