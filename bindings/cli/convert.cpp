@@ -1,66 +1,121 @@
-// lissom convert IN OUT
+// lissom convert IN OUT, and lissom convert --in PATTERN... --out FOLDER
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 
-#include "bindings/cli/json.h"
+#include "bindings/cli/conversion.h"
+#include "bindings/cli/convert_many.h"
+#include "bindings/cli/load_flags.h"
 #include "bindings/cli/verbs.h"
-#include "kernel/io/mesh_file.h"
 
 namespace lissom::cli {
 namespace {
 
 struct Request {
     std::string in, out, in_up, up;
-    LoadOptions load;
-    SaveOptions save;
+    ManyFiles many;
+    ConversionOptions options;
+    LoadFlags load_flags;
     bool text = false, big_endian = false;
+
+    bool is_for_many() const {
+        return !many.in.empty() || !many.out_folder.empty() || !many.to.empty();
+    }
 };
+
+const char* const kDescription =
+    "Reads mesh files and writes them in another format.\n\n"
+    "  lissom convert IN OUT                                    one file\n"
+    "  lissom convert --in 'a/*.obj' --out b/ --to glb          many files\n"
+    "  lissom convert --in 'a/**/*.ply' other/ --out b/         with their folders\n\n"
+    "Of many files, a failure does not stop the others; a table tells what came of each. An output "
+    "replaces an older file of its name, but not one of the files to read (unless --force), and "
+    "not the output of another input. Exit status: 0 all done, 1 some failed, 2 called wrongly.";
 
 UpAxis up_axis(const std::string& name) {
     if (name.empty()) return UpAxis::none;
     return name == "y" ? UpAxis::y : UpAxis::z;
 }
 
+// The extension as the kernel lists it: without a dot, in lower case.
+std::string normalized(const std::string& extension) {
+    return CLI::detail::to_lower(extension.substr(extension.starts_with('.') ? 1 : 0));
+}
+
+void declare_files(CLI::App& app, Request& request) {
+    app.add_option("IN", request.in, "The mesh file to read");
+    app.add_option("OUT", request.out, "The mesh file to write; its extension names the format");
+    app.add_option("--in", request.many.in,
+                   "Files to read: names, folders (the mesh files in them) or patterns in quotes, "
+                   "with * and ? in names and ** for any folders");
+    app.add_option("--out", request.many.out_folder,
+                   "Folder to write to, created where it is missing; sub-folders are kept");
+    app.add_option("--to", request.many.to,
+                   "Format of the files in --out, by its extension (default: each as it was)")
+        ->transform(normalized)
+        ->check(CLI::IsMember(writable_extensions()));
+    app.add_flag("--force", request.options.force, "Let outputs replace files to read");
+}
+
 void declare(CLI::App& app, Request& request) {
-    app.add_option("IN", request.in, "The mesh file to read")->required();
-    app.add_option("OUT", request.out, "The mesh file to write; its extension names the format")
-        ->required();
+    declare_files(app, request);
     app.add_option("--up", request.up,
-                   "Up axis that OUT shall have; needs --in-up where they differ")
+                   "Up axis that the output shall have; needs --in-up where they differ")
         ->check(CLI::IsMember({"y", "z"}));
-    app.add_option("--in-up", request.in_up, "Up axis of IN")->check(CLI::IsMember({"y", "z"}));
-    app.add_option("--unit", request.save.unit,
-                   "Length of OUT's unit: coordinates are divided by it (default: 1)")
+    app.add_option("--in-up", request.in_up, "Up axis of the input")
+        ->check(CLI::IsMember({"y", "z"}));
+    app.add_option("--unit", request.options.save.unit,
+                   "Length of the output's unit: coordinates are divided by it (default: 1)")
         ->check(CLI::PositiveNumber);
-    app.add_option("--in-unit", request.load.unit,
-                   "Length of IN's unit: coordinates are multiplied by it (default: 1)")
+    app.add_option("--in-unit", request.options.load.unit,
+                   "Length of the input's unit: coordinates are multiplied by it (default: 1)")
         ->check(CLI::PositiveNumber);
     app.add_flag("--text", request.text, "Write text where the format has text and binary");
     app.add_flag("--big-endian", request.big_endian, "Byte order of a binary .ply");
+    request.load_flags.declare(app);
+}
+
+void complete(Request& request) {
+    request.options.load.up = up_axis(request.in_up);
+    request.options.save.up = up_axis(request.up);
+    request.options.save.binary = !request.text;
+    request.options.save.endianness = request.big_endian ? Endianness::big : Endianness::little;
+    request.load_flags.apply(request.options.load);
+}
+
+// What is wrong with the choice of files; empty where nothing is.
+std::string misuse(const Request& request) {
+    if (!request.is_for_many()) {
+        return request.out.empty() ? "IN and OUT are required, or --in and --out" : "";
+    }
+    if (!request.in.empty()) return "IN and OUT do not go with --in, --out and --to";
+    if (request.many.in.empty()) return "--in is missing: the files to read";
+    return request.many.out_folder.empty() ? "--out is missing: the folder to write to" : "";
+}
+
+int convert_one(Program& program, const Request& request) {
+    const Conversion done = convert_file(program, request.in, request.out, request.options);
+    program.clear_progress();
+    if (program.json()) std::cout << json_text(conversion_json(done)) << std::endl;
+    return kSuccess;
 }
 
 }  // namespace
 
 int convert(Program& program, const std::vector<std::string>& words) {
-    CLI::App app("Reads a mesh file and writes it in another format.", "lissom convert");
+    CLI::App app(kDescription, "lissom convert");
     Request request;
     declare(app, request);
     int status = kSuccess;
     if (!program.parse(app, words, status)) return status;
-    request.load.up = up_axis(request.in_up);
-    request.save.up = up_axis(request.up);
-    request.save.binary = !request.text;
-    request.save.endianness = request.big_endian ? Endianness::big : Endianness::little;
-    const Mesh mesh = load_mesh(request.in, request.load, program.context());
-    save_mesh(mesh, request.out, request.save, program.context());
-    program.clear_progress();
-    if (program.json()) {
-        std::cout << json_text({{"file", request.out},
-                                {"vertices", mesh.vertex_count()},
-                                {"faces", mesh.face_count()}})
-                  << std::endl;
+    const std::string wrong = misuse(request);
+    if (!wrong.empty()) {
+        return program.fail("lissom convert: " + wrong + " (see lissom convert --help)", kUsage);
     }
-    return kSuccess;
+    complete(request);
+    if (!request.is_for_many()) return convert_one(program, request);
+    request.options.shows_warnings = false;
+    return convert_many(program, request.many, request.options);
 }
 
 }  // namespace lissom::cli

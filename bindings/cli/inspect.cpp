@@ -2,8 +2,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 #include "bindings/cli/json.h"
+#include "bindings/cli/load_flags.h"
 #include "bindings/cli/verbs.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/measures.h"
@@ -76,7 +78,8 @@ Json mesh_json(const std::string& file, const Mesh& mesh) {
             {"zero_area_faces", zero_area_faces(mesh).size()},
             {"attributes", attributes_json(mesh)},
             {"labels", labels_json(mesh)},
-            {"regions", regions_json(mesh)}};
+            {"regions", regions_json(mesh)},
+            {"report", report_json(mesh.report())}};
 }
 
 // ---- The same for people
@@ -129,6 +132,22 @@ std::string attributes_text(const Json& list) {
     return text;
 }
 
+// "2 faces turned over ...: faces 3 and 9 of the file": a finding on one line.
+std::string finding_text(const Finding& finding) {
+    std::string text = describe(finding);
+    if (!finding.message.empty()) text += ": " + finding.message;
+    if (finding.ids.empty() || finding.element == ElementKind::line) return text;
+    const std::size_t per_element = finding.element == ElementKind::edge ? 2 : 1;
+    Elements elements{finding.element, finding.ids.size() / per_element, finding.ids};
+    return text + " (" + describe(elements, 1) + (finding.in_file ? " of the file)" : ")");
+}
+
+void print_report(const Report& report) {
+    std::string name = "found";
+    for (const Finding& finding : report.findings())
+        line(std::exchange(name, ""), finding_text(finding));
+}
+
 void print_mesh(const Json& mesh) {
     std::cout << mesh["file"].get<std::string>() << "\n";
     line("vertices", mesh["vertices"].dump());
@@ -158,16 +177,24 @@ void print_mesh(const Json& mesh) {
 int inspect(Program& program, const std::vector<std::string>& words) {
     CLI::App app("Says what is in mesh files.", "lissom inspect");
     std::vector<std::string> files;
+    LoadFlags flags;
     app.add_option("MESH", files, "Mesh files")->required();
+    flags.declare(app);
     int status = kSuccess;
     if (!program.parse(app, words, status)) return status;
+    LoadOptions options;
+    flags.apply(options);
+    // What was found is part of the answer.
+    program.log_filter = [&](LogLevel, std::string_view) { return program.debug; };
     Json answers = Json::array();
     for (const std::string& file : files) {
         try {
-            const Mesh mesh = load_mesh(file, {}, program.context());
+            const Mesh mesh = load_mesh(file, options, program.context());
             program.clear_progress();
             answers.push_back(mesh_json(file, mesh));
-            if (!program.json()) print_mesh(answers.back());
+            if (program.json()) continue;
+            print_mesh(answers.back());
+            print_report(mesh.report());
         } catch (const Error& error) {
             status = kFailure;
             answers.push_back({{"file", file}, {"error", error_json(error)}});

@@ -1,22 +1,43 @@
 #include "bindings/cli/json.h"
 
+#include <algorithm>
+
 #include "bindings/lua/failure.h"
 
 namespace lissom::cli {
 namespace {
 
-Json elements_json(const Elements& elements) {
-    Json ids = Json::array();
-    if (elements.kind == ElementKind::edge) {
-        for (std::size_t i = 0; i + 1 < elements.ids.size(); i += 2) {
-            ids.push_back({elements.ids[i] + 1, elements.ids[i + 1] + 1});
+// The first ids, from 1; pairs of vertices for edges.
+Json ids_json(ElementKind kind, const std::vector<Index>& ids) {
+    const std::size_t per_element = kind == ElementKind::edge ? 2 : 1;
+    const std::size_t count = std::min(ids.size() / per_element, Elements::kMaximumIds);
+    Json list = Json::array();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (per_element == 2) {
+            list.push_back({ids[2 * i] + 1, ids[2 * i + 1] + 1});
+        } else {
+            list.push_back(ids[i] + 1);
         }
-    } else {
-        for (const Index id : elements.ids) ids.push_back(id + 1);
     }
+    return list;
+}
+
+Json elements_json(const Elements& elements) {
     return {{"kind", std::string(kind_name(elements.kind))},
             {"count", elements.count},
-            {"ids", std::move(ids)}};
+            {"ids", ids_json(elements.kind, elements.ids)}};
+}
+
+Json finding_json(const Finding& finding) {
+    Json json = {{"kind", std::string(finding_name(finding.kind))}, {"count", finding.count}};
+    json["element"] = nullptr;
+    if (finding.element != ElementKind::none) {
+        json["element"] = std::string(kind_name(finding.element));
+    }
+    json["of"] = finding.in_file ? "file" : "mesh";
+    json["ids"] = ids_json(finding.element, finding.ids);
+    json["message"] = finding.message;
+    return json;
 }
 
 Json vector_json(const Vec3& v) {
@@ -31,6 +52,12 @@ Json error_json(const Error& error) {
     if (error.elements().kind != ElementKind::none)
         json["elements"] = elements_json(error.elements());
     return json;
+}
+
+Json report_json(const Report& report) {
+    Json list = Json::array();
+    for (const Finding& finding : report.findings()) list.push_back(finding_json(finding));
+    return list;
 }
 
 Json bounds_json(const Box& box) {

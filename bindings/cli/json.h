@@ -6,6 +6,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/core/geometry.h"
+#include "kernel/mesh/report.h"
 
 namespace lissom::cli {
 
@@ -15,6 +16,11 @@ using Json = nlohmann::ordered_json;
 /// {"message": ..., "code": ..., "elements": {"kind": ..., "count": ..., "ids": [...]}}; ids from
 /// 1, pairs of vertices for edges.
 Json error_json(const Error& error);
+
+/// A list of {"kind": "faces_flipped", "count", "element": "face" or null, "of": "file" or "mesh",
+/// "ids", "message"}: what was found when a mesh was loaded. At most a hundred ids, from 1, pairs
+/// of vertices for edges.
+Json report_json(const Report& report);
 
 /// {"min": [x, y, z], "max": ..., "center": ..., "diagonal": ...}; null for an empty box.
 Json bounds_json(const Box& box);

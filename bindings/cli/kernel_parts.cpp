@@ -7,7 +7,7 @@ ProgramParts kernel_parts() {
     ProgramParts parts;
     parts.verbs = {{"run", "FILE [--name value ...]", "Runs a Lua script.", run_script},
                    {"inspect", "MESH...", "Says what is in mesh files.", inspect},
-                   {"convert", "IN OUT", "Writes a mesh in another format.", convert},
+                   {"convert", "IN OUT", "Writes meshes in another format.", convert},
                    {"repl", "", "Runs Lua line by line.", repl},
                    {"explain", "[CODE]", "Says what an error code means.", explain}};
     parts.libraries = {lua::kernel_library};

@@ -61,6 +61,7 @@ ContextOptions Program::context_options() {
     const unsigned cores = std::thread::hardware_concurrency();
     options.threads = threads > 0 ? threads : static_cast<int>(std::max(1u, cores));
     options.log = [this](LogLevel level, std::string_view message) {
+        if (log_filter && !log_filter(level, message)) return;
         if (level != LogLevel::warning && !debug) return;
         clear_progress();
         std::cerr << (level == LogLevel::warning ? "warning: " : "") << message << std::endl;

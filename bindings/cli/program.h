@@ -9,8 +9,10 @@
 ///     }
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bindings/lua/state.h"
@@ -79,6 +81,9 @@ class Program {
 
     Output output = Output::text;
     bool debug = false;
+    /// Sees each message of the log first, where it is set; false keeps the message from the
+    /// standard error.
+    std::function<bool(LogLevel, std::string_view)> log_filter;
     /// Threads of the kernel's loops; 0 for as many as there are cores.
     int threads = 0;
 

@@ -236,7 +236,8 @@ class ObjReader {
 
     void read_group() {
         group_ = group_names();
-        const bool may_be_region = std::string_view(group_).starts_with(kObjRegionPrefix);
+        const bool may_be_region = group_.size() > kObjRegionPrefix.size() &&
+                                   std::string_view(group_).starts_with(kObjRegionPrefix);
         if (may_be_region) {
             regions_.begin(std::string_view(group_).substr(kObjRegionPrefix.size()));
         } else {
@@ -350,6 +351,8 @@ class ObjReader {
 }  // namespace
 
 MeshData read_obj(std::string_view text, const Context& context) {
+    // Some programs end the file with the zero byte of their string.
+    text = text.substr(0, text.find_last_not_of('\0') + 1);
     return ObjReader(text, context).read();
 }
 

@@ -138,7 +138,7 @@ void PlyLayout::add_named() {
 bool PlyLayout::is_region(Index property) const {
     const PlyProperty& p = element_.properties[property];
     return domain_ == Domain::vertex && p.type == ScalarType::uint8 &&
-           p.name.starts_with(kPlyRegionPrefix);
+           p.name.size() > kPlyRegionPrefix.size() && p.name.starts_with(kPlyRegionPrefix);
 }
 
 bool PlyLayout::is_labels(Index property) const {

@@ -30,41 +30,56 @@ DirectedEdges::DirectedEdges(Index vertex_count, const FaceList& faces)
     }
 }
 
-Index FaceCycles::first(Index f) const {
-    const std::span<const Index> face = faces_[f];
+namespace {
+
+// Where the smallest vertex stands, from which a face is read.
+Index start_of(std::span<const Index> face) {
     return static_cast<Index>(std::min_element(face.begin(), face.end()) - face.begin());
 }
+
+// The k-th vertex from `start` on, in the order of the face or against it.
+Index at(std::span<const Index> face, Index start, Index k, bool backward) {
+    const auto n = static_cast<Index>(face.size());
+    return face[static_cast<std::size_t>(backward ? (start + n - k) % n : (start + k) % n)];
+}
+
+bool same_order(std::span<const Index> f, std::span<const Index> g, bool backward) {
+    const Index at_f = start_of(f), at_g = start_of(g);
+    for (Index k = 0; k < static_cast<Index>(f.size()); ++k) {
+        if (at(f, at_f, k, false) != at(g, at_g, k, backward)) return false;
+    }
+    return true;
+}
+
+}  // namespace
 
 std::uint64_t FaceCycles::key(Index f) {
     if (key_[f] != 0) return key_[f];
     const std::span<const Index> face = faces_[f];
-    const auto start = static_cast<std::size_t>(first(f));
+    const Index start = start_of(face);
+    const bool backward = at(face, start, 1, true) < at(face, start, 1, false);
     std::uint64_t hash = face.size();
-    for (std::size_t k = 0; k < face.size(); ++k) {
-        hash = (hash ^ static_cast<std::uint64_t>(face[(start + k) % face.size()])) *
-               0x9e3779b97f4a7c15u;
+    for (Index k = 0; k < static_cast<Index>(face.size()); ++k) {
+        hash =
+            (hash ^ static_cast<std::uint64_t>(at(face, start, k, backward))) * 0x9e3779b97f4a7c15u;
         hash ^= hash >> 29;
     }
     return key_[f] = hash | 1;
 }
 
+Likeness FaceCycles::compare(Index f, Index g) {
+    if (faces_[f].size() != faces_[g].size() || key(f) != key(g)) return Likeness::none;
+    if (same_order(faces_[f], faces_[g], false)) return Likeness::same;
+    return same_order(faces_[f], faces_[g], true) ? Likeness::reversed : Likeness::none;
+}
+
 bool FaceCycles::is_copy(Index f, Seen& seen) {
     const auto [begin, end] = seen.equal_range(key(f));
     for (auto same_key = begin; same_key != end; ++same_key) {
-        if (equal(f, same_key->second)) return true;
+        if (compare(f, same_key->second) == Likeness::same) return true;
     }
     seen.emplace(key(f), f);
     return false;
-}
-
-bool FaceCycles::equal(Index f, Index g) {
-    if (faces_[f].size() != faces_[g].size()) return false;
-    const auto n = static_cast<Index>(faces_[f].size());
-    const Index at_f = first(f), at_g = first(g);
-    for (Index k = 0; k < n; ++k) {
-        if (faces_[f][(at_f + k) % n] != faces_[g][(at_g + k) % n]) return false;
-    }
-    return true;
 }
 
 }  // namespace lissom

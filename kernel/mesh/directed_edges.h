@@ -43,22 +43,25 @@ class DirectedEdges {
     const std::vector<Index>& vertices_;
 };
 
-/// Tells which faces are copies of one another: the same vertices in the same cyclic order.
+/// Whether two faces have the same vertices in the same cyclic order, or in the opposite one.
+enum class Likeness { none, same, reversed };
+
+/// Tells which faces are copies of one another.
 class FaceCycles {
   public:
     explicit FaceCycles(const FaceList& faces)
         : faces_(faces), key_(static_cast<std::size_t>(faces.size()), 0) {}
 
+    Likeness compare(Index f, Index g);
+
     /// Faces that were seen, by their keys.
     using Seen = std::multimap<std::uint64_t, Index>;
-    /// Whether `f` is a copy of a face in `seen`; if not, it is added.
+    /// Whether `f` is the same as a face in `seen`; if not, it is added.
     bool is_copy(Index f, Seen& seen);
 
   private:
-    bool equal(Index f, Index g);
-    // A hash of the vertices from the smallest on, computed when first asked for.
+    // A hash of the vertices, the same for both orders; computed when first asked for.
     std::uint64_t key(Index f);
-    Index first(Index f) const;
 
     const FaceList& faces_;
     std::vector<std::uint64_t> key_;

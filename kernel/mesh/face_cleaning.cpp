@@ -118,30 +118,102 @@ void clean_faces(CornerFaces& work, Report& report) {
     add_if_any(report, FindingKind::faces_pinched, std::move(pinched));
 }
 
-void drop_duplicates(Index vertex_count, CornerFaces& work, Report& report) {
-    const DirectedEdges edges(vertex_count, work.faces);
-    FaceCycles cycles(work.faces);
-    std::vector<char> drop(static_cast<std::size_t>(work.faces.size()), 0);
-    std::vector<Index> dropped;
-    edges.for_each_edge([&](std::span<const Index> corners) {
-        if (corners.size() < 2 ||
-            (corners.size() == 2 && edges.ascending(corners[0]) != edges.ascending(corners[1])))
-            return;
+namespace {
+
+// Finds the faces that are there too often.
+class DuplicateSearch {
+  public:
+    DuplicateSearch(Index vertex_count, const FaceList& faces)
+        : edges_(vertex_count, faces),
+          cycles_(faces),
+          faces_(faces),
+          at_edge_(faces.vertices.size()),
+          drop_(static_cast<std::size_t>(faces.size()), 0) {
+        edges_.for_each_edge([&](std::span<const Index> corners) {
+            for (const Index c : corners) at_edge_[c] = corners;
+        });
+    }
+
+    // One flag a face.
+    std::vector<char> run() {
+        edges_.for_each_edge([&](std::span<const Index> corners) { drop_flap(corners); });
+        edges_.for_each_edge([&](std::span<const Index> corners) { drop_copies(corners); });
+        edges_.for_each_edge([&](std::span<const Index> corners) { drop_reversed(corners); });
+        return std::move(drop_);
+    }
+
+  private:
+    // Two equal faces that are each other's only neighbours enclose nothing. Where they hang on a
+    // surface that is complete without them, both go.
+    void drop_flap(std::span<const Index> corners) {
+        if (corners.size() != 2) return;
+        const Index f = edges_.face(corners[0]), g = edges_.face(corners[1]);
+        if (f == g || drop_[f] || cycles_.compare(f, g) == Likeness::none) return;
+        bool hangs = false;
+        for (Index c = faces_.offsets[f]; c < faces_.offsets[f + 1]; ++c) {
+            const std::span<const Index> here = at_edge_[c];
+            if (here.size() == 2) continue;
+            if (here.size() != 4 || !complete_without(here, f, g)) return;
+            hangs = true;
+        }
+        if (hangs) drop_[f] = drop_[g] = 1;
+    }
+
+    bool complete_without(std::span<const Index> corners, Index f, Index g) {
+        std::vector<Index> others;
+        for (const Index c : corners) {
+            if (edges_.face(c) != f && edges_.face(c) != g) others.push_back(edges_.face(c));
+        }
+        return others.size() == 2 && cycles_.compare(others[0], others[1]) == Likeness::none;
+    }
+
+    void drop_copies(std::span<const Index> corners) {
+        const bool regular =
+            corners.size() == 2 && edges_.ascending(corners[0]) != edges_.ascending(corners[1]);
+        if (corners.size() == 1 || regular) return;
         FaceCycles::Seen seen;
         for (const Index c : corners) {
-            const Index f = edges.face(c);
-            if (drop[f] || !cycles.is_copy(f, seen)) continue;
-            drop[f] = 1;
-            dropped.push_back(work.face_source[f]);
+            const Index f = edges_.face(c);
+            if (!drop_[f] && cycles_.is_copy(f, seen)) drop_[f] = 1;
         }
-    });
-    if (dropped.empty()) return;
-    std::sort(dropped.begin(), dropped.end());
-    add_if_any(report, FindingKind::faces_duplicate, std::move(dropped));
+    }
+
+    // A face that is there once more in reverse, with a neighbour at every edge beside the two.
+    void drop_reversed(std::span<const Index> corners) {
+        if (corners.size() != 3) return;
+        for (int i = 0; i < 3; ++i) {
+            const Index f = edges_.face(corners[i]), g = edges_.face(corners[(i + 1) % 3]);
+            if (drop_[f] || drop_[g] || cycles_.compare(f, g) != Likeness::reversed) continue;
+            bool surplus = true;
+            for (Index c = faces_.offsets[f]; c < faces_.offsets[f + 1]; ++c)
+                surplus = surplus && at_edge_[c].size() == 3;
+            if (surplus) drop_[std::max(f, g)] = 1;
+        }
+    }
+
+    DirectedEdges edges_;
+    FaceCycles cycles_;
+    const FaceList& faces_;
+    // The corners along the edge of each corner.
+    std::vector<std::span<const Index>> at_edge_;
+    std::vector<char> drop_;
+};
+
+}  // namespace
+
+void drop_duplicates(Index vertex_count, CornerFaces& work, Report& report) {
+    const std::vector<char> drop = DuplicateSearch(vertex_count, work.faces).run();
+    std::vector<Index> dropped;
     CornerFaces kept;
     for (Index f = 0; f < work.faces.size(); ++f) {
-        if (!drop[f]) kept.add(work, f, corners_of(work, f));
+        if (drop[f]) {
+            dropped.push_back(work.face_source[f]);
+        } else {
+            kept.add(work, f, corners_of(work, f));
+        }
     }
+    if (dropped.empty()) return;
+    add_if_any(report, FindingKind::faces_duplicate, std::move(dropped));
     work = std::move(kept);
 }
 

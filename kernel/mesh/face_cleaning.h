@@ -10,7 +10,9 @@ namespace lissom {
 /// keeps fewer than three vertices. Adds to `report` the faces concerned, as numbered in the file.
 void clean_faces(CornerFaces& work, Report& report);
 
-/// Drops faces with the vertices of an earlier face in the same cyclic order.
+/// Drops faces that are there too often: those with the vertices of an earlier face in the same
+/// cyclic order, a face that is there once more in reverse where the surface is complete without
+/// it, and flaps: pairs of equal faces that only hang on an edge of a complete surface.
 void drop_duplicates(Index vertex_count, CornerFaces& work, Report& report);
 
 }  // namespace lissom

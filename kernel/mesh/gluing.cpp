@@ -28,15 +28,6 @@ double opening(const Wing& from, const Wing& to) {
     return angle < kSame ? 2.0 * kPi : angle;
 }
 
-struct OpenEdge {
-    // Numbers of the positions at its ends, the smaller first.
-    Index low, high;
-    bool ascending;
-    Index corner;
-
-    bool same_place(const OpenEdge& other) const { return low == other.low && high == other.high; }
-};
-
 }  // namespace
 
 Gluing::Gluing(std::span<const Vec3> positions, const CornerFaces& work)
@@ -82,7 +73,11 @@ void Gluing::glue_edges(Report& report) {
         const Index low = edges.low(corners[0]), high = edges.high(corners[0]);
         if (corners.size() == 2 && edges.ascending(corners[0]) != edges.ascending(corners[1]))
             return glue(corners[0], corners[1]);
-        if (corners.size() > 2) glue_around_edge(corners, low, high);
+        if (corners.size() > 2) {
+            std::vector<DirectedCorner> directed;
+            for (const Index c : corners) directed.push_back({c, edges.ascending(c)});
+            glue_around_edge(directed, (positions_[high] - positions_[low]).normalized());
+        }
         Finding& finding = corners.size() > 2 ? crowded : one_sided;
         ++finding.count;
         finding.ids.insert(finding.ids.end(), {low, high});
@@ -91,15 +86,13 @@ void Gluing::glue_edges(Report& report) {
     if (one_sided.count > 0) report.add(std::move(one_sided));
 }
 
-void Gluing::glue_around_edge(std::span<const Index> corners, Index low, Index high) {
+void Gluing::glue_around_edge(std::span<const DirectedCorner> corners, const Vec3& axis) {
     // So many faces at one edge bound no solid; they stay apart.
     constexpr std::size_t kMost = 64;
     if (corners.size() > kMost) return;
-    const Vec3 axis = (positions_[high] - positions_[low]).normalized();
     std::vector<Wing> wings;
     Vec3 right = Vec3::Zero();
-    for (const Index c : corners) {
-        const bool ascending = work_->faces.vertices[c] == low;
+    for (const auto& [c, ascending] : corners) {
         const Vec3 normal = vector_area(positions_, work_->faces[work_->face_of_corner[c]]);
         const Vec3 into = ascending ? normal.cross(axis) : axis.cross(normal);
         if (right.isZero(0.0)) right = into;
@@ -118,15 +111,11 @@ void Gluing::glue_around_edge(std::span<const Index> corners, Index low, Index h
     }
 }
 
-bool Gluing::may_join(Index a, Index b, std::span<const Index> label_of_face) const {
-    const Index f = work_->face_of_corner[a], g = work_->face_of_corner[b];
-    if (!label_of_face.empty() &&
-        label_of_face[work_->face_source[f]] != label_of_face[work_->face_source[g]])
-        return false;
-    const Vec3 normal = vector_area(positions_, work_->faces[f]);
-    const Vec3 other = vector_area(positions_, work_->faces[g]);
-    constexpr double kBackToBack = -0.99985;  // cosine of 179 degrees
-    return normal.dot(other) >= kBackToBack * normal.norm() * other.norm();
+bool Gluing::back_to_back(Index a, Index b) const {
+    const Vec3 one = vector_area(positions_, work_->faces[work_->face_of_corner[a]]);
+    const Vec3 other = vector_area(positions_, work_->faces[work_->face_of_corner[b]]);
+    constexpr double kOpposite = -0.99985;  // cosine of 179 degrees
+    return one.dot(other) < kOpposite * one.norm() * other.norm();
 }
 
 void Gluing::glue_seams(std::span<const Index> label_of_face) {
@@ -142,19 +131,38 @@ void Gluing::glue_seams(std::span<const Index> label_of_face) {
         if (twin_[c] != kNoIndex) continue;
         const Index from = place_of(work_->faces.vertices[c]);
         const Index to = place_of(work_->faces.vertices[work_->next(c)]);
-        if (from != to) edges.push_back({std::min(from, to), std::max(from, to), from < to, c});
+        const Index face = work_->face_source[work_->face_of_corner[c]];
+        const Index label = label_of_face.empty() ? kNoIndex : label_of_face[face];
+        if (from != to)
+            edges.push_back({std::min(from, to), std::max(from, to), label, c, from < to});
     }
     std::sort(edges.begin(), edges.end(), [](const OpenEdge& a, const OpenEdge& b) {
-        return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
+        return std::tie(a.low, a.high, a.label, a.corner) <
+               std::tie(b.low, b.high, b.label, b.corner);
     });
     for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
         while (end < edges.size() && edges[end].same_place(edges[i])) ++end;
-        if (end - i != 2 || edges[i].ascending == edges[i + 1].ascending) continue;
-        const Index a = edges[i].corner, b = edges[i + 1].corner;
-        if (!may_join(a, b, label_of_face)) continue;
-        glue(a, b);
-        is_seam_[a] = is_seam_[b] = 1;
+        glue_seam(std::span(edges).subspan(i, end - i));
     }
+}
+
+// Open edges at one place: a pair is a seam. Where more lie there, as in copies of a torn surface,
+// those that bound the same piece of space belong together, if none is left over.
+void Gluing::glue_seam(std::span<const OpenEdge> edges) {
+    const auto ascending =
+        std::count_if(edges.begin(), edges.end(), [](const OpenEdge& e) { return e.ascending; });
+    if (2 * static_cast<std::size_t>(ascending) != edges.size()) return;
+    if (edges.size() == 2) {
+        if (!back_to_back(edges[0].corner, edges[1].corner)) glue(edges[0].corner, edges[1].corner);
+    } else {
+        std::vector<DirectedCorner> directed;
+        for (const OpenEdge& e : edges) directed.push_back({e.corner, e.ascending});
+        const Index c = edges[0].corner;
+        const Vec3 along = positions_[work_->faces.vertices[work_->next(c)]] -
+                           positions_[work_->faces.vertices[c]];
+        glue_around_edge(directed, (edges[0].ascending ? along : Vec3(-along)).normalized());
+    }
+    for (const OpenEdge& e : edges) is_seam_[e.corner] = twin_[e.corner] != kNoIndex;
 }
 
 FanVertices Gluing::fans() const {

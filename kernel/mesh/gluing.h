@@ -30,7 +30,8 @@ class Gluing {
     /// meet, those that bound the same piece of space. Adds the edges left open to `report`.
     void glue_edges(Report& report);
     /// Glues pairs of open edges that lie at the same place in opposite directions, but not faces
-    /// that are back to back, nor those with different `label_of_face` (empty: no labels).
+    /// that are back to back, nor those with different `label_of_face` (empty: no labels). Where
+    /// more than two lie there, those that bound the same piece of space are pairs.
     void glue_seams(std::span<const Index> label_of_face);
     /// Numbers the fans: in the order of the soup's vertices, further fans of a vertex last. Opens
     /// what would join the same two vertices by more than one edge.
@@ -41,10 +42,28 @@ class Gluing {
     bool is_closed() const;
 
   private:
+    // An edge of a face, and whether it runs from the lower of its ends to the higher.
+    struct DirectedCorner {
+        Index corner;
+        bool ascending;
+    };
+    // The same with the numbers of the places at its ends, and its face's label.
+    struct OpenEdge {
+        Index low, high, label, corner;
+        bool ascending;
+
+        bool same_place(const OpenEdge& other) const {
+            return low == other.low && high == other.high && label == other.label;
+        }
+    };
+
     void glue(Index a, Index b);
     void open(Index corner);
-    void glue_around_edge(std::span<const Index> corners, Index low, Index high);
-    bool may_join(Index a, Index b, std::span<const Index> label_of_face) const;
+    // Glues faces at one edge in pairs that bound the same piece of space; the axis runs along the
+    // ascending ones.
+    void glue_around_edge(std::span<const DirectedCorner> corners, const Vec3& axis);
+    void glue_seam(std::span<const OpenEdge> edges);
+    bool back_to_back(Index a, Index b) const;
     FanVertices fans() const;
     // Corners on edges that join the same two vertices as another edge does.
     std::vector<Index> doubled_edges(const FanVertices& vertices);

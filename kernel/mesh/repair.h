@@ -17,8 +17,7 @@ enum class Weld {
     none,
     /// Those that join two boundary edges at the same place and of opposite direction, as along a
     /// seam of texture coordinates. Surfaces that merely touch, as closed lips do, stay apart; so
-    /// do the two sides of a doubled sheet, faces with different labels "object", and edges where
-    /// more than two meet.
+    /// do the two sides of a doubled sheet and faces with different labels "object".
     seams,
     /// All, as in files that store each triangle by itself.
     all,

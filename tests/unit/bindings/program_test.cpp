@@ -8,53 +8,19 @@
 #include <sstream>
 
 #include "bindings/lua/compat.h"
+#include "tests/unit/bindings/program_run.h"
 #include "tests/unit/support.h"
 
 namespace lissom::cli {
 namespace {
 
 using Json = nlohmann::json;
+using test::Ended;
+using Folder = test::ProgramFolder;
 
-struct Ended {
-    int status;
-    std::string out, err;
-};
-
-// Runs the program in this process with its streams caught.
-Ended run(std::vector<std::string> words) {
-    words.insert(words.begin(), "lissom");
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    std::ostringstream out, err;
-    std::streambuf* const old_out = std::cout.rdbuf(out.rdbuf());
-    std::streambuf* const old_err = std::cerr.rdbuf(err.rdbuf());
-    const int status = run_program(static_cast<int>(argv.size()), argv.data(), kernel_parts());
-    std::cout.rdbuf(old_out);
-    std::cerr.rdbuf(old_err);
-    return {status, out.str(), err.str()};
+Ended run(const std::vector<std::string>& words) {
+    return test::run_program(words);
 }
-
-// A folder that goes with the test.
-class Folder {
-  public:
-    Folder() : path_(std::filesystem::temp_directory_path() / unique_name()) {
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-
-    std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream(path_ / name, std::ios::binary) << text;
-        return (path_ / name).string();
-    }
-    std::string path(const std::string& name) const { return (path_ / name).string(); }
-
-  private:
-    static std::string unique_name() {
-        return "lissom_program_test_" +
-               std::to_string(std::chrono::steady_clock::now().time_since_epoch().count());
-    }
-    std::filesystem::path path_;
-};
 
 const char* const kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const char* const kTwisted = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n";
@@ -83,8 +49,10 @@ TEST_CASE("inspect answers in text and JSON") {
     const std::string good = folder.write("a.obj", kTriangle);
     const std::string bad = folder.write("b.obj", kTwisted);
     CHECK(run({"inspect", good}).status == kSuccess);
-    CHECK(run({"inspect", bad}).status == kFailure);
-    const Ended both = run({"inspect", good, bad, folder.path("none.obj"), "--json"});
+    CHECK(run({"inspect", bad}).status == kSuccess);
+    CHECK(run({"inspect", bad, "--no-repair"}).status == kFailure);
+    const Ended both =
+        run({"inspect", good, bad, folder.path("none.obj"), "--no-repair", "--json"});
     CHECK(both.status == kFailure);
     const Json answer = Json::parse(both.out);
     CHECK(answer["meshes"][0]["vertices"] == 3);

@@ -205,6 +205,15 @@ inline void check_same_mesh(const Mesh& a, const Mesh& b) {
     CHECK(a.material_libraries() == b.material_libraries());
 }
 
+inline void check_same_regions(const Mesh& a, const Mesh& b) {
+    REQUIRE(a.regions().size() == b.regions().size());
+    for (const auto& [name, region] : a.regions()) {
+        CAPTURE(name);
+        REQUIRE(b.find_region(name));
+        CHECK(b.find_region(name)->vertices() == region.vertices());
+    }
+}
+
 /// Encodes and decodes.
 inline Mesh round_trip(const Mesh& mesh, std::string_view extension,
                        const SaveOptions& options = {}) {

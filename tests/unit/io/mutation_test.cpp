@@ -20,6 +20,8 @@ Mesh rich_mesh() {
     mesh.attributes().add({"w", Domain::face, 2, ScalarType::int16, std::vector<double>(14, 5.0)});
     mesh.attributes().labels()["object"] = {{"one", "two"}, {0, 0, 1, 1, 0, 0, 1}};
     mesh.material_libraries() = {"a.mtl"};
+    mesh.set_region("left hand", Region(mesh.shared_topology(), {0, 1, 4}));
+    mesh.attributes().add({"uv2", Domain::corner, 2, ScalarType::float32, numbers(2 * corners, 4)});
     return mesh;
 }
 

@@ -43,6 +43,40 @@ TEST_CASE("OFF is read whatever its keyword, counts, comments and line breaks") 
     }
 }
 
+TEST_CASE("the counts of OFF tell where its records end, whatever its lines") {
+    const Mesh square = off("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+    for (const char* text : {
+             "OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2\n3 0 2 3\n",
+             "OFF\n4 2 0\n0 0 0 1 0 0 1\n1 0 0 1 0\n3 0 1 2\n3 0 2 3\n",
+             "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 3 0 2 3\n",
+             "OFF\n4 2 0\n0 0\n0\n1 0\n0\n1 1\n0\n0 1\n0\n3 0\n1 2\n3\n0 2 3\n",
+             "OFF\n4 2\n5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n",
+             "OFF 4 2 0 0 0 0 1 0 0 1 1 0 0 1 0 3 0 1 2 3 0 2 3",
+         }) {
+        CAPTURE(text);
+        check_same_mesh(off(text), square);
+    }
+    const Mesh colored =
+        off("COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n0 1 0 0 0 255 255\n3 0 1 2\n");
+    for (const char* text :
+         {"COFF\n3 1 0\n0 0 0\n255 0 0 255\n1 0 0\n0 255 0 255\n0 1 0\n0 0 255 255\n3 0 1 2\n",
+          "COFF\n3 1 0\n0 0 0 255 0 0 255 1 0 0 0 255 0 255\n0 1 0 0 0 255 255\n3 0 1 2\n"}) {
+        CAPTURE(text);
+        check_same_mesh(off(text), colored);
+    }
+    const Mesh three =
+        off("COFF\n3 1 0\n0 0 0\n255 0 0\n1 0 0\n0 255 0\n0 1 0\n0 0 255\n3 0 1 2\n");
+    CHECK(three.position(1) == Vec3(1, 0, 0));
+    CHECK(three.attributes().find("color")->width == 3);
+}
+
+TEST_CASE("OFF that goes on after its last face is refused, but for a list of edges") {
+    const Mesh mesh = off("OFF\n3 1 2\n" + kTriangle + "2 0 1\n2 1 2\n");
+    CHECK(mesh.report().find(FindingKind::content_skipped)->message == "2 edges");
+    check_error("OFF\n3 1 0\n" + kTriangle + "3 0 2 1\n", ErrorCode::file_syntax, 7);
+    check_error("OFF\n2 1 0\n" + kTriangle, ErrorCode::file_syntax, 6);
+}
+
 TEST_CASE("the keyword of OFF tells what vertices have") {
     const Mesh mesh =
         off("STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 51 0.1 0.2\n1 0 0 0 0 1 0 255 0 0.3 0.4\n"
@@ -130,9 +164,10 @@ TEST_CASE("binary OFF is read with little endian numbers and no colours") {
 TEST_CASE("the byte order of binary OFF is found where both counts are possible") {
     // Read in the wrong order, 65536 vertices would be 256.
     Bytes bytes("OFF BINARY\n");
-    bytes.add(std::uint32_t{65536}, std::uint32_t{1}, std::uint32_t{0});
+    bytes.add(std::uint32_t{65536}, std::uint32_t{21846}, std::uint32_t{0});
     for (int i = 0; i < 65536; ++i) bytes.add(float(i), float(i % 7), 0.f);
-    bytes.add(std::uint32_t{3}, std::uint32_t{0}, std::uint32_t{1}, std::uint32_t{2});
+    for (std::uint32_t i = 0; i < 65535; i += 3) bytes.add(std::uint32_t{3}, i, i + 1, i + 2);
+    bytes.add(std::uint32_t{3}, std::uint32_t{65533}, std::uint32_t{65534}, std::uint32_t{65535});
     CHECK(off(bytes).vertex_count() == 65536);
 }
 

@@ -187,6 +187,43 @@ TEST_CASE("unknown PLY elements and lists are skipped and named") {
     CHECK(logged.mentions("'tail'"));
 }
 
+TEST_CASE("PLY labels and regions that are damaged are reported or stay numbers") {
+    const std::string start =
+        "comment lissom group 0 a%20b\ncomment lissom group 2 c\n"
+        "comment lissom\ncomment lissom group\n" +
+        kVertices;
+    const Mesh mesh = ply(ascii(start + "property uchar region_a\nproperty uchar region_b\n" +
+                                    kFaces + "property int group\nproperty int part\n",
+                                "0 0 0 0 1\n1 0 0 1 2\n0 1 0 1 0\n3 0 1 2 0 7\n"));
+    CHECK(label_of_each_face(mesh, "group") == std::vector<std::string>{"a b"});
+    CHECK(mesh.find_region("a")->vertices() == std::vector<Index>{1, 2});
+    CHECK_FALSE(mesh.find_region("b"));
+    CHECK(values_of(mesh, "region_b") == std::vector<double>{1, 2, 0});
+    const Mesh dangling =
+        ply(ascii(start + kFaces + "property int group\n", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 5\n"));
+    CHECK(label_of_each_face(dangling, "group") == std::vector<std::string>{""});
+    CHECK(dangling.report().find(FindingKind::indices_dangling)->count == 1);
+}
+
+TEST_CASE("infinite values in PLY are absent and counted, NaN is absent") {
+    const Mesh mesh =
+        ply(ascii(kVertices + "property float s\nproperty float t\nproperty float q\n" + kFaces,
+                  "0 0 0 inf 1 nan\n1 0 0 2 3 4\n0 1 0 nan nan 5\n3 0 1 2\n"));
+    CHECK(same_numbers(values_of(mesh, "uv"), {kNan, kNan, 2, 3, kNan, kNan}));
+    CHECK(mesh.report().find(FindingKind::values_not_finite)->count == 1);
+    CHECK(mesh.report().find(FindingKind::values_not_finite)->message == "'uv'");
+}
+
+TEST_CASE("lists of PLY faces that are too short or long are counted and absent") {
+    const Mesh mesh = ply(ascii(kVertices + kFaces +
+                                    "property list uchar float texcoord\n"
+                                    "property list uchar float corner_1_heat\n",
+                                "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 2 0 0 3 7 8 9\n"));
+    CHECK(values_of(mesh, "heat") == std::vector<double>{7, 8, 9});
+    CHECK(mesh.report().find(FindingKind::content_skipped)->message ==
+          "1 lists of another length than their face");
+}
+
 TEST_CASE("PLY triangle strips become triangles") {
     const Mesh mesh =
         ply(ascii("element vertex 6\nproperty float x\nproperty float y\nproperty float z\n"

@@ -162,16 +162,14 @@ TEST_CASE("what a format cannot hold is named when it is saved") {
     };
     const std::string obj = log_of("obj"), ply = log_of("ply"), off = log_of("off"),
                       stl = log_of("stl");
-    for (const std::string& log : {obj, ply, off, stl}) {
-        CHECK(has(log, "region 'head'"));
+    CHECK(ply.empty());
+    for (const std::string& log : {obj, off, stl}) {
         CHECK(has(log, "attribute 'skin' (corner, width 4)"));
     }
+    for (const std::string& log : {off, stl}) CHECK(has(log, "region 'head'"));
     CHECK_FALSE(has(obj, "'uv'"));
     CHECK_FALSE(has(obj, "labels"));
-    CHECK_FALSE(has(ply, "'uv'"));
-    CHECK(has(ply, "attribute 'normal' (corner"));
-    CHECK(has(ply, "labels 'group'"));
-    CHECK(has(ply, "material file 'a.mtl'"));
+    CHECK_FALSE(has(obj, "region"));
     CHECK(has(off, "attribute 'uv' (corner"));
     CHECK_FALSE(has(off, "attribute 'color'"));
     CHECK(has(stl, "attribute 'color' (vertex"));
@@ -186,18 +184,87 @@ TEST_CASE("a mesh that a format holds whole is saved without a word") {
     CHECK(logged.log().empty());
 }
 
-TEST_CASE("attributes that would be read as something else are not written to PLY") {
+TEST_CASE("PLY keeps attributes whose names would mean something else") {
     Mesh mesh = prism(3);
-    add(mesh, "x", Domain::vertex, 1, ScalarType::float32, 1);
-    add(mesh, "red", Domain::vertex, 1, ScalarType::float32, 2);
-    add(mesh, "position", Domain::vertex, 3, ScalarType::float32, 3);
-    add(mesh, "a b", Domain::vertex, 1, ScalarType::float32, 4);
-    add(mesh, "a_b", Domain::vertex, 1, ScalarType::float32, 5);
-    LoggedContext logged;
-    const Mesh back = decode_mesh(encode_mesh(mesh, "ply", {}, logged.context), "ply");
-    check_same_geometry(back, mesh);
-    CHECK(back.attributes().all().size() == 1);
-    for (const char* lost : {"'x'", "'red'", "'position'", "'a_b'"}) CHECK(logged.mentions(lost));
+    unsigned seed = 0;
+    for (const char* name : {"x", "red", "position", "a b", "a_b", "a_0", "a_1", "w_2", "100%25",
+                             "region_z", "texture_u2", "\u00e4\n", " "}) {
+        add(mesh, name, Domain::vertex, 1, ScalarType::float32, ++seed);
+    }
+    add(mesh, "w", Domain::vertex, 2, ScalarType::float32, ++seed);
+    add(mesh, "region_y", Domain::vertex, 2, ScalarType::uint8, ++seed);
+    add(mesh, "vertex_index", Domain::face, 1, ScalarType::float32, ++seed);
+    add(mesh, "group", Domain::face, 1, ScalarType::float32, ++seed);
+    add_labels(mesh, "group", {"a b", "", "\u00e4%\n#"});
+    add_labels(mesh, "my kind", {"one"});
+    mesh.set_region("z", Region(mesh.shared_topology(), {0, 5}));
+    mesh.set_region("left h\u00e4nd", Region(mesh.shared_topology(), {1, 2}));
+    mesh.set_region("none", Region(mesh.shared_topology(), {}));
+    for (const bool binary : {true, false}) {
+        const Mesh back = round_trip(mesh, "ply", {.binary = binary});
+        for (const Attribute& attribute : mesh.attributes().all()) {
+            CAPTURE(attribute.name);
+            const Attribute* found = back.attributes().find(attribute.name);
+            REQUIRE(found);
+            CHECK(same_numbers(found->values, attribute.values));
+        }
+        check_same_regions(back, mesh);
+        CHECK(label_of_each_face(back, "group") == label_of_each_face(mesh, "group"));
+        CHECK(label_of_each_face(back, "my kind") == label_of_each_face(mesh, "my kind"));
+    }
+}
+
+TEST_CASE("PLY keeps everything that a mesh can have on vertices, corners and faces") {
+    Mesh mesh = prism(5);
+    unsigned seed = 0;
+    const auto floats = [&](const char* name, Domain domain, Index width) {
+        add(mesh, name, domain, width, ScalarType::float32, ++seed);
+    };
+    floats("uv", Domain::vertex, 2);
+    floats("uv2", Domain::vertex, 2);
+    floats("uv10", Domain::vertex, 2);
+    floats("uv3", Domain::corner, 2);
+    floats("uv4", Domain::face, 2);
+    floats("tangent", Domain::vertex, 4);
+    floats("joints", Domain::vertex, 8);
+    floats("weights", Domain::vertex, 8);
+    floats("morph.1.position", Domain::vertex, 3);
+    floats("morph.2.normal", Domain::corner, 3);
+    floats("normal", Domain::corner, 3);
+    floats("face_normal", Domain::face, 3);
+    add(mesh, "color", Domain::corner, 4, ScalarType::uint8, ++seed);
+    add(mesh, "color2", Domain::vertex, 3, ScalarType::uint8, ++seed);
+    add(mesh, "face_color", Domain::face, 3, ScalarType::uint8, ++seed);
+    for (const Index width : {1, 2, 3, 5, 16}) {
+        floats(("v" + std::to_string(width)).c_str(), Domain::vertex, width);
+        floats(("c " + std::to_string(width)).c_str(), Domain::corner, width);
+        floats(("f." + std::to_string(width)).c_str(), Domain::face, width);
+    }
+    clear_element(mesh, "normal", 3);
+    add_labels(mesh, "object", {"one", "two words"});
+    add_labels(mesh, "smoothing", {"off"});
+    mesh.attributes().labels()["object"].of_face[3] = kNoIndex;
+    mesh.material_libraries() = {"a.mtl", "b c.mtl"};
+    mesh.set_region("head", Region(mesh.shared_topology(), {0, 1, 2}));
+    for (const bool binary : {true, false}) {
+        LoggedContext logged;
+        const Mesh back =
+            decode_mesh(encode_mesh(mesh, "ply", {.binary = binary}, logged.context), "ply");
+        check_same_mesh(back, mesh);
+        check_same_regions(back, mesh);
+        CHECK(back.report().empty());
+        CHECK(logged.log().empty());
+    }
+}
+
+TEST_CASE("OBJ keeps regions with their names") {
+    Mesh mesh = obj_mesh(5);
+    for (const char* name : {"plain", "two  words", "\u00e4%20", "back\\", "#1", "a:b"}) {
+        mesh.set_region(name, Region(mesh.shared_topology(), {1, 2, 7}));
+    }
+    const Mesh back = round_trip(mesh, "obj");
+    check_same_mesh(back, mesh);
+    check_same_regions(back, mesh);
 }
 
 TEST_CASE("an attribute that does not fit the mesh is an error, not a crash") {

@@ -199,6 +199,43 @@ TEST_CASE("copies of faces are dropped, with their attributes") {
     CHECK(mesh.topology().is_closed());
 }
 
+TEST_CASE("flaps and faces that are there once more in reverse go, the surface stays closed") {
+    for (const bool reversed : {false, true}) {
+        Soup flapped = soup_of(tetrahedron());
+        flapped.positions.emplace_back(1, 1, 1);
+        flapped.faces.add({0, 1, 4});
+        reversed ? flapped.faces.add({4, 1, 0}) : flapped.faces.add({1, 4, 0});
+        const Mesh mesh = repair(flapped);
+        CHECK(mesh.topology().is_closed());
+        CHECK(mesh.face_count() == 4);
+        CHECK(ids(mesh, FindingKind::faces_duplicate) == std::vector<Index>{4, 5});
+    }
+    Soup doubled = soup_of(tetrahedron());
+    doubled.faces.add({0, 1, 2});
+    const Mesh mesh = repair(doubled);
+    CHECK(mesh.topology().is_closed());
+    CHECK(ids(mesh, FindingKind::faces_duplicate) == std::vector<Index>{4});
+}
+
+TEST_CASE("two torn copies of a solid at one place become two solids") {
+    Soup twice = torn(box());
+    const Soup second = torn(box());
+    const auto offset = static_cast<Index>(twice.positions.size());
+    twice.positions.insert(twice.positions.end(), second.positions.begin(), second.positions.end());
+    for (Index f = 0; f < second.faces.size(); ++f) {
+        std::vector<Index> face;
+        for (const Index v : second.faces[f]) face.push_back(v + offset);
+        twice.faces.add(face);
+    }
+    const Mesh mesh = repair(twice);
+    CHECK(mesh.topology().is_closed());
+    CHECK(mesh.topology().component_count() == 2);
+    CHECK(mesh.vertex_count() == 16);
+    // The first six faces are one of them.
+    CHECK(mesh.topology().components()[mesh.topology().face(0)[0]] ==
+          mesh.topology().components()[mesh.topology().face(5)[0]]);
+}
+
 TEST_CASE("faces turned at random are oriented outward again, their corner values with them") {
     const Mesh mesh = make_torus({});
     Soup mixed = soup_of(mesh);

@@ -1,0 +1,56 @@
+/// The conversion of one mesh file, and what came of it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings/cli/json.h"
+#include "bindings/cli/program.h"
+#include "kernel/io/mesh_file.h"
+#include "kernel/mesh/report.h"
+
+namespace lissom::cli {
+
+struct ConversionOptions {
+    LoadOptions load;
+    SaveOptions save;
+    /// Whether the output may replace an input.
+    bool force = false;
+    /// Whether warnings are written to the standard error too.
+    bool shows_warnings = true;
+};
+
+/// What came of one file.
+struct Conversion {
+    std::filesystem::path in, out;
+    Index vertices = 0, faces = 0;
+    double seconds = 0.0;
+    Report report;
+    /// What was said of parts of the mesh that the output does not hold.
+    std::vector<std::string> lost;
+    /// Why it failed, where it did.
+    std::optional<Error> error;
+
+    /// "converted", "repaired" (the surface is not that of the file, but for welding) or "failed".
+    const char* outcome() const;
+};
+
+/// Reads `in` and writes `out`, creating the folders that it needs. Errors: those of `load_mesh`
+/// and `save_mesh`; file_write_failed where `out` is `in` and may not be, or where a folder cannot
+/// be created.
+Conversion convert_file(Program& program, const std::filesystem::path& in,
+                        const std::filesystem::path& out, const ConversionOptions& options);
+
+/// {"file", "out", "outcome", "vertices", "faces", "seconds", "report", "lost"}, or with "error" in
+/// place of what there is only of a success.
+Json conversion_json(const Conversion& conversion);
+
+/// Why it failed, or what was repaired and lost, in a few words.
+std::string conversion_notes(const Conversion& conversion);
+
+/// Whether both name the same existing file.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+}  // namespace lissom::cli

@@ -1,0 +1,36 @@
+/// Patterns that name many mesh files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lissom::cli {
+
+/// Whether `name` fits `pattern`, in which `*` stands for any characters and `?` for one.
+bool matches_wildcards(std::string_view name, std::string_view pattern);
+
+/// A file that a pattern names.
+struct MatchedFile {
+    std::filesystem::path path;
+    /// The same from the last folder that the pattern names without wildcards.
+    std::filesystem::path relative;
+};
+
+/// What a pattern names, sorted by path.
+struct PatternMatches {
+    std::vector<MatchedFile> files;
+    /// Folders that could not be listed.
+    std::vector<std::filesystem::path> unreadable_folders;
+    /// The last folder that the pattern names without wildcards.
+    std::filesystem::path base;
+};
+
+/// Expands a pattern: wildcards `*` and `?` in the names of folders and files, and `**` for any
+/// folders, none included. They pass over hidden files, unless the pattern's name begins with a
+/// dot, and over files that `load_mesh` does not read by their extension. A folder names the files
+/// in it. Anything else names one file, whether it exists or not.
+PatternMatches expand_pattern(const std::string& pattern);
+
+}  // namespace lissom::cli

@@ -1,0 +1,22 @@
+#include "bindings/cli/load_flags.h"
+
+#include <CLI/CLI.hpp>
+
+namespace lissom::cli {
+
+void LoadFlags::declare(CLI::App& app) {
+    app.add_option("--weld", weld,
+                   "Which vertices at the same place become one: those along seams, all, or none "
+                   "(default: all for .stl, else seams)")
+        ->check(CLI::IsMember({"seams", "all", "none"}));
+    app.add_flag("--no-repair", no_repair, "Refuse what would otherwise be repaired");
+}
+
+void LoadFlags::apply(LoadOptions& options) const {
+    options.repair = !no_repair;
+    if (weld == "seams") options.weld = Weld::seams;
+    if (weld == "all") options.weld = Weld::all;
+    if (weld == "none") options.weld = Weld::none;
+}
+
+}  // namespace lissom::cli

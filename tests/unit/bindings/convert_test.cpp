@@ -1,0 +1,159 @@
+// lissom convert with many files, and what inspect says of repairs.
+#include <csignal>
+#include <map>
+
+#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/support.h"
+
+namespace lissom::test {
+namespace {
+
+using Json = nlohmann::json;
+
+const char* const kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+// The second face runs the other way; one vertex is not used.
+const char* const kTwisted = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 5 5 5\nf 1 2 3\nf 1 2 4\n";
+
+std::map<std::string, Json> rows_of(const Ended& ended) {
+    std::map<std::string, Json> rows;
+    const Json answer = Json::parse(ended.out);
+    for (const Json& row : answer["files"]) {
+        rows[std::filesystem::path(row["file"].get<std::string>()).filename().string()] = row;
+    }
+    return rows;
+}
+
+TEST_CASE("convert takes many files, goes on after a failure and tells what came of each") {
+    const ProgramFolder folder;
+    folder.write("a/good.obj", kTriangle);
+    folder.write("a/twisted.obj", kTwisted);
+    folder.write("a/bad.obj", "v 0 0 0\nf 1 2 3\n");
+    const std::vector<std::string> words{
+        "convert", "--in", folder.path("a/*.obj"), "--out", folder.path("b/c"), "--to", "ply"};
+    const Ended table = run_program(words);
+    CHECK(table.status == cli::kFailure);
+    CHECK(table.err.empty());
+    CHECK(table.out.find("1 converted, 1 repaired, 1 failed") != std::string::npos);
+    CHECK(table.out.find("face_index: line 2: vertex 3 does not exist") != std::string::npos);
+    CHECK(table.out.find("1 face turned over") != std::string::npos);
+    CHECK(folder.has("b/c/good.ply"));
+    CHECK(folder.has("b/c/twisted.ply"));
+    CHECK_FALSE(folder.has("b/c/bad.ply"));
+
+    std::vector<std::string> json_words = words;
+    json_words.push_back("--json");
+    const Ended json = run_program(json_words);
+    CHECK(json.status == cli::kFailure);
+    std::map<std::string, Json> rows = rows_of(json);
+    REQUIRE(rows.size() == 3);
+    CHECK(rows["good.obj"]["outcome"] == "converted");
+    CHECK(rows["good.obj"]["vertices"] == 3);
+    CHECK(rows["twisted.obj"]["outcome"] == "repaired");
+    CHECK(rows["twisted.obj"]["faces"] == 2);
+    CHECK(rows["bad.obj"]["error"]["code"] == "face_index");
+    CHECK(Json::parse(json.out)["failed"] == 1);
+    CHECK(Json::parse(json.out)["stopped"] == false);
+
+    json_words.push_back("--no-repair");
+    rows = rows_of(run_program(json_words));
+    CHECK(rows["good.obj"]["outcome"] == "converted");
+    CHECK(rows["twisted.obj"]["outcome"] == "failed");
+}
+
+TEST_CASE("convert keeps sub-folders and says what the new format does not hold") {
+    const ProgramFolder folder;
+    folder.write("a/one.obj", std::string("g left\n") + kTriangle);
+    folder.write("a/x/two.obj", kTriangle);
+    const Ended ended = run_program({"convert", "--in", folder.path("a/**/*.obj"), "--out",
+                                     folder.path("b"), "--to", ".OFF", "--json"});
+    CHECK(ended.status == cli::kSuccess);
+    CHECK(folder.has("b/one.off"));
+    CHECK(folder.has("b/x/two.off"));
+    const auto rows = rows_of(ended);
+    CHECK(rows.at("one.obj")["lost"][0].get<std::string>().find("'group'") != std::string::npos);
+    CHECK(rows.at("two.obj")["lost"].empty());
+}
+
+TEST_CASE("convert writes no output twice and replaces no input unasked") {
+    const ProgramFolder folder;
+    folder.write("a/one.obj", kTriangle);
+    folder.write("a/one.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    const std::string a = folder.path("a"), b = folder.path("b");
+    const Ended twice = run_program({"convert", "--in", a, "--out", b, "--to", "ply", "--json"});
+    CHECK(twice.status == cli::kFailure);
+    CHECK(rows_of(twice).at("one.obj")["outcome"] == "converted");
+    CHECK(rows_of(twice).at("one.off")["error"]["code"] == "file_write_failed");
+
+    const Ended over = run_program({"convert", "--in", a, "--out", a, "--to", "off", "--json"});
+    CHECK(over.status == cli::kFailure);
+    CHECK(rows_of(over).at("one.obj")["outcome"] == "failed");
+    CHECK(rows_of(over).at("one.off")["outcome"] == "failed");
+    const std::string in = folder.path("a/one.obj");
+    CHECK(run_program({"convert", "--in", in, "--out", a}).status == cli::kFailure);
+    CHECK(run_program({"convert", "--in", in, "--out", a, "--force"}).status == cli::kSuccess);
+    CHECK(run_program({"convert", in, in}).status == cli::kFailure);
+    CHECK(run_program({"convert", in, in, "--force"}).status == cli::kSuccess);
+    // Outputs of an earlier run may be replaced, and those inside the inputs' folder are no inputs.
+    const std::vector<std::string> inside{"convert", "--in", folder.path("a/**/*.obj"), "--out",
+                                          folder.path("a/new")};
+    CHECK(run_program(inside).status == cli::kSuccess);
+    CHECK(run_program(inside).status == cli::kSuccess);
+    CHECK_FALSE(folder.has("a/new/new"));
+}
+
+TEST_CASE("convert refuses a command line that makes no sense, and names what is not there") {
+    const ProgramFolder folder;
+    const std::string in = folder.write("one.obj", kTriangle), out = folder.path("b");
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"convert"},
+             {"convert", "--in", in},
+             {"convert", "--out", out},
+             {"convert", in, "--out", out},
+             {"convert", "--in", in, "--out", out, "--to", "doc"},
+             {"convert", "--in", in, "--out", out, "--weld", "some"}}) {
+        CHECK(run_program(words).status == cli::kUsage);
+    }
+    const Ended none =
+        run_program({"convert", "--in", folder.path("*.ply"), in, "--out", out, "--json"});
+    CHECK(none.status == cli::kFailure);
+    CHECK(rows_of(none).at("*.ply")["error"]["code"] == "file_not_found");
+    CHECK(rows_of(none).at("one.obj")["outcome"] == "converted");
+    CHECK(run_program({"convert", "--in", in, "--out", in}).status == cli::kFailure);
+}
+
+TEST_CASE("weld says which vertices become one") {
+    const ProgramFolder folder;
+    const std::string soup = folder.write(
+        "soup.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 4 5 6\n");
+    const auto vertices = [&](const char* weld) {
+        const Ended ended = run_program({"inspect", soup, "--weld", weld, "--json"});
+        return Json::parse(ended.out)["meshes"][0]["vertices"].get<int>();
+    };
+    CHECK(vertices("none") == 6);
+    CHECK(vertices("seams") == 4);
+    CHECK(vertices("all") == 4);
+}
+
+TEST_CASE("inspect shows what was found") {
+    const ProgramFolder folder;
+    const std::string file = folder.write("twisted.obj", std::string(kTwisted) + "l 1 2\n");
+    const Ended text = run_program({"inspect", file});
+    CHECK(text.status == cli::kSuccess);
+    CHECK(text.err.empty());
+    CHECK(text.out.find("1 vertex without faces dropped (vertex 5 of the file)") !=
+          std::string::npos);
+    CHECK(text.out.find("1 item skipped: 1 lines") != std::string::npos);
+    const Json report =
+        Json::parse(run_program({"inspect", file, "--json"}).out)["meshes"][0]["report"];
+    std::map<std::string, Json> findings;
+    for (const Json& finding : report) findings[finding["kind"]] = finding;
+    CHECK(findings["vertices_unreferenced"]["ids"] == Json::parse("[5]"));
+    CHECK(findings["vertices_unreferenced"]["of"] == "file");
+    CHECK(findings["vertices_unreferenced"]["element"] == "vertex");
+    CHECK(findings["content_skipped"]["count"] == 1);
+    CHECK(findings["content_skipped"]["element"].is_null());
+    CHECK(run_program({"inspect", file, "--no-repair"}).status == cli::kFailure);
+}
+
+}  // namespace
+}  // namespace lissom::test

@@ -1,0 +1,59 @@
+#include "bindings/cli/file_patterns.h"
+
+#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/support.h"
+
+namespace lissom::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What a pattern below `folder` names, relative to its own base.
+std::vector<std::string> names(const test::ProgramFolder& folder, const std::string& pattern) {
+    std::vector<std::string> list;
+    for (const MatchedFile& file : expand_pattern(folder.path(pattern)).files) {
+        list.push_back(file.relative.generic_string());
+        CHECK(fs::exists(file.path));
+    }
+    return list;
+}
+
+using Names = std::vector<std::string>;
+
+TEST_CASE("wildcards stand for characters") {
+    CHECK(matches_wildcards("a.obj", "*.obj"));
+    CHECK(matches_wildcards("a.obj", "?.obj"));
+    CHECK(matches_wildcards("a.obj", "**"));
+    CHECK(matches_wildcards("abcab", "*ab"));
+    CHECK(matches_wildcards("", "*"));
+    CHECK(matches_wildcards("\xc3\xa4.obj", "?.obj"));
+    CHECK_FALSE(matches_wildcards("", "?"));
+    CHECK_FALSE(matches_wildcards("ab.obj", "?.obj"));
+    CHECK_FALSE(matches_wildcards("a.obj", "*.ply"));
+    CHECK_FALSE(matches_wildcards("a.obj", "a"));
+    CHECK_FALSE(matches_wildcards(std::string(2000, 'a'), "*a*a*a*a*a*a*a*a*b"));
+}
+
+TEST_CASE("patterns name mesh files in names, folders and any folders") {
+    const test::ProgramFolder folder;
+    for (const char* name : {"a/one.obj", "a/two.PLY", "a/note.txt", "a/.hidden.obj", "a/b/one.obj",
+                             "a/b/c/three.stl", "a/.git/four.obj", "d/one.obj"}) {
+        folder.write(name, "x");
+    }
+    CHECK(names(folder, "a/*") == Names{"one.obj", "two.PLY"});
+    CHECK(names(folder, "a/*.obj") == Names{"one.obj"});
+    CHECK(names(folder, "a/.*") == Names{".hidden.obj"});
+    CHECK(names(folder, "a") == Names{"one.obj", "two.PLY"});
+    CHECK(names(folder, "a/") == Names{"one.obj", "two.PLY"});
+    CHECK(names(folder, "a/**/*.obj") == Names{"b/one.obj", "one.obj"});
+    CHECK(names(folder, "a/**") == Names{"b/c/three.stl", "b/one.obj", "one.obj", "two.PLY"});
+    CHECK(names(folder, "a/**/**/one.obj") == Names{"b/one.obj", "one.obj"});
+    CHECK(names(folder, "?/one.obj") == Names{"a/one.obj", "d/one.obj"});
+    CHECK(names(folder, "*/b/*") == Names{"a/b/one.obj"});
+    CHECK(names(folder, "a/note.txt") == Names{"note.txt"});
+    CHECK(names(folder, "none/*.obj").empty());
+    CHECK(expand_pattern(folder.path("missing.obj")).files.size() == 1);
+}
+
+}  // namespace
+}  // namespace lissom::cli
