@@ -25,7 +25,8 @@ TEST_CASE("the extension names the format, in any case") {
         save_mesh(mesh, folder / name);
         CHECK(load_mesh(folder / name).vertex_count() == mesh.vertex_count());
     }
-    CHECK(readable_extensions() == std::vector<std::string>{"obj", "ply", "off", "stl"});
+    CHECK(readable_extensions() ==
+          std::vector<std::string>{"obj", "ply", "off", "stl", "gltf", "glb"});
     CHECK(writable_extensions() == readable_extensions());
     CHECK(decode_mesh(kOff, ".OFF").face_count() == 1);
 }
@@ -69,7 +70,7 @@ TEST_CASE("content of another format than the extension says is recognised") {
         std::string own = content.second;
         for (char& c : own) c = static_cast<char>(std::tolower(c));
         for (const std::string& extension : readable_extensions()) {
-            if (own == extension) continue;
+            if (own == extension || (own == "gltf" && extension == "glb")) continue;
             CAPTURE(extension);
             CAPTURE(own);
             const Error error = error_of([&] { decode_mesh(content.first, extension); });
