@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -16,7 +15,6 @@
 #include "kernel/io/gltf_primitives.h"
 #include "kernel/io/gltf_transform.h"
 #include "kernel/io/read_error.h"
-#include "kernel/io/scalar.h"
 #include "kernel/io/skipped_content.h"
 
 namespace lissom {
@@ -231,15 +229,6 @@ class SurfaceReader {
     bool only_points_ = false;
 };
 
-// Values that were flipped or turned need more than the float they came from.
-void widen_type(Attribute& attribute) {
-    const auto& values = attribute.values;
-    const bool fits = attribute.type != ScalarType::float32 ||
-                      std::all_of(values.begin(), values.end(),
-                                  [](double x) { return std::isnan(x) || is_float(x); });
-    if (!fits) attribute.type = ScalarType::float64;
-}
-
 MeshData read_document(const FileInput& file, const Context& context) {
     Report report;
     GltfDocument document = open_gltf(file, report, context);
@@ -249,7 +238,6 @@ MeshData read_document(const FileInput& file, const Context& context) {
     const std::vector<GltfInstance> instances = find_instances(document.json, report);
     const std::vector<std::string> materials = material_names(document.json);
     MeshData mesh = SurfaceReader(document, accessors, budget, context).read(instances, materials);
-    for (Attribute& attribute : mesh.attributes.all()) widen_type(attribute);
     mesh.asset = keep_asset(document, accessors, instances, materials, report);
     for (const Finding& finding : mesh.report.findings()) report.add(finding);
     mesh.report = std::move(report);
