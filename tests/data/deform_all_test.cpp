@@ -58,7 +58,9 @@ TEST_CASE("every surface that loads deforms") {
         }
         if (mesh.face_count() == 0) continue;
         const Region region = region_around(mesh, mesh.topology().face(mesh.face_count() / 2)[0]);
-        if (region.size() < 4 || bounds(mesh, region).diagonal() == 0.0) continue;
+        // A surface without area does not bend.
+        if (region.size() < 4 || zero_area_faces(mesh).size() * 2 >= region.faces().size())
+            continue;
         CHECK(deforms(mesh, region));
     }
 }

@@ -67,6 +67,25 @@ std::map<std::string, Index> label_counts(const Mesh& mesh) {
     return counts;
 }
 
+// Numbers of faces of the labels of each kind that `like` has, without the names, which are UTF-8
+// in some formats only.
+std::multimap<std::string, Index> sizes_of_labels(const Mesh& mesh, const Mesh& like) {
+    std::multimap<std::string, Index> sizes;
+    for (const auto& [label, count] : label_counts(mesh)) {
+        const std::string kind = label.substr(0, label.find('/'));
+        if (like.attributes().labels().contains(kind)) sizes.emplace(kind, count);
+    }
+    std::multimap<std::string, Index> sorted;
+    for (const auto& [kind, labels] : like.attributes().labels()) {
+        const auto [begin, end] = sizes.equal_range(kind);
+        std::vector<Index> counts;
+        for (auto entry = begin; entry != end; ++entry) counts.push_back(entry->second);
+        std::sort(counts.begin(), counts.end());
+        for (const Index count : counts) sorted.emplace(kind, count);
+    }
+    return sorted;
+}
+
 void check_obj(const Mesh& mesh) {
     const Mesh copy = as_stored(mesh, "obj");
     check_same_surface(mesh, copy);
@@ -98,7 +117,7 @@ void check_stl(const Mesh& mesh) {
     const auto count = triangulate_faces(mesh.topology(), mesh.positions()).triangles.size();
     const Mesh copy = again(mesh, "stl", {.weld = Weld::none});
     CHECK(static_cast<std::size_t>(copy.face_count()) == count);
-    CHECK(area(copy) == doctest::Approx(area(mesh)).epsilon(1e-5));
+    CHECK(area(copy) == doctest::Approx(area(mesh)).epsilon(1e-4));
 }
 
 // Positions are 32-bit numbers there, and faces stand together by object and material; from the
@@ -110,13 +129,7 @@ void check_gltf(const Mesh& mesh, const std::string& extension) {
     CHECK(first.topology().component_count() == mesh.topology().component_count());
     CHECK(first.topology().boundary_edge_count() == mesh.topology().boundary_edge_count());
     CHECK(area(first) == doctest::Approx(area(mesh)).epsilon(1e-4));
-    if (!mesh.attributes().labels().empty()) {
-        const auto before = label_counts(mesh), after = label_counts(first);
-        for (const auto& [label, faces] : before) {
-            CAPTURE(label);
-            CHECK((after.contains(label) && after.at(label) == faces));
-        }
-    }
+    CHECK(sizes_of_labels(first, mesh) == sizes_of_labels(mesh, mesh));
     CHECK(second.topology().faces().vertices == first.topology().faces().vertices);
     const double size = bounds(first).diagonal();
     double worst = 0.0;
