@@ -19,7 +19,9 @@ install(TARGETS ${LISSOM_KERNEL_TARGETS} EXPORT lissom-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT lissom-targets NAMESPACE lissom:: DESTINATION ${LISSOM_PACKAGE_DIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernel DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom
-        FILES_MATCHING PATTERN "*.h")
+        FILES_MATCHING PATTERN "*.h"
+        # These show libraries that users of the package need not have.
+        PATTERN "gltf_*.h" EXCLUDE)
 
 # Static libraries pass on what they were linked with: the package finds the same libraries again.
 get_target_property(solve_libraries lissom_solve LINK_LIBRARIES)

@@ -59,6 +59,13 @@ void require_lists(const Json& json) {
             refuse(ErrorCode::file_syntax, "'" + std::string(key) + "' is not a list of objects");
         }
     }
+    if (const Json* meshes = member(json, "meshes")) {
+        for (const Json& mesh : *meshes) {
+            const Json* primitives = member(mesh, "primitives");
+            if (primitives && primitives->is_array()) continue;
+            refuse(ErrorCode::file_syntax, "a mesh has no list of primitives");
+        }
+    }
     for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
         const Json* list = member(json, key);
         if (list && !list->is_array()) {

@@ -62,6 +62,10 @@ Affine local_transform(const Json& node, std::size_t number) {
 std::vector<std::size_t> node_list(const Json& owner, const char* key, std::size_t node_count,
                                    const std::string& name) {
     std::vector<std::size_t> nodes;
+    const Json* list = member(owner, key);
+    if (list && !list->is_array()) {
+        refuse(ErrorCode::file_syntax, "'" + std::string(key) + "' of " + name + " is not a list");
+    }
     for (const Json& entry : list_of(owner, key)) {
         const bool exists = entry.is_number_unsigned() && entry.get<std::uint64_t>() < node_count;
         if (!exists) {

@@ -1,5 +1,5 @@
-/// Mesh files: loading and saving by extension. OBJ, PLY, OFF and STL; each format has a file of
-/// its own, which says what it reads and what it writes.
+/// Mesh files: loading and saving by extension. OBJ, PLY, OFF, STL and glTF 2.0 (.gltf, .glb); each
+/// format has a file of its own, which says what it reads and what it writes.
 ///
 /// What is read is checked and repaired (repair.h); the mesh's report() says what was changed, and
 /// so does the Context's log. What a format cannot hold is named in a warning of the log when a
@@ -51,16 +51,19 @@ struct SaveOptions {
     UpAxis up = UpAxis::none;
     /// Length of the file's unit in the mesh's unit: positions are divided by it. Positive, finite.
     double unit = 1.0;
-    /// Binary or text, for formats that have both (PLY, STL). OBJ and OFF are written as text.
+    /// Binary or text, for formats that have both (PLY, STL). OBJ and OFF are written as text, glTF
+    /// as its extension says.
     bool binary = true;
     /// Byte order of binary PLY.
     Endianness endianness = Endianness::little;
 };
 
 /// Reads a mesh; the extension, in any case, names the format. A byte order mark is passed over.
+/// Other files that a glTF file refers to are read from its own folder and nowhere else.
 /// Errors: unknown_format; file_not_found, file_is_directory, file_empty, file_unreadable;
 /// file_syntax (also where the content is of another format than the extension says),
-/// file_truncated, file_too_large, face_index, unsupported; not_finite; those of Topology::create;
+/// file_truncated, file_too_large, face_index, unsupported, unsafe_path; not_finite; those of
+/// Topology::create;
 /// invalid_argument for a bad unit.
 Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options = {},
                const Context& context = {});
@@ -72,7 +75,8 @@ Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options = {
 void save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOptions& options = {},
                const Context& context = {});
 
-/// As `load_mesh`, from the content of a file in memory. `extension` as in `readable_extensions`.
+/// As `load_mesh`, from the content of a file in memory, which can refer to no other. `extension`
+/// as in `readable_extensions`.
 Mesh decode_mesh(std::string_view bytes, std::string_view extension,
                  const LoadOptions& options = {}, const Context& context = {});
 

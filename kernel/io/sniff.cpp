@@ -26,11 +26,18 @@ bool is_obj_keyword(std::string_view word) {
     return is_one_of(word, kKeywords);
 }
 
+// JSON with the one member that glTF demands.
+bool is_gltf_text(std::string_view bytes) {
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && bytes[first] == '{' &&
+           bytes.find("\"asset\"") != std::string_view::npos;
+}
+
 }  // namespace
 
 std::string_view sniff_format(std::string_view bytes) {
     if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return "PLY";
-    if (bytes.starts_with("glTF")) return "glTF";
+    if (bytes.starts_with("glTF") || is_gltf_text(bytes)) return "glTF";
     if (is_binary_stl(bytes)) return "STL";
     TextReader text(bytes, {.comment = '#', .continuation = false});
     const std::string_view first = text.at_end() ? "" : text.word();

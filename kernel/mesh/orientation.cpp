@@ -46,8 +46,12 @@ class Orienter {
         for (Index f = 0; f < work_.faces.size(); ++f) {
             if (visited_[f]) continue;
             spread(f);
-            const bool invert = any_conflict_ && should_invert();
-            for (const Index g : piece_) flipped_[g] = flipped_[g] != (invert ? 1 : 0);
+            if (conflicts_ == 0) continue;
+            if (is_one_sided()) {
+                for (const Index g : piece_) flipped_[g] = 0;
+            } else if (should_invert()) {
+                for (const Index g : piece_) flipped_[g] = !flipped_[g];
+            }
         }
         return std::move(flipped_);
     }
@@ -58,7 +62,7 @@ class Orienter {
         piece_.assign(1, seed);
         visited_[seed] = 1;
         closed_ = true;
-        any_conflict_ = false;
+        conflicts_ = 0;
         for (std::size_t i = 0; i < piece_.size(); ++i) {
             const Index f = piece_[i];
             for (Index c = work_.faces.offsets[f]; c < work_.faces.offsets[f + 1]; ++c) {
@@ -67,7 +71,7 @@ class Orienter {
                     closed_ = false;
                     continue;
                 }
-                any_conflict_ = any_conflict_ || !neighbors_.agrees[c];
+                conflicts_ += neighbors_.agrees[c] ? 0 : 1;
                 const Index g = work_.face_of_corner[other];
                 if (visited_[g]) continue;
                 visited_[g] = 1;
@@ -75,6 +79,20 @@ class Orienter {
                 piece_.push_back(g);
             }
         }
+    }
+
+    // Whether turning faces over leaves at least as many edges in conflict as there were.
+    bool is_one_sided() const {
+        std::size_t left = 0;
+        for (const Index f : piece_) {
+            for (Index c = work_.faces.offsets[f]; c < work_.faces.offsets[f + 1]; ++c) {
+                const Index other = neighbors_.partner[c];
+                if (other == kNoIndex) continue;
+                const bool turned = flipped_[f] != flipped_[work_.face_of_corner[other]];
+                left += (neighbors_.agrees[c] != 0) == turned ? 1 : 0;
+            }
+        }
+        return left >= conflicts_;
     }
 
     bool should_invert() const {
@@ -96,7 +114,9 @@ class Orienter {
     const Neighbors& neighbors_;
     std::vector<char> flipped_, visited_;
     std::vector<Index> piece_;
-    bool closed_ = true, any_conflict_ = false;
+    bool closed_ = true;
+    // Corners of the piece whose edges both faces run along in the same direction.
+    std::size_t conflicts_ = 0;
 };
 
 }  // namespace

@@ -59,6 +59,22 @@ void weld_all(Soup& soup) {
     for (Index& v : soup.faces.vertices) v = first[v];
 }
 
+// A face that shares no vertex with another has no seam along which it could be welded where its
+// own corners coincide. Its coincident corners become one here, which shows it as collapsed.
+void weld_within_loose_faces(Soup& soup) {
+    std::vector<Index> uses(soup.positions.size(), 0);
+    for (const Index v : soup.faces.vertices) ++uses[v];
+    for (Index f = 0; f < soup.faces.size(); ++f) {
+        const auto begin = soup.faces.vertices.begin() + soup.faces.offsets[f];
+        const auto end = soup.faces.vertices.begin() + soup.faces.offsets[f + 1];
+        if (std::any_of(begin, end, [&](Index v) { return uses[v] > 1; })) continue;
+        for (auto v = begin; v != end; ++v) {
+            const auto next = v + 1 == end ? begin : v + 1;
+            if (soup.positions[*v] == soup.positions[*next]) *next = *v;
+        }
+    }
+}
+
 std::vector<char> used_vertices(const Soup& soup, std::span<const Index> corners) {
     std::vector<char> used(soup.positions.size(), 0);
     for (const Index v : corners) used[v] = 1;
@@ -185,6 +201,7 @@ Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Rep
     require_attributes_fit(soup);
     const std::vector<Index> file_corners = soup.faces.vertices;
     if (options.weld == Weld::all) weld_all(soup);
+    if (options.weld == Weld::seams) weld_within_loose_faces(soup);
     if (!options.repair) require_sound(soup, file_corners, context);
     progress.update(0.2);
 

@@ -86,6 +86,9 @@ TEST_CASE("a library outside the folders that own it is found") {
 TEST_CASE("a kernel header shows no library but Eigen") {
     CHECK(count("kernel/mesh/a.cpp", "#include <OpenMesh/Core/Mesh/Handles.hh>\n") == 0);
     CHECK(count("kernel/mesh/a.h", kOpening + std::string("#include <Eigen/Core>\n")) == 0);
+    CHECK(count("kernel/io/gltf_a.h", kOpening + std::string("#include <tiny_gltf.h>\n")) == 0);
+    CHECK(count("kernel/io/gltf.h", kOpening + std::string("#include <tiny_gltf.h>\n")) == 1);
+    CHECK(count("kernel/mesh/a.cpp", "#include <tiny_gltf.h>\n") == 1);
     CHECK(count("kernel/mesh/a.h",
                 kOpening + std::string("#include <OpenMesh/Core/Mesh/Handles.hh>\n")) == 1);
 }

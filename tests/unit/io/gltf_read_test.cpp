@@ -34,10 +34,10 @@ const Attribute& attribute(const Mesh& mesh, const char* name) {
 }  // namespace
 
 TEST_CASE("every mode of triangles, with and without indices") {
-    const Faces pair{{0, 1, 2}, {2, 1, 3}};
-    CHECK(faces_of(four_points(5, {}).load()) == pair);
-    CHECK(faces_of(four_points(5, {0, 1, 2, 3}).load()) == pair);
-    CHECK(faces_of(four_points(4, {0, 1, 2, 2, 1, 3}).load()) == pair);
+    const Faces strip{{0, 1, 2}, {1, 3, 2}};
+    CHECK(faces_of(four_points(5, {}).load()) == strip);
+    CHECK(faces_of(four_points(5, {0, 1, 2, 3}).load()) == strip);
+    CHECK(faces_of(four_points(4, {0, 1, 2, 1, 3, 2}).load()) == strip);
     CHECK(faces_of(four_points(6, {0, 1, 3, 2}).load()) == Faces{{1, 3, 0}, {3, 2, 0}});
     CHECK(four_points(4, {}).load().face_count() == 1);
     CHECK(four_points(6, {}).load().face_count() == 2);

@@ -276,6 +276,17 @@ TEST_CASE("a consistent mesh that is inside out is flagged and left") {
     CHECK(count(repair(soup_of(hollow)), FindingKind::components_inverted) == 0);
 }
 
+TEST_CASE("a collapsed face of a torn mesh goes, and the seam closes over it") {
+    Soup pieces = torn(tetrahedron());
+    const Index first = static_cast<Index>(pieces.positions.size());
+    for (const Index v : {0, 0, 1}) pieces.positions.push_back(tetrahedron().position(v));
+    pieces.faces.add({first, first + 1, first + 2});
+    const Mesh mesh = repair(pieces);
+    CHECK(ids(mesh, FindingKind::faces_collapsed) == std::vector<Index>{4});
+    CHECK(mesh.topology().is_closed());
+    CHECK(mesh.vertex_count() == 4);
+}
+
 TEST_CASE("a band with one side is cut open once") {
     constexpr Index kSegments = 12;
     Soup band;
