@@ -132,14 +132,14 @@ std::string attributes_text(const Json& list) {
     return text;
 }
 
-// "2 faces turned over ...: faces 3 and 9 of the file": a finding on one line.
+// "2 faces turned over ...; in the file: faces 3 and 9": a finding on one line.
 std::string finding_text(const Finding& finding) {
     std::string text = describe(finding);
     if (!finding.message.empty()) text += ": " + finding.message;
     if (finding.ids.empty() || finding.element == ElementKind::line) return text;
     const std::size_t per_element = finding.element == ElementKind::edge ? 2 : 1;
     Elements elements{finding.element, finding.ids.size() / per_element, finding.ids};
-    return text + " (" + describe(elements, 1) + (finding.in_file ? " of the file)" : ")");
+    return text + (finding.in_file ? "; in the file: " : ": ") + describe(elements, 1);
 }
 
 void print_report(const Report& report) {

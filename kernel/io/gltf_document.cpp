@@ -229,7 +229,7 @@ GltfBudget::GltfBudget(std::size_t bytes_read)
     : left_(std::max(kLeastBudget, kElementsPerByte * bytes_read)) {}
 
 void GltfBudget::require(std::size_t elements) const {
-    if (elements <= left_) return;
+    if (allows(elements)) return;
     refuse(ErrorCode::file_too_large,
            "the surface would be many times larger than the file; it repeats itself too often");
 }

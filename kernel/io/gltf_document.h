@@ -26,6 +26,7 @@ class GltfBudget {
     void charge(std::size_t elements);
     /// Refuses as `charge` does, but takes nothing.
     void require(std::size_t elements) const;
+    bool allows(std::size_t elements) const { return elements <= left_; }
 
   private:
     std::size_t left_;

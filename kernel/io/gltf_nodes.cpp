@@ -236,6 +236,46 @@ std::vector<InstanceTransforms> instance_transforms(const Json& attributes,
     return result;
 }
 
+constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
+constexpr std::size_t kElementsPerNode = 64;
+
+std::size_t count_of_accessor(const Json& document, const Json& owner, const char* key) {
+    const Json& accessors = list_of(document, "accessors");
+    const int accessor = index_member(owner, key, "a primitive");
+    if (accessor < 0 || static_cast<std::size_t>(accessor) >= accessors.size()) return 0;
+    const int count =
+        index_member(accessors[static_cast<std::size_t>(accessor)], "count", "accessor");
+    return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+// Vertices and corners of the mesh of a node.
+std::size_t elements_of_mesh(const Json& document, const Json& node, std::size_t number) {
+    const Json& meshes = list_of(document, "meshes");
+    const Json& mesh = meshes[checked_mesh(node, number, meshes.size())];
+    std::size_t sum = 0;
+    for (const Json& primitive : list_of(mesh, "primitives")) {
+        if (const Json* attributes = member(primitive, "attributes"))
+            sum += count_of_accessor(document, *attributes, "POSITION");
+        sum += count_of_accessor(document, primitive, "indices");
+    }
+    return sum;
+}
+
+// Gives node `n` a child for each copy in place of its mesh.
+void add_copies(Json& nodes, std::size_t n, const std::vector<InstanceTransforms>& transforms) {
+    Json copy{{"mesh", nodes[n]["mesh"]}};
+    if (nodes[n].contains("name")) copy["name"] = nodes[n]["name"];
+    Json children = nodes[n].value("children", Json::array());
+    for (std::size_t i = 0; i < transforms[0].values.count; ++i) {
+        for (const auto& transform : transforms)
+            copy[transform.key] = array_of(transform.values, i);
+        children.push_back(nodes.size());
+        nodes.push_back(copy);
+    }
+    nodes[n].erase("mesh");
+    nodes[n]["children"] = std::move(children);
+}
+
 // Root nodes that a document without scenes shows.
 Json root_nodes(const Json& json) {
     std::vector<char> has_parent(size_of_member(json, "nodes"), 0);
@@ -296,34 +336,32 @@ std::vector<GltfInstance> find_instances(const Json& document, Report& report) {
     return result;
 }
 
-void expand_instancing(Json& document, const AccessorReader& accessors, GltfBudget& budget) {
-    constexpr const char* kName = "EXT_mesh_gpu_instancing";
-    constexpr std::size_t kElementsPerNode = 64;
+void expand_instancing(Json& document, const AccessorReader& accessors, GltfBudget& budget,
+                       Report& report) {
     Json* nodes = member(document, "nodes");
     const std::size_t count = nodes ? nodes->size() : 0;
+    std::size_t planned = 0;
     for (std::size_t n = 0; n < count; ++n) {
-        const Json* instancing = extension((*nodes)[n], kName);
+        const Json* instancing = extension((*nodes)[n], kInstancing);
         const Json* attributes = instancing ? member(*instancing, "attributes") : nullptr;
         if (!attributes || !(*nodes)[n].contains("mesh")) continue;
         const auto transforms = instance_transforms(*attributes, accessors, n);
         if (transforms.empty()) continue;
-        Json copy{{"mesh", (*nodes)[n]["mesh"]}};
-        if ((*nodes)[n].contains("name")) copy["name"] = (*nodes)[n]["name"];
-        Json children = (*nodes)[n].value("children", Json::array());
         const std::size_t copies = transforms[0].values.count;
-        budget.charge(kElementsPerNode * copies);
-        for (std::size_t i = 0; i < copies; ++i) {
-            for (const auto& transform : transforms) {
-                copy[transform.key] = array_of(transform.values, i);
-            }
-            children.push_back(nodes->size());
-            nodes->push_back(copy);
+        const std::size_t each = kElementsPerNode + elements_of_mesh(document, (*nodes)[n], n);
+        if (copies > 0 && budget.allows(planned) && budget.allows(planned + each * copies)) {
+            planned += each * copies;
+            budget.charge(kElementsPerNode * copies);
+            add_copies(*nodes, n, transforms);
+        } else {
+            report.add(FindingKind::extensions_dropped, 1,
+                       std::string(kInstancing) + " (the " + std::to_string(copies) +
+                           " copies of " + node_name(n) +
+                           " would be many times larger than the file; one is kept)");
         }
         Json& node = (*nodes)[n];
-        node.erase("mesh");
-        node["extensions"].erase(kName);
+        node["extensions"].erase(kInstancing);
         if (node["extensions"].empty()) node.erase("extensions");
-        if (!children.empty()) node["children"] = std::move(children);
     }
 }
 

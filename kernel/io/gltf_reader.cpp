@@ -234,7 +234,7 @@ MeshData read_document(const FileInput& file, const Context& context) {
     GltfDocument document = open_gltf(file, report, context);
     GltfBudget budget(document.bytes_read);
     const AccessorReader accessors(document, budget);
-    expand_instancing(document.json, accessors, budget);
+    expand_instancing(document.json, accessors, budget, report);
     const std::vector<GltfInstance> instances = find_instances(document.json, report);
     const std::vector<std::string> materials = material_names(document.json);
     MeshData mesh = SurfaceReader(document, accessors, budget, context).read(instances, materials);

@@ -341,18 +341,29 @@ class DocumentWriter {
     GltfBinary binary_;
 };
 
+// The asset was checked when it was read, but not every member of it.
+Json document_of(DocumentWriter& writer) {
+    try {
+        return writer.write();
+    } catch (const Json::exception& error) {
+        throw Error(ErrorCode::unsupported,
+                    "what the mesh's file held beside its surface cannot be saved: " +
+                        std::string(error.what()));
+    }
+}
+
 }  // namespace
 
 void write_gltf(SavedParts& parts, const SaveOptions&, std::string& bytes, const Context& context) {
     DocumentWriter writer(parts, context);
-    Json json = writer.write();
+    Json json = document_of(writer);
     if (!writer.binary().empty()) json["buffers"][0]["uri"] = make_data_uri(writer.binary());
     bytes = to_text(json);
 }
 
 void write_glb(SavedParts& parts, const SaveOptions&, std::string& bytes, const Context& context) {
     DocumentWriter writer(parts, context);
-    const std::string json = to_text(writer.write());
+    const std::string json = to_text(document_of(writer));
     bytes = make_glb(json, writer.binary());
 }
 

@@ -29,6 +29,8 @@ struct MeshData : Soup {
     Report report;
     /// True for formats that store each face by itself: all vertices at one place are one.
     bool faces_are_separate = false;
+    /// True where `same_as` says all: open edges at one place are apart on purpose.
+    bool seams_are_known = false;
 };
 
 /// Adds a face. Errors: file_too_large beyond the number of corners that can be numbered.

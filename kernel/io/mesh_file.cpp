@@ -11,6 +11,7 @@
 #include "kernel/io/obj.h"
 #include "kernel/io/off.h"
 #include "kernel/io/ply.h"
+#include "kernel/io/scalar.h"
 #include "kernel/io/sniff.h"
 #include "kernel/io/stl.h"
 #include "kernel/mesh/directions.h"
@@ -112,8 +113,19 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
     return bytes.substr(bytes.starts_with(kMark) ? kMark.size() : 0);
 }
 
+// Values that were written out in decimals, flipped or turned need more than a float.
+void widen_type(Attribute& attribute) {
+    const auto& values = attribute.values;
+    const bool fits = attribute.type != ScalarType::float32 ||
+                      std::all_of(values.begin(), values.end(),
+                                  [](double x) { return std::isnan(x) || is_float(x); });
+    if (!fits) attribute.type = ScalarType::float64;
+}
+
 RepairOptions repair_options(const LoadOptions& options, const MeshData& data) {
-    const Weld usual = data.faces_are_separate ? Weld::all : Weld::seams;
+    const Weld usual = data.faces_are_separate ? Weld::all
+                       : data.seams_are_known  ? Weld::none
+                                               : Weld::seams;
     return {options.weld.value_or(usual), options.repair};
 }
 
@@ -140,6 +152,7 @@ Mesh decode(FileInput file, const Format& format, const LoadOptions& options,
     MeshData data = format.read(file, context);
     const MemoryCharge charge = context.charge(data.memory_bytes(), "the mesh of a file");
     apply(options, data);
+    for (Attribute& attribute : data.attributes.all()) widen_type(attribute);
     if (data.positions.empty()) context.log(LogLevel::warning, "the file has no vertices");
 
     progress.step(0.4);

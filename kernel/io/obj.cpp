@@ -352,7 +352,8 @@ class ObjReader {
 
 MeshData read_obj(std::string_view text, const Context& context) {
     // Some programs end the file with the zero byte of their string.
-    text = text.substr(0, text.find_last_not_of('\0') + 1);
+    const std::size_t last = text.find_last_not_of('\0');
+    if (last != std::string_view::npos) text = text.substr(0, last + 1);
     return ObjReader(text, context).read();
 }
 

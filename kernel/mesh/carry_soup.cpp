@@ -122,6 +122,11 @@ void require_attributes_fit(const Soup& soup) {
     for (const auto& [kind, labels] : soup.attributes.labels()) {
         if (labels.of_face.size() != counts[2]) refuse_misfit("list of labels \"" + kind + '"');
     }
+    const bool is_known = std::all_of(soup.same_as.begin(), soup.same_as.end(), [&](Index v) {
+        return v >= 0 && static_cast<std::size_t>(v) < counts[0];
+    });
+    if (!is_known || (!soup.same_as.empty() && soup.same_as.size() != counts[0]))
+        refuse_misfit("list of vertices that are the same");
     for (const auto& [name, vertices] : soup.regions) {
         const bool fits = std::all_of(vertices.begin(), vertices.end(), [&](Index v) {
             return v >= 0 && static_cast<std::size_t>(v) < counts[0];

@@ -282,6 +282,19 @@ std::vector<Index> zero_area_faces(const Mesh& mesh) {
     return flat;
 }
 
+namespace {
+
+// The order in which attributes were added is not content.
+std::vector<const Attribute*> by_name(const AttributeSet& attributes) {
+    std::vector<const Attribute*> list;
+    for (const Attribute& a : attributes.all()) list.push_back(&a);
+    std::sort(list.begin(), list.end(),
+              [](const Attribute* a, const Attribute* b) { return a->name < b->name; });
+    return list;
+}
+
+}  // namespace
+
 std::uint64_t hash(const Mesh& mesh) {
     Hasher hasher;
     hasher.add(mesh.vertex_count());
@@ -290,12 +303,12 @@ std::uint64_t hash(const Mesh& mesh) {
     }
     hasher.add(mesh.topology().faces().offsets);
     hasher.add(mesh.topology().faces().vertices);
-    for (const Attribute& a : mesh.attributes().all()) {
-        hasher.add(std::string_view(a.name));
-        hasher.add(static_cast<Index>(a.domain));
-        hasher.add(a.width);
-        hasher.add(static_cast<Index>(a.type));
-        hasher.add(a.values);
+    for (const Attribute* a : by_name(mesh.attributes())) {
+        hasher.add(std::string_view(a->name));
+        hasher.add(static_cast<Index>(a->domain));
+        hasher.add(a->width);
+        hasher.add(static_cast<Index>(a->type));
+        hasher.add(a->values);
     }
     for (const auto& [kind, labels] : mesh.attributes().labels()) {
         hasher.add(std::string_view(kind));

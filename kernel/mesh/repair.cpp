@@ -59,6 +59,12 @@ void weld_all(Soup& soup) {
     for (Index& v : soup.faces.vertices) v = first[v];
 }
 
+// Joins the vertices of which the file says that they are one.
+void weld_known(Soup& soup) {
+    if (soup.same_as.empty()) return;
+    for (Index& v : soup.faces.vertices) v = soup.same_as[v];
+}
+
 // A face that shares no vertex with another has no seam along which it could be welded where its
 // own corners coincide. Its coincident corners become one here, which shows it as collapsed.
 void weld_within_loose_faces(Soup& soup) {
@@ -201,6 +207,7 @@ Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Rep
     require_finite(soup);
     require_attributes_fit(soup);
     const std::vector<Index> file_corners = soup.faces.vertices;
+    weld_known(soup);
     if (options.weld == Weld::all) weld_all(soup);
     if (options.weld == Weld::seams) weld_within_loose_faces(soup);
     if (!options.repair) require_sound(soup, file_corners, context);

@@ -238,8 +238,6 @@ TEST_CASE("work that comes later is an unknown name") {
         CHECK(lua.run("lissom.deform(lissom.shapes.box(), { " + std::string(option) + " })")
                   .find("unknown option") != std::string::npos);
     }
-    CHECK(lua.run("lissom.load('a.obj', { weld = 'all' })").find("unknown option 'weld'") !=
-          std::string::npos);
     CHECK(lua.run("lissom.shapes.box():cut()").find("no method 'cut'") != std::string::npos);
 }
 

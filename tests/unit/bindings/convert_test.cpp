@@ -140,7 +140,7 @@ TEST_CASE("inspect shows what was found") {
     const Ended text = run_program({"inspect", file});
     CHECK(text.status == cli::kSuccess);
     CHECK(text.err.empty());
-    CHECK(text.out.find("1 vertex without faces dropped (vertex 5 of the file)") !=
+    CHECK(text.out.find("1 vertex without faces dropped; in the file: vertex 5") !=
           std::string::npos);
     CHECK(text.out.find("1 item skipped: 1 lines") != std::string::npos);
     const Json report =

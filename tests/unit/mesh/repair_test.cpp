@@ -153,6 +153,19 @@ TEST_CASE("values that differ along a seam become values of corners, others stay
     CHECK(ids(mesh, FindingKind::vertices_welded) == std::vector<Index>{3, 5});
 }
 
+TEST_CASE("vertices that the file says are one are one, whatever else is welded") {
+    Soup halves = soup({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                       {{0, 1, 2}, {3, 4, 5}});
+    halves.same_as = {0, 1, 2, 1, 4, 5};
+    const Mesh mesh = repair(halves, {Weld::none, true});
+    CHECK(ids(mesh, FindingKind::vertices_welded) == std::vector<Index>{3});
+    CHECK(mesh.vertex_count() == 6);  // the faces share one vertex only, which is split
+    halves.same_as = {0, 1, 2, 1, 4, 2};
+    CHECK(repair(halves, {Weld::none, true}).vertex_count() == 4);
+    halves.same_as = {0, 1, 2, 1, 4, 9};
+    CHECK(error_of([&] { repair(halves); }).code() == ErrorCode::invalid_argument);
+}
+
 TEST_CASE("vertices without faces are dropped, but points without any face are kept") {
     Soup lonely = soup_of(tetrahedron());
     lonely.positions.insert(lonely.positions.begin() + 2, Vec3(9, 9, 9));

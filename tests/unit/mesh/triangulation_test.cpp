@@ -132,3 +132,35 @@ TEST_CASE("chosen faces alone are triangulated") {
     CHECK(error.code() == ErrorCode::out_of_range);
     CHECK(error.elements().ids == std::vector<Index>{8});
 }
+
+TEST_CASE("polygons of very many corners are triangulated without overlap, and soon") {
+    // A comb: teeth and gaps as on a gear, far from convex.
+    for (const Index n : {34, 400, 4000}) {
+        CAPTURE(n);
+        std::vector<Vec3> points;
+        double area = 0.0;
+        for (Index i = 0; i < n; ++i) {
+            const double angle = 2.0 * kPi * i / n, radius = i % 4 < 2 ? 1.0 : 0.9;
+            points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+        }
+        for (Index i = 0; i < n; ++i) area += 0.5 * points[i].cross(points[(i + 1) % n]).z();
+        std::vector<Triangle> triangles;
+        triangulate_polygon(points, triangles);
+        CHECK(triangles.size() == static_cast<std::size_t>(n) - 2);
+        double total = 0.0;
+        for (const Triangle& t : triangles) {
+            total += 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm();
+        }
+        CHECK(total == doctest::Approx(area).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("large polygons without a plane have as many triangles as others") {
+    for (const double scale : {0.0, 1.0}) {
+        std::vector<Vec3> points;
+        for (int i = 0; i < 5000; ++i) points.emplace_back(scale * i, 0.0, 0.0);
+        std::vector<Triangle> triangles;
+        triangulate_polygon(points, triangles);
+        CHECK(triangles.size() == 4998);
+    }
+}
