@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -14,14 +15,21 @@ struct Sources {
     std::span<const Index> file_corners;
     const CornerFaces& work;
     const FanVertices& fans;
-    bool faces_unchanged;
+    bool corners_unchanged;
 
     Sources(std::span<const Index> corners, const CornerFaces& faces, const FanVertices& vertices)
         : file_corners(corners), work(faces), fans(vertices) {
-        faces_unchanged = faces.corner_source.size() == file_corners.size() &&
-                          std::is_sorted(faces.corner_source.begin(), faces.corner_source.end());
+        corners_unchanged = faces.corner_source.size() == file_corners.size() &&
+                            std::is_sorted(faces.corner_source.begin(), faces.corner_source.end());
     }
 
+    // Whether the faces are the `file_count` of the file. A face without
+    // corners may be gone where all corners stay.
+    bool faces_unchanged(std::size_t file_count) const {
+        return corners_unchanged && work.face_source.size() == file_count &&
+               std::adjacent_find(work.face_source.begin(), work.face_source.end(),
+                                  std::greater_equal<>()) == work.face_source.end();
+    }
     std::size_t corner_count() const { return work.corner_source.size(); }
     // The vertex of the file at a corner of the mesh.
     Index vertex_at(std::size_t corner) const { return file_corners[work.corner_source[corner]]; }
@@ -60,11 +68,11 @@ bool differs_at_a_vertex(const Attribute& old, const Sources& sources) {
 
 Attribute carried(Attribute&& old, const Sources& sources) {
     if (old.domain == Domain::face) {
-        if (sources.faces_unchanged) return std::move(old);
+        if (sources.faces_unchanged(static_cast<std::size_t>(old.size()))) return std::move(old);
         return taken(old, Domain::face, sources.work.face_source);
     }
     if (old.domain == Domain::corner) {
-        if (sources.faces_unchanged) return std::move(old);
+        if (sources.corners_unchanged) return std::move(old);
         return taken(old, Domain::corner, sources.work.corner_source);
     }
     if (sources.fans.unchanged) return std::move(old);
@@ -77,7 +85,7 @@ Attribute carried(Attribute&& old, const Sources& sources) {
 void carry_labels(AttributeSet&& old, const Sources& sources, AttributeSet& result) {
     for (auto& [kind, labels] : old.labels()) {
         FaceLabels& kept = result.labels()[kind];
-        if (sources.faces_unchanged) {
+        if (sources.faces_unchanged(labels.of_face.size())) {
             kept = std::move(labels);
             continue;
         }
