@@ -75,7 +75,7 @@ std::size_t read_unsigned(const char* at, ScalarType type) {
 }
 
 void apply_sparse(const GltfDocument& document, int number, const tinygltf::Accessor& accessor,
-                  std::size_t element_size, std::string& bytes) {
+                  std::size_t element_size, std::vector<char>& bytes) {
     const auto& sparse = accessor.sparse;
     if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count ||
         sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
@@ -140,9 +140,14 @@ PackedNumbers AccessorReader::packed(int number) const {
         elements = elements_of_view(document_, number, accessor.bufferView, accessor.byteOffset,
                                     packed.count, size, true);
     }
-    packed.bytes.resize(packed.count * size);
-    if (accessor.bufferView >= 0) copy_elements(elements, packed.count, packed.bytes.data());
-    if (accessor.sparse.isSparse) apply_sparse(document_, number, accessor, size, packed.bytes);
+    if (accessor.bufferView >= 0 && elements.stride == size && !accessor.sparse.isSparse) {
+        packed.bytes = elements.bytes.substr(0, packed.count * size);
+        return packed;
+    }
+    packed.own.resize(packed.count * size);
+    if (accessor.bufferView >= 0) copy_elements(elements, packed.count, packed.own.data());
+    if (accessor.sparse.isSparse) apply_sparse(document_, number, accessor, size, packed.own);
+    packed.bytes = {packed.own.data(), packed.own.size()};
     return packed;
 }
 

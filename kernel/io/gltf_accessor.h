@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/io/gltf_document.h"
@@ -16,7 +17,15 @@ struct PackedNumbers {
     Index width = 1;
     ScalarType type = ScalarType::float32;
     bool normalized = false;
-    std::string bytes;
+    /// In the document, or in `own`, which keeps its place when this is moved.
+    std::string_view bytes;
+    std::vector<char> own;
+
+    PackedNumbers() = default;
+    PackedNumbers(PackedNumbers&&) = default;
+    PackedNumbers& operator=(PackedNumbers&&) = default;
+    PackedNumbers(const PackedNumbers&) = delete;
+    PackedNumbers& operator=(const PackedNumbers&) = delete;
 };
 
 /// Values of an accessor, `width` for each of `count` elements.

@@ -37,7 +37,7 @@ class AccessorKeeper {
 
   private:
     KeptAccessor copy(int number) {
-        PackedNumbers packed = reader_.packed(number);
+        const PackedNumbers packed = reader_.packed(number);
         if (packed.bytes.size() > left_) {
             refuse(ErrorCode::file_too_large,
                    "the data of animations and skins overlap in the file");
@@ -47,7 +47,7 @@ class AccessorKeeper {
         for (const char* key : {"bufferView", "byteOffset", "sparse", "extensions", "min", "max"}) {
             json.erase(key);
         }
-        return {std::move(json), std::make_shared<const std::string>(std::move(packed.bytes))};
+        return {std::move(json), std::make_shared<const std::string>(packed.bytes)};
     }
 
     const GltfDocument& document_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -132,8 +133,13 @@ class SurfaceReader {
         return faces;
     }
 
-    void add_faces(const Primitive& primitive, const FaceList& faces) {
-        for (Index f = 0; f < faces.size(); ++f) add_face(mesh_.faces, faces[f]);
+    void add_faces(const Primitive& primitive, FaceList& faces) {
+        constexpr std::size_t kMaximum = std::numeric_limits<Index>::max();
+        if (mesh_.faces.size() == 0 && faces.vertices.size() <= kMaximum) {
+            mesh_.faces = std::move(faces);
+        } else {
+            for (Index f = 0; f < faces.size(); ++f) add_face(mesh_.faces, faces[f]);
+        }
         const bool has_material =
             primitive.material >= 0 &&
             static_cast<std::size_t>(primitive.material) < material_labels_.names.size();

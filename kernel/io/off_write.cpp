@@ -62,8 +62,8 @@ void write_off(SavedParts& parts, const SaveOptions&, std::string& text, const C
     text += uv ? "ST" : "";
     text += color ? "C" : "";
     text += normal ? "N" : "";
-    text += "OFF";
-    text += "\n# Written by Lissom\n";
+    // Without a comment: OpenMesh reads no mesh where one stands before the counts.
+    text += "OFF\n";
     append_number(text, mesh.vertex_count());
     append_numbers(text, std::array{mesh.face_count(), topology.edge_count()});
     text += '\n';

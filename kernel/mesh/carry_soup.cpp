@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -11,20 +12,32 @@ namespace {
 
 // The elements of the file from which those of the mesh take their values.
 struct Sources {
-    // Vertex of the file at every corner of the mesh.
-    std::vector<Index> vertex_of_corner;
+    std::span<const Index> file_corners;
     const CornerFaces& work;
     const FanVertices& fans;
-    bool faces_unchanged;
+    bool corners_unchanged;
 
-    Sources(std::span<const Index> file_corners, const CornerFaces& faces,
-            const FanVertices& vertices)
-        : work(faces), fans(vertices) {
-        vertex_of_corner.reserve(faces.corner_source.size());
-        for (const Index corner : faces.corner_source)
-            vertex_of_corner.push_back(file_corners[corner]);
-        faces_unchanged = faces.corner_source.size() == file_corners.size() &&
-                          std::is_sorted(faces.corner_source.begin(), faces.corner_source.end());
+    Sources(std::span<const Index> corners, const CornerFaces& faces, const FanVertices& vertices)
+        : file_corners(corners), work(faces), fans(vertices) {
+        corners_unchanged = faces.corner_source.size() == file_corners.size() &&
+                            std::is_sorted(faces.corner_source.begin(), faces.corner_source.end());
+    }
+
+    // Whether the faces are the `file_count` of the file. A face without
+    // corners may be gone where all corners stay.
+    bool faces_unchanged(std::size_t file_count) const {
+        return corners_unchanged && work.face_source.size() == file_count &&
+               std::adjacent_find(work.face_source.begin(), work.face_source.end(),
+                                  std::greater_equal<>()) == work.face_source.end();
+    }
+    std::size_t corner_count() const { return work.corner_source.size(); }
+    // The vertex of the file at a corner of the mesh.
+    Index vertex_at(std::size_t corner) const { return file_corners[work.corner_source[corner]]; }
+    std::vector<Index> vertices_at_corners() const {
+        std::vector<Index> vertices;
+        vertices.reserve(corner_count());
+        for (std::size_t c = 0; c < corner_count(); ++c) vertices.push_back(vertex_at(c));
+        return vertices;
     }
 };
 
@@ -45,8 +58,8 @@ Attribute taken(const Attribute& old, Domain domain, const std::vector<Index>& s
 }
 
 bool differs_at_a_vertex(const Attribute& old, const Sources& sources) {
-    for (std::size_t c = 0; c < sources.vertex_of_corner.size(); ++c) {
-        const Index here = sources.vertex_of_corner[c];
+    for (std::size_t c = 0; c < sources.corner_count(); ++c) {
+        const Index here = sources.vertex_at(c);
         const Index first = sources.fans.source[sources.fans.of_corner[c]];
         if (here != first && !same_values(old.at(here), old.at(first))) return true;
     }
@@ -55,23 +68,27 @@ bool differs_at_a_vertex(const Attribute& old, const Sources& sources) {
 
 Attribute carried(Attribute&& old, const Sources& sources) {
     if (old.domain == Domain::face) {
-        if (sources.faces_unchanged) return std::move(old);
+        if (sources.faces_unchanged(static_cast<std::size_t>(old.size()))) return std::move(old);
         return taken(old, Domain::face, sources.work.face_source);
     }
     if (old.domain == Domain::corner) {
-        if (sources.faces_unchanged) return std::move(old);
+        if (sources.corners_unchanged) return std::move(old);
         return taken(old, Domain::corner, sources.work.corner_source);
     }
     if (sources.fans.unchanged) return std::move(old);
     const bool is_skin = old.name == "joints" || old.name == "weights";
     if (is_skin || !differs_at_a_vertex(old, sources))
         return taken(old, Domain::vertex, sources.fans.source);
-    return taken(old, Domain::corner, sources.vertex_of_corner);
+    return taken(old, Domain::corner, sources.vertices_at_corners());
 }
 
 void carry_labels(AttributeSet&& old, const Sources& sources, AttributeSet& result) {
     for (auto& [kind, labels] : old.labels()) {
         FaceLabels& kept = result.labels()[kind];
+        if (sources.faces_unchanged(labels.of_face.size())) {
+            kept = std::move(labels);
+            continue;
+        }
         kept.names = std::move(labels.names);
         kept.of_face.reserve(sources.work.face_source.size());
         for (const Index f : sources.work.face_source) kept.of_face.push_back(labels.of_face[f]);
@@ -83,8 +100,8 @@ std::vector<Index> carried_region(const std::vector<Index>& vertices, std::size_
     std::vector<char> inside(file_vertices, 0);
     for (const Index v : vertices) inside[v] = 1;
     std::vector<Index> kept;
-    for (std::size_t c = 0; c < sources.vertex_of_corner.size(); ++c) {
-        if (inside[sources.vertex_of_corner[c]]) kept.push_back(sources.fans.of_corner[c]);
+    for (std::size_t c = 0; c < sources.corner_count(); ++c) {
+        if (inside[sources.vertex_at(c)]) kept.push_back(sources.fans.of_corner[c]);
     }
     return kept;
 }

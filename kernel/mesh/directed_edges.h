@@ -21,25 +21,25 @@ class DirectedEdges {
     Index high(Index c) const { return std::max(vertices_[c], next_[c]); }
     /// Whether the corner's edge runs from its lower vertex to its higher one.
     bool ascending(Index c) const { return vertices_[c] < next_[c]; }
-    Index face(Index c) const { return face_[c]; }
 
     /// Calls use(corners) once for each undirected edge, with the corners that run along it, in
     /// ascending order.
     template <typename Use>
     void for_each_edge(const Use& use) const {
-        const auto size = static_cast<Index>(corner_.size());
-        for (Index i = 0; i < size;) {
-            Index j = i + 1;
-            while (j < size && low(corner_[j]) == low(corner_[i]) &&
-                   high(corner_[j]) == high(corner_[i]))
-                ++j;
-            use(std::span<const Index>(corner_.data() + i, static_cast<std::size_t>(j - i)));
-            i = j;
+        for (std::size_t v = 0; v + 1 < begin_.size(); ++v) {
+            for (Index i = begin_[v], j = i; i < begin_[v + 1]; i = j) {
+                while (j < begin_[v + 1] && high(corner_[j]) == high(corner_[i])) ++j;
+                use(std::span<const Index>(corner_.data() + i, static_cast<std::size_t>(j - i)));
+            }
         }
     }
 
   private:
-    std::vector<Index> begin_, corner_, next_, face_;
+    // Sorts the corners from `begin` to `end`, whose edges have one lower vertex.
+    void sort_by_high(Index begin, Index end, std::vector<std::uint64_t>& keys);
+
+    // The corners of the edges whose lower vertex is v are those from begin_[v] on in corner_.
+    std::vector<Index> begin_, corner_, next_;
     const std::vector<Index>& vertices_;
 };
 

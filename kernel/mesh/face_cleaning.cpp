@@ -123,12 +123,13 @@ namespace {
 // Finds the faces that are there too often.
 class DuplicateSearch {
   public:
-    DuplicateSearch(Index vertex_count, const FaceList& faces)
-        : edges_(vertex_count, faces),
-          cycles_(faces),
-          faces_(faces),
-          at_edge_(faces.vertices.size()),
-          drop_(static_cast<std::size_t>(faces.size()), 0) {
+    DuplicateSearch(Index vertex_count, const CornerFaces& work)
+        : edges_(vertex_count, work.faces),
+          cycles_(work.faces),
+          faces_(work.faces),
+          face_of_corner_(work.face_of_corner),
+          at_edge_(work.faces.vertices.size()),
+          drop_(static_cast<std::size_t>(work.faces.size()), 0) {
         edges_.for_each_edge([&](std::span<const Index> corners) {
             for (const Index c : corners) at_edge_[c] = corners;
         });
@@ -147,7 +148,7 @@ class DuplicateSearch {
     // surface that is complete without them, both go.
     void drop_flap(std::span<const Index> corners) {
         if (corners.size() != 2) return;
-        const Index f = edges_.face(corners[0]), g = edges_.face(corners[1]);
+        const Index f = face_of_corner_[corners[0]], g = face_of_corner_[corners[1]];
         if (f == g || drop_[f] || cycles_.compare(f, g) == Likeness::none) return;
         bool hangs = false;
         for (Index c = faces_.offsets[f]; c < faces_.offsets[f + 1]; ++c) {
@@ -162,7 +163,8 @@ class DuplicateSearch {
     bool complete_without(std::span<const Index> corners, Index f, Index g) {
         std::vector<Index> others;
         for (const Index c : corners) {
-            if (edges_.face(c) != f && edges_.face(c) != g) others.push_back(edges_.face(c));
+            if (face_of_corner_[c] != f && face_of_corner_[c] != g)
+                others.push_back(face_of_corner_[c]);
         }
         return others.size() == 2 && cycles_.compare(others[0], others[1]) == Likeness::none;
     }
@@ -173,7 +175,7 @@ class DuplicateSearch {
         if (corners.size() == 1 || regular) return;
         FaceCycles::Seen seen;
         for (const Index c : corners) {
-            const Index f = edges_.face(c);
+            const Index f = face_of_corner_[c];
             if (!drop_[f] && cycles_.is_copy(f, seen)) drop_[f] = 1;
         }
     }
@@ -182,7 +184,7 @@ class DuplicateSearch {
     void drop_reversed(std::span<const Index> corners) {
         if (corners.size() != 3) return;
         for (int i = 0; i < 3; ++i) {
-            const Index f = edges_.face(corners[i]), g = edges_.face(corners[(i + 1) % 3]);
+            const Index f = face_of_corner_[corners[i]], g = face_of_corner_[corners[(i + 1) % 3]];
             if (drop_[f] || drop_[g] || cycles_.compare(f, g) != Likeness::reversed) continue;
             bool surplus = true;
             for (Index c = faces_.offsets[f]; c < faces_.offsets[f + 1]; ++c)
@@ -194,6 +196,7 @@ class DuplicateSearch {
     DirectedEdges edges_;
     FaceCycles cycles_;
     const FaceList& faces_;
+    const std::vector<Index>& face_of_corner_;
     // The corners along the edge of each corner.
     std::vector<std::span<const Index>> at_edge_;
     std::vector<char> drop_;
@@ -202,7 +205,7 @@ class DuplicateSearch {
 }  // namespace
 
 void drop_duplicates(Index vertex_count, CornerFaces& work, Report& report) {
-    const std::vector<char> drop = DuplicateSearch(vertex_count, work.faces).run();
+    const std::vector<char> drop = DuplicateSearch(vertex_count, work).run();
     std::vector<Index> dropped;
     CornerFaces kept;
     for (Index f = 0; f < work.faces.size(); ++f) {

@@ -169,35 +169,39 @@ FanVertices Gluing::fans() const {
     const auto corner_count = static_cast<Index>(twin_.size());
     FanVertices result;
     result.of_corner.assign(twin_.size(), kNoIndex);
-    std::vector<Index> first_corner;
+    result.source.reserve(positions_.size());
     for (Index c = 0; c < corner_count; ++c) {
         if (result.of_corner[c] != kNoIndex) continue;
-        // Clockwise to where the fan begins, then once around it.
-        Index start = c;
-        while (twin_[start] != kNoIndex) {
-            start = work_->next(twin_[start]);
-            if (start == c) break;
-        }
-        const auto fan = static_cast<Index>(first_corner.size());
-        first_corner.push_back(c);
+        const auto fan = static_cast<Index>(result.source.size());
         Index lowest = work_->faces.vertices[c];
-        for (Index at = start; at != kNoIndex && result.of_corner[at] == kNoIndex;
-             at = twin_[work_->previous(at)]) {
+        const auto add = [&](Index at) {
             result.of_corner[at] = fan;
             lowest = std::min(lowest, work_->faces.vertices[at]);
+        };
+        // Once around; where that ends at an open edge, the other way for the rest.
+        Index at = c;
+        do {
+            add(at);
+            at = twin_[work_->previous(at)];
+        } while (at != kNoIndex && at != c);
+        if (at == kNoIndex) {
+            for (Index across = twin_[c]; across != kNoIndex; across = twin_[at]) {
+                at = work_->next(across);
+                add(at);
+            }
         }
         result.source.push_back(lowest);
     }
 
     // The first fan of each vertex keeps its place, further ones go to the end.
-    const auto fan_count = static_cast<Index>(first_corner.size());
+    const auto fan_count = static_cast<Index>(result.source.size());
     std::vector<Index> first_fan(positions_.size(), kNoIndex);
     for (Index fan = 0; fan < fan_count; ++fan) {
         Index& first = first_fan[result.source[fan]];
         if (first == kNoIndex) first = fan;
     }
     std::vector<Index> order;
-    order.reserve(first_corner.size());
+    order.reserve(result.source.size());
     for (const Index fan : first_fan) {
         if (fan != kNoIndex) order.push_back(fan);
     }

@@ -38,12 +38,41 @@ double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 double longest_edge_squared(const Mesh& mesh, Index f) {
     const std::span<const Index> face = mesh.topology().face(f);
     double longest = 0.0;
-    for (std::size_t k = 0; k < face.size(); ++k) {
-        const Vec3& next = mesh.position(face[(k + 1) % face.size()]);
-        longest = std::max(longest, (next - mesh.position(face[k])).squaredNorm());
+    Index last = face.back();
+    for (const Index v : face) {
+        longest = std::max(longest, (mesh.position(v) - mesh.position(last)).squaredNorm());
+        last = v;
     }
     return longest;
 }
+
+// Areas of faces: of the triangles that they are split into.
+class FaceArea {
+  public:
+    explicit FaceArea(const Mesh& mesh) : mesh_(mesh) {}
+
+    double of(Index f) {
+        const std::span<const Index> face = mesh_.topology().face(f);
+        if (face.size() == 3) return triangle(face, {0, 1, 2});
+        points_.clear();
+        triangles_.clear();
+        for (const Index v : face) points_.push_back(mesh_.position(v));
+        triangulate_polygon(points_, triangles_);
+        double sum = 0.0;
+        for (const Triangle& t : triangles_) sum += triangle(face, t);
+        return sum;
+    }
+
+  private:
+    double triangle(std::span<const Index> face, const Triangle& t) const {
+        return triangle_area(mesh_.position(face[t[0]]), mesh_.position(face[t[1]]),
+                             mesh_.position(face[t[2]]));
+    }
+
+    const Mesh& mesh_;
+    std::vector<Vec3> points_;
+    std::vector<Triangle> triangles_;
+};
 
 struct Surface {
     double area = 0.0;
@@ -152,13 +181,10 @@ double surface_radius(const Mesh& mesh) {
 }
 
 std::vector<double> face_areas(const Mesh& mesh) {
-    const Triangulation surface = triangulate_faces(mesh.topology(), mesh.positions());
-    std::vector<double> areas(static_cast<std::size_t>(mesh.face_count()), 0.0);
-    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-        const Triangle& t = surface.triangles[i];
-        areas[surface.face[i]] +=
-            triangle_area(mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2]));
-    }
+    std::vector<double> areas;
+    areas.reserve(static_cast<std::size_t>(mesh.face_count()));
+    FaceArea area(mesh);
+    for (Index f = 0; f < mesh.face_count(); ++f) areas.push_back(area.of(f));
     return areas;
 }
 
@@ -248,10 +274,10 @@ double mean_edge_length(const Mesh& mesh) {
 }
 
 std::vector<Index> zero_area_faces(const Mesh& mesh) {
-    const std::vector<double> areas = face_areas(mesh);
     std::vector<Index> flat;
+    FaceArea area(mesh);
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        if (areas[f] <= kFlat * longest_edge_squared(mesh, f)) flat.push_back(f);
+        if (area.of(f) <= kFlat * longest_edge_squared(mesh, f)) flat.push_back(f);
     }
     return flat;
 }

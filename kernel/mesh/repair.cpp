@@ -123,6 +123,7 @@ class VertexFindings {
         : soup_(soup), file_corners_(file_corners), work_(work), fans_(fans) {}
 
     void add_to(Report& report) const {
+        if (fans_.unchanged) return;
         add_unused(report);
         add_welded(report);
         add_split(report);

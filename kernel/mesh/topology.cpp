@@ -2,6 +2,7 @@
 
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,28 @@ namespace lissom {
 using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
+
+namespace {
+
+// Links the half-edges outside the surface, which have no face.
+void link_boundary(OpenMesh::PolyConnectivity& mesh, const std::vector<Index>& twin,
+                   const std::vector<HalfedgeHandle>& of_corner) {
+    std::vector<HalfedgeHandle> outside;
+    for (std::size_t c = 0; c < twin.size(); ++c) {
+        if (twin[c] == kNoIndex) outside.push_back(mesh.opposite_halfedge_handle(of_corner[c]));
+    }
+    for (const HalfedgeHandle halfedge : outside) {
+        mesh.set_boundary(halfedge);
+        mesh.set_halfedge_handle(mesh.from_vertex_handle(halfedge), halfedge);
+    }
+    // Each vertex now has its outgoing one.
+    for (const HalfedgeHandle halfedge : outside) {
+        const VertexHandle to = mesh.to_vertex_handle(halfedge);
+        mesh.set_next_halfedge_handle(halfedge, mesh.halfedge_handle(to));
+    }
+}
+
+}  // namespace
 
 Topology::Topology() : halfedges_(std::make_unique<OpenMesh::PolyConnectivity>()) {}
 
@@ -41,18 +64,18 @@ std::shared_ptr<const Topology> Topology::create_paired(Index vertex_count, Face
 void Topology::build_halfedges(const std::vector<Index>& twin) {
     OpenMesh::PolyConnectivity& mesh = *halfedges_;
     const Index corners = corner_count();
-    mesh.reserve(static_cast<std::size_t>(vertex_count_), static_cast<std::size_t>(corners),
-                 static_cast<std::size_t>(face_count()));
-    for (Index v = 0; v < vertex_count_; ++v) mesh.new_vertex();
+    boundary_edge_count_ = static_cast<Index>(std::count(twin.begin(), twin.end(), kNoIndex));
+    const auto edge_total = (static_cast<std::size_t>(corners) + boundary_edge_count_) / 2;
+    mesh.resize(static_cast<std::size_t>(vertex_count_), edge_total,
+                static_cast<std::size_t>(face_count()));
+    edges_.reserve(2 * edge_total);
 
     std::vector<HalfedgeHandle> of_corner(static_cast<std::size_t>(corners));
-    std::vector<HalfedgeHandle> boundary_from(static_cast<std::size_t>(vertex_count_));
-    edges_.reserve(static_cast<std::size_t>(corners));
     for (Index f = 0; f < face_count(); ++f) {
         const std::span<const Index> face = faces_[f];
         triangle_mesh_ = triangle_mesh_ && face.size() == 3;
         const Index first = first_corner(f);
-        const FaceHandle face_handle = mesh.new_face();
+        const FaceHandle face_handle(f);
         for (std::size_t k = 0; k < face.size(); ++k) {
             const Index corner = first + static_cast<Index>(k);
             const Index from = face[k], to = face[(k + 1) % face.size()];
@@ -60,7 +83,10 @@ void Topology::build_halfedges(const std::vector<Index>& twin) {
             if (other != kNoIndex && other < corner) {
                 of_corner[corner] = mesh.opposite_halfedge_handle(of_corner[other]);
             } else {
-                of_corner[corner] = mesh.new_edge(VertexHandle(from), VertexHandle(to));
+                of_corner[corner] = HalfedgeHandle(static_cast<Index>(edges_.size()));
+                mesh.set_vertex_handle(of_corner[corner], VertexHandle(to));
+                mesh.set_vertex_handle(mesh.opposite_halfedge_handle(of_corner[corner]),
+                                       VertexHandle(from));
                 edges_.push_back(from);
                 edges_.push_back(to);
             }
@@ -77,20 +103,7 @@ void Topology::build_halfedges(const std::vector<Index>& twin) {
                                           of_corner[next]);
         }
     }
-    for (Index c = 0; c < corners; ++c) {
-        if (twin[c] != kNoIndex) continue;
-        ++boundary_edge_count_;
-        const HalfedgeHandle outer = mesh.opposite_halfedge_handle(of_corner[c]);
-        mesh.set_boundary(outer);
-        const VertexHandle from = mesh.from_vertex_handle(outer);
-        mesh.set_halfedge_handle(from, outer);
-        boundary_from[from.idx()] = outer;
-    }
-    for (Index c = 0; c < corners; ++c) {
-        if (twin[c] != kNoIndex) continue;
-        const HalfedgeHandle outer = mesh.opposite_halfedge_handle(of_corner[c]);
-        mesh.set_next_halfedge_handle(outer, boundary_from[mesh.to_vertex_handle(outer).idx()]);
-    }
+    if (boundary_edge_count_ > 0) link_boundary(mesh, twin, of_corner);
 }
 
 void Topology::build_rings() {
@@ -142,22 +155,20 @@ void Topology::build_boundary_loops() {
 }
 
 void Topology::build_components() {
-    components_.assign(static_cast<std::size_t>(vertex_count_), kNoIndex);
-    std::vector<Index> stack;
+    // Each vertex points to itself or to a smaller one of its component.
+    components_.resize(static_cast<std::size_t>(vertex_count_));
+    std::iota(components_.begin(), components_.end(), 0);
+    const auto root = [&](Index v) {
+        while (components_[v] != v) v = components_[v] = components_[components_[v]];
+        return v;
+    };
+    for (std::size_t e = 0; e < edges_.size(); e += 2) {
+        const Index a = root(edges_[e]), b = root(edges_[e + 1]);
+        components_[std::max(a, b)] = std::min(a, b);
+    }
     for (Index v = 0; v < vertex_count_; ++v) {
-        if (components_[v] != kNoIndex) continue;
-        components_[v] = component_count_;
-        stack.push_back(v);
-        while (!stack.empty()) {
-            const Index at = stack.back();
-            stack.pop_back();
-            for (const Index n : neighbors(at)) {
-                if (components_[n] != kNoIndex) continue;
-                components_[n] = component_count_;
-                stack.push_back(n);
-            }
-        }
-        ++component_count_;
+        const Index parent = components_[v];
+        components_[v] = parent == v ? component_count_++ : components_[parent];
     }
 }
 

@@ -69,6 +69,11 @@ struct EdgeDefects {
     }
 };
 
+Index face_of_corner(const FaceList& faces, Index corner) {
+    const auto after = std::upper_bound(faces.offsets.begin(), faces.offsets.end(), corner);
+    return static_cast<Index>(after - faces.offsets.begin()) - 1;
+}
+
 std::vector<Index> pair_edges(Index vertex_count, const FaceList& faces) {
     const DirectedEdges edges(vertex_count, faces);
     FaceCycles cycles(faces);
@@ -85,7 +90,7 @@ std::vector<Index> pair_edges(Index vertex_count, const FaceList& faces) {
         std::size_t distinct = corners.size();
         FaceCycles::Seen seen;
         for (const Index corner : corners) {
-            const Index f = edges.face(corner);
+            const Index f = face_of_corner(faces, corner);
             if (!is_duplicate[f] && !cycles.is_copy(f, seen)) continue;
             if (!is_duplicate[f]) defects.duplicates.add(f);
             is_duplicate[f] = 1;

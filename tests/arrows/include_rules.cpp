@@ -51,7 +51,7 @@ const std::vector<Rule>& rules() {
         {"examples", {"kernel"}, {"printing"}},
         {"tests/bench",
          {"kernel", "bindings", "tests"},
-         {"Eigen", "CGAL", "JSON", "printing", "platform"}},
+         {"Eigen", "CGAL", "OpenMesh", "tinygltf", "JSON", "printing", "platform"}},
         {"tests",
          {"kernel", "bindings", "viewer", "tests"},
          {"Eigen", "Lua", "CLI11", "JSON", "stb", "OpenGL", "doctest", "printing", "platform"}},
