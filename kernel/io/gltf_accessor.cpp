@@ -117,6 +117,14 @@ void for_each_number(const PackedNumbers& packed, const Use& use) {
 
 }  // namespace
 
+void unpack(const PackedNumbers& packed, double* to) {
+    const double largest = packed.normalized ? range_of(packed.type).max : 1.0;
+    for_each_number(packed, [&](auto value, std::size_t i) {
+        const auto number = static_cast<double>(value);
+        to[i] = packed.normalized ? std::max(number / largest, -1.0) : number;
+    });
+}
+
 const tinygltf::Accessor& AccessorReader::find(int accessor) const {
     if (accessor < 0 || static_cast<std::size_t>(accessor) >= document_.model.accessors.size()) {
         refuse_accessor(accessor, "does not exist");
@@ -155,12 +163,7 @@ AccessorValues AccessorReader::values(int number) const {
     const PackedNumbers packed = this->packed(number);
     AccessorValues result{packed.count, packed.width, packed.type, packed.normalized, {}};
     result.values.resize(packed.count * static_cast<std::size_t>(packed.width));
-    const double largest = packed.normalized ? range_of(packed.type).max : 1.0;
-    for_each_number(packed, [&](auto value, std::size_t i) {
-        const double number_value = static_cast<double>(value);
-        result.values[i] =
-            packed.normalized ? std::max(number_value / largest, -1.0) : number_value;
-    });
+    unpack(packed, result.values.data());
     return result;
 }
 

@@ -28,6 +28,10 @@ struct PackedNumbers {
     PackedNumbers& operator=(const PackedNumbers&) = delete;
 };
 
+/// Writes all numbers, `width` for each of `count` elements, from `to` on. Normalised integers
+/// become fractions.
+void unpack(const PackedNumbers& packed, double* to);
+
 /// Values of an accessor, `width` for each of `count` elements.
 struct AccessorValues {
     std::size_t count = 0;

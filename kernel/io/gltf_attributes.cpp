@@ -35,6 +35,14 @@ ScalarType type_in_mesh(GltfSemantic semantic, const AccessorValues& read) {
     return keeps_integers ? read.type : ScalarType::float32;
 }
 
+// `wanted` 0 for any.
+void require_width(const std::string& name, int accessor, Index width, Index wanted) {
+    if (wanted == 0 || width == wanted) return;
+    refuse(ErrorCode::file_syntax, "accessor " + std::to_string(accessor) + " of " + name +
+                                       " has " + std::to_string(width) +
+                                       " numbers an element instead of " + std::to_string(wanted));
+}
+
 void require_count(const VertexBlock& block, int accessor, const AccessorValues& read) {
     if (read.count == block.vertex_count) return;
     refuse(ErrorCode::file_syntax, "accessor " + std::to_string(accessor) + " has " +
@@ -75,7 +83,9 @@ void add_joint_set(const GltfAttributeName& name, const AccessorValues& read, Ac
 }  // namespace
 
 void VertexReader::add_positions(VertexBlock& block, const NodeTransform& transform) {
-    const AccessorValues read = read_values("POSITION", block.attributes.at("POSITION"), 3);
+    const int accessor = block.attributes.at("POSITION");
+    const PackedNumbers read = accessors_.packed(accessor);
+    require_width("POSITION", accessor, read.width, 3);
     block.vertex_count = read.count;
     first_ = positions_.size();
     constexpr std::size_t kMaximum = std::numeric_limits<Index>::max();
@@ -83,20 +93,19 @@ void VertexReader::add_positions(VertexBlock& block, const NodeTransform& transf
         refuse(ErrorCode::file_too_large,
                "the file has more than " + std::to_string(kMaximum) + " vertices; split it");
     }
-    positions_.reserve(positions_.size() + read.count);
-    for (std::size_t i = 0; i < read.count; ++i) {
-        const double* p = read.values.data() + 3 * i;
-        positions_.push_back(transform.position(Vec3(p[0], p[1], p[2])));
+    positions_.resize(first_ + read.count);
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    if (read.count > 0) unpack(read, positions_[first_].data());
+    for (std::size_t i = first_; i < positions_.size(); ++i) {
+        positions_[i] = transform.position(Vec3(positions_[i]));
     }
 }
 
 // `width` 0 for any.
 AccessorValues VertexReader::read_values(const std::string& name, int accessor, Index width) const {
     AccessorValues read = accessors_.values(accessor);
-    if (width == 0 || read.width == width) return read;
-    refuse(ErrorCode::file_syntax, "accessor " + std::to_string(accessor) + " of " + name +
-                                       " has " + std::to_string(read.width) +
-                                       " numbers an element instead of " + std::to_string(width));
+    require_width(name, accessor, read.width, width);
+    return read;
 }
 
 void VertexReader::add_attributes(const VertexBlock& block, const NodeTransform& transform) {

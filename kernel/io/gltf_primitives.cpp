@@ -1,6 +1,7 @@
 #include "kernel/io/gltf_primitives.h"
 
 #include <tiny_gltf.h>
+#include <utility>
 
 #include <map>
 #include <set>
@@ -11,10 +12,11 @@
 namespace lissom {
 namespace {
 
-FaceList join_triangles(const std::vector<Index>& v) {
+FaceList join_triangles(std::vector<Index> v) {
     FaceList faces;
     const std::size_t count = v.size() / 3;
-    faces.vertices.assign(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(3 * count));
+    faces.vertices = std::move(v);
+    faces.vertices.resize(3 * count);
     faces.offsets.reserve(count + 1);
     for (std::size_t t = 1; t <= count; ++t) faces.offsets.push_back(static_cast<Index>(3 * t));
     return faces;
@@ -65,11 +67,11 @@ PrimitiveShape shape_of_mode(int mode) {
            "a primitive has the mode " + std::to_string(mode) + ", which does not exist");
 }
 
-FaceList join_primitive(const std::vector<Index>& indices, const PrimitiveJoin& join,
+FaceList join_primitive(std::vector<Index> indices, const PrimitiveJoin& join,
                         std::size_t& left_over) {
     if (join.mode == TINYGLTF_MODE_TRIANGLES) {
         left_over += indices.size() % 3;
-        return join.has_polygons ? join_polygons(indices) : join_triangles(indices);
+        return join.has_polygons ? join_polygons(indices) : join_triangles(std::move(indices));
     }
     if (indices.size() < 3) left_over += indices.size();
     return join.mode == TINYGLTF_MODE_TRIANGLE_STRIP ? join_strip(indices) : join_fan(indices);

@@ -24,7 +24,7 @@ struct PrimitiveJoin {
 
 /// Polygons of the vertices `indices`. Triangles of strips without area, which join strips, are
 /// left out; vertices that make no triangle are added to `left_over`.
-FaceList join_primitive(const std::vector<Index>& indices, const PrimitiveJoin& join,
+FaceList join_primitive(std::vector<Index> indices, const PrimitiveJoin& join,
                         std::size_t& left_over);
 
 /// The polygon that `count` faces from `first` on make together, from the first vertex of the first

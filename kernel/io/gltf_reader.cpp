@@ -110,22 +110,26 @@ class SurfaceReader {
         const std::size_t first = vertices_.positions().size();
         vertices_.add_positions(block, transform);
         for (const Primitive* primitive : block.primitives) {
-            block.corners.push_back(corners_of(*primitive, block.vertex_count));
+            std::vector<Index> corners = corners_of(*primitive, block.vertex_count);
+            // They tell which primitive uses which vertex; a single one uses all that matter.
+            if (block.primitives.size() > 1) block.corners.push_back(corners);
             if (only_points_) continue;
             faces[primitive] =
-                joined_faces(*primitive, block.corners.back(), first, transform.mirrors());
+                joined_faces(*primitive, std::move(corners), first, transform.mirrors());
         }
         vertices_.add_attributes(block, transform);
     }
 
-    FaceList joined_faces(const Primitive& primitive, const std::vector<Index>& corners,
-                          std::size_t first, bool mirrored) {
+    FaceList joined_faces(const Primitive& primitive, std::vector<Index> corners, std::size_t first,
+                          bool mirrored) {
         const PrimitiveJoin join{primitive.mode, primitive.extensions.contains("FB_ngon_encoding")};
         std::size_t left_over = 0;
-        FaceList faces = join_primitive(corners, join, left_over);
+        FaceList faces = join_primitive(std::move(corners), join, left_over);
         skipped_.add("indices that make no triangle", left_over);
         budget_.charge(faces.vertices.size());
-        for (Index& v : faces.vertices) v += static_cast<Index>(first);
+        if (first > 0) {
+            for (Index& v : faces.vertices) v += static_cast<Index>(first);
+        }
         for (Index f = 0; mirrored && f < faces.size(); ++f) {
             std::reverse(faces.vertices.data() + faces.offsets[f] + 1,
                          faces.vertices.data() + faces.offsets[f + 1]);
@@ -134,6 +138,7 @@ class SurfaceReader {
     }
 
     void add_faces(const Primitive& primitive, FaceList& faces) {
+        const auto first_face = static_cast<std::size_t>(mesh_.faces.size());
         constexpr std::size_t kMaximum = std::numeric_limits<Index>::max();
         if (mesh_.faces.size() == 0 && faces.vertices.size() <= kMaximum) {
             mesh_.faces = std::move(faces);
@@ -143,8 +148,10 @@ class SurfaceReader {
         const bool has_material =
             primitive.material >= 0 &&
             static_cast<std::size_t>(primitive.material) < material_labels_.names.size();
+        if (!has_material) return;
+        material_labels_.of_face.resize(first_face, kNoIndex);
         material_labels_.of_face.resize(static_cast<std::size_t>(mesh_.faces.size()),
-                                        has_material ? primitive.material : kNoIndex);
+                                        primitive.material);
     }
 
     void label_faces(const std::string& label, Index first_face) {

@@ -15,10 +15,16 @@ struct Sources {
     std::span<const Index> file_corners;
     const CornerFaces& work;
     const FanVertices& fans;
+    // The mesh's vertex at each of its corners, which `fans` no longer has.
+    std::span<const Index> fan_of_corner;
     bool corners_unchanged;
 
-    Sources(std::span<const Index> corners, const CornerFaces& faces, const FanVertices& vertices)
-        : file_corners(corners), work(faces), fans(vertices) {
+    Sources(std::span<const Index> corners, const CornerFaces& faces, const FanVertices& vertices,
+            const Topology& topology)
+        : file_corners(corners),
+          work(faces),
+          fans(vertices),
+          fan_of_corner(topology.faces().vertices) {
         corners_unchanged = faces.corner_source.size() == file_corners.size() &&
                             std::is_sorted(faces.corner_source.begin(), faces.corner_source.end());
     }
@@ -60,7 +66,7 @@ Attribute taken(const Attribute& old, Domain domain, const std::vector<Index>& s
 bool differs_at_a_vertex(const Attribute& old, const Sources& sources) {
     for (std::size_t c = 0; c < sources.corner_count(); ++c) {
         const Index here = sources.vertex_at(c);
-        const Index first = sources.fans.source[sources.fans.of_corner[c]];
+        const Index first = sources.fans.source[sources.fan_of_corner[c]];
         if (here != first && !same_values(old.at(here), old.at(first))) return true;
     }
     return false;
@@ -101,7 +107,7 @@ std::vector<Index> carried_region(const std::vector<Index>& vertices, std::size_
     for (const Index v : vertices) inside[v] = 1;
     std::vector<Index> kept;
     for (std::size_t c = 0; c < sources.corner_count(); ++c) {
-        if (inside[sources.vertex_at(c)]) kept.push_back(sources.fans.of_corner[c]);
+        if (inside[sources.vertex_at(c)]) kept.push_back(sources.fan_of_corner[c]);
     }
     return kept;
 }
@@ -143,13 +149,16 @@ void require_attributes_fit(const Soup& soup) {
     }
 }
 
-Mesh carry_soup(Soup soup, std::span<const Index> file_corners, const CornerFaces& work,
-                const FanVertices& fans, const std::vector<Index>& twin, const Context& context) {
+Mesh carry_soup(Soup soup, std::span<const Index> file_corners, CornerFaces work, FanVertices fans,
+                const std::vector<Index>& twin, const Context& context) {
     const std::size_t file_vertices = soup.positions.size();
-    const Sources sources(file_corners, work, fans);
-    FaceList faces{work.faces.offsets, fans.of_corner};
+    FaceList faces{std::move(work.faces.offsets), std::move(fans.of_corner)};
+    // Freed before the half-edges take their memory.
+    work.faces = {};
+    work.face_of_corner = {};
     auto topology = Topology::create_paired(static_cast<Index>(fans.source.size()),
                                             std::move(faces), twin, context);
+    const Sources sources(file_corners, work, fans, *topology);
     Mesh mesh(carried_positions(soup, fans), std::move(topology), context);
     for (Attribute& attribute : soup.attributes.all()) {
         context.checkpoint();

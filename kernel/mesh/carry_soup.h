@@ -19,7 +19,7 @@ void require_attributes_fit(const Soup& soup);
 /// the corners of the file; `twin` pairs the corners of `work`. A vertex attribute whose values
 /// differ at one vertex becomes one of corners, except that joints and weights of a skin stay those
 /// of the first.
-Mesh carry_soup(Soup soup, std::span<const Index> file_corners, const CornerFaces& work,
-                const FanVertices& fans, const std::vector<Index>& twin, const Context& context);
+Mesh carry_soup(Soup soup, std::span<const Index> file_corners, CornerFaces work, FanVertices fans,
+                const std::vector<Index>& twin, const Context& context);
 
 }  // namespace lissom

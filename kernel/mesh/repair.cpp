@@ -231,11 +231,12 @@ Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Rep
     progress.update(0.5);
 
     if (options.weld == Weld::seams && !gluing.is_closed()) gluing.glue_seams(object_labels(soup));
-    const FanVertices fans = gluing.number_fans();
+    FanVertices fans = gluing.number_fans();
     VertexFindings(soup, file_corners, work, fans).add_to(report);
     progress.update(0.8);
 
-    Mesh mesh = carry_soup(std::move(soup), file_corners, work, fans, gluing.twin(), context);
+    Mesh mesh = carry_soup(std::move(soup), file_corners, std::move(work), std::move(fans),
+                           gluing.twin(), context);
     if (!options.repair) require_area(mesh);
     flag_quality(mesh, report);
     mesh.set_report(std::move(report));
