@@ -194,6 +194,7 @@ class SurfaceReader {
     // do not make one.
     bool join_parts(const std::vector<Index>& parts, Index first_face) {
         if (parts.empty()) return true;
+        material_labels_.of_face.resize(static_cast<std::size_t>(mesh_.faces.size()), kNoIndex);
         FaceList joined;
         std::vector<Index> materials, outline;
         Index f = first_face;

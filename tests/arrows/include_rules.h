@@ -16,7 +16,8 @@ namespace lissom::test {
 ///   including folder may know.
 /// - A third-party header is included only in the folders that own the library; headers of the
 /// kernel,
-///   which are installed, include no library but Eigen. Those of kernel/io/gltf_* are not installed.
+///   which are installed, include no library but Eigen. Those of kernel/io/gltf_* are not
+///   installed.
 /// - A header opens with a docstring, followed by `#pragma once`.
 std::vector<std::string> include_violations(std::string_view path, std::string_view source);
 
