@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/deform/firm_factor.h"
 #include "kernel/deform/row_accumulator.h"
 
 namespace lissom {
@@ -276,8 +277,7 @@ GradientSystem::GradientSystem(const Patch& patch, const Rings& rings, const Rin
 }
 
 void GradientSystem::factor(const Context& context) {
-    system_.analyze(matrix_, context);
-    system_.factor(matrix_, context);
+    factor_firmly(system_, matrix_, context);
 }
 
 }  // namespace lissom

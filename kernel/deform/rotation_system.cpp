@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/deform/firm_factor.h"
 #include "kernel/deform/row_accumulator.h"
 
 namespace lissom {
@@ -124,8 +125,7 @@ void RotationSystem::assemble(const std::vector<char>& position_known, const Con
 }
 
 void RotationSystem::factor(const Context& context) {
-    system_.analyze(matrix_, context);
-    system_.factor(matrix_, context);
+    factor_firmly(system_, matrix_, context);
     matrix_ = {};
 }
 

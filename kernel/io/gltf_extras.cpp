@@ -52,6 +52,20 @@ bool read_turns(const Json& runs, std::size_t face_count, std::vector<Index>& tu
     return turns.size() == face_count;
 }
 
+// Numbers of at least 1 that sum up to `sum`.
+bool read_shares(const Json& runs, std::size_t sum, std::vector<Index>& shares) {
+    auto left = static_cast<std::int64_t>(sum);
+    for (const Run& run : runs_of(runs)) {
+        if (run.first < 1 || run.count < 0 || run.first > left || run.count > left / run.first) {
+            return false;
+        }
+        left -= run.first * run.count;
+        shares.insert(shares.end(), static_cast<std::size_t>(run.count),
+                      static_cast<Index>(run.first));
+    }
+    return left == 0;
+}
+
 bool read_region(const Json& json, std::int64_t vertex_count, std::vector<Index>& vertices) {
     std::int64_t next = 0;
     for (const Run& run : runs_of(json)) {
@@ -71,6 +85,13 @@ bool is_count(const Json& json, const char* key, std::size_t count) {
 }
 
 bool read(const Json& json, std::size_t vertex_count, std::size_t face_count, MeshExtras& extras) {
+    if (const Json* parts = member(json, "parts")) {
+        if (!read_shares(*parts, face_count, extras.parts)) return false;
+        face_count = extras.parts.size();
+    }
+    if (const Json* copies = member(json, "copies")) {
+        if (!read_shares(*copies, vertex_count, extras.copies)) return false;
+    }
     if (!is_count(json, "vertices", vertex_count) || !is_count(json, "faces", face_count)) {
         return false;
     }
@@ -139,7 +160,7 @@ MeshExtras take_extras(Json& mesh, std::size_t vertex_count, std::size_t face_co
 void put_extras(Json& mesh, const MeshExtras& extras, std::size_t vertex_count,
                 std::size_t face_count) {
     const bool is_empty = extras.labels.empty() && extras.regions.empty() && extras.turns.empty() &&
-                          extras.corners.empty();
+                          extras.corners.empty() && extras.parts.empty() && extras.copies.empty();
     if (is_empty) return;
     Json ours{{"vertices", vertex_count}, {"faces", face_count}};
     for (const auto& [kind, labels] : extras.labels) {
@@ -150,6 +171,8 @@ void put_extras(Json& mesh, const MeshExtras& extras, std::size_t vertex_count,
     }
     if (!extras.turns.empty()) ours["turns"] = label_runs(extras.turns);
     if (!extras.corners.empty()) ours["corners"] = extras.corners;
+    if (!extras.parts.empty()) ours["parts"] = label_runs(extras.parts);
+    if (!extras.copies.empty()) ours["copies"] = label_runs(extras.copies);
     object_in(mesh, "extras")[kKey] = std::move(ours);
 }
 

@@ -39,27 +39,31 @@ void FanWriter::add_fan(const std::vector<Index>& vertices, std::size_t start) {
     last_first_ = vertices[start];
 }
 
-std::vector<Index> FanWriter::add(const std::vector<Index>& vertices,
-                                  const std::vector<Vec3>& points) {
+FanWriter::Added FanWriter::add(const std::vector<Index>& vertices,
+                                const std::vector<Vec3>& points) {
     const std::size_t n = vertices.size();
     if (n == 3 && !has_polygons_) {
         add_fan(vertices, 0);
-        return {0};
+        return {};
     }
     const Vec3 area = area_vector(points);
     for (std::size_t start = 0; start < n; ++start) {
         if (vertices[start] == last_first_) continue;
         if (n > 3 && !is_fan(points, start, area)) continue;
         add_fan(vertices, start);
-        return {static_cast<Index>((n - start) % n)};
+        return {1, static_cast<Index>((n - start) % n)};
     }
     std::vector<Triangle> triangles;
     triangulate_polygon(points, triangles);
+    Index first = kNoIndex;
     for (const Triangle& t : triangles) {
         const std::vector<Index> corners{vertices[t[0]], vertices[t[1]], vertices[t[2]]};
-        add_fan(corners, corners[0] == last_first_ ? 1 : 0);
+        const std::size_t start = corners[0] == last_first_ ? 1 : 0;
+        if (first == kNoIndex) first = t[start];
+        add_fan(corners, start);
     }
-    return std::vector<Index>(triangles.size(), 0);
+    return {static_cast<Index>(triangles.size()),
+            (static_cast<Index>(n) - first) % static_cast<Index>(n)};
 }
 
 }  // namespace lissom

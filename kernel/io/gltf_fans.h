@@ -12,10 +12,15 @@ namespace lissom {
 /// same first vertex, which differs from that of the polygon before.
 class FanWriter {
   public:
+    /// What became of a polygon: the faces that a reader will find, and where the polygon's first
+    /// corner is, counted from the first vertex of the first of them.
+    struct Added {
+        Index parts = 1;
+        Index turn = 0;
+    };
     /// Adds a polygon of pool vertices `vertices` at `points`. A triangle of a surface of triangles
-    /// keeps its first vertex. Returns for each face that a reader will find where in it the first
-    /// corner of the polygon is; there are several, with 0, where no fan covers the polygon.
-    std::vector<Index> add(const std::vector<Index>& vertices, const std::vector<Vec3>& points);
+    /// keeps its first vertex. There are several parts where no fan covers the polygon.
+    Added add(const std::vector<Index>& vertices, const std::vector<Vec3>& points);
 
     /// Three vertices a triangle.
     const std::vector<Index>& corners() const { return corners_; }

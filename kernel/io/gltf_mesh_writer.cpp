@@ -59,6 +59,8 @@ class MeshWriter::Object {
         mesh_["primitives"].push_back(std::move(json));
     }
 
+    void keep_objects(const FaceLabels& objects) { objects_ = &objects; }
+
     void add_points() {
         std::vector<Index> all;
         for (std::size_t v = 0; v < pool_.size(); ++v) all.push_back(static_cast<Index>(v));
@@ -140,13 +142,13 @@ class MeshWriter::Object {
                 std::reverse(vertices.begin() + 1, vertices.end());
                 std::reverse(points.begin() + 1, points.end());
             }
-            std::vector<Index> turns = fans.add(vertices, points);
-            if (place_.to_node.mirrors() && turns[0] != 0) {
-                turns[0] = static_cast<Index>(vertices.size()) - turns[0];
+            FanWriter::Added added = fans.add(vertices, points);
+            if (place_.to_node.mirrors() && added.turn != 0) {
+                added.turn = static_cast<Index>(vertices.size()) - added.turn;
             }
-            if (turns.size() > 1) ++writer_.split_polygons_;
-            faces_.insert(faces_.end(), turns.size(), f);
-            turns_.insert(turns_.end(), turns.begin(), turns.end());
+            faces_.push_back(f);
+            turns_.push_back(added.turn);
+            parts_.push_back(added.parts);
         }
         return fans;
     }
@@ -243,20 +245,33 @@ class MeshWriter::Object {
         return writer_.binary_.add(numbers, BufferUse::indices);
     }
 
+    void add_labels(const std::string& kind, const FaceLabels& labels, MeshExtras& result) const {
+        std::map<Index, Index> numbers;
+        FaceLabels own;
+        for (const Index f : faces_) {
+            const Index label = labels.of_face[f];
+            if (label != kNoIndex && numbers.emplace(label, own.names.size()).second) {
+                own.names.push_back(labels.names[label]);
+            }
+            own.of_face.push_back(label == kNoIndex ? kNoIndex : numbers[label]);
+        }
+        if (!own.names.empty()) result.labels[kind] = std::move(own);
+    }
+
+    // How many vertices of the pool each vertex of the surface is.
+    std::vector<Index> copies() const {
+        std::vector<Index> result;
+        for (std::size_t i = 0; i < pool_.size(); ++i) {
+            if (i == 0 || pool_.vertices[i] != pool_.vertices[i - 1]) result.push_back(0);
+            ++result.back();
+        }
+        return result;
+    }
+
     MeshExtras extras() const {
         MeshExtras result;
-        for (const auto& [kind, labels] : writer_.labels_) {
-            std::map<Index, Index> numbers;
-            FaceLabels own;
-            for (const Index f : faces_) {
-                const Index label = labels->of_face[f];
-                if (label != kNoIndex && numbers.emplace(label, own.names.size()).second) {
-                    own.names.push_back(labels->names[label]);
-                }
-                own.of_face.push_back(label == kNoIndex ? kNoIndex : numbers[label]);
-            }
-            if (!own.names.empty()) result.labels[kind] = std::move(own);
-        }
+        for (const auto& [kind, labels] : writer_.labels_) add_labels(kind, *labels, result);
+        if (objects_) add_labels("object", *objects_, result);
         for (const auto& [name, mask] : writer_.regions_) {
             std::vector<Index> inside;
             for (std::size_t i = 0; i < pool_.size(); ++i) {
@@ -267,6 +282,10 @@ class MeshWriter::Object {
         if (std::any_of(turns_.begin(), turns_.end(), [](Index t) { return t != 0; })) {
             result.turns = turns_;
         }
+        if (std::any_of(parts_.begin(), parts_.end(), [](Index n) { return n != 1; })) {
+            result.parts = parts_;
+        }
+        if (writer_.states_copies && !faces_.empty()) result.copies = copies();
         if (!faces_.empty()) {
             for (const Attribute* attribute : writer_.attributes_.of_corners()) {
                 result.corners.push_back(attribute->name);
@@ -287,8 +306,10 @@ class MeshWriter::Object {
     bool has_joints_ = false;
     // The face of the mesh that each polygon read back will be.
     std::vector<Index> faces_;
-    // Where in that polygon its first corner is.
-    std::vector<Index> turns_;
+    // Where in that polygon its first corner is, and of how many faces it is put together.
+    std::vector<Index> turns_, parts_;
+    // Labels of the objects that the mesh is made of, where there are several.
+    const FaceLabels* objects_ = nullptr;
 };
 
 MeshWriter::MeshWriter(SavedParts& parts, const WrittenAttributes& attributes, GltfBinary& binary,
@@ -306,6 +327,7 @@ MeshWriter::MeshWriter(SavedParts& parts, const WrittenAttributes& attributes, G
 Json MeshWriter::write(const SurfaceObject& object, const VertexPools& pools, Index number,
                        const ObjectPlace& place, const std::vector<PlacedMaterial>& materials) {
     Object writer(*this, pools.pool(number), place);
+    if (object.is_joined) writer.keep_objects(*parts_.take_labels("object"));
     for (std::size_t p = 0; p < object.primitives.size(); ++p) {
         context_.checkpoint();
         writer.add_primitive(object.primitives[p], pools, materials[p]);

@@ -39,8 +39,8 @@ class MeshWriter {
     /// The mesh of a surface that has only vertices.
     Json write_points(const ObjectPlace& place);
 
-    /// Polygons that could only be written as triangles, so far.
-    std::size_t split_polygons() const { return split_polygons_; }
+    /// Whether the meshes shall say which of their vertices are one.
+    bool states_copies = false;
     /// Tangents that were left out for want of normals, in objects so far.
     std::size_t lost_tangents() const { return lost_tangents_; }
 
@@ -53,7 +53,7 @@ class MeshWriter {
     const Context& context_;
     std::vector<std::pair<std::string, const FaceLabels*>> labels_;
     std::vector<std::pair<std::string, std::vector<char>>> regions_;
-    std::size_t split_polygons_ = 0, lost_tangents_ = 0;
+    std::size_t lost_tangents_ = 0;
 };
 
 }  // namespace lissom

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "kernel/mesh/value_pool.h"
+
 namespace lissom {
 namespace {
 
@@ -104,6 +106,26 @@ Index VertexPools::find_or_add(VertexPool& pool, Index vertex, Index corner, std
     pool.vertices.push_back(vertex);
     pool.corners.push_back(corner);
     return static_cast<Index>(pool.size()) - 1;
+}
+
+bool seams_are_ambiguous(const Mesh& mesh, const VertexPools& pools, Index pool_count) {
+    for (Index number = 0; number < pool_count; ++number) {
+        const std::vector<Index>& vertices = pools.pool(number).vertices;
+        ValuePool<3> places;
+        Index count = 0;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const Index v = vertices[i];
+            if (i > 0 && vertices[i - 1] == v) continue;
+            const bool has_copies = i + 1 < vertices.size() && vertices[i + 1] == v;
+            if (!has_copies && !mesh.topology().is_boundary(v)) continue;
+            const Vec3& p = mesh.position(v);
+            const Index place =
+                places.add({as_written(p.x()), as_written(p.y()), as_written(p.z())});
+            if (place < count) return true;
+            count = place + 1;
+        }
+    }
+    return false;
 }
 
 VertexPool pool_of_points(const Mesh& mesh) {

@@ -3,6 +3,10 @@
 #include <tiny_gltf.h>
 #include <utility>
 
+#include <map>
+#include <set>
+#include <utility>
+
 #include "kernel/io/read_error.h"
 
 namespace lissom {
@@ -71,6 +75,28 @@ FaceList join_primitive(std::vector<Index> indices, const PrimitiveJoin& join,
     }
     if (indices.size() < 3) left_over += indices.size();
     return join.mode == TINYGLTF_MODE_TRIANGLE_STRIP ? join_strip(indices) : join_fan(indices);
+}
+
+bool outline_of(const FaceList& faces, Index first, Index count, std::vector<Index>& outline) {
+    outline.clear();
+    std::map<Index, Index> next;
+    std::set<std::pair<Index, Index>> edges;
+    for (Index f = first; f < first + count; ++f) {
+        const std::span<const Index> face = faces[f];
+        for (std::size_t k = 0; k < face.size(); ++k)
+            edges.emplace(face[k], face[(k + 1) % face.size()]);
+    }
+    std::size_t length = 0;
+    for (const auto& [from, to] : edges) {
+        if (edges.contains({to, from})) continue;
+        ++length;
+        if (!next.emplace(from, to).second) return false;
+    }
+    for (Index v = faces[first][0]; outline.size() < length; v = next[v]) {
+        if (!next.contains(v)) return false;
+        outline.push_back(v);
+    }
+    return length > 2 && next[outline.back()] == outline.front();
 }
 
 }  // namespace lissom

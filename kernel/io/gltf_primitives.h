@@ -27,4 +27,8 @@ struct PrimitiveJoin {
 FaceList join_primitive(std::vector<Index> indices, const PrimitiveJoin& join,
                         std::size_t& left_over);
 
+/// The polygon that `count` faces from `first` on make together, from the first vertex of the first
+/// of them on. False where they make none.
+bool outline_of(const FaceList& faces, Index first, Index count, std::vector<Index>& outline);
+
 }  // namespace lissom

@@ -91,6 +91,7 @@ class SurfaceReader {
         if (!only_points_) {
             for (const Primitive* primitive : primitives) add_faces(*primitive, faces[primitive]);
             label_faces(instance.label, first_face);
+            if (mesh_.faces.size() > first_face) ++surface_instances_;
         }
         read_extras(instance, first_vertex, first_face);
     }
@@ -168,15 +169,82 @@ class SurfaceReader {
         const MeshExtras extras =
             take_extras(mesh, vertices_.positions().size() - first_vertex,
                         static_cast<std::size_t>(mesh_.faces.size() - first_face), fits);
+        fits = fits && join_parts(extras.parts, first_face);
         if (!fits) {
             skipped_.add("regions and groups that no longer fit the surface");
+            return;
         }
-        for (const auto& [kind, labels] : extras.labels) add_labels(kind, labels, first_face);
+        know_copies(extras.copies, first_vertex);
+        for (const auto& [kind, labels] : extras.labels) {
+            if (kind == "object") {
+                relabel_objects(labels, first_face);
+            } else {
+                add_labels(kind, labels, first_face);
+            }
+        }
         turn_faces(extras.turns, first_face);
         corner_attributes_.insert(extras.corners.begin(), extras.corners.end());
         for (const auto& [name, vertices] : extras.regions) {
             std::vector<Index>& region = mesh_.regions[name];
             for (const Index v : vertices) region.push_back(v + static_cast<Index>(first_vertex));
+        }
+    }
+
+    // Puts together the faces that were parts of polygons. False, and nothing was done, where some
+    // do not make one.
+    bool join_parts(const std::vector<Index>& parts, Index first_face) {
+        if (parts.empty()) return true;
+        FaceList joined;
+        std::vector<Index> materials, outline;
+        Index f = first_face;
+        for (const Index count : parts) {
+            if (!outline_of(mesh_.faces, f, count, outline)) return false;
+            joined.add(outline);
+            materials.push_back(material_labels_.of_face[f]);
+            f += count;
+        }
+        mesh_.faces.offsets.resize(static_cast<std::size_t>(first_face) + 1);
+        mesh_.faces.vertices.resize(static_cast<std::size_t>(mesh_.faces.offsets.back()));
+        for (Index g = 0; g < joined.size(); ++g) mesh_.faces.add(joined[g]);
+        material_labels_.of_face.resize(static_cast<std::size_t>(first_face));
+        material_labels_.of_face.insert(material_labels_.of_face.end(), materials.begin(),
+                                        materials.end());
+        object_labels_.of_face.resize(static_cast<std::size_t>(mesh_.faces.size()));
+        return true;
+    }
+
+    // Vertices in a row at one place are one, if the file says so.
+    void know_copies(const std::vector<Index>& copies, std::size_t first_vertex) {
+        if (copies.empty()) return;
+        const std::vector<Vec3>& positions = vertices_.positions();
+        std::size_t v = first_vertex;
+        std::vector<Index> same_as;
+        for (const Index count : copies) {
+            for (Index k = 0; k < count; ++k) {
+                if (positions[v + k] != positions[v]) return;
+                same_as.push_back(static_cast<Index>(v));
+            }
+            v += static_cast<std::size_t>(count);
+        }
+        fill_same_as(first_vertex);
+        mesh_.same_as.insert(mesh_.same_as.end(), same_as.begin(), same_as.end());
+        ++known_instances_;
+    }
+
+    // Up to `vertex_count`, vertices are only the same as themselves.
+    void fill_same_as(std::size_t vertex_count) {
+        while (mesh_.same_as.size() < vertex_count)
+            mesh_.same_as.push_back(static_cast<Index>(mesh_.same_as.size()));
+    }
+
+    // Gives faces of a mesh that was several objects the labels that they had.
+    void relabel_objects(const FaceLabels& labels, Index first_face) {
+        std::vector<Index> renumbered;
+        for (const std::string& name : labels.names) renumbered.push_back(object_labels_.add(name));
+        for (std::size_t i = 0; i < labels.of_face.size(); ++i) {
+            const Index label = labels.of_face[i];
+            object_labels_.of_face[static_cast<std::size_t>(first_face) + i] =
+                label == kNoIndex ? kNoIndex : renumbered[label];
         }
     }
 
@@ -215,6 +283,8 @@ class SurfaceReader {
     void finish() {
         vertices_.finish(mesh_.attributes, mesh_.report);
         mesh_.positions = std::move(vertices_.positions());
+        mesh_.seams_are_known = known_instances_ > 0 && known_instances_ == surface_instances_;
+        if (known_instances_ > 0) fill_same_as(mesh_.positions.size());
         for (Attribute& attribute : mesh_.attributes.all()) {
             if (corner_attributes_.contains(attribute.name)) move_to_corners(attribute);
         }
@@ -240,6 +310,8 @@ class SurfaceReader {
     VertexReader vertices_;
     std::set<std::string> corner_attributes_;
     bool only_points_ = false;
+    // Instances with faces, and those of which the file says which vertices are one.
+    std::size_t surface_instances_ = 0, known_instances_ = 0;
 };
 
 MeshData read_document(const FileInput& file, const Context& context) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "kernel/io/scalar.h"
 
@@ -123,20 +124,59 @@ WrittenAttributes take_attributes(SavedParts& parts) {
     return result;
 }
 
+namespace {
+
+// The label that stands for all that are connected with a label; the last number is no label.
+class ConnectedLabels {
+  public:
+    ConnectedLabels(const Mesh& mesh, const FaceLabels* labels)
+        : labels_(labels), parent_(labels ? labels->names.size() + 1 : 1) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+        if (!labels) return;
+        std::vector<Index> label_at(static_cast<std::size_t>(mesh.vertex_count()), kNoIndex);
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+            for (const Index v : mesh.topology().face(f)) {
+                if (label_at[v] == kNoIndex) label_at[v] = number(f);
+                parent_[root(label_at[v])] = root(number(f));
+            }
+        }
+    }
+
+    Index of_face(Index f) { return root(number(f)); }
+
+  private:
+    Index number(Index f) const {
+        const Index label = labels_ ? labels_->of_face[f] : kNoIndex;
+        return label == kNoIndex ? static_cast<Index>(parent_.size()) - 1 : label;
+    }
+
+    Index root(Index label) {
+        while (parent_[label] != label) label = parent_[label] = parent_[parent_[label]];
+        return label;
+    }
+
+    const FaceLabels* labels_;
+    std::vector<Index> parent_;
+};
+
+}  // namespace
+
 std::vector<SurfaceObject> divide_surface(const Mesh& mesh, const FaceLabels* objects,
                                           const FaceLabels* materials,
                                           std::vector<Index>& pool_of_face) {
     std::vector<SurfaceObject> result;
     std::map<Index, Index> object_of_label;
     std::map<std::pair<Index, Index>, Index> primitive_of;
+    ConnectedLabels connected(mesh, objects);
     pool_of_face.clear();
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        const Index label = objects ? objects->of_face[f] : kNoIndex;
         const Index material = materials ? materials->of_face[f] : kNoIndex;
-        const Index o = number_of(object_of_label, label, [&] {
-            result.push_back({label, {}});
+        const Index o = number_of(object_of_label, connected.of_face(f), [&] {
+            result.push_back({objects ? objects->of_face[f] : kNoIndex, false, {}});
             return static_cast<Index>(result.size()) - 1;
         });
+        result[o].is_joined =
+            result[o].is_joined || (objects && objects->of_face[f] != result[o].label);
         std::vector<SurfacePrimitive>& primitives = result[o].primitives;
         const Index p = number_of(primitive_of, std::pair(o, material), [&] {
             primitives.push_back({material, {}});

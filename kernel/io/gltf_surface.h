@@ -47,10 +47,12 @@ struct SurfacePrimitive {
     std::vector<Index> faces;
 };
 
-/// Faces of one label "object".
+/// Faces of one label "object", or of several that have vertices in common.
 struct SurfaceObject {
-    /// In the labels "object", or kNoIndex.
+    /// The first in the labels "object", or kNoIndex.
     Index label = kNoIndex;
+    /// Whether there are several.
+    bool is_joined = false;
     std::vector<SurfacePrimitive> primitives;
 };
 

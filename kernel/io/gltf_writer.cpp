@@ -104,6 +104,9 @@ class DocumentWriter {
             divide_surface(mesh, objects_, materials_, pool_of_face);
         const auto count = static_cast<Index>(objects.size());
         const VertexPools pools(mesh, pool_of_face, count, attributes_.of_corners());
+        const bool are_joined = std::any_of(objects.begin(), objects.end(),
+                                            [](const SurfaceObject& o) { return o.is_joined; });
+        writer.states_copies = are_joined || seams_are_ambiguous(mesh, pools, count);
         for (Index o = 0; o < count; ++o) {
             progress.update(double(o) / double(count));
             write_object(objects[o], pools, o, writer);
@@ -112,11 +115,6 @@ class DocumentWriter {
     }
 
     void log_changes(const MeshWriter& writer) const {
-        if (writer.split_polygons() > 0) {
-            context_.log(LogLevel::warning,
-                         std::to_string(writer.split_polygons()) +
-                             " polygons were saved as triangles, because no fan covers them");
-        }
         if (writer.lost_tangents() > 0) {
             context_.log(LogLevel::warning, "tangents were not saved where there are no normals");
         }

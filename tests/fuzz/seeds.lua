@@ -11,7 +11,7 @@ local shapes = {
    sphere = lissom.shapes.sphere{ segments = 2 },
 }
 for name, mesh in pairs(shapes) do
-   for _, extension in ipairs{ "obj", "ply", "off", "stl" } do
+   for _, extension in ipairs{ "obj", "ply", "off", "stl", "gltf", "glb" } do
       assert(mesh:save(string.format("%s/%s.%s", params.out, name, extension)))
    end
 end

@@ -29,11 +29,11 @@ os.remove(path(".obj"))
 expect.failure("file_not_found", lissom.load(path(".obj")))
 expect.failure("unknown_format", box:save(path(".doc")))
 expect.failure("file_write_failed", box:save("/no/such/folder/x.obj"))
-local function load_text(extension, text)
+local function load_text(extension, text, options)
     local file = assert(io.open(path(extension), "wb"))
     file:write(text)
     file:close()
-    local mesh, message, code, elements = lissom.load(path(extension))
+    local mesh, message, code, elements = lissom.load(path(extension), options)
     os.remove(path(extension))
     return mesh, message, code, elements
 end
@@ -42,13 +42,39 @@ expect.failure("file_empty", load_text(".obj", ""))
 expect.failure("file_syntax", load_text(".obj", "v 1 2 x\n"))
 expect.failure("face_index", load_text(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"))
 expect.failure("not_finite", load_text(".obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
-local _, message, code, elements = load_text(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n")
+
+-- What is mended is reported; without repair it is an error that names the elements.
+local folded = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\nf 1 2 2\n"
+local mended = assert(load_text(".obj", folded))
+expect.equal(#mended, 3)
+local report = mended:report()
+expect.equal(report.faces_collapsed.count, 1)
+expect.equal(report.faces_collapsed.element, "face")
+expect.equal(report.faces_collapsed.of, "file")
+expect.near_list(report.faces_collapsed.ids, { 2 })
+expect.near_list(report.vertices_unreferenced.ids, { 4 })
+expect.equal(report[1].kind, "faces_collapsed")
+local _, message, code, elements = load_text(".obj", folded, { repair = false })
 expect.equal(code, "repeated_vertex")
-expect.near_list(elements.ids, { 1 })
-expect.truthy(message:find("face 1;", 1, true))
+expect.near_list(elements.ids, { 2 })
+expect.truthy(message:find("face 2;", 1, true))
+
+-- Welding.
+local torn = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n"
+expect.equal(#load_text(".obj", torn), 4)
+expect.equal(#load_text(".obj", torn, { weld = "all" }), 4)
+expect.equal(#load_text(".obj", torn, { weld = false }), 6)
+expect.near_list(load_text(".obj", torn):report().vertices_welded.ids, { 4, 6 })
+local sheets = lissom.mesh{
+    positions = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 } },
+    faces = { { 1, 2, 3 }, { 1, 2, 4 }, { 1, 2, 5 } },
+    repair = true,
+}
+expect.near_list(sheets:report().edges_nonmanifold.ids[1], { 1, 2 })
 
 -- Misuse.
 expect.error("bad argument #1 to 'load' (string expected, got nil)", function() lissom.load(nil) end)
 expect.error("finite number above 0 expected, got 0", function() lissom.load("a.obj", { unit = 0 }) end)
-expect.error("unknown option 'weld'", function() lissom.load("a.obj", { weld = "all" }) end)
+expect.error("seams", function() lissom.load("a.obj", { weld = true }) end)
+expect.error("welt", function() lissom.load("a.obj", { welt = "all" }) end)
 os.remove(name)

@@ -1,0 +1,48 @@
+/// The real files that the tests of this folder go through.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kernel/io/mesh_file.h"
+
+namespace lissom::test {
+
+/// The folders below the test data that hold meshes.
+inline constexpr const char* kMeshFolders[] = {"models", "heads", "nasty", "gltf",
+                                               "gltf_validator"};
+
+/// Root of the test data; empty, with a message, where it is absent.
+inline std::filesystem::path data_root() {
+    const char* root = std::getenv("LISSOM_TEST_DATA");
+    if (root && std::filesystem::exists(root)) return root;
+    MESSAGE("skipped: the folder of real files is absent");
+    return {};
+}
+
+/// All mesh files, relative to the root and with forward slashes, in order.
+inline std::vector<std::string> mesh_files(const std::filesystem::path& root) {
+    const std::vector<std::string>& known = readable_extensions();
+    std::vector<std::string> files;
+    for (const char* folder : kMeshFolders) {
+        if (!std::filesystem::exists(root / folder)) continue;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+            std::string extension = entry.path().extension().string();
+            for (char& c : extension) c = static_cast<char>(std::tolower(c));
+            const bool is_mesh =
+                entry.is_regular_file() && !extension.empty() &&
+                std::find(known.begin(), known.end(), extension.substr(1)) != known.end();
+            if (is_mesh)
+                files.push_back(std::filesystem::relative(entry.path(), root).generic_string());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+}  // namespace lissom::test
