@@ -175,7 +175,14 @@ std::vector<Index> AccessorReader::indices(int number, std::size_t vertex_count)
     if (!is_right) refuse_accessor(number, "does not hold indices");
     const double restart = range_of(packed.type).max;
     std::vector<Index> indices(packed.count);
+    std::uint64_t largest = 0;
     for_each_number(packed, [&](auto value, std::size_t i) {
+        indices[i] = static_cast<Index>(value);
+        largest = std::max(largest, static_cast<std::uint64_t>(value));
+    });
+    const bool all_fit = largest < vertex_count && static_cast<double>(largest) < restart;
+    if (all_fit || packed.count == 0) return indices;
+    for_each_number(packed, [&](auto value, std::size_t) {
         const auto index = static_cast<double>(value);
         if (index == restart) {
             refuse_accessor(
@@ -187,7 +194,6 @@ std::vector<Index> AccessorReader::indices(int number, std::size_t vertex_count)
                                               ", but there are only " +
                                               std::to_string(vertex_count));
         }
-        indices[i] = static_cast<Index>(value);
     });
     return indices;
 }

@@ -138,7 +138,6 @@ class SurfaceReader {
     }
 
     void add_faces(const Primitive& primitive, FaceList& faces) {
-        const auto first_face = static_cast<std::size_t>(mesh_.faces.size());
         constexpr std::size_t kMaximum = std::numeric_limits<Index>::max();
         if (mesh_.faces.size() == 0 && faces.vertices.size() <= kMaximum) {
             mesh_.faces = std::move(faces);
@@ -148,10 +147,8 @@ class SurfaceReader {
         const bool has_material =
             primitive.material >= 0 &&
             static_cast<std::size_t>(primitive.material) < material_labels_.names.size();
-        if (!has_material) return;
-        material_labels_.of_face.resize(first_face, kNoIndex);
         material_labels_.of_face.resize(static_cast<std::size_t>(mesh_.faces.size()),
-                                        primitive.material);
+                                        has_material ? primitive.material : kNoIndex);
     }
 
     void label_faces(const std::string& label, Index first_face) {
