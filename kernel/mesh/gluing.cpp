@@ -273,8 +273,14 @@ std::vector<Index> Gluing::doubled_edges(const FanVertices& vertices) {
 }
 
 FanVertices Gluing::number_fans() {
+    // So many rounds are not needed for anything but input made to take long.
+    constexpr int kMostRounds = 100;
     FanVertices vertices = fans();
-    while (!(regular_ && vertices.unchanged)) {
+    for (int round = 0; !(regular_ && vertices.unchanged); ++round) {
+        if (round == kMostRounds) {
+            std::fill(twin_.begin(), twin_.end(), kNoIndex);
+            return fans();
+        }
         const std::vector<Index> doubled = doubled_edges(vertices);
         if (doubled.empty()) break;
         std::vector<Index> faces;

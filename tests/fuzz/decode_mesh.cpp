@@ -51,8 +51,8 @@ void check_round_trip(const Mesh& mesh, std::string_view extension) {
     const LoadOptions as_stored{.weld = Weld::none};
     const std::optional<Mesh> again = decoded(bytes, extension, as_stored);
     if (!again) std::abort();
-    if (keeps_vertices && (again->vertex_count() != mesh.vertex_count() ||
-                           again->face_count() != mesh.face_count()))
+    if (keeps_vertices &&
+        (again->vertex_count() != mesh.vertex_count() || again->face_count() != mesh.face_count()))
         std::abort();
 }
 

@@ -268,6 +268,32 @@ TEST_CASE("normals: custom normals turn with the surface, from the rest shape ea
     CHECK(mesh.attributes().find("normal")->values == normals.values);
 }
 
+TEST_CASE("directions: tangents and what morph targets add turn as the surface does") {
+    Scene scene = bar_scene();
+    Attribute morph{"morph.1.position", Domain::vertex, 3, ScalarType::float32, {}};
+    Attribute tangent{"tangent", Domain::vertex, 4, ScalarType::float32, {}};
+    for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
+        morph.values.insert(morph.values.end(), {0.0, 2.0, 0.0});
+        tangent.values.insert(tangent.values.end(), {0.0, 0.0, 1.0, -1.0});
+    }
+    scene.mesh.attributes().add(morph);
+    scene.mesh.attributes().add(tangent);
+    Mesh mesh = scene.mesh;
+    Edit edit = make_edit(scene);
+    const Affine turn = rotation(Vec3::UnitX(), 0.7, edit.deformer.handle_center(edit.high));
+    edit.deformer.set_transform(edit.high, turn);
+    edit.deformer.solve();
+    edit.deformer.apply_to(mesh);
+    const auto m = mesh.attributes().find("morph.1.position")->at(scene.high.back());
+    const auto t = mesh.attributes().find("tangent")->at(scene.high.back());
+    CHECK((Vec3(m[0], m[1], m[2]) - turn.linear * Vec3(0.0, 2.0, 0.0)).norm() < 1e-12);
+    CHECK((Vec3(t[0], t[1], t[2]) - turn.linear * Vec3::UnitZ()).norm() < 1e-12);
+    CHECK(t[3] == -1.0);
+    edit.deformer.reset();
+    edit.deformer.apply_to(mesh);
+    CHECK(mesh.attributes().find("morph.1.position")->values == morph.values);
+}
+
 TEST_CASE("threads: the result does not depend on their number") {
     const Scene scene = bar_scene();
     std::vector<std::vector<Vec3>> results;
