@@ -176,6 +176,7 @@ std::shared_ptr<const Asset> GltfAsset::joined(const Asset& other, LabelRenames&
     auto result = std::make_shared<GltfAsset>(*this);
     const auto* added = dynamic_cast<const GltfAsset*>(&other);
     if (added && added != this && added->json != json) join_assets(*result, *added, renames);
+    result->from_libraries = from_libraries && (!added || added->from_libraries);
     return result;
 }
 

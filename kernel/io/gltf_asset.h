@@ -32,9 +32,11 @@ class GltfAsset : public Asset {
     std::vector<SharedBytes> images;
     /// The node that each label "object" stands for, and the material of each label "material".
     std::map<std::string, std::size_t> node_of_object, material_of_label;
+    bool from_libraries = false;
 
     std::shared_ptr<const Asset> joined(const Asset& other, LabelRenames& renames) const override;
     std::size_t memory_bytes() const override;
+    bool is_of_libraries() const override { return from_libraries; }
 };
 
 /// Keeps what is left of a document once its surface was read; `document` is used up.

@@ -8,6 +8,7 @@
 #include "kernel/core/error.h"
 #include "kernel/io/file.h"
 #include "kernel/io/gltf.h"
+#include "kernel/io/mtl.h"
 #include "kernel/io/obj.h"
 #include "kernel/io/off.h"
 #include "kernel/io/ply.h"
@@ -33,7 +34,14 @@ MeshData read_alone(const FileInput& file, const Context& context) {
     return Read(file.bytes, context);
 }
 
-constexpr std::array<Format, 6> kFormats{{{"obj", "OBJ", read_alone<read_obj>, write_obj},
+// OBJ refers to files of materials.
+MeshData read_obj_file(const FileInput& file, const Context& context) {
+    MeshData data = read_obj(file.bytes, context);
+    read_material_libraries(file, data, context);
+    return data;
+}
+
+constexpr std::array<Format, 6> kFormats{{{"obj", "OBJ", read_obj_file, write_obj},
                                           {"ply", "PLY", read_alone<read_ply>, write_ply},
                                           {"off", "OFF", read_alone<read_off>, write_off},
                                           {"stl", "STL", read_alone<read_stl>, write_stl},

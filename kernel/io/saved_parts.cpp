@@ -112,10 +112,12 @@ void SavedParts::log_losses(std::string_view format, const Context& context) con
     if (!regions_taken_) {
         for (const auto& entry : mesh_.regions()) lose("region", entry.first, "");
     }
-    if (!libraries_taken_) {
+    // What the libraries define is saved with their names as with the definitions themselves.
+    const bool defines_libraries = mesh_.asset() && mesh_.asset()->is_of_libraries();
+    if (!libraries_taken_ && !(asset_taken_ && defines_libraries)) {
         for (const std::string& name : mesh_.material_libraries()) lose("material file", name, "");
     }
-    if (!asset_taken_ && mesh_.asset()) {
+    if (!asset_taken_ && mesh_.asset() && !(libraries_taken_ && defines_libraries)) {
         lost += lost.empty() ? " " : ", ";
         lost += "materials, textures, nodes and animations of the file it came from";
     }

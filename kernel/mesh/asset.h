@@ -22,6 +22,8 @@ class Asset {
     virtual std::shared_ptr<const Asset> joined(const Asset& other,
                                                 LabelRenames& renames) const = 0;
     virtual std::size_t memory_bytes() const = 0;
+    /// True where it holds nothing but what the mesh's material libraries define.
+    virtual bool is_of_libraries() const { return false; }
 
   protected:
     Asset() = default;

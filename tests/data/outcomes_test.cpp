@@ -55,14 +55,14 @@ TEST_CASE("every file has the outcome that the table gives it") {
         CHECK(outcome_of(root / file) == row->second);
         expected.erase(row);
     }
-    for (const auto& [file, outcome] : expected)
-        MESSAGE("skipped: test data " << file << " is absent");
+    for (const auto& row : expected) MESSAGE("skipped: test data " << row.first << " is absent");
 }
 
 TEST_CASE("without repair, what would be mended is refused") {
     const std::filesystem::path root = data_root();
     if (root.empty()) return;
-    for (const auto& [file, outcome] : expected_outcomes()) {
+    for (const auto& row : expected_outcomes()) {
+        const std::string &file = row.first, &outcome = row.second;
         if (!std::filesystem::exists(root / file) || file.starts_with("gltf")) continue;
         CAPTURE(file);
         const bool is_loaded = outcome.find(' ') != std::string::npos;

@@ -276,7 +276,7 @@ TEST_CASE("members of the wrong type are an error, not a crash") {
     file.add_mesh(file.square_primitive());
     file.json["materials"] = {{{"name", "m"}}};
     const Json good = file.json;
-    for (const auto& [path, value] :
+    for (const auto& [at, value] :
          std::vector<std::pair<std::string, Json>>{{"/nodes", "x"},
                                                    {"/nodes/0", 3},
                                                    {"/nodes/0/children", {{"a", 1}}},
@@ -290,6 +290,7 @@ TEST_CASE("members of the wrong type are an error, not a crash") {
                                                    {"/scene", 5},
                                                    {"/scene", "x"},
                                                    {"/materials/0", "x"}}) {
+        const std::string& path = at;
         CAPTURE(path);
         file.json = good;
         file.json[Json::json_pointer(path)] = value;

@@ -207,10 +207,11 @@ inline void check_same_mesh(const Mesh& a, const Mesh& b) {
 
 inline void check_same_regions(const Mesh& a, const Mesh& b) {
     REQUIRE(a.regions().size() == b.regions().size());
-    for (const auto& [name, region] : a.regions()) {
+    for (const auto& entry : a.regions()) {
+        const std::string& name = entry.first;
         CAPTURE(name);
         REQUIRE(b.find_region(name));
-        CHECK(b.find_region(name)->vertices() == region.vertices());
+        CHECK(b.find_region(name)->vertices() == entry.second.vertices());
     }
 }
 

@@ -370,9 +370,6 @@ TEST_CASE("fans that touch at one vertex are split, the first keeps it") {
 }
 
 TEST_CASE("poor but sound faces and specks are flagged") {
-    Mesh mesh = make_grid({});
-    const auto face = mesh.topology().face(0);
-    std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
     Soup poor = soup({{0, 0, 0},
                       {1, 0, 0},
                       {.5, .001, 0},
