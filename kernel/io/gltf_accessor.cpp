@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "kernel/io/byte_reader.h"
 #include "kernel/io/read_error.h"
@@ -177,8 +178,10 @@ std::vector<Index> AccessorReader::indices(int number, std::size_t vertex_count)
     std::vector<Index> indices(packed.count);
     std::uint64_t largest = 0;
     for_each_number(packed, [&](auto value, std::size_t i) {
-        indices[i] = static_cast<Index>(value);
-        largest = std::max(largest, static_cast<std::uint64_t>(value));
+        if constexpr (std::is_unsigned_v<decltype(value)>) {
+            indices[i] = static_cast<Index>(value);
+            largest = std::max<std::uint64_t>(largest, value);
+        }
     });
     const bool all_fit = largest < vertex_count && static_cast<double>(largest) < restart;
     if (all_fit || packed.count == 0) return indices;

@@ -106,7 +106,7 @@ void require_shallow(std::string_view json) {
     }
 }
 
-std::string make_glb(std::string json, const std::string& binary) {
+std::string make_glb(const std::string& json, const std::string& binary) {
     std::size_t length = kHeaderBytes + kChunkHeaderBytes + padded(json.size());
     if (!binary.empty()) length += kChunkHeaderBytes + padded(binary.size());
     if (length > std::numeric_limits<std::uint32_t>::max()) {

@@ -24,6 +24,6 @@ GltfContainer open_gltf_container(std::string_view bytes);
 void require_shallow(std::string_view json);
 
 /// A GLB of JSON and binary data. Errors: file_too_large beyond 4 GiB.
-std::string make_glb(std::string json, const std::string& binary);
+std::string make_glb(const std::string& json, const std::string& binary);
 
 }  // namespace lissom

@@ -1,7 +1,6 @@
 #include "kernel/io/gltf_primitives.h"
 
 #include <tiny_gltf.h>
-#include <utility>
 
 #include <map>
 #include <set>

@@ -40,17 +40,17 @@ std::string percent_decoded(std::string_view text) {
     return result;
 }
 
-std::array<signed char, 256> digit_values() {
-    std::array<signed char, 256> values;
+std::array<int, 256> digit_values() {
+    std::array<int, 256> values;
     values.fill(-1);
     for (std::size_t i = 0; i < kDigits.size(); ++i) {
-        values[static_cast<unsigned char>(kDigits[i])] = static_cast<signed char>(i);
+        values[static_cast<unsigned char>(kDigits[i])] = static_cast<int>(i);
     }
     return values;
 }
 
 std::string decode_base64(std::string_view text) {
-    const std::array<signed char, 256> values = digit_values();
+    const std::array<int, 256> values = digit_values();
     while (text.ends_with('=')) text.remove_suffix(1);
     std::string bytes;
     bytes.reserve(text.size() / 4 * 3 + 3);

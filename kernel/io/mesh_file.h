@@ -59,12 +59,11 @@ struct SaveOptions {
 };
 
 /// Reads a mesh; the extension, in any case, names the format. A byte order mark is passed over.
-/// Other files that a glTF file refers to are read from its own folder and nowhere else.
+/// Other files that a glTF or OBJ file refers to are read from its own folder and nowhere else.
 /// Errors: unknown_format; file_not_found, file_is_directory, file_empty, file_unreadable;
 /// file_syntax (also where the content is of another format than the extension says),
-/// file_truncated, file_too_large, face_index, unsupported, unsafe_path; not_finite; those of
-/// Topology::create;
-/// invalid_argument for a bad unit.
+/// file_truncated, file_too_large, face_index, unsupported, unsafe_path; not_finite; without
+/// options.repair those of `repair`; invalid_argument for a bad unit.
 Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options = {},
                const Context& context = {});
 

@@ -215,7 +215,7 @@ MeshData read_off_text(const TextReader& start, std::size_t file_bytes, OffLayou
             left *= 0.1;
         }
     }
-    throw *first_error;
+    throw Error(*first_error);
 }
 
 }  // namespace lissom
