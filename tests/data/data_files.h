@@ -45,4 +45,22 @@ inline std::vector<std::string> mesh_files(const std::filesystem::path& root) {
     return files;
 }
 
+/// Calls check(mesh) for every mesh with faces that loads, its file captured; what does not load is
+/// the business of the table of outcomes.
+template <typename Check>
+void for_each_mesh(const Check& check) {
+    const std::filesystem::path root = data_root();
+    if (root.empty()) return;
+    for (const std::string& file : mesh_files(root)) {
+        CAPTURE(file);
+        Mesh mesh;
+        try {
+            mesh = load_mesh(root / file);
+        } catch (const Error&) {
+            continue;
+        }
+        if (mesh.face_count() > 0) check(mesh);
+    }
+}
+
 }  // namespace lissom::test

@@ -22,6 +22,15 @@ Region region_around(const Mesh& mesh, Index seed) {
     }
 }
 
+// A surface without area does not bend.
+bool is_mostly_flat(const Mesh& mesh, const Region& region) {
+    const std::vector<Index> faces = region.faces(), flat = zero_area_faces(mesh);
+    const auto count = std::count_if(faces.begin(), faces.end(), [&](Index f) {
+        return std::binary_search(flat.begin(), flat.end(), f);
+    });
+    return 2 * static_cast<std::size_t>(count) >= faces.size();
+}
+
 // Holds one end of the region and moves the other; both are a few of its vertices along x, y or z.
 bool deforms(Mesh& mesh, const Region& region) {
     const double size = bounds(mesh, region).diagonal();
@@ -46,23 +55,11 @@ bool deforms(Mesh& mesh, const Region& region) {
 }  // namespace
 
 TEST_CASE("every surface that loads deforms") {
-    const std::filesystem::path root = data_root();
-    if (root.empty()) return;
-    for (const std::string& file : mesh_files(root)) {
-        CAPTURE(file);
-        Mesh mesh;
-        try {
-            mesh = load_mesh(root / file);
-        } catch (const Error&) {
-            continue;
-        }
-        if (mesh.face_count() == 0) continue;
+    for_each_mesh([](Mesh& mesh) {
         const Region region = region_around(mesh, mesh.topology().face(mesh.face_count() / 2)[0]);
-        // A surface without area does not bend.
-        if (region.size() < 4 || zero_area_faces(mesh).size() * 2 >= region.faces().size())
-            continue;
+        if (region.size() < 4 || is_mostly_flat(mesh, region)) return;
         CHECK(deforms(mesh, region));
-    }
+    });
 }
 
 }  // namespace lissom::test
