@@ -12,6 +12,12 @@ namespace {
 constexpr std::size_t kLeastBudget = std::size_t{1} << 20;
 constexpr std::size_t kElementsPerByte = 16;
 
+// The parser puts a name and number of its own before its messages, in brackets.
+std::string without_tag(const std::string& message) {
+    const std::size_t end = message.find("] ");
+    return message.starts_with('[') && end != std::string::npos ? message.substr(end + 2) : message;
+}
+
 Json parse_json(std::string_view text) {
     require_shallow(text);
     // A GLB chunk may be padded with zeros by careless writers.
@@ -20,7 +26,7 @@ Json parse_json(std::string_view text) {
         Json json = Json::parse(text);
         if (json.is_object()) return json;
     } catch (const Json::exception& error) {
-        refuse(ErrorCode::file_syntax, "the JSON cannot be read: " + std::string(error.what()));
+        refuse(ErrorCode::file_syntax, "the JSON cannot be read: " + without_tag(error.what()));
     }
     refuse(ErrorCode::file_syntax, "the JSON is not an object, as that of a glTF file is");
 }
