@@ -99,7 +99,8 @@ HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& optio
     refuse_vertices(vertices, ErrorCode::handle_outside_region,
                     "the handle reaches outside the region at ",
                     [&](Index v) { return !s.region.contains(v); });
-    const std::vector<Index> owner = find_owners(s.patch, s.rings, s.handles, s.constraints);
+    const std::vector<Index> owner =
+        find_owners(s.rest_patch->patch, s.rest_patch->rings, s.handles, s.constraints);
     refuse_vertices(vertices, ErrorCode::handle_overlap,
                     "another handle or constraint already holds ", [&](Index v) {
                         const Index o = owner[s.local_vertex(v)];
@@ -210,7 +211,8 @@ const std::vector<Vec3>& Deformer::preview(const Context& context) {
             for (Index row = begin; row < end; ++row) {
                 const Index target = s.prepared->region_row[row];
                 if (target == kNoIndex) continue;
-                s.positions[target] = solution.position(row, moved, differences) + s.patch.origin;
+                s.positions[target] =
+                    solution.position(row, moved, differences) + s.rest_patch->patch.origin;
             }
         });
     }
@@ -247,8 +249,9 @@ std::vector<Vec3> Deformer::solve_first_directly(const Context& context) {
     s.prepare(context);
     const Mat4 base = s.base_transform();
     const Mat3 base_gradient = base.topLeftCorner<3, 3>();
-    std::vector<Vec3> x(static_cast<std::size_t>(s.patch.vertex_count), Vec3::Zero());
-    for (Index v = 0; v < s.patch.vertex_count; ++v) {
+    std::vector<Vec3> x(static_cast<std::size_t>(s.prepared->work->patch.vertex_count),
+                        Vec3::Zero());
+    for (Index v = 0; v < s.prepared->work->patch.vertex_count; ++v) {
         if (s.prepared->known.position[v]) x[v] = s.known_deviation(v);
     }
     const std::vector<Index>& free = s.prepared->first->free_vertices();
@@ -308,7 +311,7 @@ HandleBasis Deformer::basis(const Context& context) {
     basis.vertices = s.region.vertices();
     basis.handles = handles();
     const std::size_t rows = basis.vertices.size();
-    const Vec3& o = s.patch.origin;
+    const Vec3& o = s.rest_patch->patch.origin;
     basis.fixed.assign(rows, Vec3::Zero());
     basis.weights.assign(basis.handles.size(), std::vector<Vec4>(rows, Vec4::Zero()));
     const auto weights_of = [&](Index handle) -> std::vector<Vec4>& {
@@ -316,7 +319,7 @@ HandleBasis Deformer::basis(const Context& context) {
         return basis.weights[static_cast<std::size_t>(at - basis.handles.begin())];
     };
     for (Index row = 0; row < s.region.size(); ++row) {
-        const Index v = s.patch.of_region[row], owner = s.prepared->owner[v];
+        const Index v = s.rest_patch->patch.of_region[row], owner = s.prepared->owner[v];
         if (!s.prepared->known.position[v]) continue;
         if (owner >= 0) {
             weights_of(owner)[row] = homogeneous(s.rest[row]);
@@ -328,9 +331,9 @@ HandleBasis Deformer::basis(const Context& context) {
     const LinearSolution& solution = *s.prepared->solution;
     const std::vector<Index>& free = s.prepared->first->free_vertices();
     for (std::size_t f = 0; f < free.size(); ++f) {
-        const Index row = s.region_row[free[f]];
+        const Index row = s.prepared->region_row[f];
         if (row == kNoIndex) continue;
-        Vec4 rest_part = homogeneous(s.patch.rest[free[f]] + o);
+        Vec4 rest_part = homogeneous(s.prepared->work->patch.rest[free[f]] + o);
         for (std::size_t h = 0; h < solution.handles().size(); ++h) {
             Vec4 w = solution.weight(h, static_cast<Index>(f));
             w.head<3>() += w[3] * o;

@@ -17,10 +17,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen)
-    : region(given), options(chosen), patch(build_patch(mesh, given, 1)), directions(mesh, given) {
-    rings = build_rings(patch.vertex_count, patch.split_triangles);
-    geometry = ring_geometry(rings, patch.split_triangles, patch.rest);
-    laplacian = make_laplacian(rings, geometry, options.weights, options.scale_free);
+    : region(given),
+      options(chosen),
+      rest_patch(std::make_shared<WorkingPatch>(build_patch(mesh, given, 1), chosen)),
+      directions(mesh, given) {
+    const Patch& patch = rest_patch->patch;
     region_row.assign(static_cast<std::size_t>(patch.vertex_count), kNoIndex);
     for (Index row = 0; row < region.size(); ++row) {
         region_row[patch.of_region[row]] = row;
@@ -42,7 +43,7 @@ HandleState& Deformer::State::handle(HandleId id) {
 }
 
 Index Deformer::State::local_vertex(Index mesh_vertex) const {
-    const auto& ids = patch.mesh_vertex;
+    const auto& ids = rest_patch->patch.mesh_vertex;
     return static_cast<Index>(std::lower_bound(ids.begin(), ids.end(), mesh_vertex) - ids.begin());
 }
 
@@ -53,8 +54,8 @@ bool Deformer::State::at_rest() const {
 }
 
 Affine Deformer::State::local(const Affine& transform) const {
-    return {transform.linear,
-            transform.linear * patch.origin + transform.translation - patch.origin};
+    const Vec3& origin = rest_patch->patch.origin;
+    return {transform.linear, transform.linear * origin + transform.translation - origin};
 }
 
 Mat4 Deformer::State::base_transform() const {
@@ -72,6 +73,7 @@ std::vector<Mat4> Deformer::State::differences() const {
 }
 
 Vec3 Deformer::State::known_position(Index v) const {
+    const Patch& patch = prepared->work->patch;
     const Index o = prepared->owner[v];
     if (o >= 0) return local(handles[o].transform)(patch.rest[v]);
     if (o == kConstrained && constraints.at(v).position) {
@@ -84,7 +86,7 @@ Vec3 Deformer::State::known_position(Index v) const {
 Vec3 Deformer::State::known_deviation(Index v) const {
     const Index o = prepared->owner[v];
     const Mat4 base = base_transform();
-    const Vec4 rest_point = homogeneous(patch.rest[v]);
+    const Vec4 rest_point = homogeneous(prepared->work->patch.rest[v]);
     if (o < 0) return known_position(v) - (base * rest_point).head<3>();
     return ((matrix_of(local(handles[o].transform)) - base) * rest_point).head<3>();
 }
@@ -96,7 +98,8 @@ Mat3 Deformer::State::known_gradient(Index v) const {
 }
 
 LinearProblem Deformer::State::problem() const {
-    return {patch, rings, prepared->gradients, *prepared->first, prepared->owner, handles};
+    return {prepared->work->patch, prepared->work->rings, prepared->gradients,
+            *prepared->first,      prepared->owner,       handles};
 }
 
 void Deformer::State::prepare(const Context& context) {
@@ -113,21 +116,23 @@ void Deformer::State::prepare(const Context& context) {
 // differ would lie equally far.
 Vec3 Deformer::State::start_of_sequence() const {
     for (const HandleState& h : handles) {
-        if (!h.removed) return h.center - patch.origin;
+        if (!h.removed) return h.center - rest_patch->patch.origin;
     }
     return Vec3::Zero();
 }
 
 void Deformer::State::require_area() const {
-    if (patch.zero_area_vertices.count == 0) return;
+    const Elements& vertices = rest_patch->patch.zero_area_vertices;
+    if (vertices.count == 0) return;
     throw Error(ErrorCode::zero_area,
-                "all faces around " + describe(patch.zero_area_vertices) +
+                "all faces around " + describe(vertices) +
                     " have no area; collapse those faces or leave them out of the region",
-                patch.zero_area_vertices);
+                vertices);
 }
 
 // Says in terms of vertices what the solver said in terms of rows.
 void Deformer::State::refuse_singular(const Error& error, const std::vector<Index>& free) const {
+    const Patch& patch = rest_patch->patch;
     Elements vertices{ElementKind::vertex, 0, {}};
     for (const Index row : error.elements().ids) {
         if (free[row] < patch.real_count) vertices.add(patch.mesh_vertex[free[row]]);
@@ -156,16 +161,20 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     Progress progress(context, "deform: prepare");
     require_area();
     auto next = std::make_unique<Prepared>();
+    next->work = rest_patch;
+    const Patch& patch = next->work->patch;
+    const Rings& rings = next->work->rings;
     next->owner = find_owners(patch, rings, handles, constraints);
     next->known = find_knowledge(patch, rings, next->owner, handles, constraints);
     require_constraints(patch, rings, next->known);
 
     progress.step(0.2);
     const auto start = std::chrono::steady_clock::now();
-    next->gradients =
-        make_gradients(patch, rings, geometry, next->known, start_of_sequence(), options);
-    next->first = std::make_unique<GradientSystem>(patch, rings, geometry, laplacian,
-                                                   next->gradients, next->known, options, context);
+    next->gradients = make_gradients(patch, rings, next->work->geometry, next->known,
+                                     start_of_sequence(), options);
+    next->first =
+        std::make_unique<GradientSystem>(patch, rings, next->work->geometry, next->work->laplacian,
+                                         next->gradients, next->known, options, context);
     next->second = std::make_unique<RotationSystem>(patch, next->known.position, options, context);
     const double assemble_seconds = seconds_since(start);
 
@@ -176,7 +185,9 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
 
     progress.step(0.15);
     const auto basis_start = std::chrono::steady_clock::now();
-    for (const Index v : next->first->free_vertices()) next->region_row.push_back(region_row[v]);
+    for (const Index v : next->first->free_vertices()) {
+        next->region_row.push_back(v < patch.real_count ? region_row[v] : kNoIndex);
+    }
     if (!next->region_row.empty()) {
         next->solution = std::make_unique<LinearSolution>(
             LinearProblem{patch, rings, next->gradients, *next->first, next->owner, handles},
@@ -202,6 +213,7 @@ void Deformer::State::count_costs(const Prepared& next) {
 }
 
 void Deformer::State::evaluate_deviation(const Context& context) {
+    const Patch& patch = prepared->work->patch;
     frame_base = base_transform();
     deviation.assign(static_cast<std::size_t>(patch.vertex_count), Vec3::Zero());
     for (const HandleState& h : handles) {
@@ -224,6 +236,7 @@ void Deformer::State::evaluate_deviation(const Context& context) {
 
 // M_i after the first system; where it does not exist, the mean of those around it.
 Mat3 Deformer::State::gradient_of(Index v) const {
+    const Rings& rings = prepared->work->rings;
     if (prepared->known.gradient[v]) return known_gradient(v);
     const auto gathered = [&](Index u) -> Mat3 {
         if (prepared->known.gradient[u]) return known_gradient(u);
@@ -242,6 +255,7 @@ Mat3 Deformer::State::gradient_of(Index v) const {
 
 void Deformer::State::find_gradients(const Context& context) {
     if (gradients_current) return;
+    const Patch& patch = prepared->work->patch;
     evaluate_deviation(context);
     context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
         for (Index row = begin; row < end; ++row)
@@ -259,6 +273,7 @@ Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
 // Solves the second system for deviations from the similarity nearest to the base transform, so
 // that similarities of the whole are exact. Returns local positions.
 void Deformer::State::solve_second(const Context& context) {
+    const Patch& patch = prepared->work->patch;
     const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
     const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
     // Handles turn as a whole.
@@ -286,6 +301,8 @@ void Deformer::State::solve_second(const Context& context) {
 // Positions of the region's vertices for deviations `from` the base transform: displaced vertices
 // come back by v = M (v - v') + v' (section 2.4.3).
 std::vector<Vec3> Deformer::State::pulled_back(const std::vector<Vec3>& from) const {
+    const Patch& patch = prepared->work->patch;
+    const Rings& rings = prepared->work->rings;
     const Mat4 base = base_transform();
     const GradientStencils& g = prepared->gradients;
     std::vector<Vec3> at = from;
@@ -303,7 +320,7 @@ std::vector<Vec3> Deformer::State::pulled_back(const std::vector<Vec3>& from) co
 // no handle holds never leave their rest position.
 void Deformer::State::write_positions(const std::vector<Vec3>& at) {
     for (const Index v : prepared->second->free_vertices()) {
-        positions[region_row[v]] = at[v] + patch.origin;
+        positions[region_row[v]] = at[v] + rest_patch->patch.origin;
     }
     write_held();
 }

@@ -13,6 +13,7 @@
 #include "kernel/deform/patch.h"
 #include "kernel/deform/rest_directions.h"
 #include "kernel/deform/rotation_system.h"
+#include "kernel/deform/working_patch.h"
 
 namespace lissom {
 
@@ -21,6 +22,7 @@ inline constexpr Index kFrameGrain = 4096;
 
 /// Everything that depends on which vertices are held, but not on where they go.
 struct Prepared {
+    std::shared_ptr<const WorkingPatch> work;
     std::vector<Index> owner;
     Knowledge known;
     GradientStencils gradients;
@@ -68,11 +70,9 @@ struct Deformer::State {
 
     Region region;
     DeformOptions options;
-    Patch patch;
-    Rings rings;
-    RingGeometry geometry;
-    Laplacian laplacian;
-    /// Row in the region of each local vertex, or kNoIndex.
+    /// The region as the mesh has it.
+    std::shared_ptr<const WorkingPatch> rest_patch;
+    /// Row in the region of each local vertex of the rest patch, or kNoIndex.
     std::vector<Index> region_row;
     std::vector<Vec3> rest;
     /// Greatest distance of a vertex of the region from the origin of the patch.
