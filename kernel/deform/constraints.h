@@ -24,6 +24,9 @@ struct HandleState {
     Vec3 center = Vec3::Zero();
     std::vector<Index> local;
     bool removed = false;
+    /// `transform` as the patch sees it: relative to the patch's origin, with digits that the one
+    /// above lacks where the mesh lies far from the origin of its coordinates.
+    Affine in_patch;
 };
 
 /// Constraints of single vertices by local vertex.

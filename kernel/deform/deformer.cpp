@@ -28,9 +28,9 @@ void require_options(const DeformOptions& o) {
     require(o.displacement > 0.0 && std::isfinite(o.displacement), "displacement must be above 0");
 }
 
-void require_regular(const Affine& transform) {
+void require_regular(const Affine& transform, const Vec3& about) {
     const double scale = transform.linear.norm();
-    if (transform.is_finite() &&
+    if (transform.is_finite() && about.allFinite() &&
         std::abs(transform.linear.determinant()) > kSingularRatio * scale * scale * scale) {
         return;
     }
@@ -106,11 +106,13 @@ HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& optio
                         const Index o = owner[s.local_vertex(v)];
                         return o >= 0 || o == kConstrained;
                     });
-    HandleState handle{vertices, options, {}, Vec3::Zero(), {}, false};
+    const Patch& patch = s.rest_patch->patch;
+    HandleState handle{vertices, options, {}, Vec3::Zero(), {}, false, {}};
     for (const Index v : vertices.vertices()) {
         handle.local.push_back(s.local_vertex(v));
-        handle.center += s.rest[s.region_row[handle.local.back()]] / vertices.size();
+        handle.center += patch.rest[handle.local.back()] / vertices.size();
     }
+    handle.center += patch.origin;
     s.handles.push_back(std::move(handle));
     s.prepared.reset();
     ++s.stats.handles;
@@ -147,13 +149,24 @@ const Affine& Deformer::transform(HandleId id) const {
 }
 
 void Deformer::set_transform(HandleId id, const Affine& transform) {
+    set_transform(id, transform, Vec3::Zero());
+}
+
+void Deformer::set_transform(HandleId id, const Affine& transform, const Vec3& about) {
     HandleState& handle = state_->handle(id);
-    require_regular(transform);
-    const Affine local = state_->local(transform);
-    const double turn = (local.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
-    const double shift = local.translation.cwiseAbs().maxCoeff();
+    require_regular(transform, about);
+    state_->place(handle, transform, about);
+    const Affine& moved = handle.in_patch;
+    const double turn = (moved.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
+    const double shift = moved.translation.cwiseAbs().maxCoeff();
     const bool still = turn < kIdentityTolerance && shift <= kIdentityTolerance * state_->size;
-    handle.transform = still ? Affine{} : transform;
+    if (still) handle.transform = handle.in_patch = {};
+}
+
+Affine Deformer::transform_about(HandleId id, const Vec3& about) const {
+    const Affine& map = state_->handle(id).in_patch;
+    const Vec3 arm = about - state_->rest_patch->patch.origin;
+    return {map.linear, map.translation + (map.linear - Mat3::Identity()) * arm};
 }
 
 void Deformer::constrain(const VertexConstraint& constraint) {
@@ -291,7 +304,7 @@ void Deformer::apply_to(Mesh& mesh) const {
 
 void Deformer::reset() {
     State& s = *state_;
-    for (HandleState& handle : s.handles) handle.transform = {};
+    for (HandleState& handle : s.handles) handle.transform = handle.in_patch = {};
     if (!s.constraints.empty()) s.prepared.reset();
     s.constraints.clear();
     s.to_rest();

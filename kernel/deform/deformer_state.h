@@ -41,7 +41,8 @@ struct Deformer::State {
     bool at_rest() const;
 
     // Transforms and positions below are relative to the patch's origin.
-    Affine local(const Affine& transform) const;
+    void place(HandleState& handle, const Affine& transform, const Vec3& about) const;
+    Vec3 held_position(const HandleState& handle, Index v) const;
     Mat4 base_transform() const;
     std::vector<Mat4> differences() const;
     Vec3 known_position(Index v) const;
@@ -77,6 +78,8 @@ struct Deformer::State {
     std::vector<Vec3> rest;
     /// Greatest distance of a vertex of the region from the origin of the patch.
     double size = 0.0;
+    /// Whether coordinates of the mesh have fewer digits for its shape than `in_patch` of handles.
+    bool far_away = false;
     RestDirections directions;
 
     std::vector<HandleState> handles;
