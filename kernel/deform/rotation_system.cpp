@@ -20,6 +20,9 @@ constexpr Index kFrameGrain = 4096;
 constexpr double kBlendRadii = 0.06;
 constexpr double kBlendEdges = 3.0;
 
+// Weight of squared lengths of a tie of weight 1 beside the edges.
+constexpr double kPositionUnit = 1.0;
+
 double laplacian_factor_of(const Patch& patch, const Rings& rings, SecondSystem second) {
     if (second == SecondSystem::laplacian) return 1.0;
     if (second == SecondSystem::poisson) return 0.0;
@@ -41,14 +44,17 @@ std::vector<double> edge_weights(const RingGeometry& geometry, const DeformOptio
 
 }  // namespace
 
-RotationSystem::RotationSystem(const Patch& patch, const std::vector<char>& position_known,
+RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                                const DeformOptions& options, const Context& context)
-    : rings_(build_rings(patch.real_count, patch.triangles)),
-      rest_(patch.rest.begin(), patch.rest.begin() + patch.real_count) {
+    : rings_(build_rings(work.patch.real_count, work.patch.triangles)),
+      rest_(work.patch.rest.begin(), work.patch.rest.begin() + work.patch.real_count) {
+    const Patch& patch = work.patch;
     const RingGeometry geometry = ring_geometry(rings_, patch.triangles, rest_);
     const bool literal = !options.scale_free && options.second == SecondSystem::laplacian;
     laplacian_ = make_laplacian(rings_, geometry, options.weights, !literal);
     laplacian_factor_ = laplacian_factor_of(patch, rings_, options.second);
+    const bool lengths = options.second != SecondSystem::laplacian;
+    tie_unit_ = lengths ? kPositionUnit : work.position_unit();
     edge_weight_ = edge_weights(geometry, options);
 
     weighted_delta_.assign(rest_.size(), Vec3::Zero());
@@ -68,6 +74,15 @@ RotationSystem::RotationSystem(const Patch& patch, const std::vector<char>& posi
         }
     }
     assemble(position_known, context);
+    add_ties(work);
+}
+
+void RotationSystem::add_ties(const WorkingPatch& work) {
+    std::vector<Index> row_of(static_cast<std::size_t>(work.patch.vertex_count), kNoIndex);
+    for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = static_cast<Index>(r);
+    ties_ = TieRows(work.ties, row_of, tie_unit_, [](Index v) { return SparseRow{{v, 1.0}}; });
+    ties_.add_to(matrix_);
+    tie_bytes_ = TieRows::response_bytes(work.ties, static_cast<Index>(free_.size()));
 }
 
 void RotationSystem::assemble(const std::vector<char>& position_known, const Context& context) {
@@ -127,6 +142,11 @@ void RotationSystem::assemble(const std::vector<char>& position_known, const Con
 void RotationSystem::factor(const Context& context) {
     factor_firmly(system_, matrix_, context);
     matrix_ = {};
+    ties_charge_ = context.charge(tie_bytes_, "points that are held");
+    ties_.prepare(static_cast<Index>(free_.size()),
+                  [&](std::span<const double> b, std::span<double> x, Index columns) {
+                      system_.solve(b, x, columns);
+                  });
 }
 
 void RotationSystem::solve(std::span<const Mat3> transforms, std::span<Vec3> positions,
@@ -155,7 +175,10 @@ void RotationSystem::solve(std::span<const Mat3> transforms, std::span<Vec3> pos
             for (int d = 0; d < 3; ++d) b[d * rows + r] = sum[d];
         }
     });
+    const auto coordinate = [&](int d) { return [&, d](Index v) { return positions[v][d]; }; };
+    for (int d = 0; d < 3; ++d) ties_.add_right_hand_side(coordinate(d), b.data() + d * rows);
     system_.solve(b, b, 3);
+    for (int d = 0; d < 3; ++d) ties_.enforce(coordinate(d), std::span(b).subspan(d * rows, rows));
     for (std::size_t r = 0; r < rows; ++r) {
         positions[free_[r]] = {b[r], b[rows + r], b[2 * rows + r]};
     }

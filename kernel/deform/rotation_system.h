@@ -8,6 +8,8 @@
 #include "kernel/core/context.h"
 #include "kernel/deform/operators.h"
 #include "kernel/deform/patch.h"
+#include "kernel/deform/ties.h"
+#include "kernel/deform/working_patch.h"
 #include "kernel/solve/sparse_system.h"
 
 namespace lissom {
@@ -20,7 +22,7 @@ namespace lissom {
 /// length.
 class RotationSystem {
   public:
-    RotationSystem(const Patch& patch, const std::vector<char>& position_known,
+    RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                    const DeformOptions& options, const Context& context);
 
     /// Errors: not_positive_definite with rows as elements; memory_limit.
@@ -30,13 +32,14 @@ class RotationSystem {
     const FactorStats& stats() const { return system_.stats(); }
     const Rings& rings() const { return rings_; }
 
-    /// Free positions for the transforms S_i of all local vertices. `positions` holds the known
-    /// positions and receives the free ones. Linear in both: deviations of S_i from one S give
-    /// deviations of the positions from S v + t.
+    /// Free positions for the transforms S_i of all real vertices. `positions` holds the known
+    /// positions, those of anchors among them, and receives the free ones. Linear in both:
+    /// deviations of S_i from one S give deviations of the positions from S v + t.
     void solve(std::span<const Mat3> transforms, std::span<Vec3> positions, const Context& context);
 
   private:
     void assemble(const std::vector<char>& position_known, const Context& context);
+    void add_ties(const WorkingPatch& work);
 
     Rings rings_;
     Laplacian laplacian_;
@@ -50,6 +53,10 @@ class RotationSystem {
     std::vector<Index> free_;
     SymmetricMatrix matrix_;
     RowMatrix positions_;
+    TieRows ties_;
+    MemoryCharge ties_charge_;
+    std::size_t tie_bytes_ = 0;
+    double tie_unit_ = 1.0;
     SparseSystem system_;
     /// Scratch of `solve`, kept because a frame is short beside the time to get fresh pages.
     std::vector<Vec3> target_;
