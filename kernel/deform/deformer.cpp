@@ -143,23 +143,13 @@ const std::vector<Vec3>& Deformer::preview(const Context& context) {
 }
 
 const std::vector<Vec3>& Deformer::solve(const Context& context) {
-    State& s = *state_;
-    s.prepare(context);
-    if (s.at_rest()) {
-        s.to_rest();
-        return s.positions;
-    }
-    context.checkpoint();
-    s.gradients_current = false;
-    s.find_gradients(context);
-    if (s.prepared->second->free_vertices().empty()) {
-        s.write_held();
-    } else {
-        s.solve_second(context);
-        s.write_positions(s.second_positions);
-    }
-    s.deformed = true;
-    return s.positions;
+    state_->solve(false, context);
+    return state_->positions;
+}
+
+const std::vector<Vec3>& Deformer::solve_draft(const Context& context) {
+    state_->solve(true, context);
+    return state_->positions;
 }
 
 // Solves for the deviation from the base transform of the rest shape, which the system maps to

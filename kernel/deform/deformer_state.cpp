@@ -286,32 +286,61 @@ Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
     return options.local_size == LocalSize::scale ? Mat3(uniform_scale(gradient) * r) : r;
 }
 
+// S_i less that of the base. Handles turn as a whole.
+void Deformer::State::find_turns(const Mat3& base_rotation, const Context& context) {
+    const Patch& patch = prepared->work->patch;
+    turns.resize(static_cast<std::size_t>(patch.real_count), Mat3::Zero());
+    context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
+        const std::size_t count = static_cast<std::size_t>(end - begin);
+        const std::span<const Mat3> m(gradients.data() + begin, count);
+        std::vector<Mat3> rotations(count);
+        nearest_rotations(m, rotations);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Index v = patch.of_region[static_cast<std::size_t>(begin) + i];
+            const double scale = options.local_size == LocalSize::scale ? uniform_scale(m[i]) : 1.0;
+            turns[v] = scale * rotations[i] - base_rotation;
+        }
+    });
+    for (const HandleState& h : handles) {
+        if (h.removed || h.soft() || !h.options.gradient) continue;
+        const Mat3 turn = rotation_of(h.transform.linear) - base_rotation;
+        for (const Index v : h.local) turns[v] = turn;
+    }
+}
+
 // Solves the second system for deviations from the similarity nearest to the base transform, so
-// that similarities of the whole are exact. Returns local positions.
-void Deformer::State::solve_second(const Context& context) {
+// that similarities of the whole are exact. Leaves local positions.
+void Deformer::State::solve_second(bool draft, const Context& context) {
     const Patch& patch = prepared->work->patch;
     const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
     const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
-    // Handles turn as a whole.
-    std::vector<Mat3> handle_turns;
-    for (const HandleState& h : handles) {
-        handle_turns.push_back(rotation_of(h.transform.linear) - base_rotation);
-    }
-    turns.resize(static_cast<std::size_t>(patch.real_count), Mat3::Zero());
-    context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
-        for (Index row = begin; row < end; ++row) {
-            const Index v = patch.of_region[row], owner = prepared->owner[v];
-            const bool known = owner >= 0 && prepared->known.gradient[v];
-            turns[v] = known ? handle_turns[owner] : rotation_of(gradients[row]) - base_rotation;
-        }
-    });
+    find_turns(base_rotation, context);
     std::vector<Vec3>& at = second_positions;
     at.resize(static_cast<std::size_t>(patch.vertex_count));
-    for (Index v = 0; v < patch.vertex_count; ++v) at[v] = deviation[v] + remainder * patch.rest[v];
-    prepared->second->solve(turns, at, context);
+    context.parallel_for(0, patch.vertex_count, kFrameGrain, [&](Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) at[v] = deviation[v] + remainder * patch.rest[v];
+    });
+    prepared->second->set_transforms(turns, context);
+    prepared->second->solve(at, draft, context);
+    const Vec3 shift = frame_base.topRightCorner<3, 1>();
     for (const Index v : prepared->second->free_vertices()) {
-        at[v] += base_rotation * patch.rest[v] + frame_base.topRightCorner<3, 1>();
+        at[v] += base_rotation * patch.rest[v] + shift;
     }
+}
+
+void Deformer::State::solve(bool draft, const Context& context) {
+    prepare(context);
+    if (at_rest()) return to_rest();
+    context.checkpoint();
+    gradients_current = false;
+    find_gradients(context);
+    if (prepared->second->free_vertices().empty()) {
+        write_held();
+    } else {
+        solve_second(draft, context);
+        write_positions(second_positions);
+    }
+    deformed = true;
 }
 
 // Positions of the region's vertices for deviations `from` the base transform: displaced vertices

@@ -74,7 +74,9 @@ struct Deformer::State {
     Mat3 gradient_of(Index v) const;
     void find_gradients(const Context& context);
     Mat3 rotation_of(const Mat3& gradient) const;
-    void solve_second(const Context& context);
+    void find_turns(const Mat3& base_rotation, const Context& context);
+    void solve_second(bool draft, const Context& context);
+    void solve(bool draft, const Context& context);
     std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;
     void write_positions(const std::vector<Vec3>& at);
     void write_held();

@@ -99,6 +99,16 @@ void TieRows::add_to(SymmetricMatrix& matrix) const {
     if (!missing.empty()) add_missing(matrix, missing);
 }
 
+void TieRows::subtract_from(std::span<const Vec3> positions, const std::vector<Index>& free,
+                            std::vector<Vec3>& residual) const {
+    for (const Tie& tie : ties_) {
+        Vec3 miss = Vec3::Zero();
+        for (const auto& [vertex, c] : tie.known) miss += c * positions[vertex];
+        for (const auto& [row, c] : tie.free) miss += c * positions[free[row]];
+        for (const auto& [row, c] : tie.free) residual[row] -= tie.weight * c * miss;
+    }
+}
+
 void TieRows::prepare(
     Index unknowns,
     const std::function<void(std::span<const double>, std::span<double>, Index)>& solve) {

@@ -47,7 +47,7 @@ class TieRows {
     TieRows(const Ties& ties, const std::vector<Index>& row_of, double unit,
             const std::function<SparseRow(Index)>& final_position);
 
-    bool empty() const { return ties_.empty(); }
+    bool has_hard() const { return response_.cols() > 0; }
 
     /// Adds w c c^T of every tie.
     void add_to(SymmetricMatrix& matrix) const;
@@ -60,6 +60,11 @@ class TieRows {
             for (const auto& [row, c] : tie.free) b[row] += asked * c;
         }
     }
+
+    /// Takes w c (what is tied - anchor) off the residual of each unknown, for positions of all
+    /// local vertices of which `free` are the unknowns.
+    void subtract_from(std::span<const Vec3> positions, const std::vector<Index>& free,
+                       std::vector<Vec3>& residual) const;
 
     /// Solves for the response to each hard tie: `solve(b, x, columns)` solves the system.
     void prepare(
