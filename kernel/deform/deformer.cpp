@@ -38,19 +38,6 @@ void require_regular(const Affine& transform, const Vec3& about) {
                 "the transform flattens space or is not finite; scale by factors other than zero");
 }
 
-// Throws `code` about the vertices of `handle` for which `bad` holds, if there are any.
-template <typename Bad>
-void refuse_vertices(const Region& handle, ErrorCode code, const std::string& message,
-                     const Bad& bad) {
-    Elements elements{ElementKind::vertex, 0, {}};
-    for (const Index v : handle.vertices()) {
-        if (bad(v)) elements.add(v);
-    }
-    if (elements.count == 0) return;
-    const std::string names = describe(elements);
-    throw Error(code, message + names, std::move(elements));
-}
-
 }  // namespace
 
 DeformOptions DeformOptions::thesis() {
@@ -84,45 +71,11 @@ const DeformOptions& Deformer::options() const {
     return state_->options;
 }
 
-HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& options) {
-    State& s = *state_;
-    if (vertices.topology() != s.region.topology()) {
-        throw Error(
-            ErrorCode::topology_mismatch,
-            "the handle's region belongs to another mesh or to an older version of this one");
-    }
-    if (vertices.empty()) throw Error(ErrorCode::region_empty, "the handle has no vertices");
-    if (!options.position && !options.gradient) {
-        throw Error(ErrorCode::invalid_argument,
-                    "a handle must prescribe positions, gradients or both");
-    }
-    refuse_vertices(vertices, ErrorCode::handle_outside_region,
-                    "the handle reaches outside the region at ",
-                    [&](Index v) { return !s.region.contains(v); });
-    const std::vector<Index> owner =
-        find_owners(s.rest_patch->patch, s.rest_patch->rings, s.handles, s.constraints);
-    refuse_vertices(vertices, ErrorCode::handle_overlap,
-                    "another handle or constraint already holds ", [&](Index v) {
-                        const Index o = owner[s.local_vertex(v)];
-                        return o >= 0 || o == kConstrained;
-                    });
-    const Patch& patch = s.rest_patch->patch;
-    HandleState handle{vertices, options, {}, Vec3::Zero(), {}, false, {}};
-    for (const Index v : vertices.vertices()) {
-        handle.local.push_back(s.local_vertex(v));
-        handle.center += patch.rest[handle.local.back()] / vertices.size();
-    }
-    handle.center += patch.origin;
-    s.handles.push_back(std::move(handle));
-    s.prepared.reset();
-    ++s.stats.handles;
-    return {static_cast<Index>(s.handles.size()) - 1};
-}
-
 void Deformer::remove_handle(HandleId id) {
     HandleState& handle = state_->handle(id);
     handle.removed = true;
     handle.local.clear();
+    handle.points.clear();
     state_->prepared.reset();
     --state_->stats.handles;
 }
@@ -167,41 +120,6 @@ Affine Deformer::transform_about(HandleId id, const Vec3& about) const {
     const Affine& map = state_->handle(id).in_patch;
     const Vec3 arm = about - state_->rest_patch->patch.origin;
     return {map.linear, map.translation + (map.linear - Mat3::Identity()) * arm};
-}
-
-void Deformer::constrain(const VertexConstraint& constraint) {
-    State& s = *state_;
-    const Index v = constraint.vertex;
-    const Elements named{ElementKind::vertex, 1, {v}};
-    const auto refuse = [&](ErrorCode code, const std::string& what) {
-        throw Error(code, "vertex " + std::to_string(v) + " " + what, named);
-    };
-    if (v < 0 || v >= s.region.topology()->vertex_count()) {
-        refuse(ErrorCode::out_of_range, "does not exist");
-    }
-    if (!s.region.contains(v)) refuse(ErrorCode::handle_outside_region, "lies outside the region");
-    if ((constraint.position && !constraint.position->allFinite()) ||
-        (constraint.gradient && !constraint.gradient->allFinite())) {
-        refuse(ErrorCode::not_finite, "cannot be constrained to NaN or infinity");
-    }
-    const Index local = s.local_vertex(v);
-    for (const HandleState& handle : s.handles) {
-        if (!handle.removed && handle.region.contains(v)) {
-            refuse(ErrorCode::handle_overlap, "is held by a handle");
-        }
-    }
-    const auto found = s.constraints.find(local);
-    const bool same_kind = found != s.constraints.end() &&
-                           found->second.position.has_value() == constraint.position.has_value() &&
-                           found->second.gradient.has_value() == constraint.gradient.has_value();
-    if (!constraint.position && !constraint.gradient) {
-        if (found == s.constraints.end()) return;
-        s.constraints.erase(found);
-    } else {
-        s.constraints.insert_or_assign(local, constraint);
-    }
-    if (!same_kind) s.prepared.reset();
-    s.fixed_current = false;
 }
 
 void Deformer::prepare(const Context& context) {
@@ -269,7 +187,11 @@ std::vector<Vec3> Deformer::solve_first_directly(const Context& context) {
             b.data() + static_cast<std::size_t>(d) * rows);
     }
     if (rows > 0) {
-        const std::vector<double> y = s.prepared->first->solve(b, 3);
+        std::vector<double> y = s.prepared->first->solve(b, 3);
+        for (int d = 0; d < 3; ++d) {
+            s.prepared->first->enforce_ties([&](Index k) { return x[k][d]; },
+                                            std::span(y).subspan(d * rows, rows));
+        }
         for (std::size_t r = 0; r < rows; ++r) x[free[r]] = {y[r], y[rows + r], y[2 * rows + r]};
     }
     return s.pulled_back(x);
@@ -295,8 +217,9 @@ void Deformer::apply_to(Mesh& mesh) const {
 void Deformer::reset() {
     State& s = *state_;
     for (HandleState& handle : s.handles) handle.transform = handle.in_patch = {};
-    if (!s.constraints.empty()) s.prepared.reset();
+    if (!s.constraints.empty() || !s.points.empty()) s.prepared.reset();
     s.constraints.clear();
+    s.points.clear();
     s.to_rest();
 }
 

@@ -55,9 +55,9 @@ Index Deformer::State::local_vertex(Index mesh_vertex) const {
 }
 
 bool Deformer::State::at_rest() const {
-    return constraints.empty() && std::all_of(handles.begin(), handles.end(), [](const auto& h) {
-               return h.removed || h.transform.is_identity();
-           });
+    return constraints.empty() && points.empty() &&
+           std::all_of(handles.begin(), handles.end(),
+                       [](const auto& h) { return h.removed || h.transform.is_identity(); });
 }
 
 // Takes p to about + transform(p - about). Both forms of the transform come from differences in
@@ -101,8 +101,8 @@ Vec3 Deformer::State::known_position(Index v) const {
     const Patch& patch = prepared->work->patch;
     const Index o = prepared->owner[v];
     if (o >= 0) return handles[o].in_patch(patch.rest[v]);
-    if (o == kConstrained && constraints.at(v).position) {
-        return *constraints.at(v).position - patch.origin;
+    if (o == kConstrained && asked.at(v).position) {
+        return *asked.at(v).position - patch.origin;
     }
     return patch.rest[v];
 }
@@ -119,12 +119,22 @@ Vec3 Deformer::State::known_deviation(Index v) const {
 Mat3 Deformer::State::known_gradient(Index v) const {
     const Index o = prepared->owner[v];
     if (o >= 0) return handles[o].transform.linear;
-    return o == kConstrained ? *constraints.at(v).gradient : Mat3(Mat3::Identity());
+    if (o != kConstrained) return Mat3::Identity();
+    return asked.at(v).gradient.value_or(Mat3(Mat3::Identity()));
 }
 
 LinearProblem Deformer::State::problem() const {
     return {prepared->work->patch, prepared->work->rings, prepared->gradients,
             *prepared->first,      prepared->owner,       handles};
+}
+
+void Deformer::State::collect_asked() {
+    asked = constraints;
+    for (const auto& [v, number] : prepared->asked) {
+        const PointConstraint& point = points[number].asked;
+        const bool anchor = v >= prepared->work->patch.surface_count;
+        asked[v] = {v, anchor ? point.position : std::nullopt, point.gradient, {}};
+    }
 }
 
 void Deformer::State::prepare(const Context& context) {
@@ -133,7 +143,8 @@ void Deformer::State::prepare(const Context& context) {
         fixed_current = false;
     }
     if (fixed_current) return;
-    if (prepared->solution) prepared->solution->solve_fixed(problem(), constraints);
+    collect_asked();
+    if (prepared->solution) prepared->solution->solve_fixed(problem(), asked);
     fixed_current = true;
 }
 
@@ -186,21 +197,23 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     Progress progress(context, "deform: prepare");
     require_area();
     auto next = std::make_unique<Prepared>();
-    next->work = rest_patch;
+    next->work = holds().need_anchors() ? anchored(*rest_patch, holds()) : rest_patch;
     const Patch& patch = next->work->patch;
     const Rings& rings = next->work->rings;
-    next->owner = find_owners(patch, rings, handles, constraints);
-    next->known = find_knowledge(patch, rings, next->owner, handles, constraints);
-    require_constraints(patch, rings, next->known);
+    Holding holding = find_holding(*next->work, holds());
+    require_constraints(*next->work, holding.known);
+    next->owner = std::move(holding.owner);
+    next->known = std::move(holding.known);
+    next->asked = std::move(holding.asked);
 
     progress.step(0.2);
     const auto start = std::chrono::steady_clock::now();
     next->gradients = make_gradients(patch, rings, next->work->geometry, next->known,
                                      start_of_sequence(), options);
-    next->first =
-        std::make_unique<GradientSystem>(patch, rings, next->work->geometry, next->work->laplacian,
-                                         next->gradients, next->known, options, context);
-    next->second = std::make_unique<RotationSystem>(patch, next->known.position, options, context);
+    next->first = std::make_unique<GradientSystem>(*next->work, next->gradients, next->known,
+                                                   options, context);
+    next->second =
+        std::make_unique<RotationSystem>(*next->work, next->known.position, options, context);
     const double assemble_seconds = seconds_since(start);
 
     progress.step(0.45);
@@ -247,7 +260,10 @@ void Deformer::State::evaluate_deviation(const Context& context) {
             deviation[v] = (difference * homogeneous(patch.rest[v])).head<3>();
         }
     }
-    for (const auto& entry : constraints) deviation[entry.first] = known_deviation(entry.first);
+    for (const auto& entry : asked) deviation[entry.first] = known_deviation(entry.first);
+    for (Index v = patch.surface_count; v < patch.vertex_count; ++v) {
+        deviation[v] = known_deviation(v);
+    }
     if (!prepared->solution) return;
     const std::vector<Index>& free = prepared->first->free_vertices();
     const std::vector<Mat4> differences = this->differences();
@@ -311,7 +327,7 @@ void Deformer::State::find_turns(const Mat3& base_rotation, const Context& conte
         }
     });
     for (const HandleState& h : handles) {
-        if (h.removed || !h.options.gradient) continue;
+        if (h.removed || h.soft() || !h.options.gradient) continue;
         const Mat3 turn = rotation_of(h.transform.linear) - base_rotation;
         for (const Index v : h.local) turns[v] = turn;
     }
@@ -325,8 +341,8 @@ void Deformer::State::solve_second(bool draft, const Context& context) {
     const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
     find_turns(base_rotation, context);
     std::vector<Vec3>& at = second_positions;
-    at.resize(static_cast<std::size_t>(patch.real_count));
-    context.parallel_for(0, patch.real_count, kFrameGrain, [&](Index begin, Index end) {
+    at.resize(static_cast<std::size_t>(patch.vertex_count));
+    context.parallel_for(0, patch.vertex_count, kFrameGrain, [&](Index begin, Index end) {
         for (Index v = begin; v < end; ++v) at[v] = deviation[v] + remainder * patch.rest[v];
     });
     prepared->second->set_transforms(turns, context);

@@ -25,6 +25,8 @@ struct Prepared {
     std::shared_ptr<const WorkingPatch> work;
     std::vector<Index> owner;
     Knowledge known;
+    /// Local vertices and anchors that take what a point constraint asks, with its number.
+    std::vector<std::pair<Index, Index>> asked;
     GradientStencils gradients;
     std::unique_ptr<GradientSystem> first;
     std::unique_ptr<RotationSystem> second;
@@ -40,6 +42,14 @@ struct Deformer::State {
     Index local_vertex(Index mesh_vertex) const;
     bool at_rest() const;
 
+    SparseRow local_row(const MeshPoint& point) const;
+    Vec3 rest_position(const SparseRow& row) const;
+    void require_inside(const MeshPoint& point) const;
+    void require_unheld(const std::vector<Index>& vertices) const;
+    HandleId add(HandleState handle);
+    void set_constraint(const SparseRow& row, PointConstraint asked_now);
+    std::optional<PointConstraint> take_constraint(const SparseRow& row);
+
     // Transforms and positions below are relative to the patch's origin.
     void place(HandleState& handle, const Affine& transform, const Vec3& about) const;
     Vec3 held_position(const HandleState& handle, Index v) const;
@@ -49,6 +59,8 @@ struct Deformer::State {
     Vec3 known_deviation(Index v) const;
     Mat3 known_gradient(Index v) const;
 
+    Holds holds() const { return {handles, constraints, points}; }
+    void collect_asked();
     LinearProblem problem() const;
     void prepare(const Context& context);
     std::unique_ptr<Prepared> factored(const Context& context);
@@ -85,7 +97,12 @@ struct Deformer::State {
     RestDirections directions;
 
     std::vector<HandleState> handles;
+    /// Hard constraints of vertices.
     VertexConstraints constraints;
+    /// Constraints of points and soft ones, in the order of their rows.
+    std::vector<PointState> points;
+    /// What is asked of every local vertex and anchor that a constraint owns.
+    VertexConstraints asked;
 
     /// Null where the set of held vertices has changed; `fixed_current` is false where the value of
     /// a vertex constraint has.

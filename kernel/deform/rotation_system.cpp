@@ -26,6 +26,9 @@ constexpr double kPrecision = 1e-10;
 constexpr double kBlendRadii = 0.06;
 constexpr double kBlendEdges = 3.0;
 
+// Weight of squared lengths of a tie of weight 1 beside the edges.
+constexpr double kPositionUnit = 1.0;
+
 double laplacian_factor_of(const Patch& patch, const Rings& rings, SecondSystem second) {
     if (second == SecondSystem::laplacian) return 1.0;
     if (second == SecondSystem::poisson) return 0.0;
@@ -47,14 +50,17 @@ std::vector<double> edge_weights(const RingGeometry& geometry, const DeformOptio
 
 }  // namespace
 
-RotationSystem::RotationSystem(const Patch& patch, const std::vector<char>& position_known,
+RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                                const DeformOptions& options, const Context& context)
-    : rings_(build_rings(patch.real_count, patch.triangles)),
-      rest_(patch.rest.begin(), patch.rest.begin() + patch.real_count) {
+    : rings_(build_rings(work.patch.real_count, work.patch.triangles)),
+      rest_(work.patch.rest.begin(), work.patch.rest.begin() + work.patch.real_count) {
+    const Patch& patch = work.patch;
     const RingGeometry geometry = ring_geometry(rings_, patch.triangles, rest_);
     const bool literal = !options.scale_free && options.second == SecondSystem::laplacian;
     laplacian_ = make_laplacian(rings_, geometry, options.weights, !literal);
     laplacian_factor_ = laplacian_factor_of(patch, rings_, options.second);
+    const bool lengths = options.second != SecondSystem::laplacian;
+    tie_unit_ = lengths ? kPositionUnit : work.position_unit();
     edge_weight_ = edge_weights(geometry, options);
 
     weighted_delta_.assign(rest_.size(), Vec3::Zero());
@@ -74,6 +80,16 @@ RotationSystem::RotationSystem(const Patch& patch, const std::vector<char>& posi
         }
     }
     assemble(position_known, context);
+    add_ties(work);
+}
+
+void RotationSystem::add_ties(const WorkingPatch& work) {
+    std::vector<Index> row_of(static_cast<std::size_t>(work.patch.vertex_count), kNoIndex);
+    for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = static_cast<Index>(r);
+    vertex_count_ = work.patch.vertex_count;
+    ties_ = TieRows(work.ties, row_of, tie_unit_, [](Index v) { return SparseRow{{v, 1.0}}; });
+    ties_.add_to(matrix_);
+    tie_bytes_ = TieRows::response_bytes(work.ties, static_cast<Index>(free_.size()));
 }
 
 void RotationSystem::assemble(const std::vector<char>& position_known, const Context& context) {
@@ -121,6 +137,11 @@ void RotationSystem::factor(const Context& context) {
     factor_firmly(system_, matrix_, context);
     stats_ = system_.stats();
     matrix_ = {};
+    ties_charge_ = context.charge(tie_bytes_, "points that are held");
+    ties_.prepare(static_cast<Index>(free_.size()),
+                  [&](std::span<const double> b, std::span<double> x, Index columns) {
+                      system_.solve(b, x, columns);
+                  });
     single_ = system_.single_factor(context);
     const double contraction = measure_contraction(context);
     if (contraction > kLargestContraction) {
@@ -137,7 +158,7 @@ void RotationSystem::factor(const Context& context) {
 // The factor by which one correction in single precision shortens the error, the worst of a smooth
 // solution and of two waves over the numbers of the vertices.
 double RotationSystem::measure_contraction(const Context& context) {
-    std::vector<Vec3> x(rest_.size(), Vec3::Zero());
+    std::vector<Vec3> x(static_cast<std::size_t>(vertex_count_), Vec3::Zero());
     double size = 0.0;
     for (const Index v : free_) size = std::max(size, rest_[v].cwiseAbs().maxCoeff());
     for (const Index v : free_) {
@@ -183,6 +204,16 @@ void RotationSystem::solve(std::span<Vec3> positions, bool draft, const Context&
         find_correction(context);
         for (std::size_t r = 0; r < free_.size(); ++r) positions[free_[r]] += correction_[r];
     }
+    if (ties_.has_hard()) enforce_ties(positions);
+}
+
+void RotationSystem::enforce_ties(std::span<Vec3> positions) {
+    columns_.resize(free_.size());
+    for (int d = 0; d < 3; ++d) {
+        for (std::size_t r = 0; r < free_.size(); ++r) columns_[r] = positions[free_[r]][d];
+        ties_.enforce([&](Index v) { return positions[v][d]; }, columns_);
+        for (std::size_t r = 0; r < free_.size(); ++r) positions[free_[r]][d] = columns_[r];
+    }
 }
 
 // Right-hand side less what the matrix makes of `positions`, without forming the matrix.
@@ -212,6 +243,7 @@ void RotationSystem::find_residual(std::span<const Vec3> positions, const Contex
             residual_[r] = sum;
         }
     });
+    ties_.subtract_from(positions, free_, residual_);
 }
 
 void RotationSystem::find_correction(const Context& context) {

@@ -8,6 +8,8 @@
 #include "kernel/core/context.h"
 #include "kernel/deform/operators.h"
 #include "kernel/deform/patch.h"
+#include "kernel/deform/ties.h"
+#include "kernel/deform/working_patch.h"
 #include "kernel/solve/single_factor.h"
 #include "kernel/solve/sparse_system.h"
 
@@ -21,7 +23,7 @@ namespace lissom {
 /// length.
 class RotationSystem {
   public:
-    RotationSystem(const Patch& patch, const std::vector<char>& position_known,
+    RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                    const DeformOptions& options, const Context& context);
 
     /// Keeps the factor in single precision, unless the system is too ill-conditioned for that.
@@ -36,13 +38,16 @@ class RotationSystem {
     void set_transforms(std::span<const Mat3> transforms, const Context& context);
 
     /// Moves the free positions towards the solution for those transforms. `positions` holds the
-    /// known positions and a guess of the free ones. Linear in transforms and positions: deviations
-    /// of S_i from one S give deviations of the positions from S v + t. With `draft`, one
-    /// correction, about five digits; else as many as nearly full precision takes.
+    /// known positions, those of anchors among them, and a guess of the free ones. Linear in
+    /// transforms and positions: deviations of S_i from one S give deviations of the positions from
+    /// S v + t. With `draft`, one correction, about five digits; else as many as nearly full
+    /// precision takes.
     void solve(std::span<Vec3> positions, bool draft, const Context& context);
 
   private:
     void assemble(const std::vector<char>& position_known, const Context& context);
+    void add_ties(const WorkingPatch& work);
+    void enforce_ties(std::span<Vec3> positions);
     void find_residual(std::span<const Vec3> positions, const Context& context);
     void find_correction(const Context& context);
     double measure_contraction(const Context& context);
@@ -58,6 +63,11 @@ class RotationSystem {
     double laplacian_factor_ = 0.0;
     std::vector<Index> free_;
     SymmetricMatrix matrix_;
+    TieRows ties_;
+    MemoryCharge ties_charge_;
+    std::size_t tie_bytes_ = 0;
+    double tie_unit_ = 1.0;
+    Index vertex_count_ = 0;
     /// One of the two holds the factor; corrections for a solution of nearly full precision.
     SingleFactor single_;
     SparseSystem system_;
