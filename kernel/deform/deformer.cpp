@@ -73,6 +73,7 @@ const DeformOptions& Deformer::options() const {
 
 void Deformer::remove_handle(HandleId id) {
     HandleState& handle = state_->handle(id);
+    state_->find_gradients();
     handle.removed = true;
     handle.local.clear();
     handle.points.clear();
@@ -127,30 +128,8 @@ void Deformer::prepare(const Context& context) {
 }
 
 const std::vector<Vec3>& Deformer::preview(const Context& context) {
-    State& s = *state_;
-    s.prepare(context);
-    if (s.at_rest()) {
-        s.to_rest();
-        return s.positions;
-    }
-    if (s.prepared->solution) {
-        const LinearSolution& solution = *s.prepared->solution;
-        const Mat4 shift = s.base_transform() - matrix_of({});
-        const Mat4* moved = shift.isZero(0.0) ? nullptr : &shift;
-        const std::vector<Mat4> differences = s.differences();
-        context.parallel_for(0, solution.rows(), kFrameGrain, [&](Index begin, Index end) {
-            for (Index row = begin; row < end; ++row) {
-                const Index target = s.prepared->region_row[row];
-                if (target == kNoIndex) continue;
-                s.positions[target] =
-                    solution.position(row, moved, differences) + s.rest_patch->patch.origin;
-            }
-        });
-    }
-    s.write_held();
-    s.gradients_current = false;
-    s.deformed = true;
-    return s.positions;
+    state_->preview(context);
+    return state_->positions;
 }
 
 const std::vector<Vec3>& Deformer::solve(const Context& context) {
@@ -207,7 +186,7 @@ const std::vector<Vec3>& Deformer::rest_positions() const {
 void Deformer::apply_to(Mesh& mesh) const {
     State& s = *state_;
     require_same_topology(mesh, s.region.topology(), "the deformer");
-    if (!s.directions.empty()) s.find_gradients({});
+    if (!s.directions.empty()) s.find_gradients();
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row)
         out[s.region.vertices()[row]] = s.positions[row];
@@ -224,7 +203,7 @@ void Deformer::reset() {
 }
 
 const std::vector<Mat3>& Deformer::gradients() {
-    state_->find_gradients({});
+    state_->find_gradients();
     return state_->gradients;
 }
 

@@ -94,6 +94,7 @@ HandleId Deformer::State::add(HandleState handle) {
     for (const Index v : handle.local) handle.center += rest_patch->patch.rest[v] / count;
     for (const SparseRow& row : handle.points) handle.center += rest_position(row) / count;
     handle.center += rest_patch->patch.origin;
+    find_gradients();
     handles.push_back(std::move(handle));
     prepared.reset();
     ++stats.handles;
@@ -174,6 +175,7 @@ void Deformer::constrain(const PointConstraint& given) {
 // Replaces what is asked of a point. Where only the asked values change the preparation stays.
 void Deformer::State::set_constraint(const SparseRow& row, PointConstraint asked_now) {
     const bool wanted = asked_now.position || asked_now.gradient;
+    find_gradients();
     const std::optional<PointConstraint> before = take_constraint(row);
     if (!wanted && !before) return;
     const bool same_kind = wanted && before &&
