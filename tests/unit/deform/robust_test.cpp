@@ -170,6 +170,7 @@ TEST_CASE("several parts in one region: the error names the one that nothing hol
     CHECK(error.elements().kind == ElementKind::vertex);
     CHECK(error.elements().count == static_cast<std::size_t>(n));
     CHECK(error.elements().ids.front() == n);
+    CHECK(std::is_sorted(error.elements().ids.begin(), error.elements().ids.end()));
     for (const Index v : error.elements().ids) CHECK((v >= n && v < 2 * n));
     CHECK(error.message().find("vertices " + std::to_string(n)) != std::string::npos);
     CHECK(d.positions() == d.rest_positions());
