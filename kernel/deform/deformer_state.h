@@ -81,6 +81,7 @@ struct Deformer::State {
     void preview(const Context& context);
     void find_turns(const Mat3& base_rotation, const Context& context);
     void turn_held(const Mat3& base_rotation);
+    void refine_turns(const Mat3& base_rotation, const Context& context);
     void solve_second(bool draft, const Context& context);
     void solve(bool draft, const Context& context);
     std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;
@@ -119,6 +120,8 @@ struct Deformer::State {
     /// S_i less that of the base, for the second system. Outside the region they stay zero, as then
     /// the base is the identity.
     std::vector<PaddedMat3> turns;
+    /// Scratch of the refinement: positions less the translation of the base.
+    std::vector<Vec4> absolute;
     std::vector<Vec3> positions;
     std::vector<Mat3> gradients;
     bool deformed = false, gradients_current = true;
