@@ -167,6 +167,10 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     next->owner = find_owners(patch, rings, handles, constraints);
     next->known = find_knowledge(patch, rings, next->owner, handles, constraints);
     require_constraints(patch, rings, next->known);
+    if (options.method != DeformMethod::implicit) {
+        prepare_comparison(*next, context);
+        return next;
+    }
 
     progress.step(0.2);
     const auto start = std::chrono::steady_clock::now();

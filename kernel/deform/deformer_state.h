@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "kernel/deform/comparison_method.h"
 #include "kernel/deform/constraints.h"
 #include "kernel/deform/deformer.h"
 #include "kernel/deform/gradient_system.h"
@@ -20,6 +21,13 @@ namespace lissom {
 /// Vertices evaluated in one piece of a parallel loop of a frame.
 inline constexpr Index kFrameGrain = 4096;
 
+/// Vertices whose gradient is prescribed together: those of a handle, one with a constraint, or all
+/// that are pinned.
+struct GradientSource {
+    Index owner = kPinned;
+    Index vertex = kNoIndex;
+};
+
 /// Everything that depends on which vertices are held, but not on where they go.
 struct Prepared {
     std::shared_ptr<const WorkingPatch> work;
@@ -29,6 +37,11 @@ struct Prepared {
     std::unique_ptr<GradientSystem> first;
     std::unique_ptr<RotationSystem> second;
     std::unique_ptr<LinearSolution> solution;
+    /// In place of the three above, for a comparison method; the source of each local vertex's
+    /// gradient, or kNoIndex, and the sources.
+    std::unique_ptr<ComparisonMethod> comparison;
+    std::vector<Index> source;
+    std::vector<GradientSource> sources;
     /// Row in the region of each row of the solution, or kNoIndex for virtual vertices.
     std::vector<Index> region_row;
 };
@@ -57,6 +70,14 @@ struct Deformer::State {
     void require_area() const;
     Vec3 start_of_sequence() const;
     [[noreturn]] void refuse_singular(const Error& error, const std::vector<Index>& free) const;
+
+    // Of comparison methods.
+    void find_sources(Prepared& next) const;
+    void prepare_comparison(Prepared& next, const Context& context);
+    Affine comparison_base() const;
+    std::vector<SourceMotion> source_motions() const;
+    const std::vector<Vec3>& solve_comparison(const Context& context);
+    std::vector<Mat3> surface_gradients() const;
 
     void evaluate_deviation(const Context& context);
     Mat3 gradient_of(Index v) const;
