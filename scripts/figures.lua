@@ -93,19 +93,29 @@ function figures.anisotropy(rest, mesh)
     return percentiles(ratios)
 end
 
---- The mean change of area of triangles, either way: 1 where all kept theirs.
-function figures.area_change(rest, mesh)
-    local p, q, sum, area = rest:positions(), mesh:positions(), 0, 0
-    each_triangle(rest, function(a, b, c)
-        local base, _, y = flattened(p, a, b, c)
-        local greatest, least = stretches(p, q, a, b, c)
-        local ratio = greatest * math.max(least, 1e-9)
-        if base * y > 0 and ratio == ratio then
-            sum = sum + base * y * math.abs(math.log(ratio))
-            area = area + base * y
+--- Calls visit(degrees) for each edge between two faces, with the angle between their normals.
+function figures.each_fold(mesh, visit)
+    local positions, normals = mesh:positions(), {}
+    each_triangle(mesh, function(a, b, c)
+        local p = at(positions, a)
+        local normal = cross(minus(at(positions, b), p), minus(at(positions, c), p))
+        for _, edge in ipairs{ { a, b }, { b, c }, { c, a } } do
+            local key = math.min(edge[1], edge[2]) * (#mesh + 1) + math.max(edge[1], edge[2])
+            local other = normals[key]
+            if other then visit(math.deg(math.atan(length(cross(normal, other)), dot(normal, other)))) end
+            normals[key] = normal
         end
     end)
-    return math.exp(sum / area)
+end
+
+--- The mean angle between the faces at an edge, in degrees, and the number of edges folded by more than 90.
+function figures.roughness(mesh)
+    local sum, count, folds = 0, 0, 0
+    figures.each_fold(mesh, function(degrees)
+        sum, count = sum + degrees, count + 1
+        if degrees > 90 then folds = folds + 1 end
+    end)
+    return sum / count, folds
 end
 
 -- ---- Rotations

@@ -63,33 +63,6 @@ local handles = {
     end,
 }
 
--- How rough a surface is: the angle between the faces at an edge is small where it is smooth. Returned are the
--- mean over inner edges, in degrees.
-local function roughness(mesh)
-    local positions, normals, sum, count = mesh:positions(), {}, 0, 0
-    for _, f in ipairs(mesh:faces()) do
-        local function point(k) return positions[3 * f[k] - 2], positions[3 * f[k] - 1], positions[3 * f[k]] end
-        local ax, ay, az = point(1)
-        local bx, by, bz = point(2)
-        local cx, cy, cz = point(3)
-        local ux, uy, uz, vx, vy, vz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
-        local n = { uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx }
-        local length = math.sqrt(n[1] ^ 2 + n[2] ^ 2 + n[3] ^ 2)
-        for k = 1, 3 do
-            local i, j = f[k], f[k % 3 + 1]
-            local key = math.min(i, j) * (#mesh + 1) + math.max(i, j)
-            local other = normals[key]
-            normals[key] = { n[1] / length, n[2] / length, n[3] / length }
-            if other then
-                local m = normals[key]
-                local cosine = m[1] * other[1] + m[2] * other[2] + m[3] * other[3]
-                sum, count = sum + math.deg(math.acos(math.max(-1, math.min(1, cosine)))), count + 1
-            end
-        end
-    end
-    return sum / count
-end
-
 -- Deforming the displaced plane as if it were the rest shape leaves the displacement in.
 local bumpy = displaced(plane)
 local kept = figures.deformed(bumpy, {}, handles, true)
@@ -110,10 +83,10 @@ local panels = {
 }
 local rough = {}
 for i, panel in ipairs(panels) do
-    rough[i] = roughness(panel[1])
+    rough[i] = figures.roughness(panel[1])
     print(string.format("%-40s %6.3f degrees between faces, mean", panel[2], rough[i]))
 end
-print(string.format("%-40s %6.3f degrees between faces, mean", "(f) with uniform weights", roughness(second_uniform)))
+print(string.format("%-40s %6.3f degrees between faces, mean", "(f) with uniform weights", (figures.roughness(second_uniform))))
 local drift, uniform_drift = select(2, figures.difference(second, cotangent)),
     select(2, figures.difference(second_uniform, uniform))
 print(string.format("distance of the first result to the second, rms, of the size: cotangent %.4f, uniform %.4f",

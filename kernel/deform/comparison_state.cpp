@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "kernel/deform/deformer_state.h"
@@ -20,6 +21,15 @@ Vec3 rotation_vector(const Mat3& gradient) {
 }
 
 }  // namespace
+
+// Errors: unsupported where something is held softly or at points that are not vertices.
+void Deformer::State::require_plain_holds() const {
+    if (!holds().need_anchors()) return;
+    throw Error(ErrorCode::unsupported,
+                "method " + std::string(method_name(options.method)) +
+                    " holds vertices exactly; weights, and points in faces or on edges, are for "
+                    "method implicit");
+}
 
 void Deformer::State::find_sources(Prepared& next) const {
     const Patch& patch = next.work->patch;
@@ -81,14 +91,14 @@ std::vector<SourceMotion> Deformer::State::source_motions() const {
     for (const GradientSource& source : prepared->sources) {
         SourceMotion motion;
         if (source.owner >= 0) motion.gradient = handles[source.owner].transform.linear;
-        if (source.owner == kConstrained) motion.gradient = *constraints.at(source.vertex).gradient;
+        if (source.owner == kConstrained) motion.gradient = *asked.at(source.vertex).gradient;
         motion.rotation = rotation_vector(motion.gradient);
         motions.push_back(motion);
     }
     return motions;
 }
 
-const std::vector<Vec3>& Deformer::State::solve_comparison(const Context& context) {
+void Deformer::State::solve_comparison(const Context& context) {
     const Patch& patch = prepared->work->patch;
     const std::vector<SourceMotion> motions = source_motions();
     std::vector<Vec3> at(static_cast<std::size_t>(patch.real_count), Vec3::Zero());
@@ -106,7 +116,6 @@ const std::vector<Vec3>& Deformer::State::solve_comparison(const Context& contex
     gradients_current = true;
     write_held();
     deformed = true;
-    return positions;
 }
 
 // Deformation gradients of the surface as it lies: the linear maps nearest to taking each ring and

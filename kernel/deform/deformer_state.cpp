@@ -48,9 +48,9 @@ Index Deformer::State::local_vertex(Index mesh_vertex) const {
 }
 
 bool Deformer::State::at_rest() const {
-    return constraints.empty() && std::all_of(handles.begin(), handles.end(), [](const auto& h) {
-               return h.removed || h.transform.is_identity();
-           });
+    return constraints.empty() && points.empty() &&
+           std::all_of(handles.begin(), handles.end(),
+                       [](const auto& h) { return h.removed || h.transform.is_identity(); });
 }
 
 Affine Deformer::State::local(const Affine& transform) const {
@@ -76,8 +76,8 @@ Vec3 Deformer::State::known_position(Index v) const {
     const Patch& patch = prepared->work->patch;
     const Index o = prepared->owner[v];
     if (o >= 0) return local(handles[o].transform)(patch.rest[v]);
-    if (o == kConstrained && constraints.at(v).position) {
-        return *constraints.at(v).position - patch.origin;
+    if (o == kConstrained && asked.at(v).position) {
+        return *asked.at(v).position - patch.origin;
     }
     return patch.rest[v];
 }
@@ -94,12 +94,22 @@ Vec3 Deformer::State::known_deviation(Index v) const {
 Mat3 Deformer::State::known_gradient(Index v) const {
     const Index o = prepared->owner[v];
     if (o >= 0) return handles[o].transform.linear;
-    return o == kConstrained ? *constraints.at(v).gradient : Mat3(Mat3::Identity());
+    if (o != kConstrained) return Mat3::Identity();
+    return asked.at(v).gradient.value_or(Mat3(Mat3::Identity()));
 }
 
 LinearProblem Deformer::State::problem() const {
     return {prepared->work->patch, prepared->work->rings, prepared->gradients,
             *prepared->first,      prepared->owner,       handles};
+}
+
+void Deformer::State::collect_asked() {
+    asked = constraints;
+    for (const auto& [v, number] : prepared->asked) {
+        const PointConstraint& point = points[number].asked;
+        const bool anchor = v >= prepared->work->patch.surface_count;
+        asked[v] = {v, anchor ? point.position : std::nullopt, point.gradient, {}};
+    }
 }
 
 void Deformer::State::prepare(const Context& context) {
@@ -108,7 +118,8 @@ void Deformer::State::prepare(const Context& context) {
         fixed_current = false;
     }
     if (fixed_current) return;
-    if (prepared->solution) prepared->solution->solve_fixed(problem(), constraints);
+    collect_asked();
+    if (prepared->solution) prepared->solution->solve_fixed(problem(), asked);
     fixed_current = true;
 }
 
@@ -161,12 +172,15 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     Progress progress(context, "deform: prepare");
     require_area();
     auto next = std::make_unique<Prepared>();
-    next->work = rest_patch;
+    if (options.method != DeformMethod::implicit) require_plain_holds();
+    next->work = holds().need_anchors() ? anchored(*rest_patch, holds()) : rest_patch;
     const Patch& patch = next->work->patch;
     const Rings& rings = next->work->rings;
-    next->owner = find_owners(patch, rings, handles, constraints);
-    next->known = find_knowledge(patch, rings, next->owner, handles, constraints);
-    require_constraints(patch, rings, next->known);
+    Holding holding = find_holding(*next->work, holds());
+    require_constraints(*next->work, holding.known);
+    next->owner = std::move(holding.owner);
+    next->known = std::move(holding.known);
+    next->asked = std::move(holding.asked);
     if (options.method != DeformMethod::implicit) {
         prepare_comparison(*next, context);
         return next;
@@ -176,10 +190,10 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     const auto start = std::chrono::steady_clock::now();
     next->gradients = make_gradients(patch, rings, next->work->geometry, next->known,
                                      start_of_sequence(), options);
-    next->first =
-        std::make_unique<GradientSystem>(patch, rings, next->work->geometry, next->work->laplacian,
-                                         next->gradients, next->known, options, context);
-    next->second = std::make_unique<RotationSystem>(patch, next->known.position, options, context);
+    next->first = std::make_unique<GradientSystem>(*next->work, next->gradients, next->known,
+                                                   options, context);
+    next->second =
+        std::make_unique<RotationSystem>(*next->work, next->known.position, options, context);
     const double assemble_seconds = seconds_since(start);
 
     progress.step(0.45);
@@ -226,7 +240,10 @@ void Deformer::State::evaluate_deviation(const Context& context) {
             deviation[v] = (difference * homogeneous(patch.rest[v])).head<3>();
         }
     }
-    for (const auto& entry : constraints) deviation[entry.first] = known_deviation(entry.first);
+    for (const auto& entry : asked) deviation[entry.first] = known_deviation(entry.first);
+    for (Index v = patch.surface_count; v < patch.vertex_count; ++v) {
+        deviation[v] = known_deviation(v);
+    }
     if (!prepared->solution) return;
     const std::vector<Index>& free = prepared->first->free_vertices();
     const std::vector<Mat4> differences = this->differences();
@@ -274,32 +291,62 @@ Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
     return options.local_size == LocalSize::scale ? Mat3(uniform_scale(gradient) * r) : r;
 }
 
+// S_i less that of the base. Handles turn as a whole.
+void Deformer::State::find_turns(const Mat3& base_rotation, const Context& context) {
+    const Patch& patch = prepared->work->patch;
+    turns.resize(static_cast<std::size_t>(patch.real_count), Mat3::Zero());
+    context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
+        const std::size_t count = static_cast<std::size_t>(end - begin);
+        const std::span<const Mat3> m(gradients.data() + begin, count);
+        std::vector<Mat3> rotations(count);
+        nearest_rotations(m, rotations);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Index v = patch.of_region[static_cast<std::size_t>(begin) + i];
+            const double scale = options.local_size == LocalSize::scale ? uniform_scale(m[i]) : 1.0;
+            turns[v] = scale * rotations[i] - base_rotation;
+        }
+    });
+    for (const HandleState& h : handles) {
+        if (h.removed || h.soft() || !h.options.gradient) continue;
+        const Mat3 turn = rotation_of(h.transform.linear) - base_rotation;
+        for (const Index v : h.local) turns[v] = turn;
+    }
+}
+
 // Solves the second system for deviations from the similarity nearest to the base transform, so
-// that similarities of the whole are exact. Returns local positions.
-void Deformer::State::solve_second(const Context& context) {
+// that similarities of the whole are exact. Leaves local positions.
+void Deformer::State::solve_second(bool draft, const Context& context) {
     const Patch& patch = prepared->work->patch;
     const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
     const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
-    // Handles turn as a whole.
-    std::vector<Mat3> handle_turns;
-    for (const HandleState& h : handles) {
-        handle_turns.push_back(rotation_of(h.transform.linear) - base_rotation);
-    }
-    turns.resize(static_cast<std::size_t>(patch.real_count), Mat3::Zero());
-    context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
-        for (Index row = begin; row < end; ++row) {
-            const Index v = patch.of_region[row], owner = prepared->owner[v];
-            const bool known = owner >= 0 && prepared->known.gradient[v];
-            turns[v] = known ? handle_turns[owner] : rotation_of(gradients[row]) - base_rotation;
-        }
-    });
+    find_turns(base_rotation, context);
     std::vector<Vec3>& at = second_positions;
-    at.resize(static_cast<std::size_t>(patch.real_count));
-    for (Index v = 0; v < patch.real_count; ++v) at[v] = deviation[v] + remainder * patch.rest[v];
-    prepared->second->solve(turns, at, context);
+    at.resize(static_cast<std::size_t>(patch.vertex_count));
+    context.parallel_for(0, patch.vertex_count, kFrameGrain, [&](Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) at[v] = deviation[v] + remainder * patch.rest[v];
+    });
+    prepared->second->set_transforms(turns, context);
+    prepared->second->solve(at, draft, context);
+    const Vec3 shift = frame_base.topRightCorner<3, 1>();
     for (const Index v : prepared->second->free_vertices()) {
-        at[v] += base_rotation * patch.rest[v] + frame_base.topRightCorner<3, 1>();
+        at[v] += base_rotation * patch.rest[v] + shift;
     }
+}
+
+void Deformer::State::solve(bool draft, const Context& context) {
+    prepare(context);
+    if (at_rest()) return to_rest();
+    if (prepared->comparison) return solve_comparison(context);
+    context.checkpoint();
+    gradients_current = false;
+    find_gradients(context);
+    if (prepared->second->free_vertices().empty()) {
+        write_held();
+    } else {
+        solve_second(draft, context);
+        write_positions(second_positions);
+    }
+    deformed = true;
 }
 
 // Positions of the region's vertices for deviations `from` the base transform: displaced vertices

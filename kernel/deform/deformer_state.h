@@ -33,6 +33,8 @@ struct Prepared {
     std::shared_ptr<const WorkingPatch> work;
     std::vector<Index> owner;
     Knowledge known;
+    /// Local vertices and anchors that take what a point constraint asks, with its number.
+    std::vector<std::pair<Index, Index>> asked;
     GradientStencils gradients;
     std::unique_ptr<GradientSystem> first;
     std::unique_ptr<RotationSystem> second;
@@ -53,6 +55,14 @@ struct Deformer::State {
     Index local_vertex(Index mesh_vertex) const;
     bool at_rest() const;
 
+    SparseRow local_row(const MeshPoint& point) const;
+    Vec3 rest_position(const SparseRow& row) const;
+    void require_inside(const MeshPoint& point) const;
+    void require_unheld(const std::vector<Index>& vertices) const;
+    HandleId add(HandleState handle);
+    void set_constraint(const SparseRow& row, PointConstraint asked_now);
+    std::optional<PointConstraint> take_constraint(const SparseRow& row);
+
     // Transforms and positions below are relative to the patch's origin.
     Affine local(const Affine& transform) const;
     Mat4 base_transform() const;
@@ -61,6 +71,8 @@ struct Deformer::State {
     Vec3 known_deviation(Index v) const;
     Mat3 known_gradient(Index v) const;
 
+    Holds holds() const { return {handles, constraints, points}; }
+    void collect_asked();
     LinearProblem problem() const;
     void prepare(const Context& context);
     std::unique_ptr<Prepared> factored(const Context& context);
@@ -72,18 +84,21 @@ struct Deformer::State {
     [[noreturn]] void refuse_singular(const Error& error, const std::vector<Index>& free) const;
 
     // Of comparison methods.
+    void require_plain_holds() const;
     void find_sources(Prepared& next) const;
     void prepare_comparison(Prepared& next, const Context& context);
     Affine comparison_base() const;
     std::vector<SourceMotion> source_motions() const;
-    const std::vector<Vec3>& solve_comparison(const Context& context);
+    void solve_comparison(const Context& context);
     std::vector<Mat3> surface_gradients() const;
 
     void evaluate_deviation(const Context& context);
     Mat3 gradient_of(Index v) const;
     void find_gradients(const Context& context);
     Mat3 rotation_of(const Mat3& gradient) const;
-    void solve_second(const Context& context);
+    void find_turns(const Mat3& base_rotation, const Context& context);
+    void solve_second(bool draft, const Context& context);
+    void solve(bool draft, const Context& context);
     std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;
     void write_positions(const std::vector<Vec3>& at);
     void write_held();
@@ -101,7 +116,12 @@ struct Deformer::State {
     RestDirections directions;
 
     std::vector<HandleState> handles;
+    /// Hard constraints of vertices.
     VertexConstraints constraints;
+    /// Constraints of points and soft ones, in the order of their rows.
+    std::vector<PointState> points;
+    /// What is asked of every local vertex and anchor that a constraint owns.
+    VertexConstraints asked;
 
     /// Null where the set of held vertices has changed; `fixed_current` is false where the value of
     /// a vertex constraint has.

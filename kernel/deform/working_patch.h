@@ -4,6 +4,7 @@
 #include "kernel/deform/deformer.h"
 #include "kernel/deform/operators.h"
 #include "kernel/deform/patch.h"
+#include "kernel/deform/ties.h"
 
 namespace lissom {
 
@@ -17,6 +18,19 @@ struct WorkingPatch {
     Rings rings;
     RingGeometry geometry;
     Laplacian laplacian;
+    /// RMS distance of the surface to its centroid.
+    double radius = 0.0;
+
+    /// What holds the surface beside held vertices. For each anchor its owner (constraints.h) and
+    /// the number of its point constraint, or kNoIndex.
+    Ties ties;
+    std::vector<GradientTie> gradient_ties;
+    std::vector<Index> anchor_owner, anchor_point;
+
+    /// Weight of a tie of weight 1 in the first system, for squared distances and for squared
+    /// differences of gradients.
+    double position_unit() const;
+    double gradient_unit() const;
 };
 
 }  // namespace lissom

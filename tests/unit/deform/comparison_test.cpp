@@ -297,3 +297,16 @@ TEST_CASE("comparison: distances by fast marching are exact for a flat front and
     }
     CHECK(worst < 0.05);
 }
+
+TEST_CASE("comparison: soft handles and points in faces are refused") {
+    const Scene scene = bar_scene();
+    for (const DeformMethod method : kMethods) {
+        Edit edit = make_edit(scene, options_of(method));
+        PointConstraint point;
+        const auto face = scene.mesh.topology().face(scene.mesh.face_count() / 2);
+        point.point = {{face[0], face[1]}, {0.5, 0.5}};
+        point.position = Vec3::Zero();
+        edit.deformer.constrain(point);
+        CHECK(error_of([&] { edit.deformer.solve(); }).code() == ErrorCode::unsupported);
+    }
+}
