@@ -25,7 +25,7 @@ end
 
 -- ---- Distances and distortion
 
---- Greatest and root mean square distance between corresponding vertices of two meshes, in sizes of the first.
+--- Greatest and root mean square distance between the same vertices of two meshes, in sizes of the first.
 function figures.difference(a, b)
     local p, q = a:positions(), b:positions()
     local greatest, squares = 0, 0
@@ -166,7 +166,8 @@ local function fit(p, q, vertices)
     }
 end
 
---- How far a part turned, in degrees: the angle of the rotation that takes its vertices nearest to where they are.
+--- How far a part turned, in degrees: the angle of the rotation that takes its vertices nearest to where they
+-- are.
 function figures.turn(rest, mesh, region)
     local r = fit(rest:positions(), mesh:positions(), region:vertices())
     return math.deg(2 * math.atan(length{ r[2], r[3], r[4] }, math.abs(r[1])))

@@ -1,5 +1,5 @@
--- Two handles are moved together (Figure 2.10): details that keep their size have no room between them and fold;
--- with local_size = "scale" they shrink with the surface around them.
+-- Two handles are moved together (Figure 2.10): details that keep their size have no room between them; with
+-- local_size = "scale" they shrink with the surface around them.
 --
 --     lissom run examples/deform/figure_2_10.lua
 --     lissom run examples/deform/figure_2_10.lua --mesh lion.off --closer 0.6
@@ -22,7 +22,9 @@ local params = lissom.params{
 
 -- A body along z with rolls of fat: between the handles five of them go round it.
 local function body()
-    local mesh = lissom.shapes.cylinder{ radius = 1, height = 1, segments = 48, rings = params.rings, cap_rings = 8 }
+    local mesh = lissom.shapes.cylinder{
+        radius = 1, height = 1, segments = 48, rings = params.rings, cap_rings = 8,
+    }
     local positions = mesh:positions()
     for v = 1, #mesh do
         local x, y, z = positions[3 * v - 2], positions[3 * v - 1], positions[3 * v]
@@ -51,7 +53,8 @@ local handles = {
 local keep = figures.deformed(rest, { local_size = "keep" }, handles)
 local scale, edit = figures.deformed(rest, { local_size = "scale" }, handles)
 
--- Of the surface between the handles: its area, how far triangles are from their shape, and how many edges are folded.
+-- Of the surface between the handles: its area, how far triangles are from their shape, and how many edges
+-- are folded.
 local function measure(mesh)
     local before, after = rest:extract(rest:region("body")), mesh:extract(mesh:region("body"))
     local shape = figures.anisotropy(before, after)

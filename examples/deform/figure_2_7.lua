@@ -1,5 +1,5 @@
--- A bar under a large rotation of its upper end (Figure 2.7): how far degenerate vertices are displaced hardly
--- matters, and what other methods make of the same handles.
+-- A bar under a large rotation of its upper end (Figure 2.7): it hardly matters how far degenerate vertices
+-- are displaced, and what other methods make of the same handles.
 --
 --     lissom run examples/deform/figure_2_7.lua
 --     lissom run examples/deform/figure_2_7.lua --mesh bar.off --turn 150
@@ -52,7 +52,8 @@ local function between(options)
 end
 local near, far = between{ fidelity = "thesis" }
 local greatest, rms = figures.difference(near, far)
-print(string.format("displacement 0.2 and 10, thesis: differ by %.4f of the size at most, %.4f rms", greatest, rms))
+print(string.format("displacement 0.2 and 10, thesis: differ by %.4f of the size at most, %.4f rms", greatest,
+    rms))
 figures.claim(greatest < 0.1, "the displacement hardly matters")
 local own, other = between{}
 print(string.format("displacement 0.2 and 10, default: differ by %.4f of the size at most, %.4f rms",

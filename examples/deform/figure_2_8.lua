@@ -1,6 +1,6 @@
--- The end of a tail is moved far, but not turned (Figure 2.8): methods that propagate the handles' rotations have
--- none to propagate, so details keep their direction in space while the tail rises; the implicit method turns them
--- along with it.
+-- The end of a tail is moved far, but not turned (Figure 2.8): methods that propagate the turns of handles have
+-- none to propagate, so details keep their direction in space while the tail rises; the implicit method turns
+-- them along with it.
 --
 --     lissom run examples/deform/figure_2_8.lua
 --     lissom run examples/deform/figure_2_8.lua --mesh dinosaur.obj
@@ -52,7 +52,8 @@ local function dinosaur()
         } }
     end
     local height = box.max[2] - box.min[2]
-    local feet = mesh:region{ plane = { point = { 0, box.min[2] + 0.14 * height, 0 }, normal = { 0, -1, 0 } } }
+    local ankle = box.min[2] + 0.14 * height
+    local feet = mesh:region{ plane = { point = { 0, ankle, 0 }, normal = { 0, -1, 0 } } }
     mesh:set_region("feet", feet:minus(slab(0.55, 1))):set_region("end", slab(0.94, 1))
     mesh:set_region("head", slab(0, 0.2):minus(mesh:region{
         plane = { point = { 0, box.min[2] + 0.8 * height, 0 }, normal = { 0, -1, 0 } } }))
@@ -70,8 +71,8 @@ for _, name in ipairs(held) do
     table.insert(names, name)
 end
 
--- The spine at joint k runs from the joint before to the one after; its plate stands from the lower half of the
--- joint to the upper.
+-- The spine at joint k runs from the joint before to the one after; its plate stands from the lower half of
+-- the joint to the upper.
 local spines, plates = {}, {}
 for k = 1, joints - 2 do
     local here = joint(k)
@@ -95,7 +96,8 @@ end
 
 local panels, lean, plate = { { rest, "at rest" } }, {}, {}
 figures.row("method", "%10s %10s %10s %10s", "spine", "plates", "lean", "stretch 99 %")
-for _, method in ipairs{ "naive", "geodesic", "harmonic", "frames", "rotation_estimate", "similarity", "implicit" } do
+local methods = { "naive", "geodesic", "harmonic", "frames", "rotation_estimate", "similarity", "implicit" }
+for _, method in ipairs(methods) do
     local mesh = figures.deformed(rest, { method = method }, handles)
     local spine_turn, plate_turn, leaning = measure(mesh)
     lean[method], plate[method] = leaning, plate_turn
@@ -103,7 +105,7 @@ for _, method in ipairs{ "naive", "geodesic", "harmonic", "frames", "rotation_es
         figures.anisotropy(rest, mesh).p99)
     if method ~= "naive" and method ~= "geodesic" then table.insert(panels, { mesh, method }) end
 end
-print("degrees that the spine and the plates on it turned, and how far the plates lean; anisotropy of triangles")
+print("degrees that spine and plates turned, and that their angle changed; anisotropy of triangles")
 
 figures.write{
     name = "figure_2_8", out = params.out, panels = panels, columns = 3, size = { 1500, 1000 },
@@ -111,5 +113,5 @@ figures.write{
 }
 for _, method in ipairs{ "geodesic", "harmonic", "frames" } do
     figures.claim(plate[method] < 0.4 * plate.implicit, "details do not turn in method " .. method)
-    figures.claim(lean.implicit < 0.6 * lean[method], "details lean less in the implicit method than in " .. method)
+    figures.claim(lean.implicit < 0.6 * lean[method], "details lean less than in method " .. method)
 end

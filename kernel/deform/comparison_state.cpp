@@ -112,7 +112,7 @@ void Deformer::State::solve_comparison(const Context& context) {
         gradients[row] = transforms[v];
         if (!prepared->known.position[v]) positions[row] = at[v] + patch.origin;
     }
-    second_positions = std::move(at);
+    compared = std::move(at);
     gradients_current = true;
     write_held();
     deformed = true;
@@ -125,17 +125,16 @@ std::vector<Mat3> Deformer::State::surface_gradients() const {
     if (!deformed) return result;
     const Patch& patch = prepared->work->patch;
     const Rings real = build_rings(patch.real_count, patch.triangles);
-    const std::span<const Vec3> before(patch.rest.data(), second_positions.size());
+    const std::span<const Vec3> before(patch.rest.data(), compared.size());
     const std::vector<Vec3> normal_before = ring_geometry(real, patch.triangles, before).normal;
-    const std::vector<Vec3> normal_after =
-        ring_geometry(real, patch.triangles, second_positions).normal;
+    const std::vector<Vec3> normal_after = ring_geometry(real, patch.triangles, compared).normal;
     for (Index row = 0; row < region.size(); ++row) {
         const Index v = patch.of_region[row];
         Mat3 onto = Mat3::Zero(), from = Mat3::Zero();
         double squares = 0.0;
         for (const Index j : real.ring(v)) {
             const Vec3 p = before[j] - before[v];
-            onto += (second_positions[j] - second_positions[v]) * p.transpose();
+            onto += (compared[j] - compared[v]) * p.transpose();
             from += p * p.transpose();
             squares += p.squaredNorm();
         }
