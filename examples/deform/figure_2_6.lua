@@ -24,7 +24,7 @@ local params = lissom.params{
 local rest = params.mesh ~= "" and assert(lissom.load(params.mesh))
     or lissom.shapes.cactus{ vertices = params.vertices }
 local axis = figures.longest_axis(rest)
-figures.set_ends(rest, axis, 0.12)
+figures.set_ends(rest, axis, 0.1)
 local along, across = { 0, 0, 0 }, { 0, 0, 0 }
 along[axis], across[axis % 3 + 1] = 1, 1
 
