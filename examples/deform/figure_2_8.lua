@@ -1,5 +1,5 @@
--- The end of a tail is moved far, but not turned (Figure 2.8): methods that propagate turns of handles have none
--- to propagate, so details keep their direction in space while the tail rises; the implicit method turns
+-- The end of a tail is moved far, but not turned (Figure 2.8): methods that propagate turns of handles have
+-- none to propagate, so details keep their direction in space while the tail rises; the implicit method turns
 -- them along with it.
 --
 --     lissom run examples/deform/figure_2_8.lua

@@ -42,8 +42,9 @@ enum class LocalSize { keep, scale };
 /// How the region follows its handles. All but `implicit` are the methods that the thesis compares
 /// its own with (sections 2.3 to 2.5). They use the same operators and keep the same promises: hard
 /// positions, the rest shape to the bit, nothing moves outside the region, no factorisation for a
-/// new transform. They have one quality only, so `preview` gives what `solve` gives, and no handle
-/// basis.
+/// new transform. They have one quality only, so `preview` and `solve_draft` give what `solve`
+/// gives, and no handle basis; weights of handles, and points that are not vertices, are refused as
+/// `unsupported`.
 enum class DeformMethod {
     /// Fu 2007: gradients implicit in the positions, then shear taken out.
     implicit,
@@ -199,7 +200,8 @@ class Deformer {
 
     /// Assembles and factors what the present handles need, if that has not been done. `preview`
     /// and `solve` do it by themselves. Errors: unconstrained, naming a part of the region that
-    /// nothing holds; zero_area; not_positive_definite; memory_limit; cancelled.
+    /// nothing holds; zero_area; not_positive_definite; memory_limit; cancelled; unsupported for
+    /// what a comparison method cannot hold.
     void prepare(const Context& context = {});
 
     /// Solves the first system only (Eq 2.8), by the handle basis; as `solve` for a comparison
