@@ -33,6 +33,7 @@ GradientLoop gradient_loop(const Prepared& prepared) {
 void Deformer::State::preview(const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
+    if (prepared->comparison) return solve_comparison(context);
     if (prepared->solution) {
         const LinearSolution& solution = *prepared->solution;
         const Mat4 shift = base_transform() - matrix_of({});
@@ -224,6 +225,7 @@ void Deformer::State::solve_second(bool draft, const Context& context) {
 void Deformer::State::solve(bool draft, const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
+    if (prepared->comparison) return solve_comparison(context);
     context.checkpoint();
     gradients_current = false;
     evaluate_deviation(context);

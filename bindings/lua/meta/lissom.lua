@@ -923,6 +923,7 @@ function lissom.shapes.cactus(options) end
 
 ---@class lissom.DeformOptions
 ---@field region? lissom.Region What may move. Outside nothing does. Default: all.
+---@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview is as solve. Default: "implicit".
 ---@field local_size? "keep"|"scale" Whether details keep their size or scale with the surface around them. Default: "keep".
 ---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Default: "blend".
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1.
