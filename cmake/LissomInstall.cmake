@@ -23,6 +23,10 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernel DESTINATION ${CMAKE_INSTALL_INCLU
         # These show libraries that users of the package need not have.
         PATTERN "gltf_*.h" EXCLUDE)
 
+# The evaluator of saved bases needs nothing else of the package.
+install(FILES ${PROJECT_SOURCE_DIR}/bindings/engine/lissom_basis.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom)
+
 # Static libraries pass on what they were linked with: the package finds the same libraries again.
 get_target_property(solve_libraries lissom_solve LINK_LIBRARIES)
 set(LISSOM_OPENMP OFF)
