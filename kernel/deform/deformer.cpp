@@ -286,6 +286,14 @@ void Deformer::apply_to(Mesh& mesh) const {
     if (!s.directions.empty()) s.directions.apply_to(mesh, s.gradients);
 }
 
+void Deformer::apply_rest_to(Mesh& mesh) const {
+    const State& s = *state_;
+    require_same_topology(mesh, s.region.topology(), "the deformer");
+    const std::span<Vec3> out = mesh.edit_positions();
+    for (Index row = 0; row < s.region.size(); ++row) out[s.region.vertices()[row]] = s.rest[row];
+    s.directions.apply_to(mesh, std::vector<Mat3>(s.rest.size(), Mat3::Identity()));
+}
+
 void Deformer::reset() {
     State& s = *state_;
     for (HandleState& handle : s.handles) handle.transform = {};

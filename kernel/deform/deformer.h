@@ -162,6 +162,9 @@ class Deformer {
     /// Writes `positions()` into the region's vertices of `mesh`; custom normals turn with the
     /// surface. Errors: topology_mismatch.
     void apply_to(Mesh& mesh) const;
+    /// Writes the rest shape into the region's vertices of `mesh`, with the custom normals it had.
+    /// Errors: topology_mismatch.
+    void apply_rest_to(Mesh& mesh) const;
 
     /// All transforms to the identity and `positions()` to the rest shape, to the bit; vertex
     /// constraints go.
