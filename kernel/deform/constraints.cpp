@@ -1,6 +1,9 @@
 #include "kernel/deform/constraints.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -28,27 +31,47 @@ struct Part {
     }
 };
 
-void add_vertex(const Patch& patch, const Knowledge& known, Index v, Part& part) {
-    part.has_gradient = part.has_gradient || known.gradient[v];
+// Which anchors each vertex is tied to, each counted at one vertex, and whether its gradient is.
+struct TiesOfVertices {
+    std::multimap<Index, Index> anchors;
+    std::set<Index> turned;
+
+    explicit TiesOfVertices(const WorkingPatch& work) {
+        for (Index t = 0; t < work.ties.size(); ++t) {
+            anchors.emplace(work.ties.row[t].front().first, work.ties.anchor[t]);
+        }
+        for (const GradientTie& tie : work.gradient_ties) turned.insert(tie.vertex);
+    }
+};
+
+void add_position(const Vec3& at, Part& part) {
+    part.positions += 1.0;
+    part.sum += at;
+    part.products += at * at.transpose();
+}
+
+void add_vertex(const Patch& patch, const TiesOfVertices& ties, const Knowledge& known, Index v,
+                Part& part) {
+    part.has_gradient = part.has_gradient || known.gradient[v] || ties.turned.count(v) > 0;
     if (known.position[v]) {
-        part.positions += 1.0;
-        part.sum += patch.rest[v];
-        part.products += patch.rest[v] * patch.rest[v].transpose();
+        add_position(patch.rest[v], part);
     } else if (v < patch.real_count) {
         part.free.add(patch.mesh_vertex[v]);
     }
+    const auto [first, last] = ties.anchors.equal_range(v);
+    for (auto tie = first; tie != last; ++tie) add_position(patch.rest[tie->second], part);
 }
 
-Part collect_part(const Patch& patch, const Rings& rings, const Knowledge& known, Index start,
-                  std::vector<char>& seen) {
+Part collect_part(const WorkingPatch& work, const TiesOfVertices& ties, const Knowledge& known,
+                  Index start, std::vector<char>& seen) {
     Part part;
     std::vector<Index> stack{start};
     seen[start] = 1;
     while (!stack.empty()) {
         const Index v = stack.back();
         stack.pop_back();
-        add_vertex(patch, known, v, part);
-        for (const Index n : rings.ring(v)) {
+        add_vertex(work.patch, ties, known, v, part);
+        for (const Index n : work.rings.ring(v)) {
             if (!std::exchange(seen[n], 1)) stack.push_back(n);
         }
     }
@@ -70,49 +93,94 @@ void require_held(Part part) {
                 std::move(part.free));
 }
 
+Holding known_nothing(const WorkingPatch& work) {
+    const auto n = static_cast<std::size_t>(work.patch.vertex_count);
+    const std::vector<char> none(n, 0);
+    Holding holding{std::vector<Index>(n, kFree), {none, none, none}, {}};
+    for (Index i = 0; i < work.patch.surface_count; ++i) {
+        if (work.patch.in_region[i] && work.rings.count(i) > 0) continue;
+        holding.owner[i] = kPinned;
+        holding.known.position[i] = holding.known.gradient[i] = 1;
+    }
+    return holding;
+}
+
+// Vertices without faces follow a soft handle as they follow a hard one.
+void hold_handle(const WorkingPatch& work, const HandleState& handle, Index h, Holding& holding) {
+    for (const Index v : handle.local) {
+        const bool isolated = work.rings.count(v) == 0;
+        if (handle.soft() && !isolated) continue;
+        holding.owner[v] = h;
+        holding.known.position[v] = handle.options.position || isolated;
+        holding.known.gradient[v] = handle.options.gradient;
+    }
+}
+
+// Gives free vertices around a point its gradient.
+void turn_around(const SparseRow& row, Index owner, Index point, Holding& holding) {
+    for (const auto& [v, c] : row) {
+        if (holding.owner[v] != kFree) continue;
+        holding.owner[v] = owner;
+        holding.known.gradient[v] = 1;
+        if (point != kNoIndex) holding.asked.emplace_back(v, point);
+    }
+}
+
+void hold_anchors(const WorkingPatch& work, Holding& holding) {
+    for (Index v = work.patch.surface_count; v < work.patch.vertex_count; ++v) {
+        const Index anchor = v - work.patch.surface_count;
+        holding.owner[v] = work.anchor_owner[anchor];
+        holding.known.position[v] = holding.known.gradient[v] = 1;
+        const Index point = work.anchor_point[anchor];
+        if (point != kNoIndex) holding.asked.emplace_back(v, point);
+    }
+}
+
 }  // namespace
 
-std::vector<Index> find_owners(const Patch& patch, const Rings& rings,
-                               const std::vector<HandleState>& handles,
-                               const VertexConstraints& constraints) {
-    std::vector<Index> owner(static_cast<std::size_t>(patch.vertex_count), kPinned);
-    for (Index i = 0; i < patch.vertex_count; ++i) {
-        if (patch.in_region[i] && rings.count(i) > 0) owner[i] = kFree;
-    }
-    for (std::size_t h = 0; h < handles.size(); ++h) {
-        if (handles[h].removed) continue;
-        for (const Index v : handles[h].local) owner[v] = static_cast<Index>(h);
-    }
-    for (const auto& entry : constraints) owner[entry.first] = kConstrained;
-    return owner;
+bool Holds::need_anchors() const {
+    return !points.empty() || std::any_of(handles.begin(), handles.end(), [](const auto& h) {
+        return !h.removed && (h.soft() || !h.points.empty());
+    });
 }
 
-Knowledge find_knowledge(const Patch& patch, const Rings& rings, const std::vector<Index>& owner,
-                         const std::vector<HandleState>& handles,
-                         const VertexConstraints& constraints) {
-    const auto n = static_cast<std::size_t>(patch.vertex_count);
-    Knowledge known{std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 0)};
-    for (Index i = 0; i < patch.vertex_count; ++i) {
-        const Index o = owner[i];
-        if (o == kPinned) {
-            known.position[i] = known.gradient[i] = 1;
-        } else if (o == kConstrained) {
-            const VertexConstraint& constraint = constraints.at(i);
-            known.position[i] = constraint.position.has_value() || rings.count(i) == 0;
-            known.gradient[i] = constraint.gradient.has_value();
-        } else if (o >= 0) {
-            known.position[i] = handles[o].options.position || rings.count(i) == 0;
-            known.gradient[i] = handles[o].options.gradient;
+Holding find_holding(const WorkingPatch& work, const Holds& holds) {
+    Holding holding = known_nothing(work);
+    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
+        if (!holds.handles[h].removed) {
+            hold_handle(work, holds.handles[h], static_cast<Index>(h), holding);
         }
-        known.gradient_wanted[i] = !known.gradient[i] && rings.count(i) > 0;
     }
-    return known;
+    for (const auto& [v, constraint] : holds.constraints) {
+        holding.owner[v] = kConstrained;
+        holding.known.position[v] = constraint.position.has_value() || work.rings.count(v) == 0;
+        holding.known.gradient[v] = constraint.gradient.has_value();
+    }
+    // Points come last: vertices that are held keep their holder.
+    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
+        const HandleState& handle = holds.handles[h];
+        if (handle.removed || handle.soft() || !handle.options.gradient) continue;
+        for (const SparseRow& row : handle.points) {
+            turn_around(row, static_cast<Index>(h), kNoIndex, holding);
+        }
+    }
+    for (std::size_t p = 0; p < holds.points.size(); ++p) {
+        const PointConstraint& asked = holds.points[p].asked;
+        if (asked.weight || !asked.gradient) continue;
+        turn_around(holds.points[p].row, kConstrained, static_cast<Index>(p), holding);
+    }
+    for (Index i = 0; i < work.patch.surface_count; ++i) {
+        holding.known.gradient_wanted[i] = !holding.known.gradient[i] && work.rings.count(i) > 0;
+    }
+    hold_anchors(work, holding);
+    return holding;
 }
 
-void require_constraints(const Patch& patch, const Rings& rings, const Knowledge& known) {
-    std::vector<char> seen(static_cast<std::size_t>(patch.vertex_count), 0);
-    for (Index v = 0; v < patch.vertex_count; ++v) {
-        if (!seen[v]) require_held(collect_part(patch, rings, known, v, seen));
+void require_constraints(const WorkingPatch& work, const Knowledge& known) {
+    const TiesOfVertices ties(work);
+    std::vector<char> seen(static_cast<std::size_t>(work.patch.surface_count), 0);
+    for (Index v = 0; v < work.patch.surface_count; ++v) {
+        if (!seen[v]) require_held(collect_part(work, ties, known, v, seen));
     }
 }
 

@@ -1,13 +1,16 @@
-/// What holds the vertices of a patch: the handles, the vertex constraints and the rest of the
-/// mesh; private to kernel/deform.
+/// What holds the vertices of a patch: the handles, the constraints of vertices and points, and the
+/// rest of the mesh; private to kernel/deform.
 #pragma once
 
 #include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "kernel/deform/deformer.h"
 #include "kernel/deform/gradients.h"
 #include "kernel/deform/patch.h"
+#include "kernel/deform/working_patch.h"
 
 namespace lissom {
 
@@ -22,25 +25,52 @@ struct HandleState {
     HandleOptions options;
     Affine transform;
     Vec3 center = Vec3::Zero();
+    /// Its local vertices, and its points as means of local vertices.
     std::vector<Index> local;
+    std::vector<SparseRow> points;
     bool removed = false;
+
+    bool soft() const { return options.weight.has_value(); }
 };
 
-/// Constraints of single vertices by local vertex.
+/// Hard constraints of single vertices by local vertex.
 using VertexConstraints = std::map<Index, VertexConstraint>;
 
-/// Owner of every local vertex. Outside the region, and without faces, vertices are pinned.
-std::vector<Index> find_owners(const Patch& patch, const Rings& rings,
-                               const std::vector<HandleState>& handles,
-                               const VertexConstraints& constraints);
+/// A soft constraint, or one of a point that is not a vertex, with its point as a mean of local
+/// vertices.
+struct PointState {
+    PointConstraint asked;
+    SparseRow row;
+};
 
-/// What the owners make known.
-Knowledge find_knowledge(const Patch& patch, const Rings& rings, const std::vector<Index>& owner,
-                         const std::vector<HandleState>& handles,
-                         const VertexConstraints& constraints);
+/// All that holds.
+struct Holds {
+    const std::vector<HandleState>& handles;
+    const VertexConstraints& constraints;
+    const std::vector<PointState>& points;
+
+    /// True where a preparation needs anchors.
+    bool need_anchors() const;
+};
+
+/// Who holds which local vertices of a patch, and what that makes known.
+struct Holding {
+    std::vector<Index> owner;
+    Knowledge known;
+    /// Anchors and vertices that take what a point constraint asks, with its number.
+    std::vector<std::pair<Index, Index>> asked;
+};
+
+/// The patch with an anchor for every point and every vertex that is held softly.
+/// Errors: handle_overlap where a point leaves nothing to move, naming its vertices.
+std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest, const Holds& holds);
+
+/// Outside the region, and without faces, vertices are pinned. A hard point that asks for a
+/// gradient gives it to the vertices around it that nobody else holds.
+Holding find_holding(const WorkingPatch& work, const Holds& holds);
 
 /// Throws `unconstrained` where a connected part with free vertices has no known position, or
 /// neither a known gradient nor four known positions that are not in one plane.
-void require_constraints(const Patch& patch, const Rings& rings, const Knowledge& known);
+void require_constraints(const WorkingPatch& work, const Knowledge& known);
 
 }  // namespace lissom

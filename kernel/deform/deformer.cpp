@@ -38,19 +38,6 @@ void require_regular(const Affine& transform) {
                 "the transform flattens space or is not finite; scale by factors other than zero");
 }
 
-// Throws `code` about the vertices of `handle` for which `bad` holds, if there are any.
-template <typename Bad>
-void refuse_vertices(const Region& handle, ErrorCode code, const std::string& message,
-                     const Bad& bad) {
-    Elements elements{ElementKind::vertex, 0, {}};
-    for (const Index v : handle.vertices()) {
-        if (bad(v)) elements.add(v);
-    }
-    if (elements.count == 0) return;
-    const std::string names = describe(elements);
-    throw Error(code, message + names, std::move(elements));
-}
-
 }  // namespace
 
 DeformOptions DeformOptions::thesis() {
@@ -84,42 +71,11 @@ const DeformOptions& Deformer::options() const {
     return state_->options;
 }
 
-HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& options) {
-    State& s = *state_;
-    if (vertices.topology() != s.region.topology()) {
-        throw Error(
-            ErrorCode::topology_mismatch,
-            "the handle's region belongs to another mesh or to an older version of this one");
-    }
-    if (vertices.empty()) throw Error(ErrorCode::region_empty, "the handle has no vertices");
-    if (!options.position && !options.gradient) {
-        throw Error(ErrorCode::invalid_argument,
-                    "a handle must prescribe positions, gradients or both");
-    }
-    refuse_vertices(vertices, ErrorCode::handle_outside_region,
-                    "the handle reaches outside the region at ",
-                    [&](Index v) { return !s.region.contains(v); });
-    const std::vector<Index> owner = find_owners(s.patch, s.rings, s.handles, s.constraints);
-    refuse_vertices(vertices, ErrorCode::handle_overlap,
-                    "another handle or constraint already holds ", [&](Index v) {
-                        const Index o = owner[s.local_vertex(v)];
-                        return o >= 0 || o == kConstrained;
-                    });
-    HandleState handle{vertices, options, {}, Vec3::Zero(), {}, false};
-    for (const Index v : vertices.vertices()) {
-        handle.local.push_back(s.local_vertex(v));
-        handle.center += s.rest[s.region_row[handle.local.back()]] / vertices.size();
-    }
-    s.handles.push_back(std::move(handle));
-    s.prepared.reset();
-    ++s.stats.handles;
-    return {static_cast<Index>(s.handles.size()) - 1};
-}
-
 void Deformer::remove_handle(HandleId id) {
     HandleState& handle = state_->handle(id);
     handle.removed = true;
     handle.local.clear();
+    handle.points.clear();
     state_->prepared.reset();
     --state_->stats.handles;
 }
@@ -155,41 +111,6 @@ void Deformer::set_transform(HandleId id, const Affine& transform) {
     handle.transform = still ? Affine{} : transform;
 }
 
-void Deformer::constrain(const VertexConstraint& constraint) {
-    State& s = *state_;
-    const Index v = constraint.vertex;
-    const Elements named{ElementKind::vertex, 1, {v}};
-    const auto refuse = [&](ErrorCode code, const std::string& what) {
-        throw Error(code, "vertex " + std::to_string(v) + " " + what, named);
-    };
-    if (v < 0 || v >= s.region.topology()->vertex_count()) {
-        refuse(ErrorCode::out_of_range, "does not exist");
-    }
-    if (!s.region.contains(v)) refuse(ErrorCode::handle_outside_region, "lies outside the region");
-    if ((constraint.position && !constraint.position->allFinite()) ||
-        (constraint.gradient && !constraint.gradient->allFinite())) {
-        refuse(ErrorCode::not_finite, "cannot be constrained to NaN or infinity");
-    }
-    const Index local = s.local_vertex(v);
-    for (const HandleState& handle : s.handles) {
-        if (!handle.removed && handle.region.contains(v)) {
-            refuse(ErrorCode::handle_overlap, "is held by a handle");
-        }
-    }
-    const auto found = s.constraints.find(local);
-    const bool same_kind = found != s.constraints.end() &&
-                           found->second.position.has_value() == constraint.position.has_value() &&
-                           found->second.gradient.has_value() == constraint.gradient.has_value();
-    if (!constraint.position && !constraint.gradient) {
-        if (found == s.constraints.end()) return;
-        s.constraints.erase(found);
-    } else {
-        s.constraints.insert_or_assign(local, constraint);
-    }
-    if (!same_kind) s.prepared.reset();
-    s.fixed_current = false;
-}
-
 void Deformer::prepare(const Context& context) {
     state_->prepare(context);
 }
@@ -210,7 +131,8 @@ const std::vector<Vec3>& Deformer::preview(const Context& context) {
             for (Index row = begin; row < end; ++row) {
                 const Index target = s.prepared->region_row[row];
                 if (target == kNoIndex) continue;
-                s.positions[target] = solution.position(row, moved, differences) + s.patch.origin;
+                s.positions[target] =
+                    solution.position(row, moved, differences) + s.rest_patch->patch.origin;
             }
         });
     }
@@ -221,23 +143,13 @@ const std::vector<Vec3>& Deformer::preview(const Context& context) {
 }
 
 const std::vector<Vec3>& Deformer::solve(const Context& context) {
-    State& s = *state_;
-    s.prepare(context);
-    if (s.at_rest()) {
-        s.to_rest();
-        return s.positions;
-    }
-    context.checkpoint();
-    s.gradients_current = false;
-    s.find_gradients(context);
-    if (s.prepared->second->free_vertices().empty()) {
-        s.write_held();
-    } else {
-        s.solve_second(context);
-        s.write_positions(s.second_positions);
-    }
-    s.deformed = true;
-    return s.positions;
+    state_->solve(false, context);
+    return state_->positions;
+}
+
+const std::vector<Vec3>& Deformer::solve_draft(const Context& context) {
+    state_->solve(true, context);
+    return state_->positions;
 }
 
 // Solves for the deviation from the base transform of the rest shape, which the system maps to
@@ -247,8 +159,9 @@ std::vector<Vec3> Deformer::solve_first_directly(const Context& context) {
     s.prepare(context);
     const Mat4 base = s.base_transform();
     const Mat3 base_gradient = base.topLeftCorner<3, 3>();
-    std::vector<Vec3> x(static_cast<std::size_t>(s.patch.vertex_count), Vec3::Zero());
-    for (Index v = 0; v < s.patch.vertex_count; ++v) {
+    std::vector<Vec3> x(static_cast<std::size_t>(s.prepared->work->patch.vertex_count),
+                        Vec3::Zero());
+    for (Index v = 0; v < s.prepared->work->patch.vertex_count; ++v) {
         if (s.prepared->known.position[v]) x[v] = s.known_deviation(v);
     }
     const std::vector<Index>& free = s.prepared->first->free_vertices();
@@ -263,7 +176,11 @@ std::vector<Vec3> Deformer::solve_first_directly(const Context& context) {
             b.data() + static_cast<std::size_t>(d) * rows);
     }
     if (rows > 0) {
-        const std::vector<double> y = s.prepared->first->solve(b, 3);
+        std::vector<double> y = s.prepared->first->solve(b, 3);
+        for (int d = 0; d < 3; ++d) {
+            s.prepared->first->enforce_ties([&](Index k) { return x[k][d]; },
+                                            std::span(y).subspan(d * rows, rows));
+        }
         for (std::size_t r = 0; r < rows; ++r) x[free[r]] = {y[r], y[rows + r], y[2 * rows + r]};
     }
     return s.pulled_back(x);
@@ -297,8 +214,9 @@ void Deformer::apply_rest_to(Mesh& mesh) const {
 void Deformer::reset() {
     State& s = *state_;
     for (HandleState& handle : s.handles) handle.transform = {};
-    if (!s.constraints.empty()) s.prepared.reset();
+    if (!s.constraints.empty() || !s.points.empty()) s.prepared.reset();
     s.constraints.clear();
+    s.points.clear();
     s.to_rest();
 }
 
@@ -316,7 +234,7 @@ HandleBasis Deformer::basis(const Context& context) {
     basis.vertices = s.region.vertices();
     basis.handles = handles();
     const std::size_t rows = basis.vertices.size();
-    const Vec3& o = s.patch.origin;
+    const Vec3& o = s.rest_patch->patch.origin;
     basis.fixed.assign(rows, Vec3::Zero());
     basis.weights.assign(basis.handles.size(), std::vector<Vec4>(rows, Vec4::Zero()));
     const auto weights_of = [&](Index handle) -> std::vector<Vec4>& {
@@ -324,7 +242,7 @@ HandleBasis Deformer::basis(const Context& context) {
         return basis.weights[static_cast<std::size_t>(at - basis.handles.begin())];
     };
     for (Index row = 0; row < s.region.size(); ++row) {
-        const Index v = s.patch.of_region[row], owner = s.prepared->owner[v];
+        const Index v = s.rest_patch->patch.of_region[row], owner = s.prepared->owner[v];
         if (!s.prepared->known.position[v]) continue;
         if (owner >= 0) {
             weights_of(owner)[row] = homogeneous(s.rest[row]);
@@ -336,9 +254,9 @@ HandleBasis Deformer::basis(const Context& context) {
     const LinearSolution& solution = *s.prepared->solution;
     const std::vector<Index>& free = s.prepared->first->free_vertices();
     for (std::size_t f = 0; f < free.size(); ++f) {
-        const Index row = s.region_row[free[f]];
+        const Index row = s.prepared->region_row[f];
         if (row == kNoIndex) continue;
-        Vec4 rest_part = homogeneous(s.patch.rest[free[f]] + o);
+        Vec4 rest_part = homogeneous(s.prepared->work->patch.rest[free[f]] + o);
         for (std::size_t h = 0; h < solution.handles().size(); ++h) {
             Vec4 w = solution.weight(h, static_cast<Index>(f));
             w.head<3>() += w[3] * o;

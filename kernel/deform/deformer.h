@@ -21,6 +21,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
+#include "kernel/deform/mesh_point.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 
@@ -62,6 +63,10 @@ struct DeformOptions {
 struct HandleOptions {
     bool position = true;
     bool gradient = true;
+    /// Absent: the handle is hard, and its vertices lie exactly where it takes them. Otherwise they
+    /// are drawn there: at 1 a compromise with the shape of the surface, at 1e6 nearly hard. What a
+    /// weight does depends on neither scale nor resolution.
+    std::optional<double> weight = std::nullopt;
 };
 
 /// Names a handle of one Deformer. Ids are not used again after a removal.
@@ -73,8 +78,20 @@ struct HandleId {
 /// Prescribes the position, the deformation gradient, or both, of one vertex.
 struct VertexConstraint {
     Index vertex = kNoIndex;
-    std::optional<Vec3> position;
-    std::optional<Mat3> gradient;
+    std::optional<Vec3> position = std::nullopt;
+    std::optional<Mat3> gradient = std::nullopt;
+    /// As HandleOptions::weight.
+    std::optional<double> weight = std::nullopt;
+};
+
+/// The same for a point of a face or an edge. A hard position holds exactly for the mean of the
+/// deformed vertices. The gradient is that of the vertices around the point which nothing else
+/// holds.
+struct PointConstraint {
+    MeshPoint point;
+    std::optional<Vec3> position = std::nullopt;
+    std::optional<Mat3> gradient = std::nullopt;
+    std::optional<double> weight = std::nullopt;
 };
 
 /// Sizes and times of the last preparation. Times are in seconds, sizes in bytes.
@@ -122,13 +139,19 @@ class Deformer {
     /// Errors: region_empty; topology_mismatch; handle_outside_region; handle_overlap, each naming
     /// the vertices; invalid_argument where neither position nor gradient is asked for.
     HandleId add_handle(const Region& vertices, const HandleOptions& options = {});
+    /// Adds a handle of points, for instance `path_points`. Those in faces and on edges go exactly
+    /// where the transform takes them, unless the handle is soft: the mean of the deformed vertices
+    /// does. Errors: as before, and as checked_point; handle_overlap at the next preparation where
+    /// what is held already leaves a point nothing to move.
+    HandleId add_handle(std::span<const MeshPoint> points, const HandleOptions& options = {});
     /// Errors: handle_removed.
     void remove_handle(HandleId handle);
     /// Handles in the order they were added.
     std::vector<HandleId> handles() const;
+    /// Its vertices; those around its points among them.
     const Region& handle_region(HandleId handle) const;
     const HandleOptions& handle_options(HandleId handle) const;
-    /// Mean of the handle's rest positions.
+    /// Mean of the rest positions of the handle's vertices and points.
     Vec3 handle_center(HandleId handle) const;
 
     /// Sets where a handle goes: rest position p to transform(p), gradient transform.linear.
@@ -138,8 +161,12 @@ class Deformer {
 
     /// Constrains one vertex, replacing an earlier constraint of it. A vertex with neither position
     /// nor gradient is free again. Errors: out_of_range; handle_outside_region; handle_overlap
-    /// where a handle holds the vertex; not_finite.
+    /// where a handle holds the vertex; not_finite; invalid_argument for a weight that is not above
+    /// 0.
     void constrain(const VertexConstraint& constraint);
+    /// The same for a point. Errors: as before, and as checked_point; handle_overlap at the next
+    /// preparation where what is held already leaves the point nothing to move.
+    void constrain(const PointConstraint& constraint);
 
     /// Assembles and factors what the present handles need, if that has not been done. `preview`
     /// and `solve` do it by themselves. Errors: unconstrained, naming a part of the region that
@@ -151,6 +178,9 @@ class Deformer {
     /// Solves both systems. With every transform the identity the result is the rest shape to the
     /// bit.
     const std::vector<Vec3>& solve(const Context& context = {});
+    /// As `solve`, to about five digits of the size, for the frames of a drag: half the time. Solve
+    /// once more when the drag ends.
+    const std::vector<Vec3>& solve_draft(const Context& context = {});
     /// Solves the first system by its factor instead of the basis: the oracle of tests.
     std::vector<Vec3> solve_first_directly(const Context& context = {});
 

@@ -17,10 +17,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen)
-    : region(given), options(chosen), patch(build_patch(mesh, given, 1)), directions(mesh, given) {
-    rings = build_rings(patch.vertex_count, patch.split_triangles);
-    geometry = ring_geometry(rings, patch.split_triangles, patch.rest);
-    laplacian = make_laplacian(rings, geometry, options.weights, options.scale_free);
+    : region(given),
+      options(chosen),
+      rest_patch(std::make_shared<WorkingPatch>(build_patch(mesh, given, 1), chosen)),
+      directions(mesh, given) {
+    const Patch& patch = rest_patch->patch;
     region_row.assign(static_cast<std::size_t>(patch.vertex_count), kNoIndex);
     for (Index row = 0; row < region.size(); ++row) {
         region_row[patch.of_region[row]] = row;
@@ -42,19 +43,19 @@ HandleState& Deformer::State::handle(HandleId id) {
 }
 
 Index Deformer::State::local_vertex(Index mesh_vertex) const {
-    const auto& ids = patch.mesh_vertex;
+    const auto& ids = rest_patch->patch.mesh_vertex;
     return static_cast<Index>(std::lower_bound(ids.begin(), ids.end(), mesh_vertex) - ids.begin());
 }
 
 bool Deformer::State::at_rest() const {
-    return constraints.empty() && std::all_of(handles.begin(), handles.end(), [](const auto& h) {
-               return h.removed || h.transform.is_identity();
-           });
+    return constraints.empty() && points.empty() &&
+           std::all_of(handles.begin(), handles.end(),
+                       [](const auto& h) { return h.removed || h.transform.is_identity(); });
 }
 
 Affine Deformer::State::local(const Affine& transform) const {
-    return {transform.linear,
-            transform.linear * patch.origin + transform.translation - patch.origin};
+    const Vec3& origin = rest_patch->patch.origin;
+    return {transform.linear, transform.linear * origin + transform.translation - origin};
 }
 
 Mat4 Deformer::State::base_transform() const {
@@ -72,10 +73,11 @@ std::vector<Mat4> Deformer::State::differences() const {
 }
 
 Vec3 Deformer::State::known_position(Index v) const {
+    const Patch& patch = prepared->work->patch;
     const Index o = prepared->owner[v];
     if (o >= 0) return local(handles[o].transform)(patch.rest[v]);
-    if (o == kConstrained && constraints.at(v).position) {
-        return *constraints.at(v).position - patch.origin;
+    if (o == kConstrained && asked.at(v).position) {
+        return *asked.at(v).position - patch.origin;
     }
     return patch.rest[v];
 }
@@ -84,7 +86,7 @@ Vec3 Deformer::State::known_position(Index v) const {
 Vec3 Deformer::State::known_deviation(Index v) const {
     const Index o = prepared->owner[v];
     const Mat4 base = base_transform();
-    const Vec4 rest_point = homogeneous(patch.rest[v]);
+    const Vec4 rest_point = homogeneous(prepared->work->patch.rest[v]);
     if (o < 0) return known_position(v) - (base * rest_point).head<3>();
     return ((matrix_of(local(handles[o].transform)) - base) * rest_point).head<3>();
 }
@@ -92,11 +94,22 @@ Vec3 Deformer::State::known_deviation(Index v) const {
 Mat3 Deformer::State::known_gradient(Index v) const {
     const Index o = prepared->owner[v];
     if (o >= 0) return handles[o].transform.linear;
-    return o == kConstrained ? *constraints.at(v).gradient : Mat3(Mat3::Identity());
+    if (o != kConstrained) return Mat3::Identity();
+    return asked.at(v).gradient.value_or(Mat3(Mat3::Identity()));
 }
 
 LinearProblem Deformer::State::problem() const {
-    return {patch, rings, prepared->gradients, *prepared->first, prepared->owner, handles};
+    return {prepared->work->patch, prepared->work->rings, prepared->gradients,
+            *prepared->first,      prepared->owner,       handles};
+}
+
+void Deformer::State::collect_asked() {
+    asked = constraints;
+    for (const auto& [v, number] : prepared->asked) {
+        const PointConstraint& point = points[number].asked;
+        const bool anchor = v >= prepared->work->patch.surface_count;
+        asked[v] = {v, anchor ? point.position : std::nullopt, point.gradient, {}};
+    }
 }
 
 void Deformer::State::prepare(const Context& context) {
@@ -105,7 +118,8 @@ void Deformer::State::prepare(const Context& context) {
         fixed_current = false;
     }
     if (fixed_current) return;
-    if (prepared->solution) prepared->solution->solve_fixed(problem(), constraints);
+    collect_asked();
+    if (prepared->solution) prepared->solution->solve_fixed(problem(), asked);
     fixed_current = true;
 }
 
@@ -113,21 +127,23 @@ void Deformer::State::prepare(const Context& context) {
 // differ would lie equally far.
 Vec3 Deformer::State::start_of_sequence() const {
     for (const HandleState& h : handles) {
-        if (!h.removed) return h.center - patch.origin;
+        if (!h.removed) return h.center - rest_patch->patch.origin;
     }
     return Vec3::Zero();
 }
 
 void Deformer::State::require_area() const {
-    if (patch.zero_area_vertices.count == 0) return;
+    const Elements& vertices = rest_patch->patch.zero_area_vertices;
+    if (vertices.count == 0) return;
     throw Error(ErrorCode::zero_area,
-                "all faces around " + describe(patch.zero_area_vertices) +
+                "all faces around " + describe(vertices) +
                     " have no area; collapse those faces or leave them out of the region",
-                patch.zero_area_vertices);
+                vertices);
 }
 
 // Says in terms of vertices what the solver said in terms of rows.
 void Deformer::State::refuse_singular(const Error& error, const std::vector<Index>& free) const {
+    const Patch& patch = rest_patch->patch;
     Elements vertices{ElementKind::vertex, 0, {}};
     for (const Index row : error.elements().ids) {
         if (free[row] < patch.real_count) vertices.add(patch.mesh_vertex[free[row]]);
@@ -156,17 +172,23 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     Progress progress(context, "deform: prepare");
     require_area();
     auto next = std::make_unique<Prepared>();
-    next->owner = find_owners(patch, rings, handles, constraints);
-    next->known = find_knowledge(patch, rings, next->owner, handles, constraints);
-    require_constraints(patch, rings, next->known);
+    next->work = holds().need_anchors() ? anchored(*rest_patch, holds()) : rest_patch;
+    const Patch& patch = next->work->patch;
+    const Rings& rings = next->work->rings;
+    Holding holding = find_holding(*next->work, holds());
+    require_constraints(*next->work, holding.known);
+    next->owner = std::move(holding.owner);
+    next->known = std::move(holding.known);
+    next->asked = std::move(holding.asked);
 
     progress.step(0.2);
     const auto start = std::chrono::steady_clock::now();
-    next->gradients =
-        make_gradients(patch, rings, geometry, next->known, start_of_sequence(), options);
-    next->first = std::make_unique<GradientSystem>(patch, rings, geometry, laplacian,
-                                                   next->gradients, next->known, options, context);
-    next->second = std::make_unique<RotationSystem>(patch, next->known.position, options, context);
+    next->gradients = make_gradients(patch, rings, next->work->geometry, next->known,
+                                     start_of_sequence(), options);
+    next->first = std::make_unique<GradientSystem>(*next->work, next->gradients, next->known,
+                                                   options, context);
+    next->second =
+        std::make_unique<RotationSystem>(*next->work, next->known.position, options, context);
     const double assemble_seconds = seconds_since(start);
 
     progress.step(0.45);
@@ -176,7 +198,9 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
 
     progress.step(0.15);
     const auto basis_start = std::chrono::steady_clock::now();
-    for (const Index v : next->first->free_vertices()) next->region_row.push_back(region_row[v]);
+    for (const Index v : next->first->free_vertices()) {
+        next->region_row.push_back(v < patch.real_count ? region_row[v] : kNoIndex);
+    }
     if (!next->region_row.empty()) {
         next->solution = std::make_unique<LinearSolution>(
             LinearProblem{patch, rings, next->gradients, *next->first, next->owner, handles},
@@ -202,6 +226,7 @@ void Deformer::State::count_costs(const Prepared& next) {
 }
 
 void Deformer::State::evaluate_deviation(const Context& context) {
+    const Patch& patch = prepared->work->patch;
     frame_base = base_transform();
     deviation.assign(static_cast<std::size_t>(patch.vertex_count), Vec3::Zero());
     for (const HandleState& h : handles) {
@@ -210,7 +235,10 @@ void Deformer::State::evaluate_deviation(const Context& context) {
             deviation[v] = (difference * homogeneous(patch.rest[v])).head<3>();
         }
     }
-    for (const auto& entry : constraints) deviation[entry.first] = known_deviation(entry.first);
+    for (const auto& entry : asked) deviation[entry.first] = known_deviation(entry.first);
+    for (Index v = patch.surface_count; v < patch.vertex_count; ++v) {
+        deviation[v] = known_deviation(v);
+    }
     if (!prepared->solution) return;
     const std::vector<Index>& free = prepared->first->free_vertices();
     const std::vector<Mat4> differences = this->differences();
@@ -224,6 +252,7 @@ void Deformer::State::evaluate_deviation(const Context& context) {
 
 // M_i after the first system; where it does not exist, the mean of those around it.
 Mat3 Deformer::State::gradient_of(Index v) const {
+    const Rings& rings = prepared->work->rings;
     if (prepared->known.gradient[v]) return known_gradient(v);
     const auto gathered = [&](Index u) -> Mat3 {
         if (prepared->known.gradient[u]) return known_gradient(u);
@@ -242,6 +271,7 @@ Mat3 Deformer::State::gradient_of(Index v) const {
 
 void Deformer::State::find_gradients(const Context& context) {
     if (gradients_current) return;
+    const Patch& patch = prepared->work->patch;
     evaluate_deviation(context);
     context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
         for (Index row = begin; row < end; ++row)
@@ -256,36 +286,68 @@ Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
     return options.local_size == LocalSize::scale ? Mat3(uniform_scale(gradient) * r) : r;
 }
 
-// Solves the second system for deviations from the similarity nearest to the base transform, so
-// that similarities of the whole are exact. Returns local positions.
-void Deformer::State::solve_second(const Context& context) {
-    const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
-    const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
-    // Handles turn as a whole.
-    std::vector<Mat3> handle_turns;
-    for (const HandleState& h : handles) {
-        handle_turns.push_back(rotation_of(h.transform.linear) - base_rotation);
-    }
+// S_i less that of the base. Handles turn as a whole.
+void Deformer::State::find_turns(const Mat3& base_rotation, const Context& context) {
+    const Patch& patch = prepared->work->patch;
     turns.resize(static_cast<std::size_t>(patch.real_count), Mat3::Zero());
     context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
-        for (Index row = begin; row < end; ++row) {
-            const Index v = patch.of_region[row], owner = prepared->owner[v];
-            const bool known = owner >= 0 && prepared->known.gradient[v];
-            turns[v] = known ? handle_turns[owner] : rotation_of(gradients[row]) - base_rotation;
+        const std::size_t count = static_cast<std::size_t>(end - begin);
+        const std::span<const Mat3> m(gradients.data() + begin, count);
+        std::vector<Mat3> rotations(count);
+        nearest_rotations(m, rotations);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Index v = patch.of_region[static_cast<std::size_t>(begin) + i];
+            const double scale = options.local_size == LocalSize::scale ? uniform_scale(m[i]) : 1.0;
+            turns[v] = scale * rotations[i] - base_rotation;
         }
     });
-    std::vector<Vec3>& at = second_positions;
-    at.resize(static_cast<std::size_t>(patch.real_count));
-    for (Index v = 0; v < patch.real_count; ++v) at[v] = deviation[v] + remainder * patch.rest[v];
-    prepared->second->solve(turns, at, context);
-    for (const Index v : prepared->second->free_vertices()) {
-        at[v] += base_rotation * patch.rest[v] + frame_base.topRightCorner<3, 1>();
+    for (const HandleState& h : handles) {
+        if (h.removed || h.soft() || !h.options.gradient) continue;
+        const Mat3 turn = rotation_of(h.transform.linear) - base_rotation;
+        for (const Index v : h.local) turns[v] = turn;
     }
+}
+
+// Solves the second system for deviations from the similarity nearest to the base transform, so
+// that similarities of the whole are exact. Leaves local positions.
+void Deformer::State::solve_second(bool draft, const Context& context) {
+    const Patch& patch = prepared->work->patch;
+    const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
+    const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
+    find_turns(base_rotation, context);
+    std::vector<Vec3>& at = second_positions;
+    at.resize(static_cast<std::size_t>(patch.vertex_count));
+    context.parallel_for(0, patch.vertex_count, kFrameGrain, [&](Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) at[v] = deviation[v] + remainder * patch.rest[v];
+    });
+    prepared->second->set_transforms(turns, context);
+    prepared->second->solve(at, draft, context);
+    const Vec3 shift = frame_base.topRightCorner<3, 1>();
+    for (const Index v : prepared->second->free_vertices()) {
+        at[v] += base_rotation * patch.rest[v] + shift;
+    }
+}
+
+void Deformer::State::solve(bool draft, const Context& context) {
+    prepare(context);
+    if (at_rest()) return to_rest();
+    context.checkpoint();
+    gradients_current = false;
+    find_gradients(context);
+    if (prepared->second->free_vertices().empty()) {
+        write_held();
+    } else {
+        solve_second(draft, context);
+        write_positions(second_positions);
+    }
+    deformed = true;
 }
 
 // Positions of the region's vertices for deviations `from` the base transform: displaced vertices
 // come back by v = M (v - v') + v' (section 2.4.3).
 std::vector<Vec3> Deformer::State::pulled_back(const std::vector<Vec3>& from) const {
+    const Patch& patch = prepared->work->patch;
+    const Rings& rings = prepared->work->rings;
     const Mat4 base = base_transform();
     const GradientStencils& g = prepared->gradients;
     std::vector<Vec3> at = from;
@@ -303,7 +365,7 @@ std::vector<Vec3> Deformer::State::pulled_back(const std::vector<Vec3>& from) co
 // no handle holds never leave their rest position.
 void Deformer::State::write_positions(const std::vector<Vec3>& at) {
     for (const Index v : prepared->second->free_vertices()) {
-        positions[region_row[v]] = at[v] + patch.origin;
+        positions[region_row[v]] = at[v] + rest_patch->patch.origin;
     }
     write_held();
 }

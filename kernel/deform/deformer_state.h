@@ -13,6 +13,7 @@
 #include "kernel/deform/patch.h"
 #include "kernel/deform/rest_directions.h"
 #include "kernel/deform/rotation_system.h"
+#include "kernel/deform/working_patch.h"
 
 namespace lissom {
 
@@ -21,8 +22,11 @@ inline constexpr Index kFrameGrain = 4096;
 
 /// Everything that depends on which vertices are held, but not on where they go.
 struct Prepared {
+    std::shared_ptr<const WorkingPatch> work;
     std::vector<Index> owner;
     Knowledge known;
+    /// Local vertices and anchors that take what a point constraint asks, with its number.
+    std::vector<std::pair<Index, Index>> asked;
     GradientStencils gradients;
     std::unique_ptr<GradientSystem> first;
     std::unique_ptr<RotationSystem> second;
@@ -38,6 +42,14 @@ struct Deformer::State {
     Index local_vertex(Index mesh_vertex) const;
     bool at_rest() const;
 
+    SparseRow local_row(const MeshPoint& point) const;
+    Vec3 rest_position(const SparseRow& row) const;
+    void require_inside(const MeshPoint& point) const;
+    void require_unheld(const std::vector<Index>& vertices) const;
+    HandleId add(HandleState handle);
+    void set_constraint(const SparseRow& row, PointConstraint asked_now);
+    std::optional<PointConstraint> take_constraint(const SparseRow& row);
+
     // Transforms and positions below are relative to the patch's origin.
     Affine local(const Affine& transform) const;
     Mat4 base_transform() const;
@@ -46,6 +58,8 @@ struct Deformer::State {
     Vec3 known_deviation(Index v) const;
     Mat3 known_gradient(Index v) const;
 
+    Holds holds() const { return {handles, constraints, points}; }
+    void collect_asked();
     LinearProblem problem() const;
     void prepare(const Context& context);
     std::unique_ptr<Prepared> factored(const Context& context);
@@ -60,7 +74,9 @@ struct Deformer::State {
     Mat3 gradient_of(Index v) const;
     void find_gradients(const Context& context);
     Mat3 rotation_of(const Mat3& gradient) const;
-    void solve_second(const Context& context);
+    void find_turns(const Mat3& base_rotation, const Context& context);
+    void solve_second(bool draft, const Context& context);
+    void solve(bool draft, const Context& context);
     std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;
     void write_positions(const std::vector<Vec3>& at);
     void write_held();
@@ -68,11 +84,9 @@ struct Deformer::State {
 
     Region region;
     DeformOptions options;
-    Patch patch;
-    Rings rings;
-    RingGeometry geometry;
-    Laplacian laplacian;
-    /// Row in the region of each local vertex, or kNoIndex.
+    /// The region as the mesh has it.
+    std::shared_ptr<const WorkingPatch> rest_patch;
+    /// Row in the region of each local vertex of the rest patch, or kNoIndex.
     std::vector<Index> region_row;
     std::vector<Vec3> rest;
     /// Greatest distance of a vertex of the region from the origin of the patch.
@@ -80,7 +94,12 @@ struct Deformer::State {
     RestDirections directions;
 
     std::vector<HandleState> handles;
+    /// Hard constraints of vertices.
     VertexConstraints constraints;
+    /// Constraints of points and soft ones, in the order of their rows.
+    std::vector<PointState> points;
+    /// What is asked of every local vertex and anchor that a constraint owns.
+    VertexConstraints asked;
 
     /// Null where the set of held vertices has changed; `fixed_current` is false where the value of
     /// a vertex constraint has.

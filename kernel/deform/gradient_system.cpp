@@ -1,6 +1,7 @@
 #include "kernel/deform/gradient_system.h"
 
 #include <algorithm>
+#include <map>
 
 #include "kernel/deform/firm_factor.h"
 #include "kernel/deform/row_accumulator.h"
@@ -45,21 +46,24 @@ struct SystemRows {
 
 class Assembler {
   public:
-    Assembler(const Rings& rings, const RingGeometry& geometry, const Laplacian& laplacian,
-              const GradientStencils& gradients, const Knowledge& known,
+    Assembler(const WorkingPatch& work, const GradientStencils& gradients, const Knowledge& known,
               const DeformOptions& options)
-        : rings_(rings),
-          geometry_(geometry),
-          laplacian_(laplacian),
+        : work_(work),
+          rings_(work.rings),
+          geometry_(work.geometry),
+          laplacian_(work.laplacian),
           gradients_(gradients),
           known_(known),
           options_(options),
-          delta_(static_cast<std::size_t>(rings.size()), Vec3::Zero()),
-          row_of_(static_cast<std::size_t>(rings.size()), kNoIndex) {
-        for (Index i = 0; i < rings.size(); ++i) {
-            if (has_row(i)) delta_[i] = laplacian.apply(rings, gradients.displaced_rest, i);
+          delta_(static_cast<std::size_t>(rings_.size()), Vec3::Zero()),
+          row_of_(static_cast<std::size_t>(rings_.size()), kNoIndex) {
+        for (Index i = 0; i < rings_.size(); ++i) {
+            if (has_row(i)) delta_[i] = laplacian_.apply(rings_, gradients.displaced_rest, i);
         }
+        for (const GradientTie& tie : work.gradient_ties) ties_of_.emplace(tie.vertex, &tie);
     }
+
+    const std::vector<Index>& row_of() const { return row_of_; }
 
     std::vector<Index> number_free_vertices() {
         std::vector<Index> free;
@@ -139,6 +143,7 @@ class Assembler {
                 row.add(rings_.neighbor[e], weight * gradients_.neighbor[e]);
             }
         };
+        const double tie_unit = work_.gradient_unit() / options_.coherence_weight;
         for (Index a = begin; a < end; ++a) {
             if (gradients_.defined[a] && !known_.gradient[a]) {
                 double total = 0.0;
@@ -150,6 +155,12 @@ class Assembler {
                         add_gradient(b, -weight);
                     }
                 });
+                const auto [first, last] = ties_of_.equal_range(a);
+                for (auto tie = first; tie != last; ++tie) {
+                    const double weight = tie->second->weight * tie_unit;
+                    total += weight;
+                    known_row.add(tie->second->anchor, -weight);
+                }
                 if (total > 0.0) add_gradient(a, total);
             }
             row.drain([&](Index c, const Vec3& v) {
@@ -245,6 +256,7 @@ class Assembler {
         rows.gradient_begin.push_back(static_cast<Index>(rows.gradient_column.size()));
     }
 
+    const WorkingPatch& work_;
     const Rings& rings_;
     const RingGeometry& geometry_;
     const Laplacian& laplacian_;
@@ -253,19 +265,32 @@ class Assembler {
     const DeformOptions& options_;
     std::vector<Vec3> delta_;
     std::vector<Index> row_of_;
+    std::multimap<Index, const GradientTie*> ties_of_;
     CoherenceRows coherence_;
 };
 
+// Where `v` ends as a sum of solved positions: displaced vertices come back by v = M (v - v') + v'
+// (section 2.4.3).
+SparseRow final_position(const WorkingPatch& work, const GradientStencils& g, Index v) {
+    SparseRow row{{v, 1.0}};
+    const Vec3 back = work.patch.rest[v] - g.displaced_rest[v];
+    if (!g.defined[v] || back.isZero(0.0)) return row;
+    row.front().second += g.self[v].dot(back);
+    for (Index e = work.rings.begin[v]; e < work.rings.begin[v + 1]; ++e) {
+        row.emplace_back(work.rings.neighbor[e], g.neighbor[e].dot(back));
+    }
+    return row;
+}
+
 }  // namespace
 
-GradientSystem::GradientSystem(const Patch& patch, const Rings& rings, const RingGeometry& geometry,
-                               const Laplacian& laplacian, const GradientStencils& gradients,
+GradientSystem::GradientSystem(const WorkingPatch& work, const GradientStencils& gradients,
                                const Knowledge& known, const DeformOptions& options,
                                const Context& context) {
-    Assembler assembler(rings, geometry, laplacian, gradients, known, options);
+    Assembler assembler(work, gradients, known, options);
     free_ = assembler.number_free_vertices();
     assembler.build_coherence(context);
-    positions_.columns = patch.vertex_count;
+    positions_.columns = work.patch.vertex_count;
     for (const SystemRows& part : assembler.build_rows(free_, context)) {
         append_rows(matrix_.begin, matrix_.row, matrix_.value, part.matrix_begin,
                     part.matrix_column, part.matrix_value);
@@ -274,10 +299,20 @@ GradientSystem::GradientSystem(const Patch& patch, const Rings& rings, const Rin
         append_rows(gradients_begin_, gradients_column_, gradients_value_, part.gradient_begin,
                     part.gradient_column, part.gradient_value);
     }
+    ties_ = TieRows(work.ties, assembler.row_of(), work.position_unit(),
+                    [&](Index v) { return final_position(work, gradients, v); });
+    ties_.add_to(matrix_);
+    tie_bytes_ = TieRows::response_bytes(work.ties, static_cast<Index>(free_.size()));
 }
 
 void GradientSystem::factor(const Context& context) {
     factor_firmly(system_, matrix_, context);
+    ties_charge_ = context.charge(tie_bytes_, "points that are held");
+    ties_.prepare(static_cast<Index>(free_.size()),
+                  [&](std::span<const double> b, std::span<double> x, Index columns) {
+                      const std::vector<long double> exact(b.begin(), b.end());
+                      system_.solve_refined(matrix_, exact, x, columns);
+                  });
 }
 
 }  // namespace lissom

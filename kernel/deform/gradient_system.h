@@ -9,21 +9,23 @@
 #include "kernel/deform/gradients.h"
 #include "kernel/deform/operators.h"
 #include "kernel/deform/patch.h"
+#include "kernel/deform/ties.h"
+#include "kernel/deform/working_patch.h"
 #include "kernel/solve/sparse_system.h"
 
 namespace lissom {
 
 /// Normal equations of Eq 2.8 with the known quantities moved to the right-hand side:
 /// A x_free = - (known_positions X + known_gradients W). Rows are free vertices; columns of the two
-/// couplings are local vertices.
+/// couplings are local vertices. Ties add their terms; anchors are known.
 class GradientSystem {
   public:
     /// Assembles A row by row, without forming products of sparse matrices.
-    GradientSystem(const Patch& patch, const Rings& rings, const RingGeometry& geometry,
-                   const Laplacian& laplacian, const GradientStencils& gradients,
+    GradientSystem(const WorkingPatch& work, const GradientStencils& gradients,
                    const Knowledge& known, const DeformOptions& options, const Context& context);
 
-    /// Analyses and factors A. Errors: not_positive_definite with rows as elements; memory_limit.
+    /// Analyses and factors A, and prepares hard ties. Errors: not_positive_definite with rows as
+    /// elements; memory_limit.
     void factor(const Context& context);
 
     /// Local vertex of each row.
@@ -48,6 +50,13 @@ class GradientSystem {
             }
             b[row] = sum;
         }
+        ties_.add_right_hand_side(position, b);
+    }
+
+    /// Moves a solution for known coordinates `position(k)` onto the hard ties.
+    template <typename Position>
+    void enforce_ties(const Position& position, std::span<double> x) const {
+        ties_.enforce(position, x);
     }
 
     /// Solves for `columns` right-hand sides, to nearly full precision.
@@ -63,6 +72,9 @@ class GradientSystem {
     RowMatrix positions_;
     std::vector<Index> gradients_begin_{0}, gradients_column_;
     std::vector<Vec3> gradients_value_;
+    TieRows ties_;
+    MemoryCharge ties_charge_;
+    std::size_t tie_bytes_ = 0;
     SparseSystem system_;
 };
 

@@ -61,8 +61,8 @@ void LinearSolution::choose_base(const LinearProblem& problem) {
     bool surrounded = false;
     for (Index i = 0; i < problem.patch.vertex_count; ++i) {
         const Index o = problem.owner[i];
-        surrounded =
-            surrounded || ((o == kPinned || o == kConstrained) && problem.rings.count(i) > 0);
+        const bool holds = problem.rings.count(i) > 0 || i >= problem.patch.surface_count;
+        surrounded = surrounded || ((o == kPinned || o == kConstrained) && holds);
     }
     for (std::size_t h = 0; h < problem.handles.size(); ++h) {
         if (problem.handles[h].removed) continue;
@@ -80,18 +80,23 @@ void LinearSolution::solve_handles(const LinearProblem& problem, const Context& 
     Progress progress(context, "deform: handle basis");
     for (const Index h : handles_) {
         const auto holds = [&](Index k) { return problem.owner[k] == h; };
+        const auto position = [&](int c, Index k) {
+            if (!holds(k)) return 0.0;
+            return c < 3 ? problem.patch.rest[k][c] : 1.0;
+        };
         for (int c = 0; c < 4; ++c) {
-            problem.system.right_hand_side(
-                [&](Index k) {
-                    if (!holds(k)) return 0.0;
-                    return c < 3 ? problem.patch.rest[k][c] : 1.0;
-                },
-                [&](Index k) {
-                    return holds(k) && c < 3 ? Vec3(Vec3::Unit(c)) : Vec3(Vec3::Zero());
-                },
-                right.data() + static_cast<std::size_t>(c) * rows);
+            problem.system.right_hand_side([&](Index k) { return position(c, k); },
+                                           [&](Index k) {
+                                               return holds(k) && c < 3 ? Vec3(Vec3::Unit(c))
+                                                                        : Vec3(Vec3::Zero());
+                                           },
+                                           right.data() + static_cast<std::size_t>(c) * rows);
         }
-        const std::vector<double> columns = problem.system.solve(right, 4);
+        std::vector<double> columns = problem.system.solve(right, 4);
+        for (int c = 0; c < 4; ++c) {
+            problem.system.enforce_ties([&](Index k) { return position(c, k); },
+                                        std::span(columns).subspan(c * rows, rows));
+        }
         std::vector<Vec4>& weight = weight_.emplace_back(rows);
         for (std::size_t r = 0; r < rows; ++r) {
             weight[r] = {columns[r], columns[rows + r], columns[2 * rows + r],
@@ -134,7 +139,11 @@ void LinearSolution::solve_fixed(const LinearProblem& problem,
             },
             right.data() + static_cast<std::size_t>(d) * rows);
     }
-    const std::vector<double> columns = problem.system.solve(right, 3);
+    std::vector<double> columns = problem.system.solve(right, 3);
+    for (int d = 0; d < 3; ++d) {
+        problem.system.enforce_ties([&](Index k) { return shift(k)[d]; },
+                                    std::span(columns).subspan(d * rows, rows));
+    }
     fixed_.resize(rows);
     for (std::size_t r = 0; r < rows; ++r) {
         fixed_[r] = {columns[r], columns[rows + r], columns[2 * rows + r]};

@@ -191,6 +191,7 @@ Patch build_patch(const Mesh& mesh, const Region& region, Index rings) {
     for (Triangle& t : patch.triangles.triangle) t = {local[t[0]], local[t[1]], local[t[2]]};
     find_zero_areas(patch);
     insert_virtual_vertices(patch);
+    patch.surface_count = patch.vertex_count;
     return patch;
 }
 

@@ -51,8 +51,9 @@ Rings build_rings(Index vertex_count, const WeightedTriangles& triangles);
 /// Local vertices [0, real_count) are vertices of the mesh, ascending; [real_count, vertex_count)
 /// are virtual ones, inserted at the midpoint of the edge opposite a boundary vertex of valence 2
 /// (section 2.4.3). Virtual vertices exist in `split_triangles` only and have no ids outside.
+/// Beyond `surface_count` a preparation may add anchors, which no triangle uses (ties.h).
 struct Patch {
-    Index real_count = 0, vertex_count = 0;
+    Index real_count = 0, surface_count = 0, vertex_count = 0;
     /// Mesh vertex of each real local vertex.
     std::vector<Index> mesh_vertex;
     std::vector<char> in_region, on_boundary;

@@ -1,6 +1,8 @@
 /// Polar decomposition of deformation gradients (thesis section 2.4.4).
 #pragma once
 
+#include <span>
+
 #include "kernel/core/geometry.h"
 
 namespace lissom {
@@ -14,6 +16,10 @@ namespace lissom {
 /// polynomial", 2005) and polished by one Newton step; a singular value decomposition serves where
 /// that eigenvector is not well separated.
 Mat3 nearest_rotation(const Mat3& m);
+
+/// The nearest rotation of each matrix of `m`, several at a time; r may be m. Errors:
+/// invalid_argument where the numbers of matrices differ.
+void nearest_rotations(std::span<const Mat3> m, std::span<Mat3> r);
 
 /// Uniform scale of `m`: the root mean square of its singular values, |m|_F / sqrt 3 (Eq 2.11).
 double uniform_scale(const Mat3& m);

@@ -8,6 +8,9 @@
 #include "kernel/core/context.h"
 #include "kernel/deform/operators.h"
 #include "kernel/deform/patch.h"
+#include "kernel/deform/ties.h"
+#include "kernel/deform/working_patch.h"
+#include "kernel/solve/single_factor.h"
 #include "kernel/solve/sparse_system.h"
 
 namespace lissom {
@@ -20,23 +23,34 @@ namespace lissom {
 /// length.
 class RotationSystem {
   public:
-    RotationSystem(const Patch& patch, const std::vector<char>& position_known,
+    RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                    const DeformOptions& options, const Context& context);
 
+    /// Keeps the factor in single precision, unless the system is too ill-conditioned for that.
     /// Errors: not_positive_definite with rows as elements; memory_limit.
     void factor(const Context& context);
 
     const std::vector<Index>& free_vertices() const { return free_; }
-    const FactorStats& stats() const { return system_.stats(); }
+    const FactorStats& stats() const { return stats_; }
     const Rings& rings() const { return rings_; }
 
-    /// Free positions for the transforms S_i of all local vertices. `positions` holds the known
-    /// positions and receives the free ones. Linear in both: deviations of S_i from one S give
-    /// deviations of the positions from S v + t.
-    void solve(std::span<const Mat3> transforms, std::span<Vec3> positions, const Context& context);
+    /// Takes the transforms S_i of all local vertices as those to follow.
+    void set_transforms(std::span<const Mat3> transforms, const Context& context);
+
+    /// Moves the free positions towards the solution for those transforms. `positions` holds the
+    /// known positions, those of anchors among them, and a guess of the free ones. Linear in
+    /// transforms and positions: deviations of S_i from one S give deviations of the positions from
+    /// S v + t. With `draft`, one correction, about five digits; else as many as nearly full
+    /// precision takes.
+    void solve(std::span<Vec3> positions, bool draft, const Context& context);
 
   private:
     void assemble(const std::vector<char>& position_known, const Context& context);
+    void add_ties(const WorkingPatch& work);
+    void enforce_ties(std::span<Vec3> positions);
+    void find_residual(std::span<const Vec3> positions, const Context& context);
+    void find_correction(const Context& context);
+    double measure_contraction(const Context& context);
 
     Rings rings_;
     Laplacian laplacian_;
@@ -49,11 +63,22 @@ class RotationSystem {
     double laplacian_factor_ = 0.0;
     std::vector<Index> free_;
     SymmetricMatrix matrix_;
-    RowMatrix positions_;
+    TieRows ties_;
+    MemoryCharge ties_charge_;
+    std::size_t tie_bytes_ = 0;
+    double tie_unit_ = 1.0;
+    Index vertex_count_ = 0;
+    /// One of the two holds the factor; corrections for a solution of nearly full precision.
+    SingleFactor single_;
     SparseSystem system_;
-    /// Scratch of `solve`, kept because a frame is short beside the time to get fresh pages.
-    std::vector<Vec3> target_;
-    std::vector<double> right_;
+    int corrections_ = 1;
+    FactorStats stats_;
+    /// Right-hand side of the free vertices without the known positions.
+    std::vector<Vec3> right_;
+    /// Scratch of a frame, kept because a frame is short beside the time to get fresh pages.
+    std::vector<Vec3> by_vertex_, residual_, correction_;
+    std::vector<double> columns_;
+    SingleFactor::Scratch scratch_;
 };
 
 }  // namespace lissom

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "kernel/core/context.h"
+#include "kernel/solve/single_factor.h"
 #include "kernel/solve/sparse_matrix.h"
 
 namespace lissom {
@@ -45,6 +46,10 @@ class SparseSystem {
     /// much.
     void solve_refined(const SymmetricMatrix& matrix, std::span<const long double> b,
                        std::span<double> x, Index columns) const;
+
+    /// A copy of the factor in single precision. Errors: invalid_argument without a factor;
+    /// memory_limit.
+    SingleFactor single_factor(const Context& context = {}) const;
 
     Index size() const;
     bool factored() const;

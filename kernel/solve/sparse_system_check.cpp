@@ -59,6 +59,11 @@ void require_pattern(const SymmetricMatrix& matrix, const std::vector<Index>& be
                 "the matrix has another pattern than the one analysed; analyze it first");
 }
 
+void require_factor(bool factored) {
+    if (factored) return;
+    throw Error(ErrorCode::invalid_argument, "there is no factor; call factor first");
+}
+
 void require_sizes(std::span<const double> b, std::span<double> x, Index size, Index columns) {
     const std::size_t expected = static_cast<std::size_t>(size) * static_cast<std::size_t>(columns);
     if (b.size() == expected && x.size() == expected) return;

@@ -18,6 +18,8 @@ void require_valid(const SymmetricMatrix& matrix);
 /// Errors: invalid_argument where `matrix` has not the pattern remembered in `begin` and `row`.
 void require_pattern(const SymmetricMatrix& matrix, const std::vector<Index>& begin,
                      const std::vector<Index>& row);
+/// Errors: invalid_argument where there is no factor.
+void require_factor(bool factored);
 /// Errors: invalid_argument where the spans do not hold `columns` vectors of length `size`.
 void require_sizes(std::span<const double> b, std::span<double> x, Index size, Index columns);
 /// Throws not_positive_definite, naming the rows of the connected component of `row`.

@@ -40,11 +40,9 @@ cholmod_sparse view_of(const SymmetricMatrix& matrix) {
 SupernodalFactor view_of(const cholmod_factor& factor) {
     return {static_cast<Index>(factor.n),
             static_cast<Index>(factor.nsuper),
-            static_cast<const Index*>(factor.super),
-            static_cast<const Index*>(factor.pi),
-            static_cast<const Index*>(factor.px),
-            static_cast<const Index*>(factor.s),
-            static_cast<const double*>(factor.x),
+            {static_cast<const Index*>(factor.super), static_cast<const Index*>(factor.pi),
+             static_cast<const Index*>(factor.px), static_cast<const Index*>(factor.s),
+             static_cast<const double*>(factor.x)},
             static_cast<const Index*>(factor.Perm)};
 }
 
@@ -186,9 +184,7 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
 }
 
 void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index columns) const {
-    if (!state_->factored) {
-        throw Error(ErrorCode::invalid_argument, "there is no factor; call factor first");
-    }
+    require_factor(state_->factored);
     require_sizes(b, x, size(), columns);
     const auto rows = static_cast<std::size_t>(size());
     const SupernodalFactor factor = view_of(*state_->factor);
@@ -197,6 +193,30 @@ void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index c
         solve_supernodal(factor, b.data() + shift, x.data() + shift,
                          std::min(kSolveWidth, columns - first), state_->scratch);
     }
+}
+
+SingleFactor SparseSystem::single_factor(const Context& context) const {
+    require_factor(state_->factored);
+    const cholmod_factor& factor = *state_->factor;
+    const auto copy = [](const void* data, std::size_t count) {
+        const auto* begin = static_cast<const Index*>(data);
+        return std::vector<Index>(begin, begin + count);
+    };
+    SingleFactor::Supernodes nodes{
+        copy(factor.super, factor.nsuper + 1), copy(factor.pi, factor.nsuper + 1),
+        copy(factor.px, factor.nsuper + 1),    copy(factor.s, factor.ssize),
+        std::vector<float>(factor.xsize),      0.0};
+    const auto* value = static_cast<const double*>(factor.x);
+    for (Index s = 0; s < nodes.count(); ++s) {
+        for (Index j = 0; j < nodes.columns(s); ++j) {
+            nodes.scale =
+                std::max(nodes.scale, value[nodes.first_value[s] + j * (nodes.height(s) + 1)]);
+        }
+    }
+    const double inverse = 1.0 / nodes.scale;
+    std::transform(value, value + factor.xsize, nodes.value.begin(),
+                   [&](double v) { return static_cast<float>(inverse * v); });
+    return {std::move(nodes), copy(factor.Perm, factor.n), context};
 }
 
 Index SparseSystem::size() const {

@@ -1,5 +1,6 @@
 #include <Eigen/SparseCholesky>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "kernel/solve/sparse_system.h"
@@ -25,6 +26,8 @@ class Factorization
     : public Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<Index>> {
   public:
     std::size_t factor_nonzeros() const { return static_cast<std::size_t>(m_matrix.nonZeros()); }
+    // L without its unit diagonal.
+    const Matrix& lower() const { return m_matrix; }
 };
 
 }  // namespace
@@ -79,12 +82,36 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
 }
 
 void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index columns) const {
-    if (!state_->factored) {
-        throw Error(ErrorCode::invalid_argument, "there is no factor; call factor first");
-    }
+    require_factor(state_->factored);
     require_sizes(b, x, size(), columns);
     const Eigen::Map<const Eigen::MatrixXd> right(b.data(), size(), columns);
     Eigen::Map<Eigen::MatrixXd>(x.data(), size(), columns) = state_->factorization.solve(right);
+}
+
+// Every column is a supernode; L sqrt(D) stands in place of L and D.
+SingleFactor SparseSystem::single_factor(const Context& context) const {
+    require_factor(state_->factored);
+    const Matrix& lower = state_->factorization.lower();
+    const auto& pivots = state_->factorization.vectorD();
+    const auto& to_row = state_->factorization.permutationPinv().indices();
+    SingleFactor::Supernodes nodes;
+    nodes.scale = std::sqrt(pivots.maxCoeff());
+    for (Index column = 0; column < size(); ++column) {
+        nodes.super.push_back(column);
+        nodes.first_row.push_back(static_cast<Index>(nodes.row.size()));
+        const double root = std::sqrt(pivots[column]) / nodes.scale;
+        nodes.row.push_back(column);
+        nodes.value.push_back(static_cast<float>(root));
+        for (Matrix::InnerIterator entry(lower, column); entry; ++entry) {
+            if (entry.row() == column) continue;
+            nodes.row.push_back(static_cast<Index>(entry.row()));
+            nodes.value.push_back(static_cast<float>(root * entry.value()));
+        }
+    }
+    nodes.super.push_back(size());
+    nodes.first_row.push_back(static_cast<Index>(nodes.row.size()));
+    nodes.first_value = nodes.first_row;
+    return {std::move(nodes), {to_row.data(), to_row.data() + to_row.size()}, context};
 }
 
 Index SparseSystem::size() const {

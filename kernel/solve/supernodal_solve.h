@@ -6,20 +6,14 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/solve/supernodal_loops.h"
 
 namespace lissom {
 
-/// A supernodal factor L as CHOLMOD lays it out. Supernode s holds the columns super[s] .. super[s
-/// + 1] - 1 as one dense column-major block at value[first_value[s]]; its rows are
-/// row[first_row[s]] .. row[first_row[s + 1] - 1], of which the first are those columns themselves.
+/// A supernodal factor and the unknown of each row of L.
 struct SupernodalFactor {
     Index size = 0, supernodes = 0;
-    const Index* super = nullptr;
-    const Index* first_row = nullptr;
-    const Index* first_value = nullptr;
-    const Index* row = nullptr;
-    const double* value = nullptr;
-    /// Unknown of each row of L.
+    SupernodalView<double> view;
     const Index* permutation = nullptr;
 };
 

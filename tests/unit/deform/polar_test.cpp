@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <random>
+#include <vector>
 
+#include "kernel/core/error.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -96,4 +98,25 @@ TEST_CASE("nearest rotation: does not depend on the scale of the matrix") {
 TEST_CASE("uniform scale is the root mean square of the singular values") {
     const Mat3 m = Vec3(1.0, 2.0, 5.0).asDiagonal();
     CHECK(uniform_scale(m) == doctest::Approx(std::sqrt(10.0)));
+}
+
+TEST_CASE("nearest rotations: as one at a time, whatever stands beside a matrix") {
+    std::mt19937 generator(6);
+    std::vector<Mat3> m;
+    for (int i = 0; i < 203; ++i) m.push_back(random_matrix(generator));
+    m[5] = Mat3::Zero();
+    m[50] = Vec3(1.0, 1.0, -1.0).asDiagonal();
+    m[100] = reference(m[99]);
+    std::vector<Mat3> r(m.size());
+    nearest_rotations(m, r);
+    for (std::size_t i = 0; i < m.size(); ++i) {
+        CAPTURE(i);
+        CHECK((r[i] - nearest_rotation(m[i])).norm() < 1e-10);
+    }
+    std::vector<Mat3> shifted(m.begin() + 2, m.end()), in_place = shifted;
+    nearest_rotations(shifted, in_place);
+    CHECK(in_place.front() == r[2]);
+    nearest_rotations(in_place, in_place);
+    CHECK((in_place.back() - r.back()).norm() < 1e-13);
+    CHECK_THROWS_AS(nearest_rotations(m, std::span(r).first(3)), Error);
 }

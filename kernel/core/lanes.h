@@ -1,0 +1,60 @@
+/// Vectors of four numbers, and code that is compiled twice where the compiler can choose at run
+/// time: for any processor and for those with AVX2. Loops are written once, as LISSOM_INLINE
+/// templates over Lanes, and called from one plain function and from one marked LISSOM_AVX2.
+#pragma once
+
+#if defined(__GNUC__) && defined(__x86_64__)
+#define LISSOM_HAS_AVX2_PATH
+#define LISSOM_AVX2 __attribute__((target("avx2,fma")))
+#define LISSOM_INLINE inline __attribute__((always_inline))
+#else
+#define LISSOM_INLINE inline
+#endif
+
+namespace lissom {
+
+/// Whether this processor runs what LISSOM_AVX2 marks.
+inline bool has_avx2() {
+#ifdef LISSOM_HAS_AVX2_PATH
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+    return false;
+#endif
+}
+
+/// Four numbers.
+#if defined(__GNUC__)
+template <typename Real>
+struct LanesOf;
+template <>
+struct LanesOf<double> {
+    using Type = double __attribute__((vector_size(32), aligned(8), may_alias));
+};
+template <>
+struct LanesOf<float> {
+    using Type = float __attribute__((vector_size(16), aligned(4), may_alias));
+};
+template <typename Real>
+using Lanes = typename LanesOf<Real>::Type;
+#else
+template <typename Real>
+struct Lanes {
+    Real v[4];
+    Lanes& operator+=(const Lanes& b) {
+        for (int c = 0; c < 4; ++c) v[c] += b.v[c];
+        return *this;
+    }
+    Lanes& operator-=(const Lanes& b) {
+        for (int c = 0; c < 4; ++c) v[c] -= b.v[c];
+        return *this;
+    }
+    friend Lanes operator*(Real a, Lanes b) {
+        for (Real& x : b.v) x *= a;
+        return b;
+    }
+    Real& operator[](int c) { return v[c]; }
+    const Real& operator[](int c) const { return v[c]; }
+};
+#endif
+
+}  // namespace lissom

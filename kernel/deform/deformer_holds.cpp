@@ -1,0 +1,213 @@
+// What a user asks a Deformer to hold: handles and constraints.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "kernel/deform/deformer.h"
+#include "kernel/deform/deformer_state.h"
+
+namespace lissom {
+namespace {
+
+// Throws `code` about those of `vertices` for which `bad` holds, if there are any.
+template <typename Bad>
+void refuse_vertices(const std::vector<Index>& vertices, ErrorCode code, const std::string& message,
+                     const Bad& bad) {
+    Elements elements{ElementKind::vertex, 0, {}};
+    for (const Index v : vertices) {
+        if (bad(v)) elements.add(v);
+    }
+    if (elements.count == 0) return;
+    const std::string names = describe(elements);
+    throw Error(code, message + names, std::move(elements));
+}
+
+void require_weight(const std::optional<double>& weight) {
+    if (!weight || (*weight > 0.0 && std::isfinite(*weight))) return;
+    throw Error(ErrorCode::invalid_argument,
+                "a weight must be above 0; leave it out where the constraint is to hold exactly");
+}
+
+void require_handle_options(const HandleOptions& options) {
+    if (!options.position && !options.gradient) {
+        throw Error(ErrorCode::invalid_argument,
+                    "a handle must prescribe positions, gradients or both");
+    }
+    require_weight(options.weight);
+}
+
+void require_finite(const PointConstraint& constraint) {
+    if ((!constraint.position || constraint.position->allFinite()) &&
+        (!constraint.gradient || constraint.gradient->allFinite())) {
+        return;
+    }
+    Elements vertices{ElementKind::vertex, 0, {}};
+    for (const Index v : constraint.point.vertices) vertices.add(v);
+    const std::string names = describe(vertices);
+    throw Error(ErrorCode::not_finite, names + " cannot be constrained to NaN or infinity",
+                std::move(vertices));
+}
+
+}  // namespace
+
+SparseRow Deformer::State::local_row(const MeshPoint& point) const {
+    SparseRow row;
+    for (std::size_t i = 0; i < point.vertices.size(); ++i) {
+        row.emplace_back(local_vertex(point.vertices[i]), point.weights[i]);
+    }
+    return row;
+}
+
+Vec3 Deformer::State::rest_position(const SparseRow& row) const {
+    Vec3 at = rest_patch->patch.origin;
+    for (const auto& [v, c] : row) at += c * rest_patch->patch.rest[v];
+    return at;
+}
+
+// Errors: handle_outside_region where no vertex of the point may move.
+void Deformer::State::require_inside(const MeshPoint& point) const {
+    const bool inside = std::any_of(point.vertices.begin(), point.vertices.end(),
+                                    [&](Index v) { return region.contains(v); });
+    if (inside) return;
+    refuse_vertices(point.vertices, ErrorCode::handle_outside_region,
+                    "a point lies outside the region, between ", [](Index) { return true; });
+}
+
+// Errors: handle_overlap where other handles or constraints hold some of `vertices`.
+void Deformer::State::require_unheld(const std::vector<Index>& vertices) const {
+    std::vector<char> held(static_cast<std::size_t>(rest_patch->patch.vertex_count), 0);
+    for (const HandleState& h : handles) {
+        for (const Index v : h.local) held[v] = 1;
+    }
+    for (const auto& entry : constraints) held[entry.first] = 1;
+    for (const PointState& point : points) {
+        if (point.row.size() == 1) held[point.row.front().first] = 1;
+    }
+    refuse_vertices(vertices, ErrorCode::handle_overlap,
+                    "another handle or constraint already holds ",
+                    [&](Index v) { return held[local_vertex(v)] != 0; });
+}
+
+HandleId Deformer::State::add(HandleState handle) {
+    std::size_t count = handle.points.size() + handle.local.size();
+    for (const Index v : handle.local) handle.center += rest[region_row[v]] / count;
+    for (const SparseRow& row : handle.points) handle.center += rest_position(row) / count;
+    handles.push_back(std::move(handle));
+    prepared.reset();
+    ++stats.handles;
+    return {static_cast<Index>(handles.size()) - 1};
+}
+
+HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& options) {
+    State& s = *state_;
+    if (vertices.topology() != s.region.topology()) {
+        throw Error(
+            ErrorCode::topology_mismatch,
+            "the handle's region belongs to another mesh or to an older version of this one");
+    }
+    if (vertices.empty()) throw Error(ErrorCode::region_empty, "the handle has no vertices");
+    require_handle_options(options);
+    refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
+                    "the handle reaches outside the region at ",
+                    [&](Index v) { return !s.region.contains(v); });
+    s.require_unheld(vertices.vertices());
+    HandleState handle{vertices, options, {}, Vec3::Zero(), {}, {}, false};
+    for (const Index v : vertices.vertices()) handle.local.push_back(s.local_vertex(v));
+    return s.add(std::move(handle));
+}
+
+HandleId Deformer::add_handle(std::span<const MeshPoint> points, const HandleOptions& options) {
+    State& s = *state_;
+    if (points.empty()) throw Error(ErrorCode::region_empty, "the handle has no points");
+    require_handle_options(options);
+    std::vector<Index> held, around;
+    std::vector<SparseRow> rows;
+    for (const MeshPoint& given : points) {
+        const MeshPoint point = checked_point(*s.region.topology(), given);
+        s.require_inside(point);
+        around.insert(around.end(), point.vertices.begin(), point.vertices.end());
+        if (point.vertices.size() == 1) {
+            held.push_back(point.vertices.front());
+        } else {
+            rows.push_back(s.local_row(point));
+        }
+    }
+    s.require_unheld(held);
+    HandleState handle{
+        Region(s.region.topology(), around), options, {}, Vec3::Zero(), {}, {}, false};
+    const Region held_region(s.region.topology(), held);
+    for (const Index v : held_region.vertices()) handle.local.push_back(s.local_vertex(v));
+    handle.points = std::move(rows);
+    return s.add(std::move(handle));
+}
+
+void Deformer::constrain(const VertexConstraint& constraint) {
+    const Index v = constraint.vertex;
+    const Elements named{ElementKind::vertex, 1, {v}};
+    if (v < 0 || v >= state_->region.topology()->vertex_count()) {
+        throw Error(ErrorCode::out_of_range, "vertex " + std::to_string(v) + " does not exist",
+                    named);
+    }
+    constrain({vertex_point(v), constraint.position, constraint.gradient, constraint.weight});
+}
+
+void Deformer::constrain(const PointConstraint& given) {
+    State& s = *state_;
+    require_weight(given.weight);
+    PointConstraint asked = given;
+    asked.point = checked_point(*s.region.topology(), given.point);
+    s.require_inside(asked.point);
+    require_finite(asked);
+    const SparseRow row = s.local_row(asked.point);
+    if (row.size() == 1) {
+        for (const HandleState& handle : s.handles) {
+            const bool held = std::find(handle.local.begin(), handle.local.end(),
+                                        row.front().first) != handle.local.end();
+            if (held) s.require_unheld(asked.point.vertices);
+        }
+    }
+    s.set_constraint(row, std::move(asked));
+}
+
+// Replaces what is asked of a point. Where only the asked values change the preparation stays.
+void Deformer::State::set_constraint(const SparseRow& row, PointConstraint asked_now) {
+    const bool wanted = asked_now.position || asked_now.gradient;
+    const std::optional<PointConstraint> before = take_constraint(row);
+    if (!wanted && !before) return;
+    const bool same_kind = wanted && before &&
+                           before->position.has_value() == asked_now.position.has_value() &&
+                           before->gradient.has_value() == asked_now.gradient.has_value() &&
+                           before->weight == asked_now.weight;
+    if (!same_kind) prepared.reset();
+    fixed_current = false;
+    if (!wanted) return;
+    if (row.size() == 1 && !asked_now.weight) {
+        const Index v = row.front().first;
+        constraints[v] = {
+            asked_now.point.vertices.front(), asked_now.position, asked_now.gradient, {}};
+    } else {
+        const auto at = std::find_if(points.begin(), points.end(),
+                                     [&](const PointState& p) { return !(p.row < row); });
+        points.insert(at, {std::move(asked_now), row});
+    }
+}
+
+// Removes and returns the constraint of a point, if there is one.
+std::optional<PointConstraint> Deformer::State::take_constraint(const SparseRow& row) {
+    const auto point = std::find_if(points.begin(), points.end(),
+                                    [&](const PointState& p) { return p.row == row; });
+    if (point != points.end()) {
+        PointConstraint found = std::move(point->asked);
+        points.erase(point);
+        return found;
+    }
+    const auto vertex = row.size() == 1 ? constraints.find(row.front().first) : constraints.end();
+    if (vertex == constraints.end()) return std::nullopt;
+    const VertexConstraint& c = vertex->second;
+    PointConstraint found{vertex_point(c.vertex), c.position, c.gradient, {}};
+    constraints.erase(vertex);
+    return found;
+}
+
+}  // namespace lissom
