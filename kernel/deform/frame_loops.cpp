@@ -26,8 +26,7 @@ LISSOM_INLINE void add_product(const PaddedMat3& m, const Row& v, Row& sum) {
     for (int d = 0; d < 3; ++d) sum += v[d] * column_of(m, d);
 }
 
-LISSOM_INLINE void evaluate_rows(const BasisLoop& loop, const Index* vertex, Vec4* x, Index begin,
-                                 Index end) {
+LISSOM_INLINE void evaluate_rows(const BasisLoop& loop, Vec4* x, Index begin, Index end) {
     for (Index r = begin; r < end; ++r) {
         Row sum{};
         for (std::size_t h = 0; h < loop.count; ++h) {
@@ -37,7 +36,7 @@ LISSOM_INLINE void evaluate_rows(const BasisLoop& loop, const Index* vertex, Vec
                 sum += weight[d] * *reinterpret_cast<const Row*>(transform + 4 * d);
             }
         }
-        row_of(x[vertex[r]]) = sum;
+        row_of(x[r - begin]) = sum;
     }
 }
 
@@ -99,9 +98,8 @@ LISSOM_INLINE void descend_rows(const EnergyLoop& loop, const PaddedMat3* s, con
 }
 
 #ifdef LISSOM_HAS_AVX2_PATH
-LISSOM_AVX2 void evaluate_with_avx2(const BasisLoop& loop, const Index* vertex, Vec4* x,
-                                    Index begin, Index end) {
-    evaluate_rows(loop, vertex, x, begin, end);
+LISSOM_AVX2 void evaluate_with_avx2(const BasisLoop& loop, Vec4* x, Index begin, Index end) {
+    evaluate_rows(loop, x, begin, end);
 }
 LISSOM_AVX2 void gather_with_avx2(const GradientLoop& loop, const Index* vertex, const Vec4* x,
                                   Mat3* m, Index begin, Index end) {
@@ -120,11 +118,11 @@ LISSOM_AVX2 void descend_with_avx2(const EnergyLoop& loop, const PaddedMat3* s, 
 
 }  // namespace
 
-void BasisLoop::evaluate(const Index* vertex, Vec4* x, Index begin, Index end) const {
+void BasisLoop::evaluate(Vec4* x, Index begin, Index end) const {
 #ifdef LISSOM_HAS_AVX2_PATH
-    if (has_avx2()) return evaluate_with_avx2(*this, vertex, x, begin, end);
+    if (has_avx2()) return evaluate_with_avx2(*this, x, begin, end);
 #endif
-    evaluate_rows(*this, vertex, x, begin, end);
+    evaluate_rows(*this, x, begin, end);
 }
 
 void GradientLoop::gather(const Index* vertex, const Vec4* x, Mat3* m, Index begin,

@@ -14,7 +14,7 @@ using PaddedMat3 = Eigen::Matrix<double, 4, 3>;
 inline Vec4 padded(const Vec3& v) {
     return {v.x(), v.y(), v.z(), 0.0};
 }
-inline PaddedMat3 padded(const Mat3& m) {
+inline PaddedMat3 padded_columns(const Mat3& m) {
     PaddedMat3 columns = PaddedMat3::Zero();
     columns.topRows<3>() = m;
     return columns;
@@ -27,8 +27,8 @@ struct BasisLoop {
     const Vec4* const* weight;
     std::size_t count;
 
-    /// Puts the rows [begin, end) at x[vertex[row]].
-    void evaluate(const Index* vertex, Vec4* x, Index begin, Index end) const;
+    /// x[row - begin] for rows [begin, end).
+    void evaluate(Vec4* x, Index begin, Index end) const;
 };
 
 /// Deformation gradients of positions x by their stencils (GradientStencils).
