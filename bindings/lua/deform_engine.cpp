@@ -62,23 +62,13 @@ constexpr int kMaximumFrames = 10000;
 class Standing {
   public:
     explicit Standing(DeformObject& edit)
-        : mesh_(edit.mesh->mesh), revision_(edit.mesh->mesh.revision()) {
-        Deformer& deformer = edit.deformer();
-        for (const HandleId id : deformer.handles()) {
-            transforms_.emplace_back(id, deformer.transform(id));
-        }
-    }
+        : mesh_(edit.mesh->mesh),
+          revision_(edit.mesh->mesh.revision()),
+          poses_(edit.deformer().poses()) {}
 
     const Mesh& mesh() const { return mesh_; }
 
-    // Handles that were removed stay so.
-    void restore_handles(Deformer& deformer) const {
-        const std::vector<HandleId> present = deformer.handles();
-        for (const auto& [id, transform] : transforms_) {
-            if (std::find(present.begin(), present.end(), id) == present.end()) continue;
-            deformer.set_transform(id, transform);
-        }
-    }
+    void restore_handles(Deformer& deformer) const { deformer.restore(*poses_); }
 
     void restore_mesh(MeshObject& object) const {
         Mesh& mesh = object.mesh;
@@ -95,7 +85,7 @@ class Standing {
   private:
     Mesh mesh_;
     std::uint64_t revision_;
-    std::vector<std::pair<HandleId, Affine>> transforms_;
+    std::shared_ptr<const HandlePoses> poses_;
 };
 
 // Everything that lives as long as one call of bake.

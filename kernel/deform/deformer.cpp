@@ -101,6 +101,18 @@ const Affine& Deformer::transform(HandleId id) const {
     return state_->handle(id).transform;
 }
 
+// Of a handle nothing but its pose ever changes.
+std::shared_ptr<const HandlePoses> Deformer::poses() const {
+    return std::make_shared<HandlePoses>(HandlePoses{state_->handles});
+}
+
+void Deformer::restore(const HandlePoses& poses) {
+    std::vector<HandleState>& handles = state_->handles;
+    for (std::size_t h = 0; h < poses.handles.size() && h < handles.size(); ++h) {
+        if (!handles[h].removed) handles[h] = poses.handles[h];
+    }
+}
+
 void Deformer::set_transform(HandleId id, const Affine& transform) {
     HandleState& handle = state_->handle(id);
     require_regular(transform);

@@ -110,6 +110,25 @@ TEST_CASE("vertex constraints are part of the rest positions") {
     CHECK(error_of_evaluators(std::move(scene)) < kTolerance);
 }
 
+TEST_CASE("soft handles, gradients alone, points of faces and removed handles are evaluated too") {
+    const Mesh bar = make_bar({});
+    const Region all = Region::all(bar.shared_topology());
+    BasisScene scene{bar, Deformer(bar, all), {}, surface_radius(bar)};
+    Deformer& edit = scene.deformer;
+    edit.add_handle(slab(bar, 0, 5));
+    const HandleId gone = edit.add_handle(slab(bar, 1, 5));
+    edit.add_handle(slab(bar, 2, 5), {.weight = 10.0});
+    edit.add_handle(slab(bar, 3, 5), {.position = false});
+    edit.add_handle(slab(bar, 4, 5), {.gradient = false});
+    edit.remove_handle(gone);
+    std::mt19937 random(5);
+    for (const HandleId id : edit.handles()) {
+        scene.transforms.push_back(some_move(edit.handle_center(id), scene.size, random));
+        edit.set_transform(id, scene.transforms.back());
+    }
+    CHECK(error_of_evaluators(std::move(scene)) < kTolerance);
+}
+
 TEST_CASE("ranges of vertices, strides and the mesh's own order give the same numbers") {
     BasisScene scene = make_basis_scene(make_cactus(), 2, true);
     const std::string bytes = encode_basis(make_engine_basis(scene.deformer));
