@@ -585,6 +585,7 @@ edit:constrain{ vertex = v, position = { 1, 0, 0 } }:solve())"},
          .results = {{"lissom.Mesh", "mesh", "The mesh."}},
          .example = kBar + "assert(edit:mesh() == bar)"}};
     for (Function& method : solving_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : deform_engine_methods()) type.methods.push_back(std::move(method));
     return type;
 }
 

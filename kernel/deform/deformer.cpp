@@ -139,6 +139,18 @@ const Affine& Deformer::transform(HandleId id) const {
     return state_->handle(id).transform;
 }
 
+// Of a handle nothing but its pose ever changes.
+std::shared_ptr<const HandlePoses> Deformer::poses() const {
+    return std::make_shared<HandlePoses>(HandlePoses{state_->handles});
+}
+
+void Deformer::restore(const HandlePoses& poses) {
+    std::vector<HandleState>& handles = state_->handles;
+    for (std::size_t h = 0; h < poses.handles.size() && h < handles.size(); ++h) {
+        if (!handles[h].removed) handles[h] = poses.handles[h];
+    }
+}
+
 void Deformer::set_transform(HandleId id, const Affine& transform) {
     HandleState& handle = state_->handle(id);
     require_regular(transform);
@@ -220,6 +232,14 @@ void Deformer::apply_to(Mesh& mesh) const {
     if (s.directions.empty()) return;
     const bool comparison = s.prepared && s.prepared->comparison;
     s.directions.apply_to(mesh, comparison ? s.surface_gradients() : s.gradients);
+}
+
+void Deformer::apply_rest_to(Mesh& mesh) const {
+    const State& s = *state_;
+    require_same_topology(mesh, s.region.topology(), "the deformer");
+    const std::span<Vec3> out = mesh.edit_positions();
+    for (Index row = 0; row < s.region.size(); ++row) out[s.region.vertices()[row]] = s.rest[row];
+    s.directions.apply_to(mesh, std::vector<Mat3>(s.rest.size(), Mat3::Identity()));
 }
 
 void Deformer::reset() {

@@ -52,6 +52,10 @@ struct Prepared {
     std::vector<Index> gathered, averaged;
 };
 
+struct HandlePoses {
+    std::vector<HandleState> handles;
+};
+
 struct Deformer::State {
     State(const Mesh& mesh, const Region& given, const DeformOptions& chosen);
 
