@@ -109,7 +109,8 @@ void Deformer::State::solve_comparison(const Context& context) {
     prepared->comparison->solve({motions, comparison_base()}, at, transforms, context);
     next_positions.resize(rest.size());
     for (Index row = 0; row < region.size(); ++row) {
-        next_positions[row] = at[patch.of_region[row]] + patch.origin;
+        const Index v = patch.of_region[row];
+        if (!prepared->known.position[v]) next_positions[row] = at[v] + patch.origin;
     }
     show_next();
     for (Index row = 0; row < region.size(); ++row) {
@@ -123,7 +124,7 @@ void Deformer::State::solve_comparison(const Context& context) {
 // the normal to where they are. A method's own M_i need not turn with the surface.
 std::vector<Mat3> Deformer::State::surface_gradients() const {
     std::vector<Mat3> result(rest.size(), Mat3::Identity());
-    if (!deformed) return result;
+    if (compared.empty()) return result;
     const Patch& patch = rest_patch->patch;
     const Rings real = build_rings(patch.real_count, patch.triangles);
     const std::span<const Vec3> before(patch.rest.data(), compared.size());

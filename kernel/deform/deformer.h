@@ -201,12 +201,12 @@ class Deformer {
     /// transform of the whole space cannot promise.
     void set_transform(HandleId handle, const Affine& transform, const Vec3& about);
     const Affine& transform(HandleId handle) const;
-    /// The map f with which p goes to about + f(p - about): what to compose moves with.
-    Affine transform_about(HandleId handle, const Vec3& about) const;
     /// How the handles stand, to be put back by `restore`, to the bit.
     std::shared_ptr<const HandlePoses> poses() const;
     /// Handles that were removed since, or added, are left as they are.
     void restore(const HandlePoses& poses);
+    /// The map f with which p goes to about + f(p - about): what to compose moves with.
+    Affine transform_about(HandleId handle, const Vec3& about) const;
 
     /// Constrains one vertex, replacing an earlier constraint of it. A vertex with neither position
     /// nor gradient is free again. Errors: out_of_range; handle_outside_region; handle_overlap

@@ -228,7 +228,6 @@ void Deformer::State::solve(bool draft, const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
     if (prepared->comparison) return solve_comparison(context);
-    context.checkpoint();
     next_positions.resize(rest.size());
     evaluate_deviation(context);
     if (!prepared->second->free_vertices().empty()) solve_second(draft, context);
@@ -251,14 +250,13 @@ void Deformer::State::show_next() {
     shown.clear();
     for (const HandleState& h : handles) shown.push_back(h.in_patch);
     gradients_current = false;
-    deformed = true;
 }
 
 void Deformer::State::to_rest() {
     positions = rest;
+    compared.clear();
     gradients.assign(rest.size(), Mat3::Identity());
     gradients_current = true;
-    deformed = false;
 }
 
 }  // namespace lissom

@@ -162,7 +162,7 @@ struct Deformer::State {
     std::vector<Vec3> positions, next_positions;
     std::vector<Affine> shown;
     std::vector<Mat3> gradients;
-    bool deformed = false, gradients_current = true;
+    bool gradients_current = true;
     DeformStats stats;
 };
 
