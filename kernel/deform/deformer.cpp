@@ -22,6 +22,7 @@ void require_options(const DeformOptions& o) {
         if (!condition) throw Error(ErrorCode::invalid_argument, message);
     };
     require(o.coherence == 1 || o.coherence == 2, "coherence must be 1 or 2 rings");
+    require(o.refine >= 0 && o.refine <= 2, "refine must be 0, 1 or 2");
     require(o.coherence_weight > 0.0 && std::isfinite(o.coherence_weight),
             "coherence_weight must be above 0");
     require(o.degenerate_threshold > 1.0, "degenerate_threshold must be above 1");
@@ -47,6 +48,7 @@ void require_applicable(const DeformOptions& o) {
     refuse(o.coherence_weight != defaults.coherence_weight, "coherence_weight");
     refuse(o.degenerate_threshold != defaults.degenerate_threshold, "degenerate_threshold");
     refuse(o.displacement != defaults.displacement, "displacement");
+    refuse(o.refine != defaults.refine, "refine");
     refuse(!laplacian && !o.scale_free, "scale_free");
     refuse(o.method == DeformMethod::geodesic && o.weights != defaults.weights, "weights");
 }

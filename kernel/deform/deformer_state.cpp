@@ -197,10 +197,15 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
         std::make_unique<RotationSystem>(*next->work, next->known.position, options, context);
     const double assemble_seconds = seconds_since(start);
 
-    progress.step(0.45);
-    factor(*next->first, context);
-    progress.step(0.2);
-    factor(*next->second, context);
+    progress.step(0.6);
+    // The two do not depend on each other.
+    context.parallel_for(0, 2, 1, [&](Index begin, Index end) {
+        for (Index system = begin; system < end; ++system) {
+            system == 0 ? factor(*next->first, context) : factor(*next->second, context);
+        }
+    });
+    progress.step(0.05);
+    if (!next->second->free_vertices().empty()) next->second->finish(context);
 
     progress.step(0.15);
     const auto basis_start = std::chrono::steady_clock::now();

@@ -103,6 +103,7 @@ struct Deformer::State {
     void preview(const Context& context);
     void find_turns(const Mat3& base_rotation, const Context& context);
     void turn_held(const Mat3& base_rotation);
+    void refine_turns(const Mat3& base_rotation, const Context& context);
     void solve_second(bool draft, const Context& context);
     void solve(bool draft, const Context& context);
     std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;
@@ -143,6 +144,8 @@ struct Deformer::State {
     std::vector<PaddedMat3> turns;
     /// Local positions of the last solve by a comparison method.
     std::vector<Vec3> compared;
+    /// Scratch of the refinement: positions less the translation of the base.
+    std::vector<Vec4> absolute;
     std::vector<Vec3> positions;
     std::vector<Mat3> gradients;
     bool deformed = false, gradients_current = true;
