@@ -60,9 +60,9 @@ void require_implicit(const DeformOptions& options, const std::string& what) {
                                             std::string(method_name(options.method)));
 }
 
-void require_regular(const Affine& transform) {
+void require_regular(const Affine& transform, const Vec3& about) {
     const double scale = transform.linear.norm();
-    if (transform.is_finite() &&
+    if (transform.is_finite() && about.allFinite() &&
         std::abs(transform.linear.determinant()) > kSingularRatio * scale * scale * scale) {
         return;
     }
@@ -112,6 +112,7 @@ const DeformOptions& Deformer::options() const {
 
 void Deformer::remove_handle(HandleId id) {
     HandleState& handle = state_->handle(id);
+    state_->find_gradients();
     handle.removed = true;
     handle.local.clear();
     handle.points.clear();
@@ -140,14 +141,37 @@ const Affine& Deformer::transform(HandleId id) const {
     return state_->handle(id).transform;
 }
 
+// Of a handle nothing but its pose ever changes.
+std::shared_ptr<const HandlePoses> Deformer::poses() const {
+    return std::make_shared<HandlePoses>(HandlePoses{state_->handles});
+}
+
+void Deformer::restore(const HandlePoses& poses) {
+    std::vector<HandleState>& handles = state_->handles;
+    for (std::size_t h = 0; h < poses.handles.size() && h < handles.size(); ++h) {
+        if (!handles[h].removed) handles[h] = poses.handles[h];
+    }
+}
+
 void Deformer::set_transform(HandleId id, const Affine& transform) {
+    set_transform(id, transform, Vec3::Zero());
+}
+
+void Deformer::set_transform(HandleId id, const Affine& transform, const Vec3& about) {
     HandleState& handle = state_->handle(id);
-    require_regular(transform);
-    const Affine local = state_->local(transform);
-    const double turn = (local.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
-    const double shift = local.translation.cwiseAbs().maxCoeff();
+    require_regular(transform, about);
+    state_->place(handle, transform, about);
+    const Affine& moved = handle.in_patch;
+    const double turn = (moved.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
+    const double shift = moved.translation.cwiseAbs().maxCoeff();
     const bool still = turn < kIdentityTolerance && shift <= kIdentityTolerance * state_->size;
-    handle.transform = still ? Affine{} : transform;
+    if (still) handle.transform = handle.in_patch = {};
+}
+
+Affine Deformer::transform_about(HandleId id, const Vec3& about) const {
+    const Affine& map = state_->handle(id).in_patch;
+    const Vec3 arm = about - state_->rest_patch->patch.origin;
+    return {map.linear, map.translation + (map.linear - Mat3::Identity()) * arm};
 }
 
 void Deformer::prepare(const Context& context) {
@@ -214,7 +238,7 @@ const std::vector<Vec3>& Deformer::rest_positions() const {
 void Deformer::apply_to(Mesh& mesh) const {
     State& s = *state_;
     require_same_topology(mesh, s.region.topology(), "the deformer");
-    if (!s.directions.empty()) s.find_gradients({});
+    if (!s.directions.empty()) s.find_gradients();
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row)
         out[s.region.vertices()[row]] = s.positions[row];
@@ -223,9 +247,17 @@ void Deformer::apply_to(Mesh& mesh) const {
     s.directions.apply_to(mesh, comparison ? s.surface_gradients() : s.gradients);
 }
 
+void Deformer::apply_rest_to(Mesh& mesh) const {
+    const State& s = *state_;
+    require_same_topology(mesh, s.region.topology(), "the deformer");
+    const std::span<Vec3> out = mesh.edit_positions();
+    for (Index row = 0; row < s.region.size(); ++row) out[s.region.vertices()[row]] = s.rest[row];
+    s.directions.apply_to(mesh, std::vector<Mat3>(s.rest.size(), Mat3::Identity()));
+}
+
 void Deformer::reset() {
     State& s = *state_;
-    for (HandleState& handle : s.handles) handle.transform = {};
+    for (HandleState& handle : s.handles) handle.transform = handle.in_patch = {};
     if (!s.constraints.empty() || !s.points.empty()) s.prepared.reset();
     s.constraints.clear();
     s.points.clear();
@@ -233,7 +265,7 @@ void Deformer::reset() {
 }
 
 const std::vector<Mat3>& Deformer::gradients() {
-    state_->find_gradients({});
+    state_->find_gradients();
     return state_->gradients;
 }
 
