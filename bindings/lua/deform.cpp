@@ -42,7 +42,7 @@ void refuse_options(const Call& call, DeformMethod method) {
                         std::string(method_name(method)) + "'; leave one of them out");
     };
     for (const char* option :
-         {"local_size", "second", "coherence", "displacement", "degenerate_threshold"}) {
+         {"local_size", "second", "coherence", "displacement", "degenerate_threshold", "refine"}) {
         if (call.has(option)) refuse(option);
     }
     if (call.integer("fidelity") == 1) refuse("fidelity");

@@ -50,6 +50,7 @@ void require_applicable(const DeformOptions& o) {
     refuse(o.coherence_weight != defaults.coherence_weight, "coherence_weight");
     refuse(o.degenerate_threshold != defaults.degenerate_threshold, "degenerate_threshold");
     refuse(o.displacement != defaults.displacement, "displacement");
+    refuse(o.refine != defaults.refine, "refine");
     refuse(!laplacian && !o.scale_free, "scale_free");
     refuse(o.method == DeformMethod::geodesic && o.weights != defaults.weights, "weights");
 }
