@@ -32,13 +32,31 @@ void take_number(const Call& call, const char* path, double& target) {
     if (call.has(path)) target = call.number(path);
 }
 
+// Options given together with a method that has no use for them.
+void refuse_options(const Call& call, DeformMethod method) {
+    if (method == DeformMethod::implicit) return;
+    const auto refuse = [&](const std::string& option) {
+        throw Error(ErrorCode::invalid_argument,
+                    "option '" + option + "' does not apply to method '" +
+                        std::string(method_name(method)) + "'; leave one of them out");
+    };
+    for (const char* option :
+         {"local_size", "second", "coherence", "displacement", "degenerate_threshold"}) {
+        if (call.has(option)) refuse(option);
+    }
+    if (call.integer("fidelity") == 1) refuse("fidelity");
+    if (method == DeformMethod::geodesic && call.has("weights")) refuse("weights");
+}
+
 DeformOptions deform_options(const Call& call) {
     const bool thesis = call.integer("fidelity") == 1;
     DeformOptions options = thesis ? DeformOptions::thesis() : DeformOptions{};
+    take_choice(call, "method", options.method);
     take_choice(call, "second", options.second);
     take_choice(call, "local_size", options.local_size);
     take_choice(call, "weights", options.weights);
     if (call.has("coherence")) options.coherence = call.integer("coherence");
+    if (call.has("refine")) options.refine = call.integer("refine");
     take_number(call, "displacement", options.displacement);
     take_number(call, "degenerate_threshold", options.degenerate_threshold);
     return options;
@@ -51,6 +69,7 @@ int deform_mesh(Call& call) {
     const DeformOptions options = deform_options(call);
     const auto result = call.create<DeformObject>();
     const bool done = call.attempt([&] {
+        refuse_options(call, options.method);
         const Region all = whole ? Region::all(mesh->mesh.shared_topology()) : region->current();
         result.set(std::make_shared<DeformObject>(
             mesh.share(), Deformer(mesh->mesh, all, options, call.context())));
@@ -109,7 +128,10 @@ int preview(Call& call) {
 }
 
 int solve(Call& call) {
-    return write_result(call, [&](Deformer& deformer) { deformer.solve(call.context()); });
+    const bool draft = call.boolean("draft");
+    return write_result(call, [&](Deformer& deformer) {
+        draft ? deformer.solve_draft(call.context()) : deformer.solve(call.context());
+    });
 }
 
 int reset_all(Call& call) {
@@ -335,6 +357,10 @@ int handle_text(Call& call) {
 const std::vector<ErrorCode> kSolveErrors = {
     ErrorCode::unconstrained, ErrorCode::zero_area,         ErrorCode::not_positive_definite,
     ErrorCode::memory_limit,  ErrorCode::topology_mismatch, ErrorCode::cancelled};
+const std::vector<ErrorCode> kBasisErrors = {
+    ErrorCode::unconstrained, ErrorCode::zero_area,         ErrorCode::not_positive_definite,
+    ErrorCode::memory_limit,  ErrorCode::topology_mismatch, ErrorCode::unsupported,
+    ErrorCode::cancelled};
 const std::vector<ErrorCode> kHandleErrors = {
     ErrorCode::handle_removed, ErrorCode::singular_transform, ErrorCode::topology_mismatch};
 const std::vector<ErrorCode> kEditErrors = {ErrorCode::handle_removed,
@@ -364,6 +390,10 @@ std::vector<Function> solving_methods() {
          .summary =
              "Solves both systems and writes the result into the mesh. Handles that are where "
              "they began give the rest shape, to the bit.",
+         .options = {boolean("draft",
+                             "For the frames of a drag: about five digits in half the time. Solve "
+                             "once more when the drag ends.")
+                         .defaults(false)},
          .results = mesh,
          .errors = kSolveErrors,
          .example = kBar + "top:rotate{ axis = 'z', angle = 60 }\nassert(edit:solve() == bar)"},
@@ -390,7 +420,7 @@ assert(bar:hash() == before))"},
              "The first system's solution as a linear function of the handles: what an engine "
              "needs to follow a drag by itself.",
          .results = {{"lissom.HandleBasis", "basis", "Weights of every vertex for every handle."}},
-         .errors = kSolveErrors,
+         .errors = kBasisErrors,
          .example = kBar + "assert(edit:basis().weights[1]:width() == 4)"}};
 }
 
@@ -455,6 +485,17 @@ std::vector<Parameter> deform_parameters() {
     };
     return {
         object("region", "lissom.Region", "What may move. Outside nothing does.").optional("all"),
+        choice(
+            "method",
+            {"implicit", "naive", "rotation_estimate", "similarity", "geodesic", "harmonic",
+             "frames"},
+            "implicit is this kernel's own method. The others are for comparison: Laplacian "
+            "coordinates as they are; turned by rotations estimated from that (Lipman 2004); by "
+            "similarities implicit in the positions (Sorkine 2004); handle rotations propagated "
+            "by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-"
+            "invariant coordinates (Lipman 2005). Of the other options they take `weights` only, "
+            "and geodesic not even that; they have no basis, and preview is as solve.")
+            .optional("\"implicit\""),
         choice("local_size", {"keep", "scale"},
                "Whether details keep their size or scale with the surface around them.")
             .optional("\"keep\""),
@@ -468,6 +509,11 @@ std::vector<Parameter> deform_parameters() {
             .optional(std::to_string(defaults.coherence)),
         choice("weights", {"cotangent", "uniform"}, "Weights of the Laplacian coordinates.")
             .optional("\"cotangent\""),
+        integer("refine",
+                "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
+                "less distortion for half a frame each.")
+            .at_least(0)
+            .optional(std::to_string(defaults.refine)),
         number("displacement", "How far degenerate vertices are displaced.")
             .above(0)
             .in("mean lengths of their edges")

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -38,10 +39,42 @@ enum class SecondSystem { blend, laplacian, poisson };
 /// Whether details keep their size (Eq 2.10) or scale with the surface around them (Eq 2.11).
 enum class LocalSize { keep, scale };
 
+/// How the region follows its handles. All but `implicit` are the methods that the thesis compares
+/// its own with (sections 2.3 to 2.5). They use the same operators and keep the same promises: hard
+/// positions, the rest shape to the bit, nothing moves outside the region, no factorisation for a
+/// new transform. They have one quality only, so `preview` and `solve_draft` give what `solve`
+/// gives, and no handle basis; weights of handles, and points that are not vertices, are refused as
+/// `unsupported`.
+enum class DeformMethod {
+    /// Fu 2007: gradients implicit in the positions, then shear taken out.
+    implicit,
+    /// Eq 2.1: Laplacian coordinates keep their direction in space.
+    naive,
+    /// Lipman et al. 2004: rotations estimated from the naive solution, then a second solve.
+    rotation_estimate,
+    /// Sorkine et al. 2004: linearised similarities implicit in the positions.
+    similarity,
+    /// Yu et al. 2004: handle gradients propagated by geodesic distance, then a Poisson system.
+    geodesic,
+    /// Zayer et al. 2005: the same by harmonic fields.
+    harmonic,
+    /// Lipman et al. 2005: rotation-invariant coordinates; frames first, then positions.
+    frames,
+};
+
+/// "implicit", "naive", ...: the name in scripts.
+std::string_view method_name(DeformMethod method);
+
+/// A comparison method refuses values other than the defaults of the options that it has no use
+/// for: `weights` serves all but geodesic, `scale_free` the first three, and the others none.
 struct DeformOptions {
+    DeformMethod method = DeformMethod::implicit;
     SecondSystem second = SecondSystem::blend;
     LocalSize local_size = LocalSize::keep;
     LaplacianWeights weights = LaplacianWeights::cotangent;
+    /// How often, 0 to 2, the rotations are fitted to the result and it is solved for again: less
+    /// distortion, for half a frame each. More would wear twisted parts thin.
+    int refine = 0;
     /// Rings of neighbours whose gradients are kept similar (the pairs SF of Eq 2.7): 1 or 2.
     int coherence = 1;
     /// Weight of the coherence term beside the Laplacian term; the result hardly depends on it.
@@ -178,10 +211,12 @@ class Deformer {
 
     /// Assembles and factors what the present handles need, if that has not been done. `preview`
     /// and `solve` do it by themselves. Errors: unconstrained, naming a part of the region that
-    /// nothing holds; zero_area; not_positive_definite; memory_limit; cancelled.
+    /// nothing holds; zero_area; not_positive_definite; memory_limit; cancelled; unsupported for
+    /// what a comparison method cannot hold.
     void prepare(const Context& context = {});
 
-    /// Solves the first system only (Eq 2.8), by the handle basis. Errors: as prepare.
+    /// Solves the first system only (Eq 2.8), by the handle basis; as `solve` for a comparison
+    /// method. Errors: as prepare.
     const std::vector<Vec3>& preview(const Context& context = {});
     /// Solves both systems. With every transform the identity the result is the rest shape to the
     /// bit.
@@ -190,6 +225,7 @@ class Deformer {
     /// once more when the drag ends.
     const std::vector<Vec3>& solve_draft(const Context& context = {});
     /// Solves the first system by its factor instead of the basis: the oracle of tests.
+    /// Errors: as prepare; unsupported for a comparison method.
     std::vector<Vec3> solve_first_directly(const Context& context = {});
 
     /// Positions of the region's vertices, in the order of `region().vertices()`, from the last
@@ -209,9 +245,10 @@ class Deformer {
     void reset();
 
     /// Deformation gradients M_i of the region's vertices in the last solve or preview, before
-    /// shear is taken out; the identity before one.
+    /// shear is taken out; the identity before one. For a comparison method, the M_i by which it
+    /// transforms the details (Eq 2.2).
     const std::vector<Mat3>& gradients();
-    /// Computes the basis if needed. Errors: as prepare.
+    /// Computes the basis if needed. Errors: as prepare; unsupported for a comparison method.
     HandleBasis basis(const Context& context = {});
     const DeformStats& stats() const;
 

@@ -33,6 +33,7 @@ GradientLoop gradient_loop(const Prepared& prepared) {
 void Deformer::State::preview(const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
+    if (prepared->comparison) return solve_comparison(context);
     if (prepared->solution) {
         const LinearSolution& solution = *prepared->solution;
         const Mat4 shift = base_transform() - matrix_of({});
@@ -161,6 +162,36 @@ void Deformer::State::turn_held(const Mat3& base_rotation) {
 
 // ---- Second system
 
+// Rotations that fit the present positions best, as in the local step of Sorkine and Alexa,
+// "As-rigid-as-possible surface modeling" (2007), for the energy of the second system: with its
+// solution in between, that energy never increases. Scales stay.
+void Deformer::State::refine_turns(const Mat3& base_rotation, const Context& context) {
+    const Patch& patch = prepared->work->patch;
+    std::vector<Vec4>& x = absolute;
+    x.resize(static_cast<std::size_t>(patch.real_count));
+    for_each_block(context, patch.real_count, [&](Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) {
+            x[v] = padded(Vec3(base_rotation * patch.rest[v] + deviation[v].head<3>()));
+        }
+    });
+    const EnergyLoop loop = prepared->second->energy();
+    const bool scales = options.local_size == LocalSize::scale;
+    for (const std::vector<Index>* vertices : {&prepared->gathered, &prepared->averaged}) {
+        const auto all = static_cast<Index>(vertices->size());
+        for_each_block(context, all, [&](Index begin, Index end) {
+            std::array<Mat3, kBlock> m;
+            const auto count = static_cast<std::size_t>(end - begin);
+            loop.fit(x.data(), vertices->data(), m.data(), begin, end);
+            nearest_rotations({m.data(), count}, {m.data(), count});
+            for (std::size_t i = 0; i < count; ++i) {
+                auto turn = turns[(*vertices)[static_cast<std::size_t>(begin) + i]].topRows<3>();
+                const double scale = scales ? uniform_scale(base_rotation + turn) : 1.0;
+                turn = scale * m[i] - base_rotation;
+            }
+        });
+    }
+}
+
 // Solves for deviations from the similarity nearest to the base transform, so that similarities of
 // the whole are exact.
 void Deformer::State::solve_second(bool draft, const Context& context) {
@@ -176,6 +207,10 @@ void Deformer::State::solve_second(bool draft, const Context& context) {
         });
     }
     prepared->second->solve(turns, deviation, draft, context);
+    for (int step = 0; step < options.refine; ++step) {
+        refine_turns(base_rotation, context);
+        prepared->second->solve(turns, deviation, draft, context);
+    }
     const Vec3 shift = frame_base.topRightCorner<3, 1>();
     const std::vector<Index>& free = prepared->second->free_vertices();
     for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
@@ -190,6 +225,7 @@ void Deformer::State::solve_second(bool draft, const Context& context) {
 void Deformer::State::solve(bool draft, const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
+    if (prepared->comparison) return solve_comparison(context);
     context.checkpoint();
     gradients_current = false;
     evaluate_deviation(context);

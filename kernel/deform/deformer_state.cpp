@@ -173,6 +173,7 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     Progress progress(context, "deform: prepare");
     require_area();
     auto next = std::make_unique<Prepared>();
+    if (options.method != DeformMethod::implicit) require_plain_holds();
     next->work = holds().need_anchors() ? anchored(*rest_patch, holds()) : rest_patch;
     const Patch& patch = next->work->patch;
     const Rings& rings = next->work->rings;
@@ -181,6 +182,10 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     next->owner = std::move(holding.owner);
     next->known = std::move(holding.known);
     next->asked = std::move(holding.asked);
+    if (options.method != DeformMethod::implicit) {
+        prepare_comparison(*next, context);
+        return next;
+    }
 
     progress.step(0.2);
     const auto start = std::chrono::steady_clock::now();
@@ -192,10 +197,15 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
         std::make_unique<RotationSystem>(*next->work, next->known.position, options, context);
     const double assemble_seconds = seconds_since(start);
 
-    progress.step(0.45);
-    factor(*next->first, context);
-    progress.step(0.2);
-    factor(*next->second, context);
+    progress.step(0.6);
+    // The two do not depend on each other.
+    context.parallel_for(0, 2, 1, [&](Index begin, Index end) {
+        for (Index system = begin; system < end; ++system) {
+            system == 0 ? factor(*next->first, context) : factor(*next->second, context);
+        }
+    });
+    progress.step(0.05);
+    if (!next->second->free_vertices().empty()) next->second->finish(context);
 
     progress.step(0.15);
     const auto basis_start = std::chrono::steady_clock::now();

@@ -56,6 +56,7 @@ LISSOM_INLINE void gather_rows(const GradientLoop& loop, const Index* vertex, co
     }
 }
 
+template <bool turned>
 LISSOM_INLINE void bend_rows(const EnergyLoop& loop, const PaddedMat3* s, const Vec4* x, Vec4* u,
                              Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
@@ -66,13 +67,16 @@ LISSOM_INLINE void bend_rows(const EnergyLoop& loop, const PaddedMat3* s, const 
             difference -= row_of(x[loop.neighbor[e]]);
             sum += loop.coefficient[e] * difference;
         }
-        Row turned{};
-        add_product(s[i], row_of(loop.laplacian[i]), turned);
-        sum -= turned;
+        if constexpr (turned) {
+            Row kept{};
+            add_product(s[i], row_of(loop.laplacian[i]), kept);
+            sum -= kept;
+        }
         row_of(u[i]) = loop.row_weight[i] * sum;
     }
 }
 
+template <bool turned>
 LISSOM_INLINE void descend_rows(const EnergyLoop& loop, const PaddedMat3* s, const Vec4* x,
                                 const Vec4* u, const Index* vertex, Vec3* r, Index begin,
                                 Index end) {
@@ -80,13 +84,15 @@ LISSOM_INLINE void descend_rows(const EnergyLoop& loop, const PaddedMat3* s, con
         const Index i = vertex[row];
         const Row own = row_of(x[i]), own_rest = row_of(loop.rest[i]), own_u = row_of(u[i]);
         Row sum{};
-        add_product(s[i], row_of(loop.edge_sum[i]), sum);
+        if constexpr (turned) add_product(s[i], row_of(loop.edge_sum[i]), sum);
         for (Index e = loop.ring_begin[i]; e < loop.ring_begin[i + 1]; ++e) {
             const Index j = loop.neighbor[e];
             const double weight = loop.edge_weight[e];
-            Row edge = own_rest;
-            edge -= row_of(loop.rest[j]);
-            add_product(s[j], 0.5 * weight * edge, sum);
+            if constexpr (turned) {
+                Row edge = own_rest;
+                edge -= row_of(loop.rest[j]);
+                add_product(s[j], 0.5 * weight * edge, sum);
+            }
             Row difference = own, bent = own_u;
             difference -= row_of(x[j]);
             sum -= weight * difference;
@@ -94,6 +100,29 @@ LISSOM_INLINE void descend_rows(const EnergyLoop& loop, const PaddedMat3* s, con
             sum -= loop.coefficient[e] * bent;
         }
         store(sum, r[row].data());
+    }
+}
+
+LISSOM_INLINE void fit_rows(const EnergyLoop& loop, const Vec4* x, const Index* vertex, Mat3* m,
+                            Index begin, Index end) {
+    for (Index row = begin; row < end; ++row) {
+        const Index i = vertex[row];
+        const Row own = row_of(x[i]), own_rest = row_of(loop.rest[i]);
+        Row column[3] = {}, bent{};
+        for (Index e = loop.ring_begin[i]; e < loop.ring_begin[i + 1]; ++e) {
+            const Index j = loop.neighbor[e];
+            Row difference = own, edge = own_rest;
+            difference -= row_of(x[j]);
+            edge -= row_of(loop.rest[j]);
+            const Row weighted = 0.5 * loop.edge_weight[e] * edge;
+            for (int d = 0; d < 3; ++d) column[d] += weighted[d] * difference;
+            bent += loop.coefficient[e] * difference;
+        }
+        const Row rest_bent = loop.row_weight[i] * row_of(loop.laplacian[i]);
+        for (int d = 0; d < 3; ++d) {
+            column[d] += rest_bent[d] * bent;
+            store(column[d], m[row - begin].data() + 3 * d);
+        }
     }
 }
 
@@ -107,12 +136,17 @@ LISSOM_AVX2 void gather_with_avx2(const GradientLoop& loop, const Index* vertex,
 }
 LISSOM_AVX2 void bend_with_avx2(const EnergyLoop& loop, const PaddedMat3* s, const Vec4* x, Vec4* u,
                                 Index begin, Index end) {
-    bend_rows(loop, s, x, u, begin, end);
+    s ? bend_rows<true>(loop, s, x, u, begin, end) : bend_rows<false>(loop, s, x, u, begin, end);
 }
 LISSOM_AVX2 void descend_with_avx2(const EnergyLoop& loop, const PaddedMat3* s, const Vec4* x,
                                    const Vec4* u, const Index* vertex, Vec3* r, Index begin,
                                    Index end) {
-    descend_rows(loop, s, x, u, vertex, r, begin, end);
+    s ? descend_rows<true>(loop, s, x, u, vertex, r, begin, end)
+      : descend_rows<false>(loop, s, x, u, vertex, r, begin, end);
+}
+LISSOM_AVX2 void fit_with_avx2(const EnergyLoop& loop, const Vec4* x, const Index* vertex, Mat3* m,
+                               Index begin, Index end) {
+    fit_rows(loop, x, vertex, m, begin, end);
 }
 #endif
 
@@ -137,7 +171,7 @@ void EnergyLoop::bend(const PaddedMat3* s, const Vec4* x, Vec4* u, Index begin, 
 #ifdef LISSOM_HAS_AVX2_PATH
     if (has_avx2()) return bend_with_avx2(*this, s, x, u, begin, end);
 #endif
-    bend_rows(*this, s, x, u, begin, end);
+    s ? bend_rows<true>(*this, s, x, u, begin, end) : bend_rows<false>(*this, s, x, u, begin, end);
 }
 
 void EnergyLoop::descend(const PaddedMat3* s, const Vec4* x, const Vec4* u, const Index* vertex,
@@ -145,7 +179,15 @@ void EnergyLoop::descend(const PaddedMat3* s, const Vec4* x, const Vec4* u, cons
 #ifdef LISSOM_HAS_AVX2_PATH
     if (has_avx2()) return descend_with_avx2(*this, s, x, u, vertex, r, begin, end);
 #endif
-    descend_rows(*this, s, x, u, vertex, r, begin, end);
+    s ? descend_rows<true>(*this, s, x, u, vertex, r, begin, end)
+      : descend_rows<false>(*this, s, x, u, vertex, r, begin, end);
+}
+
+void EnergyLoop::fit(const Vec4* x, const Index* vertex, Mat3* m, Index begin, Index end) const {
+#ifdef LISSOM_HAS_AVX2_PATH
+    if (has_avx2()) return fit_with_avx2(*this, x, vertex, m, begin, end);
+#endif
+    fit_rows(*this, x, vertex, m, begin, end);
 }
 
 }  // namespace lissom

@@ -58,12 +58,18 @@ struct EnergyLoop {
     const Vec4* laplacian;
     const Vec4* edge_sum;
 
+    /// In what follows, transforms that are null stand for zeros.
+    ///
     /// u_i = g_i ((C x)_i - S_i (C v)_i).
     void bend(const PaddedMat3* s, const Vec4* x, Vec4* u, Index begin, Index end) const;
     /// Half the downward gradient of the energy at vertex[row] into r[row]; `u` from `bend`, of all
     /// vertices.
     void descend(const PaddedMat3* s, const Vec4* x, const Vec4* u, const Index* vertex, Vec3* r,
                  Index begin, Index end) const;
+    /// m[row - begin]: the matrix whose nearest rotation, for vertex[row], has the least energy at
+    /// positions x, each edge counting one half at either end:
+    /// sum_j w_ij (x_i - x_j) (v_i - v_j)^T / 2 + g_i (C x)_i (C v)_i^T.
+    void fit(const Vec4* x, const Index* vertex, Mat3* m, Index begin, Index end) const;
 };
 
 }  // namespace lissom

@@ -159,6 +159,9 @@ void RotationSystem::factor(const Context& context) {
     factor_firmly(system_, matrix_, context);
     matrix_ = {};
     stats_ = system_.stats();
+}
+
+void RotationSystem::finish(const Context& context) {
     ties_charge_ = context.charge(tie_bytes_, "points that are held");
     ties_.prepare(static_cast<Index>(free_.size()),
                   [&](std::span<const double> b, std::span<double> x, Index columns) {
@@ -185,14 +188,13 @@ EnergyLoop RotationSystem::energy() const {
 // The factor by which one correction in single precision shortens the error, the worst of a smooth
 // solution and of two waves over the numbers of the vertices.
 double RotationSystem::measure_contraction(const Context& context) {
-    const std::vector<PaddedMat3> none(rest_.size(), PaddedMat3::Zero());
     std::vector<Vec4> x(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
     double size = 0.0;
     for (const Index v : free_) size = std::max(size, rest_[v].cwiseAbs().maxCoeff());
     for (const Index v : free_) {
         x[v] = {rest_[v].sum() / size, std::cos(0.01 * v), std::cos(1.0 * v), 0.0};
     }
-    find_residual(none, x, context);
+    find_residual(nullptr, x, residual_, context);
     find_correction(context);
     Vec3 error = Vec3::Zero(), whole = Vec3::Zero();
     for (std::size_t r = 0; r < free_.size(); ++r) {
@@ -204,30 +206,39 @@ double RotationSystem::measure_contraction(const Context& context) {
 
 void RotationSystem::solve(std::span<const PaddedMat3> transforms, std::span<Vec4> x, bool draft,
                            const Context& context) {
-    const int corrections = draft ? 1 : corrections_;
-    for (int pass = 0; pass < corrections; ++pass) {
-        find_residual(transforms, x, context);
+    find_residual(transforms.data(), x, residual_, context);
+    find_correction(context);
+    add_correction(x);
+    for (int pass = 1; !draft && pass < corrections_; ++pass) {
+        // What the last correction leaves of the residual.
+        step_.assign(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
+        add_correction(step_);
+        find_residual(nullptr, step_, change_, context);
+        for (std::size_t r = 0; r < free_.size(); ++r) residual_[r] += change_[r];
         find_correction(context);
-        for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]].head<3>() += correction_[r];
+        add_correction(x);
     }
-    enforce_ties(x);
+    if (ties_.has_hard()) enforce_ties(x);
+}
+
+void RotationSystem::add_correction(std::span<Vec4> x) const {
+    for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]].head<3>() += correction_[r];
 }
 
 // Right-hand side less what the matrix makes of x, without forming the matrix.
-void RotationSystem::find_residual(std::span<const PaddedMat3> transforms, std::span<const Vec4> x,
-                                   const Context& context) {
+void RotationSystem::find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
+                                   std::vector<Vec3>& residual, const Context& context) {
     const EnergyLoop loop = energy();
     bent_.resize(rest_.size());
     context.parallel_for(0, rings_.size(), kFrameGrain, [&](Index begin, Index end) {
-        loop.bend(transforms.data(), x.data(), bent_.data(), begin, end);
+        loop.bend(transforms, x.data(), bent_.data(), begin, end);
     });
-    residual_.resize(free_.size());
+    residual.resize(free_.size());
     const auto count = static_cast<Index>(free_.size());
     context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
-        loop.descend(transforms.data(), x.data(), bent_.data(), free_.data(), residual_.data(),
-                     begin, end);
+        loop.descend(transforms, x.data(), bent_.data(), free_.data(), residual.data(), begin, end);
     });
-    ties_.subtract_from(x, free_, residual_);
+    ties_.subtract_from(x, free_, residual);
 }
 
 void RotationSystem::find_correction(const Context& context) {

@@ -28,9 +28,11 @@ class RotationSystem {
     RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                    const DeformOptions& options, const Context& context);
 
-    /// Keeps the factor in single precision, unless the system is too ill-conditioned for that.
     /// Errors: not_positive_definite with rows as elements; memory_limit.
     void factor(const Context& context);
+    /// Follows `factor`: keeps the factor in single precision, unless the system is too
+    /// ill-conditioned for that. Errors: memory_limit.
+    void finish(const Context& context);
 
     const std::vector<Index>& free_vertices() const { return free_; }
     const FactorStats& stats() const { return stats_; }
@@ -43,13 +45,16 @@ class RotationSystem {
     void solve(std::span<const PaddedMat3> transforms, std::span<Vec4> x, bool draft,
                const Context& context);
 
+    /// The loops over its energy.
+    EnergyLoop energy() const;
+
   private:
     void assemble(const std::vector<char>& position_known, const Context& context);
     void add_ties(const WorkingPatch& work);
-    EnergyLoop energy() const;
-    void find_residual(std::span<const PaddedMat3> transforms, std::span<const Vec4> x,
-                       const Context& context);
+    void find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
+                       std::vector<Vec3>& residual, const Context& context);
     void find_correction(const Context& context);
+    void add_correction(std::span<Vec4> x) const;
     void enforce_ties(std::span<Vec4> x);
     double measure_contraction(const Context& context);
 
@@ -69,8 +74,8 @@ class RotationSystem {
     int corrections_ = 1;
     FactorStats stats_;
     /// Scratch of a frame, kept because a frame is short beside the time to get fresh pages.
-    std::vector<Vec4> bent_;
-    std::vector<Vec3> residual_, correction_;
+    std::vector<Vec4> bent_, step_;
+    std::vector<Vec3> residual_, change_, correction_;
     std::vector<double> columns_;
     SingleFactor::Scratch scratch_;
 };
