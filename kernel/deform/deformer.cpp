@@ -59,9 +59,9 @@ void require_implicit(const DeformOptions& options, const std::string& what) {
                                             std::string(method_name(options.method)));
 }
 
-void require_regular(const Affine& transform) {
+void require_regular(const Affine& transform, const Vec3& about) {
     const double scale = transform.linear.norm();
-    if (transform.is_finite() &&
+    if (transform.is_finite() && about.allFinite() &&
         std::abs(transform.linear.determinant()) > kSingularRatio * scale * scale * scale) {
         return;
     }
@@ -111,6 +111,7 @@ const DeformOptions& Deformer::options() const {
 
 void Deformer::remove_handle(HandleId id) {
     HandleState& handle = state_->handle(id);
+    state_->find_gradients();
     handle.removed = true;
     handle.local.clear();
     handle.points.clear();
@@ -152,13 +153,24 @@ void Deformer::restore(const HandlePoses& poses) {
 }
 
 void Deformer::set_transform(HandleId id, const Affine& transform) {
+    set_transform(id, transform, Vec3::Zero());
+}
+
+void Deformer::set_transform(HandleId id, const Affine& transform, const Vec3& about) {
     HandleState& handle = state_->handle(id);
-    require_regular(transform);
-    const Affine local = state_->local(transform);
-    const double turn = (local.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
-    const double shift = local.translation.cwiseAbs().maxCoeff();
+    require_regular(transform, about);
+    state_->place(handle, transform, about);
+    const Affine& moved = handle.in_patch;
+    const double turn = (moved.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
+    const double shift = moved.translation.cwiseAbs().maxCoeff();
     const bool still = turn < kIdentityTolerance && shift <= kIdentityTolerance * state_->size;
-    handle.transform = still ? Affine{} : transform;
+    if (still) handle.transform = handle.in_patch = {};
+}
+
+Affine Deformer::transform_about(HandleId id, const Vec3& about) const {
+    const Affine& map = state_->handle(id).in_patch;
+    const Vec3 arm = about - state_->rest_patch->patch.origin;
+    return {map.linear, map.translation + (map.linear - Mat3::Identity()) * arm};
 }
 
 void Deformer::prepare(const Context& context) {
@@ -225,7 +237,7 @@ const std::vector<Vec3>& Deformer::rest_positions() const {
 void Deformer::apply_to(Mesh& mesh) const {
     State& s = *state_;
     require_same_topology(mesh, s.region.topology(), "the deformer");
-    if (!s.directions.empty()) s.find_gradients({});
+    if (!s.directions.empty()) s.find_gradients();
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row)
         out[s.region.vertices()[row]] = s.positions[row];
@@ -244,7 +256,7 @@ void Deformer::apply_rest_to(Mesh& mesh) const {
 
 void Deformer::reset() {
     State& s = *state_;
-    for (HandleState& handle : s.handles) handle.transform = {};
+    for (HandleState& handle : s.handles) handle.transform = handle.in_patch = {};
     if (!s.constraints.empty() || !s.points.empty()) s.prepared.reset();
     s.constraints.clear();
     s.points.clear();
@@ -252,7 +264,7 @@ void Deformer::reset() {
 }
 
 const std::vector<Mat3>& Deformer::gradients() {
-    state_->find_gradients({});
+    state_->find_gradients();
     return state_->gradients;
 }
 

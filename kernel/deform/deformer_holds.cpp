@@ -60,7 +60,7 @@ SparseRow Deformer::State::local_row(const MeshPoint& point) const {
 }
 
 Vec3 Deformer::State::rest_position(const SparseRow& row) const {
-    Vec3 at = rest_patch->patch.origin;
+    Vec3 at = Vec3::Zero();
     for (const auto& [v, c] : row) at += c * rest_patch->patch.rest[v];
     return at;
 }
@@ -91,8 +91,10 @@ void Deformer::State::require_unheld(const std::vector<Index>& vertices) const {
 
 HandleId Deformer::State::add(HandleState handle) {
     std::size_t count = handle.points.size() + handle.local.size();
-    for (const Index v : handle.local) handle.center += rest[region_row[v]] / count;
+    for (const Index v : handle.local) handle.center += rest_patch->patch.rest[v] / count;
     for (const SparseRow& row : handle.points) handle.center += rest_position(row) / count;
+    handle.center += rest_patch->patch.origin;
+    find_gradients();
     handles.push_back(std::move(handle));
     prepared.reset();
     ++stats.handles;
@@ -173,6 +175,7 @@ void Deformer::constrain(const PointConstraint& given) {
 // Replaces what is asked of a point. Where only the asked values change the preparation stays.
 void Deformer::State::set_constraint(const SparseRow& row, PointConstraint asked_now) {
     const bool wanted = asked_now.position || asked_now.gradient;
+    find_gradients();
     const std::optional<PointConstraint> before = take_constraint(row);
     if (!wanted && !before) return;
     const bool same_kind = wanted && before &&
