@@ -10,16 +10,12 @@
 
 #include "kernel/deform/deformer_state.h"
 #include "kernel/deform/polar.h"
+#include "kernel/deform/winding.h"
 
 namespace lissom {
 namespace {
 
 // The rotation in `gradient` as a vector along its axis, of a length up to pi.
-Vec3 rotation_vector(const Mat3& gradient) {
-    const Eigen::AngleAxisd turn(nearest_rotation(gradient));
-    return turn.angle() * turn.axis();
-}
-
 }  // namespace
 
 // Errors: unsupported where something is held softly or at points that are not vertices.
@@ -92,7 +88,9 @@ std::vector<SourceMotion> Deformer::State::source_motions() const {
         SourceMotion motion;
         if (source.owner >= 0) motion.gradient = handles[source.owner].transform.linear;
         if (source.owner == kConstrained) motion.gradient = *asked.at(source.vertex).gradient;
-        motion.rotation = rotation_vector(motion.gradient);
+        motion.rotation = source.owner >= 0
+                              ? handles[source.owner].turn
+                              : turn_near(nearest_rotation(motion.gradient), Vec3::Zero());
         motions.push_back(motion);
     }
     return motions;

@@ -57,7 +57,7 @@ Index Deformer::State::local_vertex(Index mesh_vertex) const {
 bool Deformer::State::at_rest() const {
     return constraints.empty() && points.empty() &&
            std::all_of(handles.begin(), handles.end(),
-                       [](const auto& h) { return h.removed || h.transform.is_identity(); });
+                       [](const auto& h) { return h.removed || h.at_rest(); });
 }
 
 // Takes p to about + transform(p - about). Both forms of the transform come from differences in
