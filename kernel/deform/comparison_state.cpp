@@ -123,7 +123,7 @@ void Deformer::State::solve_comparison(const Context& context) {
 std::vector<Mat3> Deformer::State::surface_gradients() const {
     std::vector<Mat3> result(rest.size(), Mat3::Identity());
     if (compared.empty()) return result;
-    const Patch& patch = prepared->work->patch;
+    const Patch& patch = rest_patch->patch;
     const Rings real = build_rings(patch.real_count, patch.triangles);
     const std::span<const Vec3> before(patch.rest.data(), compared.size());
     const std::vector<Vec3> normal_before = ring_geometry(real, patch.triangles, before).normal;
