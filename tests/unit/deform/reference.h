@@ -105,6 +105,32 @@ class Reference {
         return solved(system);
     }
 
+    /// The energy that refinement lowers: that of the second system with the best rotation at every
+    /// vertex that no handle turns, each edge counted half at either end.
+    double refined_energy(const std::vector<Vec3>& x) const {
+        const double factor = laplacian_factor();
+        double sum = 0.0;
+        for (Index i = 0; i < size(); ++i) {
+            Mat3 product = Mat3::Zero();
+            double squares = 0.0;
+            const auto add = [&](double weight, const Vec3& after, const Vec3& before) {
+                product += weight * after * before.transpose();
+                squares += weight * (after.squaredNorm() + before.squaredNorm());
+            };
+            for (const Index j : rings_[i]) {
+                if (options_.second == SecondSystem::laplacian) break;
+                const double w = uniform() ? 1.0 : std::max(cotangent_.at({i, j}), 0.0);
+                add(0.5 * w, x[i] - x[j], rest_[i] - rest_[j]);
+            }
+            const Row row = laplacian_row(i);
+            add(factor * row_weight(i), applied(row, x).cast<double>(),
+                applied(row, rest_).cast<double>());
+            const Mat3 r = rotation_and_scale(held_.count(i) > 0 ? held_.at(i).linear : product);
+            sum += squares - 2.0 * r.cwiseProduct(product).sum();
+        }
+        return sum;
+    }
+
   private:
     using Real = long double;
     using Real3 = Eigen::Matrix<Real, 3, 1>;
@@ -158,14 +184,16 @@ class Reference {
         area_.assign(rest_.size(), 0.0);
         for (const auto& t : faces_) {
             double angle[3], length[3];
-            const double whole =
-                0.5 * (rest_[t[1]] - rest_[t[0]]).cross(rest_[t[2]] - rest_[t[0]]).norm();
+            const double least = 0.5 * kPi / 180.0;
             for (int k = 0; k < 3; ++k) {
                 const Vec3 a = rest_[t[(k + 1) % 3]] - rest_[t[k]];
                 const Vec3 b = rest_[t[(k + 2) % 3]] - rest_[t[k]];
-                angle[k] = std::atan2(a.cross(b).norm(), a.dot(b));
+                angle[k] = std::clamp(std::atan2(a.cross(b).norm(), a.dot(b)), least, kPi - least);
                 length[k] = (a - b).squaredNorm();
             }
+            const double whole =
+                0.5 * std::max((rest_[t[1]] - rest_[t[0]]).cross(rest_[t[2]] - rest_[t[0]]).norm(),
+                               std::sin(least) * *std::max_element(length, length + 3));
             for (int k = 0; k < 3; ++k) {
                 const int i = (k + 1) % 3, j = (k + 2) % 3;
                 cotangent_[{t[i], t[j]}] += 0.5 / std::tan(angle[k]);

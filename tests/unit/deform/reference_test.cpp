@@ -103,7 +103,7 @@ TEST_CASE("instruction set: the portable program runs no other code") {
 #ifdef LISSOM_PORTABLE
     CHECK(!has_avx2());
 #else
-    MESSAGE("AVX2 " << (has_avx2() ? "is" : "is not") << " used");
+    MESSAGE("AVX2 used: " << has_avx2());
 #endif
 }
 
@@ -133,4 +133,32 @@ TEST_CASE("reference: real meshes") {
         CAPTURE(name);
         if (const Scene* scene = model_scene(name)) compare(*scene, {}, kNearlyDegenerate);
     }
+}
+
+TEST_CASE("refinement: each step lowers the energy that it is about") {
+    for_each_model([](const Scene& given) {
+        Mesh mesh = given.mesh;
+        triangulate(mesh);
+        const Scene scene = make_scene(mesh);
+        if (mesh.vertex_count() > 2200) return;
+        for (const SecondSystem second :
+             {SecondSystem::blend, SecondSystem::laplacian, SecondSystem::poisson}) {
+            DeformOptions options;
+            options.second = second;
+            double before = 0.0;
+            for (options.refine = 0; options.refine <= 2; ++options.refine) {
+                Edit edit = make_edit(scene, options);
+                const Affine move = bend(scene, edit.deformer.handle_center(edit.high));
+                edit.deformer.set_transform(edit.high, move);
+                std::map<Index, Affine> held;
+                for (const Index v : scene.high) held[v] = move;
+                for (const Index v : scene.low) held[v] = {};
+                const Reference reference(mesh, {mesh.positions().begin(), mesh.positions().end()},
+                                          held, options);
+                const double energy = reference.refined_energy(edit.deformer.solve());
+                if (options.refine > 0) CHECK(energy <= before * (1.0 + 1e-9));
+                before = energy;
+            }
+        }
+    });
 }
