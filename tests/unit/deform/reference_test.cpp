@@ -109,9 +109,9 @@ TEST_CASE("instruction set: the portable program runs no other code") {
 
 TEST_CASE("reference: every formulation is what the equations say") {
     const Scene scene = torus_scene();
-    for (const auto& [name, options] : formulations()) {
-        CAPTURE(name);
-        compare(scene, options);
+    for (const auto& formulation : formulations()) {
+        CAPTURE(formulation.first);
+        compare(scene, formulation.second);
     }
 }
 
@@ -121,9 +121,9 @@ TEST_CASE("reference: with degenerate vertices, displaced and pulled back") {
     const Scene scene = make_scene(bar);
     REQUIRE(greatest_distance(displaced_rest(scene, Vec3::Zero(), {}),
                               {bar.positions().begin(), bar.positions().end()}) > 0.01);
-    for (const auto& [name, options] : formulations()) {
-        CAPTURE(name);
-        compare(scene, options, kNearlyDegenerate);
+    for (const auto& formulation : formulations()) {
+        CAPTURE(formulation.first);
+        compare(scene, formulation.second, kNearlyDegenerate);
     }
 }
 
