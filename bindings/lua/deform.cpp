@@ -1,7 +1,9 @@
 // lissom.deform: Deformation and Handle.
 #include "bindings/lua/buffer.h"
 #include "bindings/lua/deform_object.h"
+#include "bindings/lua/deform_points.h"
 #include "bindings/lua/library.h"
+#include "bindings/lua/path_object.h"
 #include "bindings/lua/transform_options.h"
 
 namespace lissom::lua {
@@ -62,26 +64,48 @@ int deform_mesh(Call& call) {
 
 // ---- Deformation
 
+std::vector<MeshPoint> mesh_points(const DeformObject& edit, std::span<const PointSpec> specs) {
+    std::vector<MeshPoint> points;
+    for (const PointSpec& spec : specs) points.push_back(spec.point(*edit.topology));
+    return points;
+}
+
 int add_handle(Call& call) {
     const auto edit = call.self<DeformObject>();
-    const auto region = call.object<RegionObject>("region");
-    const HandleOptions options{call.boolean("position"), call.boolean("gradient")};
+    const bool has_weight = call.has("weight"), has_points = call.kind("where") == Kind::table;
+    const bool on_path = luaL_testudata(call.lua(), 2, PathObject::kTypeName) != nullptr;
+    const auto region = call.object<RegionObject>("where");
+    const auto path = call.object<PathObject>("where");
+    const HandleOptions options{
+        call.boolean("position"), call.boolean("gradient"),
+        has_weight ? std::optional<double>(call.number("weight")) : std::nullopt};
+    const std::span<const PointSpec> points =
+        has_points ? read_points(call, "where") : std::span<const PointSpec>{};
     const auto result = call.create<HandleObject>();
     const bool done = call.attempt([&] {
-        const HandleId id = edit->deformer().add_handle(region->current(), options);
-        result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), id}));
+        Deformer& deformer = edit->deformer();
+        const auto add = [&]() -> HandleId {
+            if (has_points) return deformer.add_handle(mesh_points(*edit, points), options);
+            if (!on_path) return deformer.add_handle(region->current(), options);
+            return deformer.add_handle(
+                path_points(edit->mesh->mesh, path->current(), call.context()), options);
+        };
+        result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), add()}));
     });
     return done ? 1 : call.fail();
 }
 
 int constrain(Call& call) {
     const auto edit = call.self<DeformObject>();
-    const Index vertex = call.id("vertex");
+    const PointSpec point = read_point_options(call);
     const bool has_position = call.has("position"), has_gradient = call.has("gradient");
+    const bool has_weight = call.has("weight");
+    const double weight = has_weight ? call.number("weight") : 1.0;
     const Vec3 position = has_position ? call.vector("position") : Vec3(Vec3::Zero());
     const Mat3 gradient = has_gradient ? call.matrix3("gradient") : Mat3(Mat3::Identity());
     const bool done = call.attempt([&] {
-        VertexConstraint constraint{vertex, std::nullopt, std::nullopt};
+        PointConstraint constraint{point.point(*edit->topology)};
+        if (has_weight) constraint.weight = weight;
         if (has_position) constraint.position = position;
         if (has_gradient) constraint.gradient = gradient;
         edit->deformer().constrain(constraint);
@@ -347,6 +371,23 @@ edit:handle(bar:region("bottom"))
 local top = edit:handle(bar:region("top"))
 )";
 
+Parameter weight_option() {
+    return number("weight",
+                  "Draws instead of holding exactly: 1 is a compromise with the shape of the "
+                  "surface, 1e6 nearly exact. Depends on neither scale nor resolution.")
+        .above(0)
+        .optional("held exactly");
+}
+
+std::vector<Parameter> constraint_fields() {
+    std::vector<Parameter> fields = point_fields();
+    fields.push_back(vector("position", "Where it goes.").optional("free"));
+    fields.push_back(
+        matrix3("gradient", "Rows of its 3 x 3 deformation gradient.").optional("free"));
+    fields.push_back(weight_option());
+    return fields;
+}
+
 std::vector<Function> solving_methods() {
     const std::vector<Result> mesh = {
         {"lissom.Mesh", "mesh", "The mesh; nil, message, code where there is no solution."}};
@@ -496,31 +537,43 @@ Type deformation_type() {
     type.methods = {
         {.name = "handle",
          .body = add_handle,
-         .summary = "Makes a handle of some vertices of the region.",
-         .arguments = {object("region", "lissom.Region", "Its vertices.")},
+         .summary =
+             "Makes a handle of some vertices of the region, of a path, or of points of faces and "
+             "edges. Points go exactly where the handle takes them: the points of the deformed "
+             "faces with the same weights do.",
+         .arguments = {either("where",
+                              {object("region", "lissom.Region", "Its vertices."),
+                               object("path", "lissom.Path", "Its vertices."),
+                               table("points",
+                                     "A list of {vertex=}, {edge={a, b}, at=}, {face=, bary=}, or "
+                                     "of what Mesh:nearest and Mesh:pick return.")},
+                              "What it holds.")},
          .options =
              {boolean("position", "Holds their positions.").defaults(HandleOptions{}.position),
               boolean("gradient", "Holds their orientation and scale.")
-                  .defaults(HandleOptions{}.gradient)},
+                  .defaults(HandleOptions{}.gradient),
+              weight_option()},
          .results = {{"lissom.Handle", "handle", "Where it is; move it and solve."}},
          .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
                     ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
-                    ErrorCode::invalid_argument},
-         .example = kBar},
+                    ErrorCode::invalid_argument, ErrorCode::out_of_range, ErrorCode::mesh_empty},
+         .example = kBar + R"(local side = edit:handle({ bar:nearest(0.5, 0, 0) }, { weight = 2 })
+side:translate(0.5, 0, 0)
+edit:solve())"},
         {.name = "constrain",
          .body = constrain,
          .summary =
-             "Holds one vertex, in place of an earlier constraint; without position and gradient "
-             "the vertex is free again. Returns the deformation.",
-         .options =
-             {id("vertex", "Id of the vertex."),
-              vector("position", "Where it goes.").optional("free"),
-              matrix3("gradient", "Rows of its 3 x 3 deformation gradient.").optional("free")},
+             "Holds one vertex, or a point of an edge or face, in place of an earlier constraint; "
+             "without position and gradient it is free again. Returns the deformation.",
+         .options = constraint_fields(),
          .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
          .errors = {ErrorCode::out_of_range, ErrorCode::handle_outside_region,
-                    ErrorCode::handle_overlap, ErrorCode::topology_mismatch},
+                    ErrorCode::handle_overlap, ErrorCode::invalid_argument,
+                    ErrorCode::topology_mismatch},
          .example = kBar + R"(local v = bar:nearest(0.5, 0, 0).vertex
-edit:constrain{ vertex = v, position = { 1, 0, 0 } }:solve())"},
+edit:constrain{ vertex = v, position = { 1, 0, 0 } }
+edit:constrain{ face = 1, bary = { 0.4, 0.3, 0.2, 0.1 }, position = { 1, -2, 0 }, weight = 10 }
+edit:solve())"},
         {.name = "handles",
          .body = handles,
          .summary = "Its handles.",

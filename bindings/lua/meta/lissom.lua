@@ -657,20 +657,30 @@ local Deformation = {}
 ---@class lissom.Deformation.HandleOptions
 ---@field position? boolean Holds their positions. Default: true.
 ---@field gradient? boolean Holds their orientation and scale. Default: true.
+---@field weight? number Draws instead of holding exactly: 1 is a compromise with the shape of the surface, 1e6 nearly exact. Depends on neither scale nor resolution. Default: held exactly.
 
----Makes a handle of some vertices of the region.
----@param region lissom.Region Its vertices.
+---Makes a handle of some vertices of the region, of a path, or of points of faces and edges. Points go exactly where the handle takes them: the points of the deformed faces with the same weights do.
+---@param where lissom.Region|lissom.Path|table What it holds.
 ---@param options? lissom.Deformation.HandleOptions
 ---@return lissom.Handle handle # Where it is; move it and solve.
-function Deformation:handle(region, options) end
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Deformation:handle(where, options) end
 
 ---@class lissom.Deformation.ConstrainOptions
----@field vertex integer Id of the vertex.
+---@field vertex? integer A vertex.
+---@field edge? integer[] The two vertices of an edge.
+---@field at? number Where on the edge: 0 is its first vertex, 1 its second. Default: 0.5.
+---@field face? integer A face.
+---@field bary? number[] Weights of the face's corners, which sum to 1.
+---@field triangle? integer[] Three vertices of the face that bary weighs instead, as nearest and pick give.
 ---@field position? lissom.Vector Where it goes. Default: free.
 ---@field gradient? number[][] Rows of its 3 x 3 deformation gradient. Default: free.
+---@field weight? number Draws instead of holding exactly: 1 is a compromise with the shape of the surface, 1e6 nearly exact. Depends on neither scale nor resolution. Default: held exactly.
 
----Holds one vertex, in place of an earlier constraint; without position and gradient the vertex is free again. Returns the deformation.
----@param options lissom.Deformation.ConstrainOptions
+---Holds one vertex, or a point of an edge or face, in place of an earlier constraint; without position and gradient it is free again. Returns the deformation.
+---@param options? lissom.Deformation.ConstrainOptions
 ---@return lissom.Deformation edit # The deformation itself.
 function Deformation:constrain(options) end
 

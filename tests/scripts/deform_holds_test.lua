@@ -1,0 +1,69 @@
+-- What a deformation holds: soft handles, points of faces and edges, paths.
+local lissom = require "lissom"
+local expect = require "expect"
+
+local function scene()
+    local bar = lissom.shapes.bar{ across = 4, along = 20 }
+    local edit = lissom.deform(bar)
+    edit:handle(bar:region("bottom"))
+    return bar, edit
+end
+
+local function point_of(mesh, face, weights)
+    local p = { 0, 0, 0 }
+    for k, v in ipairs(mesh:face(face)) do
+        local x, y, z = mesh:position(v)
+        p[1], p[2], p[3] = p[1] + weights[k] * x, p[2] + weights[k] * y, p[3] + weights[k] * z
+    end
+    return p
+end
+
+-- Soft handles.
+local bar, edit = scene()
+local top = edit:handle(bar:region("top"), { weight = 1 })
+top:translate(1, 0, 0)
+edit:solve()
+local x = select(1, bar:position(bar:region("top"):vertices()[1]))
+local rest = select(1, lissom.shapes.bar{ across = 4, along = 20 }:position(
+    bar:region("top"):vertices()[1]))
+expect.truthy(x - rest > 0.1 and x - rest < 0.9)
+expect.error("above 0", function() edit:handle(bar:region("top"), { weight = 0 }) end)
+
+-- Points of faces: where they were asked to be.
+bar, edit = scene()
+local hit = bar:pick({ 0.13, 1.02, 5 }, { 0, 0, -1 })
+local weights = { 0.4, 0.3, 0.2, 0.1 }
+local before = point_of(bar, hit.face, weights)
+edit:constrain{ face = hit.face, bary = weights, position = { before[1] + 1, before[2], 0.2 } }
+expect.truthy(edit:solve())
+expect.near_list(point_of(bar, hit.face, weights), { before[1] + 1, before[2], 0.2 })
+edit:constrain{ face = hit.face, bary = weights }
+edit:constrain{ triangle = hit.triangle, bary = hit.bary, position = { 0, 2, 1 } }
+edit:solve()
+local sum = 0
+for k, v in ipairs(hit.triangle) do sum = sum + hit.bary[k] * select(3, bar:position(v)) end
+expect.near(sum, 1)
+edit:constrain{ edge = { hit.triangle[1], hit.triangle[2] }, at = 0.25, position = { 0, 1, 0 } }
+edit:reset()
+
+-- Handles of points and of paths.
+local held = edit:handle({ hit, { vertex = bar:region("top"):vertices()[1] } })
+held:translate(0, 0, 0.5)
+edit:solve()
+sum = 0
+for k, v in ipairs(hit.triangle) do sum = sum + hit.bary[k] * select(3, bar:position(v)) end
+expect.near(sum, hit.position[3] + 0.5)
+held:remove()
+local path = bar:path{ points = { { -0.5, 1.5, 0.5 }, { 0.5, 1.5, 0.5 } } }
+local drawn = edit:handle(path, { weight = 5, gradient = false })
+expect.equal(#drawn:region(), #path:vertices())
+drawn:translate(0, 0, 0.5)
+expect.truthy(edit:solve())
+
+-- Misuse.
+expect.error("list of points expected", function() edit:handle({}) end)
+expect.error("list of points expected", function() edit:handle({ 7 }) end)
+expect.error("ids of points are integers", function() edit:handle({ { vertex = 0 } }) end)
+expect.error("one of vertex, edge and face", function() edit:constrain{ position = { 0, 0, 0 } } end)
+expect.error("face and bary together", function() edit:constrain{ face = 1, position = { 0, 0, 0 } } end)
+expect.error("4 corners", function() edit:handle({ { face = 1, bary = { 0.5, 0.5, 0 } } }) end)
