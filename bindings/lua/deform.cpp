@@ -113,6 +113,15 @@ int constrain(Call& call) {
     return done ? call.push_argument() : call.fail();
 }
 
+int set_stiffness(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const auto region = call.object<RegionObject>("region");
+    const double factor = call.number("factor");
+    const bool done =
+        call.attempt([&] { edit->deformer().set_stiffness(region->current(), factor); });
+    return done ? call.push_argument() : call.fail();
+}
+
 // Runs solve(Deformer&), writes the result into the mesh and returns it.
 template <typename Solve>
 int write_result(Call& call, const Solve& solve) {
@@ -573,6 +582,18 @@ edit:solve())"},
          .example = kBar + R"(local v = bar:nearest(0.5, 0, 0).vertex
 edit:constrain{ vertex = v, position = { 1, 0, 0 } }
 edit:constrain{ face = 1, bary = { 0.4, 0.3, 0.2, 0.1 }, position = { 1, -2, 0 }, weight = 10 }
+edit:solve())"},
+        {.name = "stiffness",
+         .body = set_stiffness,
+         .summary =
+             "Sets how much a part of the surface resists being bent and stretched: stiff parts "
+             "move rigidly, soft ones take the bend.",
+         .arguments = {object("region", "lissom.Region", "The part."),
+                       number("factor", "1 is as usual.").above(0)},
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .errors = {ErrorCode::handle_outside_region, ErrorCode::topology_mismatch},
+         .example = kBar + R"(edit:stiffness(bar:region{ sphere = { radius = 0.8 } }, 100)
+top:rotate{ axis = "z", angle = 60 }
 edit:solve())"},
         {.name = "handles",
          .body = handles,

@@ -16,6 +16,7 @@ class AnchorBuilder {
     AnchorBuilder(const WorkingPatch& rest, const Holds& holds) : work_(rest), holds_(holds) {}
 
     WorkingPatch build() {
+        if (!holds_.stiffness.empty()) stiffen();
         for (std::size_t h = 0; h < holds_.handles.size(); ++h) {
             if (!holds_.handles[h].removed) add_handle(holds_.handles[h], static_cast<Index>(h));
         }
@@ -29,6 +30,25 @@ class AnchorBuilder {
     }
 
   private:
+    // Virtual vertices are as stiff as what surrounds them.
+    void stiffen() {
+        const Patch& patch = work_.patch;
+        work_.stiffness = holds_.stiffness;
+        for (Index v = patch.real_count; v < patch.surface_count; ++v) {
+            double sum = 0.0;
+            int count = 0;
+            for (const Index n : work_.rings.ring(v)) {
+                if (n >= patch.real_count) continue;
+                sum += holds_.stiffness[n];
+                ++count;
+            }
+            work_.stiffness.push_back(count > 0 ? sum / count : 1.0);
+        }
+        for (Index v = 0; v < patch.surface_count; ++v) {
+            work_.laplacian.weight[v] *= work_.stiffness[v];
+        }
+    }
+
     Index add_anchor(const SparseRow& row, Index owner, Index point) {
         Patch& patch = work_.patch;
         Vec3 at = Vec3::Zero();
@@ -84,6 +104,7 @@ void add_empty_anchors(WorkingPatch& work) {
     work.geometry.normal.resize(n, Vec3::Zero());
     work.laplacian.self.resize(n, 0.0);
     work.laplacian.weight.resize(n, 0.0);
+    if (!work.stiffness.empty()) work.stiffness.resize(n, 1.0);
 }
 
 Ties without(const Ties& ties, const std::vector<Index>& dropped) {

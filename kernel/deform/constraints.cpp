@@ -138,10 +138,10 @@ void hold_anchors(const WorkingPatch& work, Holding& holding) {
 
 }  // namespace
 
-bool Holds::need_anchors() const {
-    return !points.empty() || std::any_of(handles.begin(), handles.end(), [](const auto& h) {
-        return !h.removed && (h.soft() || !h.points.empty());
-    });
+bool Holds::change_patch() const {
+    return !points.empty() || !stiffness.empty() ||
+           std::any_of(handles.begin(), handles.end(),
+                       [](const auto& h) { return !h.removed && (h.soft() || !h.points.empty()); });
 }
 
 Holding find_holding(const WorkingPatch& work, const Holds& holds) {

@@ -48,9 +48,11 @@ struct Holds {
     const std::vector<HandleState>& handles;
     const VertexConstraints& constraints;
     const std::vector<PointState>& points;
+    /// Stiffness of each real local vertex, or empty where all are 1.
+    const std::vector<double>& stiffness;
 
-    /// True where a preparation needs anchors.
-    bool need_anchors() const;
+    /// True where a preparation cannot work on the rest patch as it is.
+    bool change_patch() const;
 };
 
 /// Who holds which local vertices of a patch, and what that makes known.
@@ -61,7 +63,8 @@ struct Holding {
     std::vector<std::pair<Index, Index>> asked;
 };
 
-/// The patch with an anchor for every point and every vertex that is held softly.
+/// The patch with the stiffness asked for, and an anchor for every point and every vertex that is
+/// held softly.
 /// Errors: handle_overlap where a point leaves nothing to move, naming its vertices.
 std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest, const Holds& holds);
 

@@ -168,6 +168,12 @@ class Deformer {
     /// preparation where what is held already leaves the point nothing to move.
     void constrain(const PointConstraint& constraint);
 
+    /// Sets how much the surface at `vertices` resists being bent and stretched, beside 1 for the
+    /// rest: stiff parts move rigidly, and soft ones take the bend. Refactors.
+    /// Errors: topology_mismatch; handle_outside_region; invalid_argument for a factor that is not
+    /// above 0.
+    void set_stiffness(const Region& vertices, double factor);
+
     /// Assembles and factors what the present handles need, if that has not been done. `preview`
     /// and `solve` do it by themselves. Errors: unconstrained, naming a part of the region that
     /// nothing holds; zero_area; not_positive_definite; memory_limit; cancelled.

@@ -23,6 +23,12 @@ void refuse_vertices(const std::vector<Index>& vertices, ErrorCode code, const s
     throw Error(code, message + names, std::move(elements));
 }
 
+void require_topology(const Region& region, const Region& vertices) {
+    if (vertices.topology() == region.topology()) return;
+    throw Error(ErrorCode::topology_mismatch,
+                "the region given belongs to another mesh or to an older version of this one");
+}
+
 void require_weight(const std::optional<double>& weight) {
     if (!weight || (*weight > 0.0 && std::isfinite(*weight))) return;
     throw Error(ErrorCode::invalid_argument,
@@ -101,11 +107,7 @@ HandleId Deformer::State::add(HandleState handle) {
 
 HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& options) {
     State& s = *state_;
-    if (vertices.topology() != s.region.topology()) {
-        throw Error(
-            ErrorCode::topology_mismatch,
-            "the handle's region belongs to another mesh or to an older version of this one");
-    }
+    require_topology(s.region, vertices);
     if (vertices.empty()) throw Error(ErrorCode::region_empty, "the handle has no vertices");
     require_handle_options(options);
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
@@ -168,6 +170,22 @@ void Deformer::constrain(const PointConstraint& given) {
         }
     }
     s.set_constraint(row, std::move(asked));
+}
+
+void Deformer::set_stiffness(const Region& vertices, double factor) {
+    State& s = *state_;
+    require_topology(s.region, vertices);
+    if (!(factor > 0.0 && std::isfinite(factor))) {
+        throw Error(ErrorCode::invalid_argument, "a stiffness must be above 0; 1 is as usual");
+    }
+    refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
+                    "outside the region there is nothing to make stiff, at ",
+                    [&](Index v) { return !s.region.contains(v); });
+    if (s.stiffness.empty()) {
+        s.stiffness.assign(static_cast<std::size_t>(s.rest_patch->patch.real_count), 1.0);
+    }
+    for (const Index v : vertices.vertices()) s.stiffness[s.local_vertex(v)] = factor;
+    s.prepared.reset();
 }
 
 // Replaces what is asked of a point. Where only the asked values change the preparation stays.

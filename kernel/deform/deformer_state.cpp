@@ -172,7 +172,7 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     Progress progress(context, "deform: prepare");
     require_area();
     auto next = std::make_unique<Prepared>();
-    next->work = holds().need_anchors() ? anchored(*rest_patch, holds()) : rest_patch;
+    next->work = holds().change_patch() ? anchored(*rest_patch, holds()) : rest_patch;
     const Patch& patch = next->work->patch;
     const Rings& rings = next->work->rings;
     Holding holding = find_holding(*next->work, holds());

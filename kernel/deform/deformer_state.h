@@ -58,7 +58,7 @@ struct Deformer::State {
     Vec3 known_deviation(Index v) const;
     Mat3 known_gradient(Index v) const;
 
-    Holds holds() const { return {handles, constraints, points}; }
+    Holds holds() const { return {handles, constraints, points, stiffness}; }
     void collect_asked();
     LinearProblem problem() const;
     void prepare(const Context& context);
@@ -98,6 +98,8 @@ struct Deformer::State {
     VertexConstraints constraints;
     /// Constraints of points and soft ones, in the order of their rows.
     std::vector<PointState> points;
+    /// Of every real local vertex; empty where all are 1.
+    std::vector<double> stiffness;
     /// What is asked of every local vertex and anchor that a constraint owns.
     VertexConstraints asked;
 

@@ -66,9 +66,10 @@ RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>
     weighted_delta_.assign(rest_.size(), Vec3::Zero());
     edge_sum_.assign(rest_.size(), Vec3::Zero());
     for (Index i = 0; i < patch.real_count; ++i) {
-        laplacian_.weight[i] *= laplacian_factor_;
+        laplacian_.weight[i] *= laplacian_factor_ * work.stiffness_between(i, i);
         weighted_delta_[i] = laplacian_.weight[i] * laplacian_.apply(rings_, rest_, i);
         for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
+            edge_weight_[e] *= work.stiffness_between(i, rings_.neighbor[e]);
             edge_sum_[i] += 0.5 * edge_weight_[e] * (rest_[i] - rest_[rings_.neighbor[e]]);
         }
         if (!position_known[i]) free_.push_back(i);

@@ -60,7 +60,22 @@ expect.equal(#drawn:region(), #path:vertices())
 drawn:translate(0, 0, 0.5)
 expect.truthy(edit:solve())
 
+-- Stiffness: the middle of a bent bar stays straight where it is stiff.
+local function bend_of_middle(factor)
+    local mesh, bent = scene()
+    local bending = bent:handle(mesh:region("top"))
+    bent:stiffness(mesh:region{ box = { min = { -1, -1, -1 }, max = { 1, 1, 1 } } }, factor)
+    bending:rotate{ axis = "z", angle = 60 }:translate(1, 0, 0)
+    bent:solve()
+    local a = mesh:nearest(0.5, -1, 0).position
+    local b = mesh:nearest(0.5, 1, 0).position
+    local m = mesh:nearest((a[1] + b[1]) / 2, (a[2] + b[2]) / 2, 0).position
+    return math.sqrt(((a[1] + b[1]) / 2 - m[1]) ^ 2 + ((a[2] + b[2]) / 2 - m[2]) ^ 2)
+end
+expect.truthy(bend_of_middle(200) < 0.5 * bend_of_middle(1))
+
 -- Misuse.
+expect.error("above 0", function() edit:stiffness(bar:region("top"), 0) end)
 expect.error("list of points expected", function() edit:handle({}) end)
 expect.error("list of points expected", function() edit:handle({ 7 }) end)
 expect.error("ids of points are integers", function() edit:handle({ { vertex = 0 } }) end)

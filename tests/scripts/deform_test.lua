@@ -125,7 +125,7 @@ expect.error("unknown option 'method' of 'deform'", function() lissom.deform(mes
 expect.error("unknown option 'strength' of 'handle'", function()
     edit:handle(mesh:region("top"), { strength = 1 })
 end)
-expect.error("unknown option 'face' of 'constrain'", function() edit:constrain{ vertex = 1, face = 1 } end)
+expect.error("unknown option 'faces' of 'constrain'", function() edit:constrain{ vertex = 1, faces = 1 } end)
 expect.error("no method 'apply'", function() edit:apply() end)
 local part = lissom.deform(mesh, { region = mesh:region("top") })
 expect.error("[handle_outside_region]", function() part:handle(mesh:region("bottom")) end)

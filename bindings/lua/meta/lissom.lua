@@ -684,6 +684,12 @@ function Deformation:handle(where, options) end
 ---@return lissom.Deformation edit # The deformation itself.
 function Deformation:constrain(options) end
 
+---Sets how much a part of the surface resists being bent and stretched: stiff parts move rigidly, soft ones take the bend.
+---@param region lissom.Region The part.
+---@param factor number 1 is as usual.
+---@return lissom.Deformation edit # The deformation itself.
+function Deformation:stiffness(region, factor) end
+
 ---Its handles.
 ---@return lissom.Handle[] handles # In the order they were made.
 function Deformation:handles() end
