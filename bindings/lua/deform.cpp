@@ -150,6 +150,11 @@ int reset_all(Call& call) {
     return results == 1 ? call.push_argument() : results;
 }
 
+int rebase(Call& call) {
+    const int results = write_result(call, [](Deformer& deformer) { deformer.rebase(); });
+    return results == 1 ? call.push_argument() : results;
+}
+
 int stats(Call& call) {
     const auto edit = call.self<DeformObject>();
     DeformStats s;
@@ -341,6 +346,14 @@ int handle_region(Call& call) {
     return done ? 1 : call.fail();
 }
 
+int set_handle_region(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    const auto region = call.object<RegionObject>("region");
+    const bool done = call.attempt(
+        [&] { handle->edit->deformer().set_handle_region(handle->id, region->current()); });
+    return done ? call.push_argument() : call.fail();
+}
+
 int remove_handle(Call& call) {
     const auto handle = call.self<HandleObject>();
     const bool done =
@@ -428,6 +441,21 @@ top:translate(1, 0, 0)
 edit:solve()
 edit:reset()
 assert(bar:hash() == before))"},
+        {.name = "apply",
+         .body = rebase,
+         .summary =
+             "Takes the last result as the new rest shape. Handles keep their vertices and hold "
+             "where they are now, with the identity as transform; constraints hold where their "
+             "points are now. Factors are rebuilt at the next solve, and reset returns to this "
+             "shape.",
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .errors = kEditErrors,
+         .example = kBar + R"(top:translate(1, 0, 0)
+edit:solve()
+edit:apply()
+assert(top:matrix()[1][4] == 0)
+top:translate(1, 0, 0)
+edit:solve())"},
         {.name = "stats",
          .body = stats,
          .summary = "Sizes and times of the last preparation.",
@@ -642,6 +670,17 @@ Type handle_type() {
          .results = {{"lissom.Region", "region", "The region."}},
          .errors = kEditErrors,
          .example = kBar + "assert(top:region() == bar:region('top'))"},
+        {.name = "set_region",
+         .body = set_handle_region,
+         .summary =
+             "Gives the handle other vertices. Its transform stays, and the mesh keeps the old "
+             "result until the next solve.",
+         .arguments = {object("region", "lissom.Region", "Its new vertices.")},
+         .results = {{"lissom.Handle", "handle", "The handle itself."}},
+         .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
+                    ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
+                    ErrorCode::handle_removed},
+         .example = kBar + "top:set_region(bar:region('top'):grow(1)):translate(0, 1, 0)"},
         {.name = "remove",
          .body = remove_handle,
          .summary = "Takes the handle out of the deformation; it cannot be used any more.",

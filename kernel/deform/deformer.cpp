@@ -71,15 +71,6 @@ const DeformOptions& Deformer::options() const {
     return state_->options;
 }
 
-void Deformer::remove_handle(HandleId id) {
-    HandleState& handle = state_->handle(id);
-    handle.removed = true;
-    handle.local.clear();
-    handle.points.clear();
-    state_->prepared.reset();
-    --state_->stats.handles;
-}
-
 std::vector<HandleId> Deformer::handles() const {
     std::vector<HandleId> ids;
     for (std::size_t h = 0; h < state_->handles.size(); ++h) {

@@ -146,6 +146,9 @@ class Deformer {
     HandleId add_handle(std::span<const MeshPoint> points, const HandleOptions& options = {});
     /// Errors: handle_removed.
     void remove_handle(HandleId handle);
+    /// Gives a handle other vertices, and no points; its transform stays. The result stays as it is
+    /// until the next solve, which refactors. Errors: as add_handle; handle_removed.
+    void set_handle_region(HandleId handle, const Region& vertices);
     /// Handles in the order they were added.
     std::vector<HandleId> handles() const;
     /// Its vertices; those around its points among them.
@@ -202,6 +205,13 @@ class Deformer {
     /// All transforms to the identity and `positions()` to the rest shape, to the bit; vertex
     /// constraints go.
     void reset();
+
+    /// Takes `positions()`, the last result, as the new rest shape. Handles keep their vertices and
+    /// options, and their transforms become the identity: they hold where they are now. Constraints
+    /// stay and hold where their points are now, however far from what was asked. Factors are
+    /// rebuilt at the next solve, which gives the same shape to the bit as long as nothing is
+    /// moved.
+    void rebase();
 
     /// Deformation gradients M_i of the region's vertices in the last solve or preview, before
     /// shear is taken out; the identity before one.

@@ -80,11 +80,12 @@ void Deformer::State::require_inside(const MeshPoint& point) const {
                     "a point lies outside the region, between ", [](Index) { return true; });
 }
 
-// Errors: handle_overlap where other handles or constraints hold some of `vertices`.
-void Deformer::State::require_unheld(const std::vector<Index>& vertices) const {
+// Errors: handle_overlap where handles but `except`, or constraints, hold some of `vertices`.
+void Deformer::State::require_unheld(const std::vector<Index>& vertices, Index except) const {
     std::vector<char> held(static_cast<std::size_t>(rest_patch->patch.vertex_count), 0);
-    for (const HandleState& h : handles) {
-        for (const Index v : h.local) held[v] = 1;
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+        if (static_cast<Index>(h) == except) continue;
+        for (const Index v : handles[h].local) held[v] = 1;
     }
     for (const auto& entry : constraints) held[entry.first] = 1;
     for (const PointState& point : points) {
@@ -95,28 +96,61 @@ void Deformer::State::require_unheld(const std::vector<Index>& vertices) const {
                     [&](Index v) { return held[local_vertex(v)] != 0; });
 }
 
+Vec3 Deformer::State::center_of(const HandleState& handle) const {
+    const auto count = static_cast<double>(handle.points.size() + handle.local.size());
+    Vec3 center = Vec3::Zero();
+    for (const Index v : handle.local) center += rest[region_row[v]] / count;
+    for (const SparseRow& row : handle.points) center += rest_position(row) / count;
+    return center;
+}
+
 HandleId Deformer::State::add(HandleState handle) {
-    std::size_t count = handle.points.size() + handle.local.size();
-    for (const Index v : handle.local) handle.center += rest[region_row[v]] / count;
-    for (const SparseRow& row : handle.points) handle.center += rest_position(row) / count;
+    handle.center = center_of(handle);
+    drop_prepared();
     handles.push_back(std::move(handle));
-    prepared.reset();
     ++stats.handles;
     return {static_cast<Index>(handles.size()) - 1};
 }
 
-HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& options) {
-    State& s = *state_;
-    require_topology(s.region, vertices);
+// Errors: as add_handle, for a handle that is new, or whose number is `except`.
+void Deformer::State::require_handle_region(const Region& vertices, Index except) const {
+    require_topology(region, vertices);
     if (vertices.empty()) throw Error(ErrorCode::region_empty, "the handle has no vertices");
-    require_handle_options(options);
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
                     "the handle reaches outside the region at ",
-                    [&](Index v) { return !s.region.contains(v); });
-    s.require_unheld(vertices.vertices());
+                    [&](Index v) { return !region.contains(v); });
+    require_unheld(vertices.vertices(), except);
+}
+
+HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& options) {
+    State& s = *state_;
+    require_handle_options(options);
+    s.require_handle_region(vertices);
     HandleState handle{vertices, options, {}, Vec3::Zero(), {}, {}, false};
     for (const Index v : vertices.vertices()) handle.local.push_back(s.local_vertex(v));
     return s.add(std::move(handle));
+}
+
+void Deformer::set_handle_region(HandleId id, const Region& vertices) {
+    State& s = *state_;
+    HandleState& handle = s.handle(id);
+    s.require_handle_region(vertices, id.value);
+    s.drop_prepared();
+    handle.region = vertices;
+    handle.points.clear();
+    handle.local.clear();
+    for (const Index v : vertices.vertices()) handle.local.push_back(s.local_vertex(v));
+    handle.center = s.center_of(handle);
+}
+
+void Deformer::remove_handle(HandleId id) {
+    State& s = *state_;
+    HandleState& handle = s.handle(id);
+    s.drop_prepared();
+    handle.removed = true;
+    handle.local.clear();
+    handle.points.clear();
+    --s.stats.handles;
 }
 
 HandleId Deformer::add_handle(std::span<const MeshPoint> points, const HandleOptions& options) {
@@ -184,20 +218,20 @@ void Deformer::set_stiffness(const Region& vertices, double factor) {
     if (s.stiffness.empty()) {
         s.stiffness.assign(static_cast<std::size_t>(s.rest_patch->patch.real_count), 1.0);
     }
+    s.drop_prepared();
     for (const Index v : vertices.vertices()) s.stiffness[s.local_vertex(v)] = factor;
-    s.prepared.reset();
 }
 
 // Replaces what is asked of a point. Where only the asked values change the preparation stays.
 void Deformer::State::set_constraint(const SparseRow& row, PointConstraint asked_now) {
     const bool wanted = asked_now.position || asked_now.gradient;
     const std::optional<PointConstraint> before = take_constraint(row);
-    if (!wanted && !before) return;
-    const bool same_kind = wanted && before &&
-                           before->position.has_value() == asked_now.position.has_value() &&
-                           before->gradient.has_value() == asked_now.gradient.has_value() &&
-                           before->weight == asked_now.weight;
-    if (!same_kind) prepared.reset();
+    const bool same_kind =
+        before ? before->position.has_value() == asked_now.position.has_value() &&
+                     before->gradient.has_value() == asked_now.gradient.has_value() &&
+                     before->weight == asked_now.weight
+               : !wanted;
+    if (!same_kind) drop_prepared();
     fixed_current = false;
     if (!wanted) return;
     if (row.size() == 1 && !asked_now.weight) {

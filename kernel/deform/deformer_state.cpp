@@ -19,19 +19,25 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen)
     : region(given),
       options(chosen),
-      rest_patch(std::make_shared<WorkingPatch>(build_patch(mesh, given, 1), chosen)),
+      rest_patch(std::make_shared<WorkingPatch>(build_patch(given, mesh.positions(), 1), chosen)),
       directions(mesh, given) {
+    for (const Index v : region.vertices()) rest.push_back(mesh.position(v));
+    number_rows();
+    to_rest();
+}
+
+// What follows from the rest patch.
+void Deformer::State::number_rows() {
     const Patch& patch = rest_patch->patch;
     region_row.assign(static_cast<std::size_t>(patch.vertex_count), kNoIndex);
+    size = 0.0;
     for (Index row = 0; row < region.size(); ++row) {
         region_row[patch.of_region[row]] = row;
-        rest.push_back(mesh.position(region.vertices()[row]));
         size = std::max(size, patch.rest[patch.of_region[row]].norm());
     }
     stats.region_vertices = region.size();
     stats.zero_area_faces = patch.zero_area_faces;
     stats.inserted_vertices = patch.vertex_count - patch.real_count;
-    to_rest();
 }
 
 HandleState& Deformer::State::handle(HandleId id) {
@@ -48,9 +54,19 @@ Index Deformer::State::local_vertex(Index mesh_vertex) const {
 }
 
 bool Deformer::State::at_rest() const {
-    return constraints.empty() && points.empty() &&
-           std::all_of(handles.begin(), handles.end(),
-                       [](const auto& h) { return h.removed || h.transform.is_identity(); });
+    const auto asks_nothing = [](const auto& constraint, const Vec3& at) {
+        return (!constraint.position || *constraint.position == at) &&
+               (!constraint.gradient || *constraint.gradient == Mat3::Identity());
+    };
+    return std::all_of(handles.begin(), handles.end(),
+                       [](const auto& h) { return h.removed || h.transform.is_identity(); }) &&
+           std::all_of(constraints.begin(), constraints.end(),
+                       [&](const auto& entry) {
+                           return asks_nothing(entry.second, rest[region_row[entry.first]]);
+                       }) &&
+           std::all_of(points.begin(), points.end(), [&](const PointState& point) {
+               return asks_nothing(point.asked, rest_position(point.row));
+           });
 }
 
 Affine Deformer::State::local(const Affine& transform) const {

@@ -42,10 +42,16 @@ struct Deformer::State {
     Index local_vertex(Index mesh_vertex) const;
     bool at_rest() const;
 
+    void number_rows();
+    void rebase();
+    /// To be called before what is held changes: the last result stays until the next solve.
+    void drop_prepared();
     SparseRow local_row(const MeshPoint& point) const;
     Vec3 rest_position(const SparseRow& row) const;
     void require_inside(const MeshPoint& point) const;
-    void require_unheld(const std::vector<Index>& vertices) const;
+    void require_unheld(const std::vector<Index>& vertices, Index except = kNoIndex) const;
+    void require_handle_region(const Region& vertices, Index except = kNoIndex) const;
+    Vec3 center_of(const HandleState& handle) const;
     HandleId add(HandleState handle);
     void set_constraint(const SparseRow& row, PointConstraint asked_now);
     std::optional<PointConstraint> take_constraint(const SparseRow& row);

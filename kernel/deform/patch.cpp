@@ -168,8 +168,8 @@ Rings build_rings(Index vertex_count, const WeightedTriangles& triangles) {
     return rings;
 }
 
-Patch build_patch(const Mesh& mesh, const Region& region, Index rings) {
-    const Topology& topology = mesh.topology();
+Patch build_patch(const Region& region, std::span<const Vec3> positions, Index rings) {
+    const Topology& topology = *region.topology();
     const std::vector<Index> faces = faces_within(topology, region, rings);
     Patch patch;
     patch.mesh_vertex = vertices_of(topology, faces, region);
@@ -179,15 +179,15 @@ Patch build_patch(const Mesh& mesh, const Region& region, Index rings) {
     for (Index i = 0; i < patch.real_count; ++i) local[patch.mesh_vertex[i]] = i;
     for (const Index v : region.vertices()) {
         patch.of_region.push_back(local[v]);
-        patch.origin += mesh.position(v) / region.size();
+        patch.origin += positions[v] / region.size();
     }
     patch.in_region.assign(static_cast<std::size_t>(patch.real_count), 0);
     for (const Index v : patch.of_region) patch.in_region[v] = 1;
     for (const Index v : patch.mesh_vertex) {
         patch.on_boundary.push_back(static_cast<char>(topology.is_boundary(v)));
-        patch.rest.push_back(mesh.position(v) - patch.origin);
+        patch.rest.push_back(positions[v] - patch.origin);
     }
-    patch.triangles = weighted_triangles(topology, mesh.positions(), faces);
+    patch.triangles = weighted_triangles(topology, positions, faces);
     for (Triangle& t : patch.triangles.triangle) t = {local[t[0]], local[t[1]], local[t[2]]};
     find_zero_areas(patch);
     insert_virtual_vertices(patch);

@@ -74,6 +74,27 @@ local function bend_of_middle(factor)
 end
 expect.truthy(bend_of_middle(200) < 0.5 * bend_of_middle(1))
 
+-- Going on from a result.
+bar, edit = scene()
+top = edit:handle(bar:region("top"))
+top:translate(0.5, 0, 0)
+edit:solve()
+local applied = bar:hash()
+expect.equal(edit:apply(), edit)
+expect.equal(bar:hash(), applied)
+expect.equal(top:matrix()[1][4], 0)
+top:rotate{ axis = "z", angle = 30 }
+edit:solve()
+edit:reset()
+expect.equal(bar:hash(), applied)
+top:translate(0, 0.5, 0)
+edit:solve()
+local moved = bar:hash()
+expect.equal(top:set_region(bar:region("top"):grow(1)), top)
+expect.equal(bar:hash(), moved)
+expect.near(top:matrix()[2][4], 0.5)
+expect.truthy(edit:solve():hash() ~= moved)
+
 -- Misuse.
 expect.error("above 0", function() edit:stiffness(bar:region("top"), 0) end)
 expect.error("list of points expected", function() edit:handle({}) end)

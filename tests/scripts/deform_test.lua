@@ -126,7 +126,7 @@ expect.error("unknown option 'strength' of 'handle'", function()
     edit:handle(mesh:region("top"), { strength = 1 })
 end)
 expect.error("unknown option 'faces' of 'constrain'", function() edit:constrain{ vertex = 1, faces = 1 } end)
-expect.error("no method 'apply'", function() edit:apply() end)
+expect.error("no method 'aply'", function() edit:aply() end)
 local part = lissom.deform(mesh, { region = mesh:region("top") })
 expect.error("[handle_outside_region]", function() part:handle(mesh:region("bottom")) end)
 local other = lissom.shapes.bar{ across = 2, along = 16 }

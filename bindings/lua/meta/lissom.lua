@@ -720,6 +720,10 @@ function Deformation:solve() end
 ---@return lissom.Deformation edit # The deformation itself.
 function Deformation:reset() end
 
+---Takes the last result as the new rest shape. Handles keep their vertices and hold where they are now, with the identity as transform; constraints hold where their points are now. Factors are rebuilt at the next solve, and reset returns to this shape.
+---@return lissom.Deformation edit # The deformation itself.
+function Deformation:apply() end
+
 ---Sizes and times of the last preparation.
 ---@return lissom.DeformStats stats # Times are in seconds, sizes in bytes.
 function Deformation:stats() end
@@ -799,6 +803,11 @@ function Handle:center() end
 ---The handle's vertices.
 ---@return lissom.Region region # The region.
 function Handle:region() end
+
+---Gives the handle other vertices. Its transform stays, and the mesh keeps the old result until the next solve.
+---@param region lissom.Region Its new vertices.
+---@return lissom.Handle handle # The handle itself.
+function Handle:set_region(region) end
 
 ---Takes the handle out of the deformation; it cannot be used any more.
 function Handle:remove() end
