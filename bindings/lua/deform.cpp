@@ -41,6 +41,7 @@ DeformOptions deform_options(const Call& call) {
     take_choice(call, "local_size", options.local_size);
     take_choice(call, "weights", options.weights);
     if (call.has("coherence")) options.coherence = call.integer("coherence");
+    if (call.has("refine")) options.refine = call.integer("refine");
     take_number(call, "displacement", options.displacement);
     take_number(call, "degenerate_threshold", options.degenerate_threshold);
     return options;
@@ -142,7 +143,10 @@ int preview(Call& call) {
 }
 
 int solve(Call& call) {
-    return write_result(call, [&](Deformer& deformer) { deformer.solve(call.context()); });
+    const bool draft = call.boolean("draft");
+    return write_result(call, [&](Deformer& deformer) {
+        draft ? deformer.solve_draft(call.context()) : deformer.solve(call.context());
+    });
 }
 
 int reset_all(Call& call) {
@@ -427,6 +431,10 @@ std::vector<Function> solving_methods() {
          .summary =
              "Solves both systems and writes the result into the mesh. Handles that are where "
              "they began give the rest shape, to the bit.",
+         .options = {boolean("draft",
+                             "For the frames of a drag: about five digits in half the time. Solve "
+                             "once more when the drag ends.")
+                         .defaults(false)},
          .results = mesh,
          .errors = kSolveErrors,
          .example = kBar + "top:rotate{ axis = 'z', angle = 60 }\nassert(edit:solve() == bar)"},
@@ -546,6 +554,11 @@ std::vector<Parameter> deform_parameters() {
             .optional(std::to_string(defaults.coherence)),
         choice("weights", {"cotangent", "uniform"}, "Weights of the Laplacian coordinates.")
             .optional("\"cotangent\""),
+        integer("refine",
+                "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
+                "less distortion for half a frame each.")
+            .at_least(0)
+            .optional(std::to_string(defaults.refine)),
         number("displacement", "How far degenerate vertices are displaced.")
             .above(0)
             .in("mean lengths of their edges")

@@ -22,6 +22,7 @@ void require_options(const DeformOptions& o) {
         if (!condition) throw Error(ErrorCode::invalid_argument, message);
     };
     require(o.coherence == 1 || o.coherence == 2, "coherence must be 1 or 2 rings");
+    require(o.refine >= 0 && o.refine <= 2, "refine must be 0, 1 or 2");
     require(o.coherence_weight > 0.0 && std::isfinite(o.coherence_weight),
             "coherence_weight must be above 0");
     require(o.degenerate_threshold > 1.0, "degenerate_threshold must be above 1");
@@ -107,30 +108,8 @@ void Deformer::prepare(const Context& context) {
 }
 
 const std::vector<Vec3>& Deformer::preview(const Context& context) {
-    State& s = *state_;
-    s.prepare(context);
-    if (s.at_rest()) {
-        s.to_rest();
-        return s.positions;
-    }
-    if (s.prepared->solution) {
-        const LinearSolution& solution = *s.prepared->solution;
-        const Mat4 shift = s.base_transform() - matrix_of({});
-        const Mat4* moved = shift.isZero(0.0) ? nullptr : &shift;
-        const std::vector<Mat4> differences = s.differences();
-        context.parallel_for(0, solution.rows(), kFrameGrain, [&](Index begin, Index end) {
-            for (Index row = begin; row < end; ++row) {
-                const Index target = s.prepared->region_row[row];
-                if (target == kNoIndex) continue;
-                s.positions[target] =
-                    solution.position(row, moved, differences) + s.rest_patch->patch.origin;
-            }
-        });
-    }
-    s.write_held();
-    s.gradients_current = false;
-    s.deformed = true;
-    return s.positions;
+    state_->preview(context);
+    return state_->positions;
 }
 
 const std::vector<Vec3>& Deformer::solve(const Context& context) {

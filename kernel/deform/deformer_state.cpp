@@ -131,6 +131,7 @@ void Deformer::State::collect_asked() {
 void Deformer::State::prepare(const Context& context) {
     if (!prepared) {
         prepared = factored(context);
+        turns.clear();
         fixed_current = false;
     }
     if (fixed_current) return;
@@ -207,15 +208,24 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
         std::make_unique<RotationSystem>(*next->work, next->known.position, options, context);
     const double assemble_seconds = seconds_since(start);
 
-    progress.step(0.45);
-    factor(*next->first, context);
-    progress.step(0.2);
-    factor(*next->second, context);
+    progress.step(0.6);
+    // The two do not depend on each other.
+    context.parallel_for(0, 2, 1, [&](Index begin, Index end) {
+        for (Index system = begin; system < end; ++system) {
+            system == 0 ? factor(*next->first, context) : factor(*next->second, context);
+        }
+    });
+    progress.step(0.05);
+    if (!next->second->free_vertices().empty()) next->second->finish(context);
 
     progress.step(0.15);
     const auto basis_start = std::chrono::steady_clock::now();
     for (const Index v : next->first->free_vertices()) {
         next->region_row.push_back(v < patch.real_count ? region_row[v] : kNoIndex);
+    }
+    for (const Index v : patch.of_region) {
+        if (next->known.gradient[v]) continue;
+        (next->gradients.defined[v] ? next->gathered : next->averaged).push_back(v);
     }
     if (!next->region_row.empty()) {
         next->solution = std::make_unique<LinearSolution>(
@@ -241,124 +251,6 @@ void Deformer::State::count_costs(const Prepared& next) {
     stats.factorizations += stats.free_vertices > 0 ? 1 : 0;
 }
 
-void Deformer::State::evaluate_deviation(const Context& context) {
-    const Patch& patch = prepared->work->patch;
-    frame_base = base_transform();
-    deviation.assign(static_cast<std::size_t>(patch.vertex_count), Vec3::Zero());
-    for (const HandleState& h : handles) {
-        const Mat4 difference = matrix_of(local(h.transform)) - frame_base;
-        for (const Index v : h.local) {
-            deviation[v] = (difference * homogeneous(patch.rest[v])).head<3>();
-        }
-    }
-    for (const auto& entry : asked) deviation[entry.first] = known_deviation(entry.first);
-    for (Index v = patch.surface_count; v < patch.vertex_count; ++v) {
-        deviation[v] = known_deviation(v);
-    }
-    if (!prepared->solution) return;
-    const std::vector<Index>& free = prepared->first->free_vertices();
-    const std::vector<Mat4> differences = this->differences();
-    context.parallel_for(
-        0, static_cast<Index>(free.size()), kFrameGrain, [&](Index begin, Index end) {
-            for (Index row = begin; row < end; ++row) {
-                deviation[free[row]] = prepared->solution->deviation(row, differences);
-            }
-        });
-}
-
-// M_i after the first system; where it does not exist, the mean of those around it.
-Mat3 Deformer::State::gradient_of(Index v) const {
-    const Rings& rings = prepared->work->rings;
-    if (prepared->known.gradient[v]) return known_gradient(v);
-    const auto gathered = [&](Index u) -> Mat3 {
-        if (prepared->known.gradient[u]) return known_gradient(u);
-        return frame_base.topLeftCorner<3, 3>() + prepared->gradients.gather(rings, deviation, u);
-    };
-    if (prepared->gradients.defined[v]) return gathered(v);
-    Mat3 sum = Mat3::Zero();
-    int count = 0;
-    for (const Index n : rings.ring(v)) {
-        if (!prepared->known.gradient[n] && !prepared->gradients.defined[n]) continue;
-        sum += gathered(n);
-        ++count;
-    }
-    return count > 0 ? Mat3(sum / count) : Mat3(Mat3::Identity());
-}
-
-void Deformer::State::find_gradients(const Context& context) {
-    if (gradients_current) return;
-    const Patch& patch = prepared->work->patch;
-    evaluate_deviation(context);
-    context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
-        for (Index row = begin; row < end; ++row)
-            gradients[row] = gradient_of(patch.of_region[row]);
-    });
-    gradients_current = true;
-}
-
-// S of the second system for a deformation gradient: R, or R s.
-Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
-    const Mat3 r = nearest_rotation(gradient);
-    return options.local_size == LocalSize::scale ? Mat3(uniform_scale(gradient) * r) : r;
-}
-
-// S_i less that of the base. Handles turn as a whole.
-void Deformer::State::find_turns(const Mat3& base_rotation, const Context& context) {
-    const Patch& patch = prepared->work->patch;
-    turns.resize(static_cast<std::size_t>(patch.real_count), Mat3::Zero());
-    context.parallel_for(0, region.size(), kFrameGrain, [&](Index begin, Index end) {
-        const std::size_t count = static_cast<std::size_t>(end - begin);
-        const std::span<const Mat3> m(gradients.data() + begin, count);
-        std::vector<Mat3> rotations(count);
-        nearest_rotations(m, rotations);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Index v = patch.of_region[static_cast<std::size_t>(begin) + i];
-            const double scale = options.local_size == LocalSize::scale ? uniform_scale(m[i]) : 1.0;
-            turns[v] = scale * rotations[i] - base_rotation;
-        }
-    });
-    for (const HandleState& h : handles) {
-        if (h.removed || h.soft() || !h.options.gradient) continue;
-        const Mat3 turn = rotation_of(h.transform.linear) - base_rotation;
-        for (const Index v : h.local) turns[v] = turn;
-    }
-}
-
-// Solves the second system for deviations from the similarity nearest to the base transform, so
-// that similarities of the whole are exact. Leaves local positions.
-void Deformer::State::solve_second(bool draft, const Context& context) {
-    const Patch& patch = prepared->work->patch;
-    const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
-    const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
-    find_turns(base_rotation, context);
-    std::vector<Vec3>& at = second_positions;
-    at.resize(static_cast<std::size_t>(patch.vertex_count));
-    context.parallel_for(0, patch.vertex_count, kFrameGrain, [&](Index begin, Index end) {
-        for (Index v = begin; v < end; ++v) at[v] = deviation[v] + remainder * patch.rest[v];
-    });
-    prepared->second->set_transforms(turns, context);
-    prepared->second->solve(at, draft, context);
-    const Vec3 shift = frame_base.topRightCorner<3, 1>();
-    for (const Index v : prepared->second->free_vertices()) {
-        at[v] += base_rotation * patch.rest[v] + shift;
-    }
-}
-
-void Deformer::State::solve(bool draft, const Context& context) {
-    prepare(context);
-    if (at_rest()) return to_rest();
-    context.checkpoint();
-    gradients_current = false;
-    find_gradients(context);
-    if (prepared->second->free_vertices().empty()) {
-        write_held();
-    } else {
-        solve_second(draft, context);
-        write_positions(second_positions);
-    }
-    deformed = true;
-}
-
 // Positions of the region's vertices for deviations `from` the base transform: displaced vertices
 // come back by v = M (v - v') + v' (section 2.4.3).
 std::vector<Vec3> Deformer::State::pulled_back(const std::vector<Vec3>& from) const {
@@ -375,39 +267,6 @@ std::vector<Vec3> Deformer::State::pulled_back(const std::vector<Vec3>& from) co
         result.push_back(at[v] + (base * homogeneous(patch.rest[v])).head<3>() + patch.origin);
     }
     return result;
-}
-
-// Writes the local positions of free vertices into those of the region. Vertices without faces that
-// no handle holds never leave their rest position.
-void Deformer::State::write_positions(const std::vector<Vec3>& at) {
-    for (const Index v : prepared->second->free_vertices()) {
-        positions[region_row[v]] = at[v] + rest_patch->patch.origin;
-    }
-    write_held();
-}
-
-// Held vertices lie where they were asked to, to the bit.
-void Deformer::State::write_held() {
-    for (const HandleState& h : handles) {
-        if (h.removed) continue;
-        const Affine transform = h.transform;
-        const bool still = transform.is_identity();
-        for (const Index v : h.local) {
-            if (!prepared->known.position[v]) continue;
-            const Index row = region_row[v];
-            positions[row] = still ? rest[row] : transform(rest[row]);
-        }
-    }
-    for (const auto& [v, constraint] : constraints) {
-        if (constraint.position) positions[region_row[v]] = *constraint.position;
-    }
-}
-
-void Deformer::State::to_rest() {
-    positions = rest;
-    gradients.assign(rest.size(), Mat3::Identity());
-    gradients_current = true;
-    deformed = false;
 }
 
 }  // namespace lissom

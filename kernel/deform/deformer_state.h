@@ -6,6 +6,7 @@
 
 #include "kernel/deform/constraints.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/frame_loops.h"
 #include "kernel/deform/gradient_system.h"
 #include "kernel/deform/gradients.h"
 #include "kernel/deform/linear_solution.h"
@@ -33,6 +34,9 @@ struct Prepared {
     std::unique_ptr<LinearSolution> solution;
     /// Row in the region of each row of the solution, or kNoIndex for virtual vertices.
     std::vector<Index> region_row;
+    /// Vertices of the region without a known gradient: those with a stencil, and those without,
+    /// which take the mean of their neighbours.
+    std::vector<Index> gathered, averaged;
 };
 
 struct Deformer::State {
@@ -80,11 +84,13 @@ struct Deformer::State {
     Mat3 gradient_of(Index v) const;
     void find_gradients(const Context& context);
     Mat3 rotation_of(const Mat3& gradient) const;
+    void preview(const Context& context);
     void find_turns(const Mat3& base_rotation, const Context& context);
+    void turn_held(const Mat3& base_rotation);
+    void refine_turns(const Mat3& base_rotation, const Context& context);
     void solve_second(bool draft, const Context& context);
     void solve(bool draft, const Context& context);
     std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;
-    void write_positions(const std::vector<Vec3>& at);
     void write_held();
     void to_rest();
 
@@ -114,15 +120,16 @@ struct Deformer::State {
     std::unique_ptr<Prepared> prepared;
     bool fixed_current = false;
 
-    /// Where local vertices lie after the first system, degenerate ones displaced, relative to
-    /// where the base transform takes their rest position.
-    std::vector<Vec3> deviation;
+    /// Where local vertices lie in the present frame, degenerate ones displaced, relative to where
+    /// the base takes their rest position: its transform in the first system, the similarity
+    /// nearest to it in the second.
+    std::vector<Vec4> deviation;
     Mat4 frame_base = Mat4::Zero();
-    /// S_i less that of the base, for the second system, and its local positions. Outside the
-    /// region the former stay zero only where the base is the identity; otherwise there is no
-    /// outside.
-    std::vector<Mat3> turns;
-    std::vector<Vec3> second_positions;
+    /// S_i less that of the base, for the second system. Outside the region they stay zero, as then
+    /// the base is the identity.
+    std::vector<PaddedMat3> turns;
+    /// Scratch of the refinement: positions less the translation of the base.
+    std::vector<Vec4> absolute;
     std::vector<Vec3> positions;
     std::vector<Mat3> gradients;
     bool deformed = false, gradients_current = true;

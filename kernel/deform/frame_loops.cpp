@@ -26,8 +26,7 @@ LISSOM_INLINE void add_product(const PaddedMat3& m, const Row& v, Row& sum) {
     for (int d = 0; d < 3; ++d) sum += v[d] * column_of(m, d);
 }
 
-LISSOM_INLINE void evaluate_rows(const BasisLoop& loop, const Index* vertex, Vec4* x, Index begin,
-                                 Index end) {
+LISSOM_INLINE void evaluate_rows(const BasisLoop& loop, Vec4* x, Index begin, Index end) {
     for (Index r = begin; r < end; ++r) {
         Row sum{};
         for (std::size_t h = 0; h < loop.count; ++h) {
@@ -37,7 +36,7 @@ LISSOM_INLINE void evaluate_rows(const BasisLoop& loop, const Index* vertex, Vec
                 sum += weight[d] * *reinterpret_cast<const Row*>(transform + 4 * d);
             }
         }
-        row_of(x[vertex[r]]) = sum;
+        row_of(x[r - begin]) = sum;
     }
 }
 
@@ -57,6 +56,7 @@ LISSOM_INLINE void gather_rows(const GradientLoop& loop, const Index* vertex, co
     }
 }
 
+template <bool turned>
 LISSOM_INLINE void bend_rows(const EnergyLoop& loop, const PaddedMat3* s, const Vec4* x, Vec4* u,
                              Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
@@ -67,13 +67,16 @@ LISSOM_INLINE void bend_rows(const EnergyLoop& loop, const PaddedMat3* s, const 
             difference -= row_of(x[loop.neighbor[e]]);
             sum += loop.coefficient[e] * difference;
         }
-        Row turned{};
-        add_product(s[i], row_of(loop.laplacian[i]), turned);
-        sum -= turned;
+        if constexpr (turned) {
+            Row kept{};
+            add_product(s[i], row_of(loop.laplacian[i]), kept);
+            sum -= kept;
+        }
         row_of(u[i]) = loop.row_weight[i] * sum;
     }
 }
 
+template <bool turned>
 LISSOM_INLINE void descend_rows(const EnergyLoop& loop, const PaddedMat3* s, const Vec4* x,
                                 const Vec4* u, const Index* vertex, Vec3* r, Index begin,
                                 Index end) {
@@ -81,13 +84,15 @@ LISSOM_INLINE void descend_rows(const EnergyLoop& loop, const PaddedMat3* s, con
         const Index i = vertex[row];
         const Row own = row_of(x[i]), own_rest = row_of(loop.rest[i]), own_u = row_of(u[i]);
         Row sum{};
-        add_product(s[i], row_of(loop.edge_sum[i]), sum);
+        if constexpr (turned) add_product(s[i], row_of(loop.edge_sum[i]), sum);
         for (Index e = loop.ring_begin[i]; e < loop.ring_begin[i + 1]; ++e) {
             const Index j = loop.neighbor[e];
             const double weight = loop.edge_weight[e];
-            Row edge = own_rest;
-            edge -= row_of(loop.rest[j]);
-            add_product(s[j], 0.5 * weight * edge, sum);
+            if constexpr (turned) {
+                Row edge = own_rest;
+                edge -= row_of(loop.rest[j]);
+                add_product(s[j], 0.5 * weight * edge, sum);
+            }
             Row difference = own, bent = own_u;
             difference -= row_of(x[j]);
             sum -= weight * difference;
@@ -98,10 +103,32 @@ LISSOM_INLINE void descend_rows(const EnergyLoop& loop, const PaddedMat3* s, con
     }
 }
 
+LISSOM_INLINE void fit_rows(const EnergyLoop& loop, const Vec4* x, const Index* vertex, Mat3* m,
+                            Index begin, Index end) {
+    for (Index row = begin; row < end; ++row) {
+        const Index i = vertex[row];
+        const Row own = row_of(x[i]), own_rest = row_of(loop.rest[i]);
+        Row column[3] = {}, bent{};
+        for (Index e = loop.ring_begin[i]; e < loop.ring_begin[i + 1]; ++e) {
+            const Index j = loop.neighbor[e];
+            Row difference = own, edge = own_rest;
+            difference -= row_of(x[j]);
+            edge -= row_of(loop.rest[j]);
+            const Row weighted = 0.5 * loop.edge_weight[e] * edge;
+            for (int d = 0; d < 3; ++d) column[d] += weighted[d] * difference;
+            bent += loop.coefficient[e] * difference;
+        }
+        const Row rest_bent = loop.row_weight[i] * row_of(loop.laplacian[i]);
+        for (int d = 0; d < 3; ++d) {
+            column[d] += rest_bent[d] * bent;
+            store(column[d], m[row - begin].data() + 3 * d);
+        }
+    }
+}
+
 #ifdef LISSOM_HAS_AVX2_PATH
-LISSOM_AVX2 void evaluate_with_avx2(const BasisLoop& loop, const Index* vertex, Vec4* x,
-                                    Index begin, Index end) {
-    evaluate_rows(loop, vertex, x, begin, end);
+LISSOM_AVX2 void evaluate_with_avx2(const BasisLoop& loop, Vec4* x, Index begin, Index end) {
+    evaluate_rows(loop, x, begin, end);
 }
 LISSOM_AVX2 void gather_with_avx2(const GradientLoop& loop, const Index* vertex, const Vec4* x,
                                   Mat3* m, Index begin, Index end) {
@@ -109,22 +136,27 @@ LISSOM_AVX2 void gather_with_avx2(const GradientLoop& loop, const Index* vertex,
 }
 LISSOM_AVX2 void bend_with_avx2(const EnergyLoop& loop, const PaddedMat3* s, const Vec4* x, Vec4* u,
                                 Index begin, Index end) {
-    bend_rows(loop, s, x, u, begin, end);
+    s ? bend_rows<true>(loop, s, x, u, begin, end) : bend_rows<false>(loop, s, x, u, begin, end);
 }
 LISSOM_AVX2 void descend_with_avx2(const EnergyLoop& loop, const PaddedMat3* s, const Vec4* x,
                                    const Vec4* u, const Index* vertex, Vec3* r, Index begin,
                                    Index end) {
-    descend_rows(loop, s, x, u, vertex, r, begin, end);
+    s ? descend_rows<true>(loop, s, x, u, vertex, r, begin, end)
+      : descend_rows<false>(loop, s, x, u, vertex, r, begin, end);
+}
+LISSOM_AVX2 void fit_with_avx2(const EnergyLoop& loop, const Vec4* x, const Index* vertex, Mat3* m,
+                               Index begin, Index end) {
+    fit_rows(loop, x, vertex, m, begin, end);
 }
 #endif
 
 }  // namespace
 
-void BasisLoop::evaluate(const Index* vertex, Vec4* x, Index begin, Index end) const {
+void BasisLoop::evaluate(Vec4* x, Index begin, Index end) const {
 #ifdef LISSOM_HAS_AVX2_PATH
-    if (has_avx2()) return evaluate_with_avx2(*this, vertex, x, begin, end);
+    if (has_avx2()) return evaluate_with_avx2(*this, x, begin, end);
 #endif
-    evaluate_rows(*this, vertex, x, begin, end);
+    evaluate_rows(*this, x, begin, end);
 }
 
 void GradientLoop::gather(const Index* vertex, const Vec4* x, Mat3* m, Index begin,
@@ -139,7 +171,7 @@ void EnergyLoop::bend(const PaddedMat3* s, const Vec4* x, Vec4* u, Index begin, 
 #ifdef LISSOM_HAS_AVX2_PATH
     if (has_avx2()) return bend_with_avx2(*this, s, x, u, begin, end);
 #endif
-    bend_rows(*this, s, x, u, begin, end);
+    s ? bend_rows<true>(*this, s, x, u, begin, end) : bend_rows<false>(*this, s, x, u, begin, end);
 }
 
 void EnergyLoop::descend(const PaddedMat3* s, const Vec4* x, const Vec4* u, const Index* vertex,
@@ -147,7 +179,15 @@ void EnergyLoop::descend(const PaddedMat3* s, const Vec4* x, const Vec4* u, cons
 #ifdef LISSOM_HAS_AVX2_PATH
     if (has_avx2()) return descend_with_avx2(*this, s, x, u, vertex, r, begin, end);
 #endif
-    descend_rows(*this, s, x, u, vertex, r, begin, end);
+    s ? descend_rows<true>(*this, s, x, u, vertex, r, begin, end)
+      : descend_rows<false>(*this, s, x, u, vertex, r, begin, end);
+}
+
+void EnergyLoop::fit(const Vec4* x, const Index* vertex, Mat3* m, Index begin, Index end) const {
+#ifdef LISSOM_HAS_AVX2_PATH
+    if (has_avx2()) return fit_with_avx2(*this, x, vertex, m, begin, end);
+#endif
+    fit_rows(*this, x, vertex, m, begin, end);
 }
 
 }  // namespace lissom

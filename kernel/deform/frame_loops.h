@@ -14,7 +14,7 @@ using PaddedMat3 = Eigen::Matrix<double, 4, 3>;
 inline Vec4 padded(const Vec3& v) {
     return {v.x(), v.y(), v.z(), 0.0};
 }
-inline PaddedMat3 padded(const Mat3& m) {
+inline PaddedMat3 padded_columns(const Mat3& m) {
     PaddedMat3 columns = PaddedMat3::Zero();
     columns.topRows<3>() = m;
     return columns;
@@ -27,8 +27,8 @@ struct BasisLoop {
     const Vec4* const* weight;
     std::size_t count;
 
-    /// Puts the rows [begin, end) at x[vertex[row]].
-    void evaluate(const Index* vertex, Vec4* x, Index begin, Index end) const;
+    /// x[row - begin] for rows [begin, end).
+    void evaluate(Vec4* x, Index begin, Index end) const;
 };
 
 /// Deformation gradients of positions x by their stencils (GradientStencils).
@@ -58,12 +58,18 @@ struct EnergyLoop {
     const Vec4* laplacian;
     const Vec4* edge_sum;
 
+    /// In what follows, transforms that are null stand for zeros.
+    ///
     /// u_i = g_i ((C x)_i - S_i (C v)_i).
     void bend(const PaddedMat3* s, const Vec4* x, Vec4* u, Index begin, Index end) const;
     /// Half the downward gradient of the energy at vertex[row] into r[row]; `u` from `bend`, of all
     /// vertices.
     void descend(const PaddedMat3* s, const Vec4* x, const Vec4* u, const Index* vertex, Vec3* r,
                  Index begin, Index end) const;
+    /// m[row - begin]: the matrix whose nearest rotation, for vertex[row], has the least energy at
+    /// positions x, each edge counting one half at either end:
+    /// sum_j w_ij (x_i - x_j) (v_i - v_j)^T / 2 + g_i (C x)_i (C v)_i^T.
+    void fit(const Vec4* x, const Index* vertex, Mat3* m, Index begin, Index end) const;
 };
 
 }  // namespace lissom

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernel/deform/frame_loops.h"
+
 namespace lissom {
 namespace {
 
@@ -151,6 +153,31 @@ void LinearSolution::solve_fixed(const LinearProblem& problem,
     const std::vector<Index> row = rows_of(problem);
     fixed_fold_ = folds<Vec3>(
         problem, [&](Index k) -> Vec3 { return row[k] != kNoIndex ? fixed_[row[k]] : shift(k); });
+}
+
+void LinearSolution::deviations(std::span<const Mat4> differences, Vec4* x, Index begin,
+                                Index end) const {
+    std::vector<const Vec4*> weights;
+    for (const std::vector<Vec4>& weight : weight_) weights.push_back(weight.data());
+    const BasisLoop loop{differences.data(), weights.data(), weights.size()};
+    loop.evaluate(x, begin, end);
+    if (fixed_.empty()) return;
+    for (Index row = begin; row < end; ++row) x[row - begin].head<3>() += fixed_[row];
+}
+
+void LinearSolution::positions(const Mat4& shift, std::span<const Mat4> differences, Vec4* x,
+                               Index begin, Index end) const {
+    deviations(differences, x, begin, end);
+    const bool moved = !shift.isZero(0.0);
+    for (Index row = begin; row < end; ++row) {
+        Vec4& at = x[row - begin];
+        at.head<3>() += rest_[row];
+        if (moved) at += shift * homogeneous(rest_[row]);
+        const Index f = fold_of_[row];
+        if (f == kNoIndex) continue;
+        for (std::size_t h = 0; h < handles_.size(); ++h) at += differences[h] * fold_[h][f];
+        if (!fixed_fold_.empty()) at.head<3>() += fixed_fold_[f];
+    }
 }
 
 std::size_t LinearSolution::memory_bytes() const {

@@ -53,26 +53,12 @@ class LinearSolution {
     /// Handles with weights of their own.
     const std::vector<Index>& handles() const { return handles_; }
 
-    /// x' - T v' of the free vertex `row`: how far it deviates from the base transform.
-    Vec3 deviation(Index row, std::span<const Mat4> differences) const {
-        Vec4 x = Vec4::Zero();
-        for (std::size_t h = 0; h < handles_.size(); ++h) {
-            x.noalias() += differences[h] * weight_[h][row];
-        }
-        return fixed_.empty() ? Vec3(x.head<3>()) : Vec3(x.head<3>() + fixed_[row]);
-    }
-    /// The position of the free vertex `row`, for a base whose transform differs from the identity
-    /// by `shift`, or not at all where that is null.
-    Vec3 position(Index row, const Mat4* shift, std::span<const Mat4> differences) const {
-        Vec3 x = rest_[row] + deviation(row, differences);
-        if (shift) x += (*shift * homogeneous(rest_[row])).head<3>();
-        const Index f = fold_of_[row];
-        if (f == kNoIndex) return x;
-        for (std::size_t h = 0; h < handles_.size(); ++h) {
-            x += (differences[h] * fold_[h][f]).head<3>();
-        }
-        return fixed_fold_.empty() ? x : Vec3(x + fixed_fold_[f]);
-    }
+    /// x' - T v' of the free vertices [begin, end): how far they deviate from the base transform.
+    void deviations(std::span<const Mat4> differences, Vec4* x, Index begin, Index end) const;
+    /// Positions of the free vertices [begin, end), for a base whose transform differs from the
+    /// identity by `shift`.
+    void positions(const Mat4& shift, std::span<const Mat4> differences, Vec4* x, Index begin,
+                   Index end) const;
 
     /// Weight of handle number h of `handles()` in `position(row)`, and its fixed part.
     Vec4 weight(std::size_t h, Index row) const {

@@ -48,46 +48,61 @@ std::vector<double> edge_weights(const RingGeometry& geometry, const DeformOptio
     return weights;
 }
 
+// G of K = W + C G C for the rows of make_laplacian, where C has cotangents or ones.
+std::vector<double> row_weights(const Rings& rings, const RingGeometry& geometry,
+                                const DeformOptions& options, double factor) {
+    const bool uniform = options.weights == LaplacianWeights::uniform;
+    const bool literal = !options.scale_free && options.second == SecondSystem::laplacian;
+    const Laplacian laplacian = make_laplacian(rings, geometry, options.weights, !literal);
+    std::vector<double> weights(laplacian.weight);
+    for (Index i = 0; i < rings.size(); ++i) {
+        if (weights[i] == 0.0) continue;
+        const double scale =
+            uniform ? 1.0 / rings.count(i) : (literal ? 2.0 : 1.0) / geometry.area[i];
+        weights[i] *= factor * scale * scale;
+    }
+    return weights;
+}
+
 }  // namespace
 
 RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                                const DeformOptions& options, const Context& context)
     : rings_(build_rings(work.patch.real_count, work.patch.triangles)),
-      rest_(work.patch.rest.begin(), work.patch.rest.begin() + work.patch.real_count) {
+      vertex_count_(work.patch.vertex_count) {
     const Patch& patch = work.patch;
-    const RingGeometry geometry = ring_geometry(rings_, patch.triangles, rest_);
-    const bool literal = !options.scale_free && options.second == SecondSystem::laplacian;
-    laplacian_ = make_laplacian(rings_, geometry, options.weights, !literal);
-    laplacian_factor_ = laplacian_factor_of(patch, rings_, options.second);
+    const std::span<const Vec3> rest(patch.rest.data(), rings_.begin.size() - 1);
+    const RingGeometry geometry = ring_geometry(rings_, patch.triangles, rest);
+    const double factor = laplacian_factor_of(patch, rings_, options.second);
+    row_weight_ = row_weights(rings_, geometry, options, factor);
+    edge_weight_ = edge_weights(geometry, options);
+    coefficient_ = geometry.cotangent;
+    if (options.weights == LaplacianWeights::uniform) {
+        std::fill(coefficient_.begin(), coefficient_.end(), 1.0);
+    }
     const bool lengths = options.second != SecondSystem::laplacian;
     tie_unit_ = lengths ? kPositionUnit : work.position_unit();
-    edge_weight_ = edge_weights(geometry, options);
 
-    weighted_delta_.assign(rest_.size(), Vec3::Zero());
-    edge_sum_.assign(rest_.size(), Vec3::Zero());
+    laplacian_.assign(rest.size(), Vec4::Zero());
+    edge_sum_.assign(rest.size(), Vec4::Zero());
     for (Index i = 0; i < patch.real_count; ++i) {
-        laplacian_.weight[i] *= laplacian_factor_ * work.stiffness_between(i, i);
-        weighted_delta_[i] = laplacian_.weight[i] * laplacian_.apply(rings_, rest_, i);
+        rest_.push_back(padded(rest[i]));
+        row_weight_[i] *= work.stiffness_between(i, i);
         for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
+            const Vec4 edge = padded(rest[i] - rest[rings_.neighbor[e]]);
             edge_weight_[e] *= work.stiffness_between(i, rings_.neighbor[e]);
-            edge_sum_[i] += 0.5 * edge_weight_[e] * (rest_[i] - rest_[rings_.neighbor[e]]);
+            laplacian_[i] += coefficient_[e] * edge;
+            edge_sum_[i] += 0.5 * edge_weight_[e] * edge;
         }
         if (!position_known[i]) free_.push_back(i);
-    }
-    transposed_.resize(rings_.neighbor.size());
-    for (Index i = 0; i < rings_.size(); ++i) {
-        for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
-            transposed_[e] = laplacian_.neighbor[rings_.entry(rings_.neighbor[e], i)];
-        }
     }
     assemble(position_known, context);
     add_ties(work);
 }
 
 void RotationSystem::add_ties(const WorkingPatch& work) {
-    std::vector<Index> row_of(static_cast<std::size_t>(work.patch.vertex_count), kNoIndex);
+    std::vector<Index> row_of(static_cast<std::size_t>(vertex_count_), kNoIndex);
     for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = static_cast<Index>(r);
-    vertex_count_ = work.patch.vertex_count;
     ties_ = TieRows(work.ties, row_of, tie_unit_, [](Index v) { return SparseRow{{v, 1.0}}; });
     ties_.add_to(matrix_);
     tie_bytes_ = TieRows::response_bytes(work.ties, static_cast<Index>(free_.size()));
@@ -96,33 +111,41 @@ void RotationSystem::add_ties(const WorkingPatch& work) {
 void RotationSystem::assemble(const std::vector<char>& position_known, const Context& context) {
     std::vector<Index> row_of(rest_.size(), kNoIndex);
     for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = static_cast<Index>(r);
-
+    std::vector<double> coefficient_sum(rest_.size(), 0.0);
+    for (Index i = 0; i < rings_.size(); ++i) {
+        for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
+            coefficient_sum[i] += coefficient_[e];
+        }
+    }
     const auto count = static_cast<Index>(free_.size());
     const Index grain = grain_of(count);
     std::vector<SymmetricMatrix> parts(static_cast<std::size_t>((count + grain - 1) / grain));
     context.parallel_for(0, count, grain, [&](Index begin, Index end) {
         SymmetricMatrix& rows = parts[static_cast<std::size_t>(begin / grain)];
         RowAccumulator<double> row(rings_.size());
-        const auto add_laplacian = [&](Index a, double coefficient) {
-            const double f = laplacian_.weight[a] * coefficient;
+        // The row of a in C, times g_a and the coefficient of i in it. Below the diagonal the
+        // matrix is known from its upper part.
+        const auto add_laplacian = [&](Index a, double coefficient, Index i) {
+            const double f = row_weight_[a] * coefficient;
             if (f == 0.0) return;
-            row.add(a, f * laplacian_.self[a]);
+            if (a >= i) row.add(a, f * coefficient_sum[a]);
             for (Index e = rings_.begin[a]; e < rings_.begin[a + 1]; ++e) {
-                row.add(rings_.neighbor[e], f * laplacian_.neighbor[e]);
+                const Index k = rings_.neighbor[e];
+                if (k >= i) row.add(k, -f * coefficient_[e]);
             }
         };
         for (Index r = begin; r < end; ++r) {
             const Index i = free_[r];
             row.add(i, 0.0);
-            add_laplacian(i, laplacian_.self[i]);
+            add_laplacian(i, coefficient_sum[i], i);
             for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
                 const Index j = rings_.neighbor[e];
-                add_laplacian(j, transposed_[e]);
+                add_laplacian(j, -coefficient_[e], i);
                 row.add(i, edge_weight_[e]);
-                row.add(j, -edge_weight_[e]);
+                if (j > i) row.add(j, -edge_weight_[e]);
             }
             row.drain([&](Index k, double value) {
-                if (position_known[k] || row_of[k] < r) return;
+                if (position_known[k]) return;
                 rows.row.push_back(row_of[k]);
                 rows.value.push_back(value);
             });
@@ -136,8 +159,11 @@ void RotationSystem::assemble(const std::vector<char>& position_known, const Con
 
 void RotationSystem::factor(const Context& context) {
     factor_firmly(system_, matrix_, context);
-    stats_ = system_.stats();
     matrix_ = {};
+    stats_ = system_.stats();
+}
+
+void RotationSystem::finish(const Context& context) {
     ties_charge_ = context.charge(tie_bytes_, "points that are held");
     ties_.prepare(static_cast<Index>(free_.size()),
                   [&](std::span<const double> b, std::span<double> x, Index columns) {
@@ -156,95 +182,65 @@ void RotationSystem::factor(const Context& context) {
         static_cast<int>(std::ceil(std::log(kPrecision) / std::log(std::max(contraction, 1e-6))));
 }
 
+EnergyLoop RotationSystem::energy() const {
+    return {rings_.begin.data(), rings_.neighbor.data(), coefficient_.data(), edge_weight_.data(),
+            row_weight_.data(),  rest_.data(),           laplacian_.data(),   edge_sum_.data()};
+}
+
 // The factor by which one correction in single precision shortens the error, the worst of a smooth
 // solution and of two waves over the numbers of the vertices.
 double RotationSystem::measure_contraction(const Context& context) {
-    std::vector<Vec3> x(static_cast<std::size_t>(vertex_count_), Vec3::Zero());
+    std::vector<Vec4> x(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
     double size = 0.0;
     for (const Index v : free_) size = std::max(size, rest_[v].cwiseAbs().maxCoeff());
     for (const Index v : free_) {
-        x[v] = {rest_[v].sum() / size, std::cos(0.01 * v), std::cos(1.0 * v)};
+        x[v] = {rest_[v].sum() / size, std::cos(0.01 * v), std::cos(1.0 * v), 0.0};
     }
-    right_.assign(free_.size(), Vec3::Zero());
-    find_residual(x, context);
+    find_residual(nullptr, x, residual_, context);
     find_correction(context);
     Vec3 error = Vec3::Zero(), whole = Vec3::Zero();
     for (std::size_t r = 0; r < free_.size(); ++r) {
-        error += (correction_[r] + x[free_[r]]).cwiseAbs2();
-        whole += x[free_[r]].cwiseAbs2();
+        error += (correction_[r] + x[free_[r]].head<3>()).cwiseAbs2();
+        whole += x[free_[r]].head<3>().cwiseAbs2();
     }
     return std::sqrt((error.array() / whole.array().max(1e-300)).maxCoeff());
 }
 
-void RotationSystem::set_transforms(std::span<const Mat3> transforms, const Context& context) {
-    std::vector<Vec3>& target = by_vertex_;
-    target.resize(rest_.size());
-    context.parallel_for(0, rings_.size(), kFrameGrain, [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) target[i] = transforms[i] * weighted_delta_[i];
-    });
-    right_.resize(free_.size());
-    const auto count = static_cast<Index>(free_.size());
-    context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
-        for (Index r = begin; r < end; ++r) {
-            const Index i = free_[r];
-            Vec3 sum = laplacian_.self[i] * target[i] + transforms[i] * edge_sum_[i];
-            for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
-                const Index j = rings_.neighbor[e];
-                sum += transposed_[e] * target[j];
-                sum += transforms[j] * (0.5 * edge_weight_[e] * (rest_[i] - rest_[j]));
-            }
-            right_[r] = sum;
-        }
-    });
-}
-
-void RotationSystem::solve(std::span<Vec3> positions, bool draft, const Context& context) {
-    const int corrections = draft ? 1 : corrections_;
-    for (int pass = 0; pass < corrections; ++pass) {
-        find_residual(positions, context);
+void RotationSystem::solve(std::span<const PaddedMat3> transforms, std::span<Vec4> x, bool draft,
+                           const Context& context) {
+    find_residual(transforms.data(), x, residual_, context);
+    find_correction(context);
+    add_correction(x);
+    for (int pass = 1; !draft && pass < corrections_; ++pass) {
+        // What the last correction leaves of the residual.
+        step_.assign(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
+        add_correction(step_);
+        find_residual(nullptr, step_, change_, context);
+        for (std::size_t r = 0; r < free_.size(); ++r) residual_[r] += change_[r];
         find_correction(context);
-        for (std::size_t r = 0; r < free_.size(); ++r) positions[free_[r]] += correction_[r];
+        add_correction(x);
     }
-    if (ties_.has_hard()) enforce_ties(positions);
+    if (ties_.has_hard()) enforce_ties(x);
 }
 
-void RotationSystem::enforce_ties(std::span<Vec3> positions) {
-    columns_.resize(free_.size());
-    for (int d = 0; d < 3; ++d) {
-        for (std::size_t r = 0; r < free_.size(); ++r) columns_[r] = positions[free_[r]][d];
-        ties_.enforce([&](Index v) { return positions[v][d]; }, columns_);
-        for (std::size_t r = 0; r < free_.size(); ++r) positions[free_[r]][d] = columns_[r];
-    }
+void RotationSystem::add_correction(std::span<Vec4> x) const {
+    for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]].head<3>() += correction_[r];
 }
 
-// Right-hand side less what the matrix makes of `positions`, without forming the matrix.
-void RotationSystem::find_residual(std::span<const Vec3> positions, const Context& context) {
-    std::vector<Vec3>& scaled = by_vertex_;
-    scaled.resize(rest_.size());
-    const bool has_laplacian = laplacian_factor_ > 0.0;
-    if (has_laplacian) {
-        context.parallel_for(0, rings_.size(), kFrameGrain, [&](Index begin, Index end) {
-            for (Index i = begin; i < end; ++i) {
-                scaled[i] = laplacian_.weight[i] * laplacian_.apply(rings_, positions, i);
-            }
-        });
-    }
-    residual_.resize(free_.size());
+// Right-hand side less what the matrix makes of x, without forming the matrix.
+void RotationSystem::find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
+                                   std::vector<Vec3>& residual, const Context& context) {
+    const EnergyLoop loop = energy();
+    bent_.resize(rest_.size());
+    context.parallel_for(0, rings_.size(), kFrameGrain, [&](Index begin, Index end) {
+        loop.bend(transforms, x.data(), bent_.data(), begin, end);
+    });
+    residual.resize(free_.size());
     const auto count = static_cast<Index>(free_.size());
     context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
-        for (Index r = begin; r < end; ++r) {
-            const Index i = free_[r];
-            Vec3 sum = right_[r];
-            if (has_laplacian) sum -= laplacian_.self[i] * scaled[i];
-            for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
-                const Index j = rings_.neighbor[e];
-                sum -= edge_weight_[e] * (positions[i] - positions[j]);
-                if (has_laplacian) sum -= transposed_[e] * scaled[j];
-            }
-            residual_[r] = sum;
-        }
+        loop.descend(transforms, x.data(), bent_.data(), free_.data(), residual.data(), begin, end);
     });
-    ties_.subtract_from(positions, free_, residual_);
+    ties_.subtract_from(x, free_, residual);
 }
 
 void RotationSystem::find_correction(const Context& context) {
@@ -261,6 +257,16 @@ void RotationSystem::find_correction(const Context& context) {
     system_.solve(columns_, columns_, 3);
     for (std::size_t r = 0; r < rows; ++r) {
         correction_[r] = {columns_[r], columns_[rows + r], columns_[2 * rows + r]};
+    }
+}
+
+void RotationSystem::enforce_ties(std::span<Vec4> x) {
+    if (!ties_.has_hard()) return;
+    columns_.resize(free_.size());
+    for (int d = 0; d < 3; ++d) {
+        for (std::size_t r = 0; r < free_.size(); ++r) columns_[r] = x[free_[r]][d];
+        ties_.enforce([&](Index v) { return x[v][d]; }, columns_);
+        for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]][d] = columns_[r];
     }
 }
 

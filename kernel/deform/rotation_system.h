@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/deform/frame_loops.h"
 #include "kernel/deform/operators.h"
 #include "kernel/deform/patch.h"
 #include "kernel/deform/ties.h"
@@ -20,63 +21,61 @@ namespace lissom {
 /// + l2 sum over vertices of a_i |D(x)_i - S_i D(v)_i|^2
 /// with e = 0, l2 = 1 for `laplacian`; e = 1, l2 = 0 for `poisson`; and e = 1, l2 = (0.06 R)^2, at
 /// least (3 h)^2, for `blend`, where R is the radius of the region's surface and h its mean edge
-/// length.
+/// length. With D = -F C for a diagonal F and the Laplacian C of symmetric coefficients, its matrix
+/// is K = W + C G C, the Laplacian of edge weights and that of rows G = l2 A F^2.
 class RotationSystem {
   public:
     RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                    const DeformOptions& options, const Context& context);
 
-    /// Keeps the factor in single precision, unless the system is too ill-conditioned for that.
     /// Errors: not_positive_definite with rows as elements; memory_limit.
     void factor(const Context& context);
+    /// Follows `factor`: keeps the factor in single precision, unless the system is too
+    /// ill-conditioned for that. Errors: memory_limit.
+    void finish(const Context& context);
 
     const std::vector<Index>& free_vertices() const { return free_; }
     const FactorStats& stats() const { return stats_; }
     const Rings& rings() const { return rings_; }
 
-    /// Takes the transforms S_i of all local vertices as those to follow.
-    void set_transforms(std::span<const Mat3> transforms, const Context& context);
+    /// Finds the free positions for the transforms S_i of all real vertices. `x` holds the known
+    /// positions, those of anchors among them, and a guess of the free ones. Linear in both:
+    /// deviations of S_i from one S give deviations of the positions from S v + t. With `draft`,
+    /// one correction of the guess, about five digits; else as many as nearly full precision takes.
+    void solve(std::span<const PaddedMat3> transforms, std::span<Vec4> x, bool draft,
+               const Context& context);
 
-    /// Moves the free positions towards the solution for those transforms. `positions` holds the
-    /// known positions, those of anchors among them, and a guess of the free ones. Linear in
-    /// transforms and positions: deviations of S_i from one S give deviations of the positions from
-    /// S v + t. With `draft`, one correction, about five digits; else as many as nearly full
-    /// precision takes.
-    void solve(std::span<Vec3> positions, bool draft, const Context& context);
+    /// The loops over its energy.
+    EnergyLoop energy() const;
 
   private:
     void assemble(const std::vector<char>& position_known, const Context& context);
     void add_ties(const WorkingPatch& work);
-    void enforce_ties(std::span<Vec3> positions);
-    void find_residual(std::span<const Vec3> positions, const Context& context);
+    void find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
+                       std::vector<Vec3>& residual, const Context& context);
     void find_correction(const Context& context);
+    void add_correction(std::span<Vec4> x) const;
+    void enforce_ties(std::span<Vec4> x);
     double measure_contraction(const Context& context);
 
     Rings rings_;
-    Laplacian laplacian_;
-    /// Coefficient of i in D(x)_j, for the entry of j in the ring of i.
-    std::vector<double> transposed_;
-    /// Edge weights e w_ij of every ring entry, and l2 a_i D(v)_i and e sum_j w_ij (v_i - v_j) / 2
-    /// of every vertex.
-    std::vector<double> edge_weight_;
-    std::vector<Vec3> rest_, weighted_delta_, edge_sum_;
-    double laplacian_factor_ = 0.0;
+    std::vector<double> coefficient_, edge_weight_, row_weight_;
+    std::vector<Vec4> rest_, laplacian_, edge_sum_;
     std::vector<Index> free_;
+    Index vertex_count_ = 0;
     SymmetricMatrix matrix_;
     TieRows ties_;
     MemoryCharge ties_charge_;
     std::size_t tie_bytes_ = 0;
     double tie_unit_ = 1.0;
-    Index vertex_count_ = 0;
     /// One of the two holds the factor; corrections for a solution of nearly full precision.
     SingleFactor single_;
     SparseSystem system_;
     int corrections_ = 1;
     FactorStats stats_;
-    /// Right-hand side of the free vertices without the known positions.
-    std::vector<Vec3> right_;
     /// Scratch of a frame, kept because a frame is short beside the time to get fresh pages.
-    std::vector<Vec3> by_vertex_, residual_, correction_;
+    std::vector<Vec4> bent_, step_;
+    std::vector<Vec3> residual_, change_, correction_;
     std::vector<double> columns_;
     SingleFactor::Scratch scratch_;
 };

@@ -99,12 +99,12 @@ void TieRows::add_to(SymmetricMatrix& matrix) const {
     if (!missing.empty()) add_missing(matrix, missing);
 }
 
-void TieRows::subtract_from(std::span<const Vec3> positions, const std::vector<Index>& free,
+void TieRows::subtract_from(std::span<const Vec4> positions, const std::vector<Index>& free,
                             std::vector<Vec3>& residual) const {
     for (const Tie& tie : ties_) {
         Vec3 miss = Vec3::Zero();
-        for (const auto& [vertex, c] : tie.known) miss += c * positions[vertex];
-        for (const auto& [row, c] : tie.free) miss += c * positions[free[row]];
+        for (const auto& [vertex, c] : tie.known) miss += c * positions[vertex].head<3>();
+        for (const auto& [row, c] : tie.free) miss += c * positions[free[row]].head<3>();
         for (const auto& [row, c] : tie.free) residual[row] -= tie.weight * c * miss;
     }
 }

@@ -63,7 +63,7 @@ class TieRows {
 
     /// Takes w c (what is tied - anchor) off the residual of each unknown, for positions of all
     /// local vertices of which `free` are the unknowns.
-    void subtract_from(std::span<const Vec3> positions, const std::vector<Index>& free,
+    void subtract_from(std::span<const Vec4> positions, const std::vector<Index>& free,
                        std::vector<Vec3>& residual) const;
 
     /// Solves for the response to each hard tie: `solve(b, x, columns)` solves the system.

@@ -709,12 +709,16 @@ function Deformation:mesh() end
 ---@return lissom.Elements? elements # The elements concerned.
 function Deformation:preview() end
 
+---@class lissom.Deformation.SolveOptions
+---@field draft? boolean For the frames of a drag: about five digits in half the time. Solve once more when the drag ends. Default: false.
+
 ---Solves both systems and writes the result into the mesh. Handles that are where they began give the rest shape, to the bit.
+---@param options? lissom.Deformation.SolveOptions
 ---@return lissom.Mesh mesh # The mesh; nil, message, code where there is no solution.
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
-function Deformation:solve() end
+function Deformation:solve(options) end
 
 ---Handles and mesh go back to the rest shape, to the bit; vertex constraints go.
 ---@return lissom.Deformation edit # The deformation itself.
@@ -948,6 +952,7 @@ function lissom.shapes.cactus(options) end
 ---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Default: "blend".
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1.
 ---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
+---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. Default: 0.
 ---@field displacement? number How far degenerate vertices are displaced. In mean lengths of their edges. Default: 0.2.
 ---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate. Default: 20000.
 ---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise. Default: "default".

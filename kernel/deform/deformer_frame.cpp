@@ -1,0 +1,260 @@
+// The frames of a drag: what Deformer::State does with a preparation.
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+
+#include "kernel/deform/deformer_state.h"
+#include "kernel/deform/polar.h"
+
+namespace lissom {
+namespace {
+
+// Vertices whose matrices are worked on while they are in the cache.
+constexpr Index kBlock = 256;
+
+// Calls work(begin, end) for blocks of [0, count), in parallel.
+template <typename Work>
+void for_each_block(const Context& context, Index count, const Work& work) {
+    context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
+        for (Index b = begin; b < end; b += kBlock) work(b, std::min(end, b + kBlock));
+    });
+}
+
+GradientLoop gradient_loop(const Prepared& prepared) {
+    const Rings& rings = prepared.work->rings;
+    return {rings.begin.data(), rings.neighbor.data(), prepared.gradients.self.data(),
+            prepared.gradients.neighbor.data()};
+}
+
+}  // namespace
+
+// ---- First system
+
+void Deformer::State::preview(const Context& context) {
+    prepare(context);
+    if (at_rest()) return to_rest();
+    if (prepared->solution) {
+        const LinearSolution& solution = *prepared->solution;
+        const Mat4 shift = base_transform() - matrix_of({});
+        const std::vector<Mat4> differences = this->differences();
+        const Vec3& origin = rest_patch->patch.origin;
+        for_each_block(context, solution.rows(), [&](Index begin, Index end) {
+            std::array<Vec4, kBlock> x;
+            solution.positions(shift, differences, x.data(), begin, end);
+            for (Index row = begin; row < end; ++row) {
+                const Index target = prepared->region_row[row];
+                if (target != kNoIndex) positions[target] = x[row - begin].head<3>() + origin;
+            }
+        });
+    }
+    write_held();
+    gradients_current = false;
+    deformed = true;
+}
+
+void Deformer::State::evaluate_deviation(const Context& context) {
+    const Patch& patch = prepared->work->patch;
+    frame_base = base_transform();
+    deviation.assign(static_cast<std::size_t>(patch.vertex_count), Vec4::Zero());
+    for (const HandleState& h : handles) {
+        const Mat4 difference = matrix_of(local(h.transform)) - frame_base;
+        for (const Index v : h.local) deviation[v] = difference * homogeneous(patch.rest[v]);
+    }
+    for (const auto& entry : asked) deviation[entry.first] = padded(known_deviation(entry.first));
+    for (Index v = patch.surface_count; v < patch.vertex_count; ++v) {
+        deviation[v] = padded(known_deviation(v));
+    }
+    if (!prepared->solution) return;
+    const std::vector<Index>& free = prepared->first->free_vertices();
+    const std::vector<Mat4> differences = this->differences();
+    for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
+        std::array<Vec4, kBlock> x;
+        prepared->solution->deviations(differences, x.data(), begin, end);
+        for (Index row = begin; row < end; ++row) deviation[free[row]] = x[row - begin];
+    });
+}
+
+// ---- Deformation gradients
+
+// M_i after the first system; where it does not exist, the mean of those around it.
+Mat3 Deformer::State::gradient_of(Index v) const {
+    if (prepared->known.gradient[v]) return known_gradient(v);
+    const Mat3 base = frame_base.topLeftCorner<3, 3>();
+    const auto gathered = [&](Index u) -> Mat3 {
+        if (prepared->known.gradient[u]) return known_gradient(u);
+        Mat3 m;
+        gradient_loop(*prepared).gather(&u, deviation.data(), &m, 0, 1);
+        return base + m;
+    };
+    if (prepared->gradients.defined[v]) return gathered(v);
+    Mat3 sum = Mat3::Zero();
+    int count = 0;
+    for (const Index n : prepared->work->rings.ring(v)) {
+        if (!prepared->known.gradient[n] && !prepared->gradients.defined[n]) continue;
+        sum += gathered(n);
+        ++count;
+    }
+    return count > 0 ? Mat3(sum / count) : Mat3(Mat3::Identity());
+}
+
+void Deformer::State::find_gradients(const Context& context) {
+    if (gradients_current) return;
+    evaluate_deviation(context);
+    const Patch& patch = prepared->work->patch;
+    for_each_block(context, region.size(), [&](Index begin, Index end) {
+        for (Index row = begin; row < end; ++row) {
+            gradients[row] = gradient_of(patch.of_region[row]);
+        }
+    });
+    gradients_current = true;
+}
+
+// S of the second system for a deformation gradient: R, or R s.
+Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
+    const Mat3 r = nearest_rotation(gradient);
+    return options.local_size == LocalSize::scale ? Mat3(uniform_scale(gradient) * r) : r;
+}
+
+// S_i less that of the base, for all vertices of the region.
+void Deformer::State::find_turns(const Mat3& base_rotation, const Context& context) {
+    const Mat3 base = frame_base.topLeftCorner<3, 3>();
+    const bool scales = options.local_size == LocalSize::scale;
+    if (turns.empty()) {
+        const auto count = static_cast<std::size_t>(prepared->work->patch.real_count);
+        turns.assign(count, PaddedMat3::Zero());
+    }
+    const std::vector<Index>& vertices = prepared->gathered;
+    for_each_block(context, static_cast<Index>(vertices.size()), [&](Index begin, Index end) {
+        std::array<Mat3, kBlock> m;
+        std::array<double, kBlock> scale;
+        const auto count = static_cast<std::size_t>(end - begin);
+        gradient_loop(*prepared).gather(vertices.data(), deviation.data(), m.data(), begin, end);
+        for (std::size_t i = 0; i < count; ++i) {
+            m[i] += base;
+            scale[i] = scales ? uniform_scale(m[i]) : 1.0;
+        }
+        nearest_rotations({m.data(), count}, {m.data(), count});
+        for (std::size_t i = 0; i < count; ++i) {
+            const Index v = vertices[static_cast<std::size_t>(begin) + i];
+            turns[v].topRows<3>() = scale[i] * m[i] - base_rotation;
+        }
+    });
+    for (const Index v : prepared->averaged) {
+        turns[v] = padded_columns(rotation_of(gradient_of(v)) - base_rotation);
+    }
+    turn_held(base_rotation);
+}
+
+// Handles turn as a whole.
+void Deformer::State::turn_held(const Mat3& base_rotation) {
+    for (const HandleState& h : handles) {
+        if (h.removed || h.soft() || !h.options.gradient) continue;
+        const PaddedMat3 turn = padded_columns(rotation_of(h.transform.linear) - base_rotation);
+        for (const Index v : h.local) turns[v] = turn;
+    }
+    for (const auto& entry : asked) {
+        const Index v = entry.first;
+        if (v >= prepared->work->patch.real_count || !prepared->known.gradient[v]) continue;
+        turns[v] = padded_columns(rotation_of(known_gradient(v)) - base_rotation);
+    }
+}
+
+// ---- Second system
+
+// Rotations that fit the present positions best, as in the local step of Sorkine and Alexa,
+// "As-rigid-as-possible surface modeling" (2007), for the energy of the second system: with its
+// solution in between, that energy never increases. Scales stay.
+void Deformer::State::refine_turns(const Mat3& base_rotation, const Context& context) {
+    const Patch& patch = prepared->work->patch;
+    std::vector<Vec4>& x = absolute;
+    x.resize(static_cast<std::size_t>(patch.real_count));
+    for_each_block(context, patch.real_count, [&](Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) {
+            x[v] = padded(Vec3(base_rotation * patch.rest[v] + deviation[v].head<3>()));
+        }
+    });
+    const EnergyLoop loop = prepared->second->energy();
+    const bool scales = options.local_size == LocalSize::scale;
+    for (const std::vector<Index>* vertices : {&prepared->gathered, &prepared->averaged}) {
+        const auto all = static_cast<Index>(vertices->size());
+        for_each_block(context, all, [&](Index begin, Index end) {
+            std::array<Mat3, kBlock> m;
+            const auto count = static_cast<std::size_t>(end - begin);
+            loop.fit(x.data(), vertices->data(), m.data(), begin, end);
+            nearest_rotations({m.data(), count}, {m.data(), count});
+            for (std::size_t i = 0; i < count; ++i) {
+                auto turn = turns[(*vertices)[static_cast<std::size_t>(begin) + i]].topRows<3>();
+                const double scale = scales ? uniform_scale(base_rotation + turn) : 1.0;
+                turn = scale * m[i] - base_rotation;
+            }
+        });
+    }
+}
+
+// Solves for deviations from the similarity nearest to the base transform, so that similarities of
+// the whole are exact.
+void Deformer::State::solve_second(bool draft, const Context& context) {
+    const Patch& patch = prepared->work->patch;
+    const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
+    const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
+    find_turns(base_rotation, context);
+    if (!remainder.isZero(0.0)) {
+        for_each_block(context, patch.vertex_count, [&](Index begin, Index end) {
+            for (Index v = begin; v < end; ++v) {
+                deviation[v].head<3>() += remainder * patch.rest[v];
+            }
+        });
+    }
+    prepared->second->solve(turns, deviation, draft, context);
+    for (int step = 0; step < options.refine; ++step) {
+        refine_turns(base_rotation, context);
+        prepared->second->solve(turns, deviation, draft, context);
+    }
+    const Vec3 shift = frame_base.topRightCorner<3, 1>();
+    const std::vector<Index>& free = prepared->second->free_vertices();
+    for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
+        for (Index row = begin; row < end; ++row) {
+            const Index v = free[row];
+            const Vec3 at = base_rotation * patch.rest[v] + shift + deviation[v].head<3>();
+            positions[region_row[v]] = at + patch.origin;
+        }
+    });
+}
+
+void Deformer::State::solve(bool draft, const Context& context) {
+    prepare(context);
+    if (at_rest()) return to_rest();
+    context.checkpoint();
+    gradients_current = false;
+    evaluate_deviation(context);
+    if (!prepared->second->free_vertices().empty()) solve_second(draft, context);
+    write_held();
+    deformed = true;
+}
+
+// Held vertices lie where they were asked to, to the bit. Vertices without faces that no handle
+// holds never leave their rest position.
+void Deformer::State::write_held() {
+    for (const HandleState& h : handles) {
+        if (h.removed) continue;
+        const Affine transform = h.transform;
+        const bool still = transform.is_identity();
+        for (const Index v : h.local) {
+            if (!prepared->known.position[v]) continue;
+            const Index row = region_row[v];
+            positions[row] = still ? rest[row] : transform(rest[row]);
+        }
+    }
+    for (const auto& [v, constraint] : constraints) {
+        if (constraint.position) positions[region_row[v]] = *constraint.position;
+    }
+}
+
+void Deformer::State::to_rest() {
+    positions = rest;
+    gradients.assign(rest.size(), Mat3::Identity());
+    gradients_current = true;
+    deformed = false;
+}
+
+}  // namespace lissom
