@@ -23,6 +23,10 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernel DESTINATION ${CMAKE_INSTALL_INCLU
         # These show libraries that users of the package need not have.
         PATTERN "gltf_*.h" EXCLUDE)
 
+# The evaluator of saved bases needs nothing else of the package.
+install(FILES ${PROJECT_SOURCE_DIR}/bindings/engine/lissom_basis.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom/bindings/engine)
+
 # Static libraries pass on what they were linked with: the package finds the same libraries again.
 get_target_property(solve_libraries lissom_solve LINK_LIBRARIES)
 set(LISSOM_OPENMP OFF)
@@ -47,7 +51,7 @@ if(TARGET lissom)
     install(TARGETS lissom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples
             DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
-            FILES_MATCHING PATTERN "*.lua")
+            FILES_MATCHING PATTERN "*.lua" PATTERN "engine/*.c" PATTERN "engine/*.vert")
     # Annotations of the Lua functions for editors.
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/lua/meta ${PROJECT_SOURCE_DIR}/viewer/meta
             DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom)

@@ -87,6 +87,34 @@ ValueRange range_of(const Picture& picture, const std::optional<ValueRange>& of_
     return picture.range.value_or(of_values.value_or(ValueRange{}));
 }
 
+// Height of capitals in captions, as a share of the cell and in pixels.
+constexpr double kCaptionShare = 0.026;
+constexpr double kMinimumCaption = 9.0;
+
+double caption_text(int cell_height) {
+    return std::max(kCaptionShare * cell_height, kMinimumCaption);
+}
+
+// Rows of pixels that captions take in a cell.
+int caption_rows(const Picture& picture, int cell_height) {
+    if (picture.captions.empty()) return 0;
+    return std::min(static_cast<int>(std::lround(2.6 * caption_text(cell_height))),
+                    cell_height - 1);
+}
+
+// Centred in the last rows of the cell, smaller where it would not fit.
+void draw_caption(Image& image, const std::string& caption, const Cells& cells, int cell,
+                  const Color& ink) {
+    const double room = 0.94 * cells.width(cell);
+    double text = caption_text(cells.height(cell));
+    const double wanted = lay_out_text(caption, text).width;
+    if (wanted > room) text *= room / wanted;
+    const double x = cells.left(cell) + 0.5 * (cells.width(cell) - std::min(wanted, room));
+    const double base =
+        cells.top(cell) + cells.height(cell) - 0.8 * caption_text(cells.height(cell));
+    draw_text(image, caption, x, base, text, ink);
+}
+
 Camera camera_for(const Picture& picture, const Drawing& drawing, double aspect) {
     if (picture.camera) return *picture.camera;
     FramingOptions framing = picture.framing;
@@ -101,6 +129,10 @@ Camera camera_for(const Picture& picture, const Drawing& drawing, double aspect)
 Image draw_picture(Renderer& renderer, const Picture& picture, const Context& context) {
     require_faces(picture.meshes);
     require(picture.columns >= 0, "columns must be 0 (all meshes in one space) or more");
+    require(picture.captions.empty() || picture.captions.size() == picture.meshes.size(),
+            "give one caption for each mesh");
+    require(picture.captions.empty() || picture.columns > 0,
+            "captions stand below cells; set columns");
     const RenderOptions& options = picture.options;
     renderer.require_valid(options);
 
@@ -121,10 +153,16 @@ Image draw_picture(Renderer& renderer, const Picture& picture, const Context& co
         const int cell = static_cast<int>(i);
         RenderOptions part = options;
         part.width = cells.width(cell);
-        part.height = cells.height(cell);
-        const Camera camera = camera_for(picture, drawings[i], cells.aspect());
+        part.height = cells.height(cell) - caption_rows(picture, cells.height(cell));
+        const double aspect = picture.captions.empty()
+                                  ? cells.aspect()
+                                  : static_cast<double>(part.width) / part.height;
+        const Camera camera = camera_for(picture, drawings[i], aspect);
         image.paste(renderer.render(drawings[i], camera, part, context), cells.left(cell),
                     cells.top(cell));
+        if (!picture.captions.empty()) {
+            draw_caption(image, picture.captions[i], cells, cell, ink_on(options.background));
+        }
     }
     if (has_legend) draw_legend(image, legend, ink_on(options.background));
     return image;

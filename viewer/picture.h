@@ -28,6 +28,8 @@ struct Picture {
     int columns = 0;
     /// In cells, each mesh is framed by itself: for meshes that have nothing to do with each other.
     bool fit_each = false;
+    /// One line of text below each cell; none, or one a mesh.
+    std::vector<std::string> captions = {};
 
     /// Ends of the colour scale; without them, the least and greatest value drawn.
     std::optional<ValueRange> range = std::nullopt;

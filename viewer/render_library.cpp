@@ -190,6 +190,9 @@ Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& si
     picture.framing = view.framing;
     picture.columns = call.integer("columns");
     picture.fit_each = call.has("fit") && call.integer("fit") == 1;
+    if (call.has("captions")) {
+        for (const char* caption : call.strings("captions")) picture.captions.emplace_back(caption);
+    }
     picture.options = read_options(call, size);
     add_meshes(call, picture);
     color_meshes(call, picture);
@@ -216,7 +219,11 @@ void check_options(const Call& call) {
     for (const char* option : {"range", "legend", "label"}) {
         if (call.has(option) && !call.has("scalars")) call.reject(option, "it needs 'scalars'");
     }
-    if (call.has("fit") && call.integer("columns") == 0) call.reject("fit", "it needs 'columns'");
+    for (const char* option : {"fit", "captions"}) {
+        if (call.has(option) && call.integer("columns") == 0) {
+            call.reject(option, "it needs 'columns'");
+        }
+    }
     if (call.has("wire_width") && !call.boolean("wire")) {
         call.reject("wire_width", "it needs 'wire = true'");
     }
@@ -262,6 +269,7 @@ std::vector<Parameter> content_options() {
         choice("fit", {"all", "each"},
                "In cells, a view frames all meshes at one scale, or each by itself.")
             .optional("all"),
+        strings("captions", "In cells, a line of text below each mesh.").optional(),
         either("color", {string("name", "One for all."), strings("names", "One for each mesh.")},
                "Colour of the meshes: \"#rrggbb\" or one of " + std::string(color_names()) + ".")
             .optional("clay"),

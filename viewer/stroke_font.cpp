@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace lissom {
 namespace {
@@ -171,9 +172,10 @@ TextStrokes lay_out_text(std::string_view text, double height) {
     const double scale = height / kCapitalHeight;
     TextStrokes result;
     double x = 0.0;
+    bool first = true;
     for (const char c : text) {
         if (continues_character(c)) continue;
-        if (x > 0.0) x += kLetterGap;
+        if (!std::exchange(first, false)) x += kLetterGap;
         if (c == ' ') {
             x += kSpaceWidth;
             continue;

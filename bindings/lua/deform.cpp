@@ -34,9 +34,26 @@ void take_number(const Call& call, const char* path, double& target) {
     if (call.has(path)) target = call.number(path);
 }
 
+// Options given together with a method that has no use for them.
+void refuse_options(const Call& call, DeformMethod method) {
+    if (method == DeformMethod::implicit) return;
+    const auto refuse = [&](const std::string& option) {
+        throw Error(ErrorCode::invalid_argument,
+                    "option '" + option + "' does not apply to method '" +
+                        std::string(method_name(method)) + "'; leave one of them out");
+    };
+    for (const char* option :
+         {"local_size", "second", "coherence", "displacement", "degenerate_threshold"}) {
+        if (call.has(option)) refuse(option);
+    }
+    if (call.integer("fidelity") == 1) refuse("fidelity");
+    if (method == DeformMethod::geodesic && call.has("weights")) refuse("weights");
+}
+
 DeformOptions deform_options(const Call& call) {
     const bool thesis = call.integer("fidelity") == 1;
     DeformOptions options = thesis ? DeformOptions::thesis() : DeformOptions{};
+    take_choice(call, "method", options.method);
     take_choice(call, "second", options.second);
     take_choice(call, "local_size", options.local_size);
     take_choice(call, "weights", options.weights);
@@ -54,6 +71,7 @@ int deform_mesh(Call& call) {
     const DeformOptions options = deform_options(call);
     const auto result = call.create<DeformObject>();
     const bool done = call.attempt([&] {
+        refuse_options(call, options.method);
         const Region all = whole ? Region::all(mesh->mesh.shared_topology()) : region->current();
         result.set(std::make_shared<DeformObject>(
             mesh.share(), Deformer(mesh->mesh, all, options, call.context())));
@@ -385,6 +403,10 @@ int handle_text(Call& call) {
 const std::vector<ErrorCode> kSolveErrors = {
     ErrorCode::unconstrained, ErrorCode::zero_area,         ErrorCode::not_positive_definite,
     ErrorCode::memory_limit,  ErrorCode::topology_mismatch, ErrorCode::cancelled};
+const std::vector<ErrorCode> kBasisErrors = {
+    ErrorCode::unconstrained, ErrorCode::zero_area,         ErrorCode::not_positive_definite,
+    ErrorCode::memory_limit,  ErrorCode::topology_mismatch, ErrorCode::unsupported,
+    ErrorCode::cancelled};
 const std::vector<ErrorCode> kHandleErrors = {
     ErrorCode::handle_removed, ErrorCode::singular_transform, ErrorCode::topology_mismatch};
 const std::vector<ErrorCode> kEditErrors = {ErrorCode::handle_removed,
@@ -476,7 +498,7 @@ edit:solve())"},
              "The first system's solution as a linear function of the handles: what an engine "
              "needs to follow a drag by itself.",
          .results = {{"lissom.HandleBasis", "basis", "Weights of every vertex for every handle."}},
-         .errors = kSolveErrors,
+         .errors = kBasisErrors,
          .example = kBar + "assert(edit:basis().weights[1]:width() == 4)"}};
 }
 
@@ -541,6 +563,17 @@ std::vector<Parameter> deform_parameters() {
     };
     return {
         object("region", "lissom.Region", "What may move. Outside nothing does.").optional("all"),
+        choice(
+            "method",
+            {"implicit", "naive", "rotation_estimate", "similarity", "geodesic", "harmonic",
+             "frames"},
+            "implicit is this kernel's own method. The others are for comparison: Laplacian "
+            "coordinates as they are; turned by rotations estimated from that (Lipman 2004); by "
+            "similarities implicit in the positions (Sorkine 2004); handle rotations propagated "
+            "by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-"
+            "invariant coordinates (Lipman 2005). Of the other options they take `weights` only, "
+            "and geodesic not even that; they have no basis, and preview is as solve.")
+            .optional("\"implicit\""),
         choice("local_size", {"keep", "scale"},
                "Whether details keep their size or scale with the surface around them.")
             .optional("\"keep\""),
@@ -654,6 +687,7 @@ edit:solve())"},
          .results = {{"lissom.Mesh", "mesh", "The mesh."}},
          .example = kBar + "assert(edit:mesh() == bar)"}};
     for (Function& method : solving_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : deform_engine_methods()) type.methods.push_back(std::move(method));
     return type;
 }
 

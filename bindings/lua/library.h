@@ -24,6 +24,7 @@ Type buffer_type();
 std::vector<Function> buffer_methods_of_mesh();
 
 Type deformation_type();
+std::vector<Function> deform_engine_methods();
 Type handle_type();
 std::vector<Function> deform_functions();
 

@@ -29,6 +29,36 @@ void require_options(const DeformOptions& o) {
     require(o.displacement > 0.0 && std::isfinite(o.displacement), "displacement must be above 0");
 }
 
+// Options that a comparison method has no use for must be left alone.
+void require_applicable(const DeformOptions& o) {
+    if (o.method == DeformMethod::implicit) return;
+    const DeformOptions defaults;
+    const bool laplacian = o.method == DeformMethod::naive ||
+                           o.method == DeformMethod::rotation_estimate ||
+                           o.method == DeformMethod::similarity;
+    const auto refuse = [&](bool differs, const char* option) {
+        if (!differs) return;
+        throw Error(ErrorCode::invalid_argument,
+                    std::string(option) + " does not apply to method " +
+                        std::string(method_name(o.method)) + "; leave one of them out");
+    };
+    refuse(o.second != defaults.second, "second");
+    refuse(o.local_size != defaults.local_size, "local_size");
+    refuse(o.coherence != defaults.coherence, "coherence");
+    refuse(o.coherence_weight != defaults.coherence_weight, "coherence_weight");
+    refuse(o.degenerate_threshold != defaults.degenerate_threshold, "degenerate_threshold");
+    refuse(o.displacement != defaults.displacement, "displacement");
+    refuse(!laplacian && !o.scale_free, "scale_free");
+    refuse(o.method == DeformMethod::geodesic && o.weights != defaults.weights, "weights");
+}
+
+// For what only the first system of the implicit method has.
+void require_implicit(const DeformOptions& options, const std::string& what) {
+    if (options.method == DeformMethod::implicit) return;
+    throw Error(ErrorCode::unsupported, what + " exists for method implicit only, not for method " +
+                                            std::string(method_name(options.method)));
+}
+
 void require_regular(const Affine& transform) {
     const double scale = transform.linear.norm();
     if (transform.is_finite() &&
@@ -40,6 +70,12 @@ void require_regular(const Affine& transform) {
 }
 
 }  // namespace
+
+std::string_view method_name(DeformMethod method) {
+    constexpr std::string_view kNames[] = {
+        "implicit", "naive", "rotation_estimate", "similarity", "geodesic", "harmonic", "frames"};
+    return kNames[static_cast<int>(method)];
+}
 
 DeformOptions DeformOptions::thesis() {
     DeformOptions options;
@@ -54,6 +90,7 @@ Deformer::Deformer(const Mesh& mesh, const Region& region, const DeformOptions& 
                    const Context& context) {
     require_same_topology(mesh, region.topology(), "the region");
     require_options(options);
+    require_applicable(options);
     if (region.empty()) {
         throw Error(ErrorCode::region_empty, "the region to deform has no vertices; enlarge it");
     }
@@ -93,6 +130,23 @@ const Affine& Deformer::transform(HandleId id) const {
     return state_->handle(id).transform;
 }
 
+std::shared_ptr<const HandlePoses> Deformer::poses() const {
+    return std::make_shared<HandlePoses>(HandlePoses{state_->handles});
+}
+
+void Deformer::restore(const HandlePoses& poses) {
+    std::vector<HandleState>& handles = state_->handles;
+    for (std::size_t h = 0; h < poses.handles.size() && h < handles.size(); ++h) {
+        if (handles[h].removed) continue;
+        HandleState now = std::move(handles[h]);
+        handles[h] = poses.handles[h];
+        handles[h].region = std::move(now.region);
+        handles[h].center = now.center;
+        handles[h].local = std::move(now.local);
+        handles[h].points = std::move(now.points);
+    }
+}
+
 void Deformer::set_transform(HandleId id, const Affine& transform) {
     HandleState& handle = state_->handle(id);
     require_regular(transform);
@@ -126,6 +180,7 @@ const std::vector<Vec3>& Deformer::solve_draft(const Context& context) {
 // itself: the rounding of its entries then acts on the deviation only.
 std::vector<Vec3> Deformer::solve_first_directly(const Context& context) {
     State& s = *state_;
+    require_implicit(s.options, "the first system");
     s.prepare(context);
     const Mat4 base = s.base_transform();
     const Mat3 base_gradient = base.topLeftCorner<3, 3>();
@@ -170,7 +225,17 @@ void Deformer::apply_to(Mesh& mesh) const {
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row)
         out[s.region.vertices()[row]] = s.positions[row];
-    if (!s.directions.empty()) s.directions.apply_to(mesh, s.gradients);
+    if (s.directions.empty()) return;
+    const bool comparison = s.prepared && s.prepared->comparison;
+    s.directions.apply_to(mesh, comparison ? s.surface_gradients() : s.gradients);
+}
+
+void Deformer::apply_rest_to(Mesh& mesh) const {
+    const State& s = *state_;
+    require_same_topology(mesh, s.region.topology(), "the deformer");
+    const std::span<Vec3> out = mesh.edit_positions();
+    for (Index row = 0; row < s.region.size(); ++row) out[s.region.vertices()[row]] = s.rest[row];
+    s.directions.apply_to(mesh, std::vector<Mat3>(s.rest.size(), Mat3::Identity()));
 }
 
 void Deformer::reset() {
@@ -191,6 +256,7 @@ const std::vector<Mat3>& Deformer::gradients() {
 // space the patch sees [L, L o + t - o].
 HandleBasis Deformer::basis(const Context& context) {
     State& s = *state_;
+    require_implicit(s.options, "the handle basis");
     s.prepare(context);
     HandleBasis basis;
     basis.vertices = s.region.vertices();

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -38,7 +39,36 @@ enum class SecondSystem { blend, laplacian, poisson };
 /// Whether details keep their size (Eq 2.10) or scale with the surface around them (Eq 2.11).
 enum class LocalSize { keep, scale };
 
+/// How the region follows its handles. All but `implicit` are the methods that the thesis compares
+/// its own with (sections 2.3 to 2.5). They use the same operators and keep the same promises: hard
+/// positions, the rest shape to the bit, nothing moves outside the region, no factorisation for a
+/// new transform. They have one quality only, so `preview` and `solve_draft` give what `solve`
+/// gives, and no handle basis; weights of handles, and points that are not vertices, are refused as
+/// `unsupported`.
+enum class DeformMethod {
+    /// Fu 2007: gradients implicit in the positions, then shear taken out.
+    implicit,
+    /// Eq 2.1: Laplacian coordinates keep their direction in space.
+    naive,
+    /// Lipman et al. 2004: rotations estimated from the naive solution, then a second solve.
+    rotation_estimate,
+    /// Sorkine et al. 2004: linearised similarities implicit in the positions.
+    similarity,
+    /// Yu et al. 2004: handle gradients propagated by geodesic distance, then a Poisson system.
+    geodesic,
+    /// Zayer et al. 2005: the same by harmonic fields.
+    harmonic,
+    /// Lipman et al. 2005: rotation-invariant coordinates; frames first, then positions.
+    frames,
+};
+
+/// "implicit", "naive", ...: the name in scripts.
+std::string_view method_name(DeformMethod method);
+
+/// A comparison method refuses values other than the defaults of the options that it has no use
+/// for: `weights` serves all but geodesic, `scale_free` the first three, and the others none.
 struct DeformOptions {
+    DeformMethod method = DeformMethod::implicit;
     SecondSystem second = SecondSystem::blend;
     LocalSize local_size = LocalSize::keep;
     LaplacianWeights weights = LaplacianWeights::cotangent;
@@ -122,6 +152,10 @@ struct HandleBasis {
     std::vector<Vec3> fixed;
 };
 
+/// How the handles of a Deformer stand, with all that is kept of their moves; see
+/// Deformer::poses.
+struct HandlePoses;
+
 /// Deforms one region of one mesh. Vertices outside the region never move and keep the identity as
 /// gradient. Factors are kept: a new transform costs no factorisation, a new handle does, at the
 /// next solve. Accepts polygon meshes of any genus, with or without boundary.
@@ -164,6 +198,10 @@ class Deformer {
     /// Errors: singular_transform (determinant zero or not finite); handle_removed.
     void set_transform(HandleId handle, const Affine& transform);
     const Affine& transform(HandleId handle) const;
+    /// How the handles stand, to be put back by `restore`, to the bit.
+    std::shared_ptr<const HandlePoses> poses() const;
+    /// Handles that were removed since, or added, are left as they are.
+    void restore(const HandlePoses& poses);
 
     /// Constrains one vertex, replacing an earlier constraint of it. A vertex with neither position
     /// nor gradient is free again. Errors: out_of_range; handle_outside_region; handle_overlap
@@ -182,10 +220,12 @@ class Deformer {
 
     /// Assembles and factors what the present handles need, if that has not been done. `preview`
     /// and `solve` do it by themselves. Errors: unconstrained, naming a part of the region that
-    /// nothing holds; zero_area; not_positive_definite; memory_limit; cancelled.
+    /// nothing holds; zero_area; not_positive_definite; memory_limit; cancelled; unsupported for
+    /// what a comparison method cannot hold.
     void prepare(const Context& context = {});
 
-    /// Solves the first system only (Eq 2.8), by the handle basis. Errors: as prepare.
+    /// Solves the first system only (Eq 2.8), by the handle basis; as `solve` for a comparison
+    /// method. Errors: as prepare.
     const std::vector<Vec3>& preview(const Context& context = {});
     /// Solves both systems. With every transform the identity the result is the rest shape to the
     /// bit.
@@ -194,6 +234,7 @@ class Deformer {
     /// once more when the drag ends.
     const std::vector<Vec3>& solve_draft(const Context& context = {});
     /// Solves the first system by its factor instead of the basis: the oracle of tests.
+    /// Errors: as prepare; unsupported for a comparison method.
     std::vector<Vec3> solve_first_directly(const Context& context = {});
 
     /// Positions of the region's vertices, in the order of `region().vertices()`, from the last
@@ -204,6 +245,9 @@ class Deformer {
     /// Writes `positions()` into the region's vertices of `mesh`; custom normals turn with the
     /// surface. Errors: topology_mismatch.
     void apply_to(Mesh& mesh) const;
+    /// Writes the rest shape into the region's vertices of `mesh`, with the custom normals it had.
+    /// Errors: topology_mismatch.
+    void apply_rest_to(Mesh& mesh) const;
 
     /// All transforms to the identity and `positions()` to the rest shape, to the bit; vertex
     /// constraints go.
@@ -217,9 +261,10 @@ class Deformer {
     void rebase();
 
     /// Deformation gradients M_i of the region's vertices in the last solve or preview, before
-    /// shear is taken out; the identity before one.
+    /// shear is taken out; the identity before one. For a comparison method, the M_i by which it
+    /// transforms the details (Eq 2.2).
     const std::vector<Mat3>& gradients();
-    /// Computes the basis if needed. Errors: as prepare.
+    /// Computes the basis if needed. Errors: as prepare; unsupported for a comparison method.
     HandleBasis basis(const Context& context = {});
     const DeformStats& stats() const;
 

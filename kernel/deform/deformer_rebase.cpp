@@ -5,6 +5,7 @@ namespace lissom {
 
 void Deformer::State::drop_prepared() {
     if (prepared) find_gradients({});
+    if (prepared && prepared->comparison && !directions.empty()) gradients = surface_gradients();
     prepared.reset();
 }
 

@@ -189,6 +189,7 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     Progress progress(context, "deform: prepare");
     require_area();
     auto next = std::make_unique<Prepared>();
+    if (options.method != DeformMethod::implicit) require_plain_holds();
     next->work = holds().change_patch() ? anchored(*rest_patch, holds()) : rest_patch;
     const Patch& patch = next->work->patch;
     const Rings& rings = next->work->rings;
@@ -197,6 +198,10 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     next->owner = std::move(holding.owner);
     next->known = std::move(holding.known);
     next->asked = std::move(holding.asked);
+    if (options.method != DeformMethod::implicit) {
+        prepare_comparison(*next, context);
+        return next;
+    }
 
     progress.step(0.2);
     const auto start = std::chrono::steady_clock::now();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "kernel/deform/comparison_method.h"
 #include "kernel/deform/constraints.h"
 #include "kernel/deform/deformer.h"
 #include "kernel/deform/frame_loops.h"
@@ -21,6 +22,13 @@ namespace lissom {
 /// Vertices evaluated in one piece of a parallel loop of a frame.
 inline constexpr Index kFrameGrain = 4096;
 
+/// Vertices whose gradient is prescribed together: those of a handle, one with a constraint, or all
+/// that are pinned.
+struct GradientSource {
+    Index owner = kPinned;
+    Index vertex = kNoIndex;
+};
+
 /// Everything that depends on which vertices are held, but not on where they go.
 struct Prepared {
     std::shared_ptr<const WorkingPatch> work;
@@ -32,11 +40,20 @@ struct Prepared {
     std::unique_ptr<GradientSystem> first;
     std::unique_ptr<RotationSystem> second;
     std::unique_ptr<LinearSolution> solution;
+    /// In place of the three above, for a comparison method; the source of each local vertex's
+    /// gradient, or kNoIndex, and the sources.
+    std::unique_ptr<ComparisonMethod> comparison;
+    std::vector<Index> source;
+    std::vector<GradientSource> sources;
     /// Row in the region of each row of the solution, or kNoIndex for virtual vertices.
     std::vector<Index> region_row;
     /// Vertices of the region without a known gradient: those with a stencil, and those without,
     /// which take the mean of their neighbours.
     std::vector<Index> gathered, averaged;
+};
+
+struct HandlePoses {
+    std::vector<HandleState> handles;
 };
 
 struct Deformer::State {
@@ -79,6 +96,15 @@ struct Deformer::State {
     void require_area() const;
     Vec3 start_of_sequence() const;
     [[noreturn]] void refuse_singular(const Error& error, const std::vector<Index>& free) const;
+
+    // Of comparison methods.
+    void require_plain_holds() const;
+    void find_sources(Prepared& next) const;
+    void prepare_comparison(Prepared& next, const Context& context);
+    Affine comparison_base() const;
+    std::vector<SourceMotion> source_motions() const;
+    void solve_comparison(const Context& context);
+    std::vector<Mat3> surface_gradients() const;
 
     void evaluate_deviation(const Context& context);
     Mat3 gradient_of(Index v) const;
@@ -130,6 +156,8 @@ struct Deformer::State {
     std::vector<PaddedMat3> turns;
     /// Scratch of the refinement: positions less the translation of the base.
     std::vector<Vec4> absolute;
+    /// Local positions of the last solve by a comparison method.
+    std::vector<Vec3> compared;
     std::vector<Vec3> positions;
     std::vector<Mat3> gradients;
     bool deformed = false, gradients_current = true;

@@ -9,7 +9,8 @@ function(run)
 endfunction()
 
 set(arguments -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}"
-              -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DHELLO=${SOURCE}/examples/hello.cpp)
+              -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DHELLO=${SOURCE}/examples/hello.cpp
+              -DEVALUATE=${SOURCE}/examples/engine/evaluate.c)
 if(WAY STREQUAL "installed")
     file(REMOVE_RECURSE ${FOLDER})
     run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/prefix)
@@ -25,7 +26,7 @@ if(WAY STREQUAL "installed")
 endif()
 
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/embed/consumer -B ${FOLDER}/build ${arguments})
-run(${CMAKE_COMMAND} --build ${FOLDER}/build --target ${programs})
+run(${CMAKE_COMMAND} --build ${FOLDER}/build --target ${programs} evaluate)
 file(MAKE_DIRECTORY ${FOLDER}/out)
 foreach(program ${programs})
     run(${CMAKE_COMMAND} -E chdir ${FOLDER}/out ${FOLDER}/build/${program})

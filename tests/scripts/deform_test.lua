@@ -115,13 +115,39 @@ for _, options in ipairs{
     expect.truthy(edit:solve())
 end
 
+-- Comparison methods: exact handles, preview as solve, no basis, options without a use named.
+for _, method in ipairs{ "naive", "rotation_estimate", "similarity", "geodesic", "harmonic", "frames" } do
+    mesh = lissom.shapes.bar{ across = 2, along = 16 }
+    rest = mesh:hash()
+    edit = lissom.deform(mesh, { method = method })
+    edit:handle(mesh:region("bottom"))
+    top = edit:handle(mesh:region("top")):rotate{ axis = "z", angle = 40 }:translate(0.5, 0, 0)
+    edit:solve()
+    local solved = mesh:hash()
+    expect.near_list(mesh:region("top"):center(), { 0.5, 2.5, 0 }, 1e-12)
+    edit:preview()
+    expect.equal(mesh:hash(), solved)
+    top:reset()
+    edit:solve()
+    expect.equal(mesh:hash(), rest)
+    local none, message, code = edit:basis()
+    expect.truthy(none == nil and code == "unsupported" and message:find(method, 1, true))
+    for name, value in pairs{ local_size = "keep", second = "blend", coherence = 1, displacement = 0.2,
+        degenerate_threshold = 1e4, fidelity = "thesis" } do
+        expect.error(name .. "' does not apply to method '" .. method,
+            function() lissom.deform(mesh, { method = method, [name] = value }) end)
+    end
+end
+lissom.deform(mesh, { method = "harmonic", weights = "uniform" })
+expect.error("weights", function() lissom.deform(mesh, { method = "geodesic", weights = "uniform" }) end)
+
 -- Misuse.
 mesh, edit, _, top = bar()
 expect.error("[handle_overlap]", function() edit:handle(mesh:region("top"):grow()) end)
 expect.error("[region_empty]", function() edit:handle(mesh:region{ vertices = {} }) end)
 expect.error("[singular_transform]", function() top:scale(0) end)
 expect.error("integer from 1 to 2 expected", function() lissom.deform(mesh, { coherence = 3 }) end)
-expect.error("unknown option 'method' of 'deform'", function() lissom.deform(mesh, { method = "x" }) end)
+expect.error("unknown option 'methods' of 'deform'", function() lissom.deform(mesh, { methods = "x" }) end)
 expect.error("unknown option 'strength' of 'handle'", function()
     edit:handle(mesh:region("top"), { strength = 1 })
 end)

@@ -739,6 +739,36 @@ function Deformation:stats() end
 ---@return lissom.Elements? elements # The elements concerned.
 function Deformation:basis() end
 
+---@class lissom.Deformation.Save_basisOptions
+---@field names? string[] Names of the handles, in the order of edit:handles(): a program finds them by these. Default: that of the mesh's region with the same vertices.
+
+---Writes the basis to a file for a program without a solver: 4 floats a vertex and handle, relative to the middle of the region. bindings/engine/lissom_basis.h, one C header, describes the file and gives what preview gives.
+---@param path string The file.
+---@param options? lissom.Deformation.Save_basisOptions
+---@return lissom.Deformation edit # The deformation itself; nil, message, code where there is no solution or the file could not be written.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Deformation:save_basis(path, options) end
+
+---@class lissom.Deformation.BakeOptions
+---@field pose fun(time: number, frame: integer) Moves handles; called for each frame with its time and its number from 1.
+---@field duration? number Length of the animation; it starts at 0 and has a frame at its end. In seconds. Default: times are given.
+---@field fps? number Frames a second. Default: 24.
+---@field times? number[] Time of each frame in seconds, ascending, instead of a duration. Default: duration is given.
+---@field interpolation? "linear"|"step" Between frames the surface moves along straight lines, or stays and then jumps. Default: "linear".
+---@field preview? boolean Poses as preview makes them: the first system only. Default: false.
+---@field normals? boolean Gives a mesh without normals those of its surface, so that light follows the motion. Default: true.
+---@field name? string Name of the animation. Default: "deformation".
+
+---Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles stand where they stand now, the function moves them, and the deformation is solved. Handles and mesh are afterwards as they were, also where the function fails.
+---@param options lissom.Deformation.BakeOptions
+---@return lissom.Mesh mesh # The rest shape with its targets and the animation; nil, message, code where a pose has no solution.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Deformation:bake(options) end
+
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Deformation:close() end
 
@@ -948,6 +978,7 @@ function lissom.shapes.cactus(options) end
 
 ---@class lissom.DeformOptions
 ---@field region? lissom.Region What may move. Outside nothing does. Default: all.
+---@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview is as solve. Default: "implicit".
 ---@field local_size? "keep"|"scale" Whether details keep their size or scale with the surface around them. Default: "keep".
 ---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Default: "blend".
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1.

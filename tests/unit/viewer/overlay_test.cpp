@@ -51,6 +51,12 @@ TEST_CASE("letters stay between the lowest and highest line and scale with their
           doctest::Approx(2.0 * lay_out_text("width", 14.0).width));
 }
 
+TEST_CASE("the first letter keeps its distance even where it has no width") {
+    const TextStrokes text = lay_out_text("ii", 14.0);
+    CHECK(text.strokes.front().front().x() == 0.0);
+    CHECK(text.strokes.back().front().x() > 1.0);
+}
+
 TEST_CASE("a character of several bytes is one box") {
     CHECK(lay_out_text("\xC3\xA4", 14.0).strokes.size() == 1);
 }

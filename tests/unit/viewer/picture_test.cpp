@@ -75,6 +75,22 @@ TEST_CASE("cells fill rows, and cells without a mesh stay empty") {
     CHECK(image.pixel(75, 75)[3] == 0);
 }
 
+TEST_CASE("captions stand below their cells, and meshes make room for them") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh sphere = make_sphere();
+    Picture picture = picture_of(sphere, 400, 200);
+    picture.meshes.resize(2, {&sphere});
+    picture.columns = 2;
+    picture.captions = {"before", ""};
+    const Image image = draw_picture(*renderer, picture);
+    CHECK(test::covered(test::crop(image, 0, 180, 200, 20)) > 20);
+    CHECK(test::covered(test::crop(image, 200, 180, 200, 20)) == 0);
+    picture.captions = {std::string(200, 'm'), "after"};
+    const Image narrowed = draw_picture(*renderer, picture);
+    CHECK(test::covered(test::crop(narrowed, 198, 180, 4, 20)) == 0);
+}
+
 TEST_CASE("a legend appears beside the mesh where it has values") {
     const auto renderer = test::make_renderer();
     if (!renderer) return;
@@ -129,6 +145,13 @@ TEST_CASE("pictures that cannot be made are refused") {
 
     picture = picture_of(sphere);
     picture.columns = -1;
+    CHECK(code(picture) == ErrorCode::invalid_argument);
+
+    picture = picture_of(sphere);
+    picture.captions = {"alone"};
+    CHECK(code(picture) == ErrorCode::invalid_argument);
+    picture.columns = 1;
+    picture.captions = {"one", "too many"};
     CHECK(code(picture) == ErrorCode::invalid_argument);
 
     picture = picture_of(sphere, 20, 90);

@@ -130,6 +130,7 @@ TEST_CASE("attributes are drawn by name, and copies side by side share a region"
         "  before:add_attribute{ name = 'height', domain = 'vertex' }\n"
         "  local after = before:copy():transform{ scale = 0.9 }\n"
         "  return lissom.render{ meshes = { before, after }, columns = 2, scalars = 'height',\n"
+        "      captions = { 'before', 'after' },\n"
         "      region = before:region('tip'), handles = { 'left_tip', 'right_tip' },\n"
         "      size = { 200, 60 }, file = '" +
         folder.path("pair.png") +

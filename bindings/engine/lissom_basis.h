@@ -1,0 +1,438 @@
+/// lissom_basis.h: evaluates the handle basis of a deformation. C99 and C++, this file alone.
+///
+/// A basis is what `edit:save_basis("arm.basis")` writes (`save_basis` in C++): the shape of a
+/// deformed region as a linear function of the transforms of its handles. A program that has it
+/// moves handles and gets the surface without a solver: 4 multiplications and additions a
+/// coordinate, handle and vertex. Nothing is allocated, no library is called, there is no state.
+///
+///     #include "lissom_basis.h"
+///
+///     lissom_basis basis;
+///     if (lissom_basis_open(&basis, bytes, size) != LISSOM_BASIS_OK) ...
+///     float transforms[2][12];                            // one 3 x 4 matrix a handle
+///     lissom_basis_identity(transforms[0]);               // the first handle stays
+///     lissom_basis_local(&basis, wanted, transforms[1]);  // the second goes where `wanted` says
+///     lissom_basis_evaluate(&basis, transforms[0], 0, basis.vertex_count, out, 3 * sizeof(float));
+///
+/// What is exact
+///     The result is that of `edit:preview()`, the first system of the method, to the rounding of
+///     floats: 4e-7 of `size` for handles that move about as far as the surface is large. It
+///     follows a drag and has some shear where handles turn far; `edit:solve()` takes the shear out
+///     and cannot be written as a sum of matrices. With every handle at the identity the result is
+///     the rest shape, to the bit. Normals are not part of a basis: `lissom_basis_normals` makes
+///     them from the positions.
+///
+/// Coordinates
+///     Positions and transforms are relative to `origin`, the middle of the surface, so that floats
+///     keep their digits wherever the mesh lies: put `origin` into the model's own transform, or
+///     add it to the positions. `lissom_basis_local` converts a transform of the mesh's space.
+///     A transform is a 3 x 4 matrix, row by row: x' = m[0] x + m[1] y + m[2] z + m[3], and so on.
+///
+/// The function
+///     position(v) = rest(v) + sum over handles h of (T_h - I) weight(h, v)
+///     where T_h is 3 x 4, I the 3 x 4 identity and weight(h, v) has 4 numbers. Over all handles
+///     the weights of a vertex add up to (rest, 1) where nothing outside the region holds it.
+///
+/// Threads
+///     Every function only reads the basis. `lissom_basis_evaluate` takes a range of vertices:
+///     give each thread one.
+///
+/// The file, version 1: little endian, in this order and without gaps
+///      offset  bytes  content
+///           0      8  "LSMBASIS"
+///           8      4  uint32: version, 1
+///          12      4  uint32: handles H
+///          16      4  uint32: vertices of the region n
+///          20      4  uint32: vertices of the mesh, below 2^31
+///          24      4  uint32: bytes of the names N
+///          28      4  float: size, the greatest distance of a rest position from the origin
+///          32     24  3 doubles: origin, in the mesh's space
+///          56      8  uint64: bytes of the file, 64 + 16 H + 16 n + 16 H n + N
+///          64   16 H  for each handle, 3 floats: center of its vertices at rest, relative to the
+///                     origin; uint32: where its name begins among the names
+///                4 n  uint32: ids of the vertices in the mesh, from 0, ascending
+///               12 n  for each vertex, 3 floats: rest position, relative to the origin
+///             16 H n  for each handle, for each vertex, 4 floats: weights
+///                  N  names: UTF-8, each ended by a zero byte
+///     The weights begin at a multiple of 16 bytes and can be given to a graphics card as they are:
+///     see examples/engine/basis.vert.
+///
+/// MIT license, as all of Lissom.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+// NOLINTBEGIN: C, and names as C has them.
+
+/// How the functions are declared; define it before the include to change that.
+#ifndef LISSOM_BASIS_API
+#define LISSOM_BASIS_API static inline
+#endif
+
+#define LISSOM_BASIS_VERSION 1u
+
+/// What `lissom_basis_open` found.
+typedef enum lissom_basis_status {
+    LISSOM_BASIS_OK = 0,
+    /// The memory ends before the basis does.
+    LISSOM_BASIS_TRUNCATED,
+    /// The memory does not begin with a basis.
+    LISSOM_BASIS_NOT_A_BASIS,
+    /// A basis of a version that this file does not know.
+    LISSOM_BASIS_UNKNOWN_VERSION,
+    /// Sizes, vertices or names contradict each other, or a number is not finite.
+    LISSOM_BASIS_DAMAGED,
+    /// The memory does not begin at a multiple of 4 bytes.
+    LISSOM_BASIS_NOT_ALIGNED,
+    /// This machine is not little endian with 32-bit floats.
+    LISSOM_BASIS_UNSUPPORTED_MACHINE
+} lissom_basis_status;
+
+/// A handle as it stands in the file.
+typedef struct lissom_basis_handle {
+    /// Center of its vertices at rest, relative to the origin.
+    float center[3];
+    /// Where its name begins in `names`.
+    uint32_t name;
+} lissom_basis_handle;
+
+/// An open basis. Plain data that points into the memory it was opened on, which must stay.
+typedef struct lissom_basis {
+    /// Vertices of the region that is deformed, handles, vertices of the whole mesh.
+    uint32_t vertex_count, handle_count, mesh_vertex_count;
+    /// Origin of all coordinates, in the mesh's space.
+    double origin[3];
+    /// Greatest distance of a rest position from the origin.
+    float size;
+    const lissom_basis_handle* handles;
+    /// Id in the mesh of each vertex, from 0, ascending.
+    const uint32_t* vertices;
+    /// 3 floats a vertex.
+    const float* rest;
+    /// 4 floats a vertex, handle after handle.
+    const float* weights;
+    const char* names;
+} lissom_basis;
+
+// ---- Private
+
+#define LISSOM_BASIS__HEADER 64u
+#define LISSOM_BASIS__BLOCK 64u
+
+LISSOM_BASIS_API uint32_t lissom_basis__u32(const unsigned char* at) {
+    return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+}
+
+LISSOM_BASIS_API uint64_t lissom_basis__u64(const unsigned char* at) {
+    return (uint64_t)lissom_basis__u32(at) | (uint64_t)lissom_basis__u32(at + 4) << 32;
+}
+
+LISSOM_BASIS_API int lissom_basis__machine_fits(void) {
+    union {
+        float number;
+        unsigned char bytes[4];
+    } one;
+    one.number = 1.0f;
+    return sizeof(float) == 4 && sizeof(double) == 8 && sizeof(lissom_basis_handle) == 16 &&
+           one.bytes[0] == 0 && one.bytes[2] == 0x80 && one.bytes[3] == 0x3f;
+}
+
+/// Whether `count` numbers of 4 bytes are finite.
+LISSOM_BASIS_API int lissom_basis__finite(const unsigned char* at, uint64_t count) {
+    uint64_t i;
+    for (i = 0; i < count; ++i, at += 4) {
+        if ((at[3] & 0x7f) == 0x7f && (at[2] & 0x80)) return 0;
+    }
+    return 1;
+}
+
+/// Whether ids ascend and are below the mesh's count, and names begin inside the names.
+LISSOM_BASIS_API int lissom_basis__ids_fit(const lissom_basis* basis, uint32_t names_bytes) {
+    uint32_t i;
+    if (basis->mesh_vertex_count > 0x7fffffffu) return 0;
+    for (i = 0; i < basis->vertex_count; ++i) {
+        if (basis->vertices[i] >= basis->mesh_vertex_count) return 0;
+        if (i > 0 && basis->vertices[i] <= basis->vertices[i - 1]) return 0;
+    }
+    for (i = 0; i < basis->handle_count; ++i) {
+        if (basis->handles[i].name >= names_bytes) return 0;
+    }
+    return names_bytes == 0 || basis->names[names_bytes - 1] == '\0';
+}
+
+LISSOM_BASIS_API void lissom_basis__copy_double(const unsigned char* from, double* to) {
+    union {
+        double number;
+        unsigned char bytes[8];
+    } value;
+    int i;
+    for (i = 0; i < 8; ++i) value.bytes[i] = from[i];
+    *to = value.number;
+}
+
+// ---- Opening
+
+/// Opens the basis in `size` bytes of memory, which begin at a multiple of 4 bytes, as all memory
+/// of malloc does. Checks everything: whatever the bytes are, the functions below stay inside them.
+/// Reads all numbers once. `basis` is only changed where the result is LISSOM_BASIS_OK. Bytes
+/// behind the basis do no harm.
+LISSOM_BASIS_API lissom_basis_status lissom_basis_open(lissom_basis* basis, const void* memory,
+                                                       size_t size) {
+    static const unsigned char magic[8] = {'L', 'S', 'M', 'B', 'A', 'S', 'I', 'S'};
+    const unsigned char* const bytes = (const unsigned char*)memory;
+    lissom_basis found;
+    uint64_t handles, vertices, names, total, blocks;
+    int i;
+
+    if (!lissom_basis__machine_fits()) return LISSOM_BASIS_UNSUPPORTED_MACHINE;
+    if (!memory) return LISSOM_BASIS_TRUNCATED;
+    if ((uintptr_t)memory % 4 != 0) return LISSOM_BASIS_NOT_ALIGNED;
+    for (i = 0; i < 8; ++i) {
+        if ((size_t)i >= size) return LISSOM_BASIS_TRUNCATED;
+        if (bytes[i] != magic[i]) return LISSOM_BASIS_NOT_A_BASIS;
+    }
+    if (size < LISSOM_BASIS__HEADER) return LISSOM_BASIS_TRUNCATED;
+    if (lissom_basis__u32(bytes + 8) != LISSOM_BASIS_VERSION) return LISSOM_BASIS_UNKNOWN_VERSION;
+
+    handles = lissom_basis__u32(bytes + 12);
+    vertices = lissom_basis__u32(bytes + 16);
+    names = lissom_basis__u32(bytes + 24);
+    total = lissom_basis__u64(bytes + 56);
+    if (total > size) return LISSOM_BASIS_TRUNCATED;
+    if (total < LISSOM_BASIS__HEADER + names) return LISSOM_BASIS_DAMAGED;
+    blocks = (total - LISSOM_BASIS__HEADER - names) / 16;
+    /* handles + vertices + handles * vertices = blocks, without overflow. */
+    if ((total - LISSOM_BASIS__HEADER - names) % 16 != 0) return LISSOM_BASIS_DAMAGED;
+    if (handles > blocks || (blocks - handles) % (handles + 1) != 0 ||
+        (blocks - handles) / (handles + 1) != vertices) {
+        return LISSOM_BASIS_DAMAGED;
+    }
+
+    found.handle_count = (uint32_t)handles;
+    found.vertex_count = (uint32_t)vertices;
+    found.mesh_vertex_count = lissom_basis__u32(bytes + 20);
+    for (i = 0; i < 3; ++i) lissom_basis__copy_double(bytes + 32 + 8 * i, &found.origin[i]);
+    found.size = *(const float*)(const void*)(bytes + 28);
+    found.handles = (const lissom_basis_handle*)(const void*)(bytes + LISSOM_BASIS__HEADER);
+    found.vertices = (const uint32_t*)(const void*)(found.handles + handles);
+    found.rest = (const float*)(const void*)(found.vertices + vertices);
+    found.weights = found.rest + 3 * vertices;
+    found.names = (const char*)(found.weights + 4 * handles * vertices);
+
+    for (i = 0; i < 3; ++i) {
+        if (!(found.origin[i] - found.origin[i] == 0.0)) return LISSOM_BASIS_DAMAGED;
+    }
+    if (!(found.size - found.size == 0.0f) || found.size < 0.0f ||
+        !lissom_basis__ids_fit(&found, (uint32_t)names) ||
+        !lissom_basis__finite((const unsigned char*)found.rest, (3 + 4 * handles) * vertices)) {
+        return LISSOM_BASIS_DAMAGED;
+    }
+    for (i = 0; (uint64_t)i < handles; ++i) {
+        if (!lissom_basis__finite((const unsigned char*)found.handles[i].center, 3)) {
+            return LISSOM_BASIS_DAMAGED;
+        }
+    }
+    *basis = found;
+    return LISSOM_BASIS_OK;
+}
+
+/// What a status means, in a few words.
+LISSOM_BASIS_API const char* lissom_basis_status_text(lissom_basis_status status) {
+    switch (status) {
+        case LISSOM_BASIS_OK:
+            return "no error";
+        case LISSOM_BASIS_TRUNCATED:
+            return "the basis is cut short";
+        case LISSOM_BASIS_NOT_A_BASIS:
+            return "this is no basis";
+        case LISSOM_BASIS_UNKNOWN_VERSION:
+            return "the basis has a version that is not known";
+        case LISSOM_BASIS_DAMAGED:
+            return "the basis is damaged";
+        case LISSOM_BASIS_NOT_ALIGNED:
+            return "the memory must begin at a multiple of 4 bytes";
+        case LISSOM_BASIS_UNSUPPORTED_MACHINE:
+            return "this machine is not little endian";
+    }
+    return "unknown status";
+}
+
+// ---- Handles
+
+/// Name of a handle, "" where it has none or there is no such handle.
+LISSOM_BASIS_API const char* lissom_basis_handle_name(const lissom_basis* basis, uint32_t handle) {
+    return handle < basis->handle_count ? basis->names + basis->handles[handle].name : "";
+}
+
+/// The first handle called `name`; `handle_count` where there is none.
+LISSOM_BASIS_API uint32_t lissom_basis_find_handle(const lissom_basis* basis, const char* name) {
+    uint32_t h;
+    for (h = 0; h < basis->handle_count; ++h) {
+        const char *a = lissom_basis_handle_name(basis, h), *b = name;
+        while (*a && *a == *b) ++a, ++b;
+        if (*a == *b) break;
+    }
+    return h;
+}
+
+// ---- Transforms
+
+/// The transform of a handle that stays where it is.
+LISSOM_BASIS_API void lissom_basis_identity(float transform[12]) {
+    int i;
+    for (i = 0; i < 12; ++i) transform[i] = i % 5 == 0 ? 1.0f : 0.0f;
+}
+
+/// A transform of the mesh's space as one relative to the origin: [L t] becomes [L, L o + t - o].
+LISSOM_BASIS_API void lissom_basis_local(const lissom_basis* basis, const double transform[12],
+                                         float local[12]) {
+    const double* const o = basis->origin;
+    int r, c;
+    for (r = 0; r < 3; ++r) {
+        const double* const row = transform + 4 * r;
+        for (c = 0; c < 3; ++c) local[4 * r + c] = (float)row[c];
+        local[4 * r + 3] = (float)(row[0] * o[0] + row[1] * o[1] + row[2] * o[2] + (row[3] - o[r]));
+    }
+}
+
+// ---- Evaluation
+
+/// Adds to `count` points x what one handle does to the vertices from `first` on.
+LISSOM_BASIS_API void lissom_basis__add(const float* transform, const float* weights,
+                                        uint32_t count, float* x) {
+    const float a = transform[0] - 1.0f, b = transform[1], c = transform[2], d = transform[3];
+    const float e = transform[4], f = transform[5] - 1.0f, g = transform[6], h = transform[7];
+    const float i = transform[8], j = transform[9], k = transform[10] - 1.0f, l = transform[11];
+    uint32_t n;
+    for (n = 0; n < count; ++n) {
+        const float* const w = weights + 4 * (size_t)n;
+        x[3 * n] += a * w[0] + b * w[1] + c * w[2] + d * w[3];
+        x[3 * n + 1] += e * w[0] + f * w[1] + g * w[2] + h * w[3];
+        x[3 * n + 2] += i * w[0] + j * w[1] + k * w[2] + l * w[3];
+    }
+}
+
+LISSOM_BASIS_API int lissom_basis__is_identity(const float* transform) {
+    int i;
+    for (i = 0; i < 12; ++i) {
+        if (transform[i] != (i % 5 == 0 ? 1.0f : 0.0f)) return 0;
+    }
+    return 1;
+}
+
+/// Evaluates up to LISSOM_BASIS__BLOCK vertices from `first` on.
+LISSOM_BASIS_API void lissom_basis__block(const lissom_basis* basis, const float* transforms,
+                                          uint32_t first, uint32_t count, float* x) {
+    const float* const rest = basis->rest + 3 * (size_t)first;
+    uint32_t i, h;
+    for (i = 0; i < 3 * count; ++i) x[i] = rest[i];
+    for (h = 0; h < basis->handle_count; ++h) {
+        const float* const transform = transforms + 12 * (size_t)h;
+        const size_t row = (size_t)h * basis->vertex_count + first;
+        if (lissom_basis__is_identity(transform)) continue;
+        lissom_basis__add(transform, basis->weights + 4 * row, count, x);
+    }
+}
+
+LISSOM_BASIS_API void lissom_basis__run(const lissom_basis* basis, const float* transforms,
+                                        uint32_t first, uint32_t count, float* out,
+                                        size_t stride_bytes, int scatter) {
+    float x[3 * LISSOM_BASIS__BLOCK];
+    uint32_t done, i;
+    int c;
+    if (first > basis->vertex_count) first = basis->vertex_count;
+    if (count > basis->vertex_count - first) count = basis->vertex_count - first;
+    for (done = 0; done < count; done += LISSOM_BASIS__BLOCK) {
+        const uint32_t left = count - done;
+        const uint32_t block = left < LISSOM_BASIS__BLOCK ? left : LISSOM_BASIS__BLOCK;
+        lissom_basis__block(basis, transforms, first + done, block, x);
+        for (i = 0; i < block; ++i) {
+            const size_t place = scatter ? basis->vertices[first + done + i] : (size_t)done + i;
+            float* const to = (float*)(void*)((unsigned char*)out + place * stride_bytes);
+            for (c = 0; c < 3; ++c) to[c] = x[3 * i + (uint32_t)c];
+        }
+    }
+}
+
+/// Writes the positions of the vertices `first` to `first + count - 1` of the region, 3 floats
+/// each, `stride_bytes` apart (a multiple of 4), to `out`, where the first of them stands.
+/// `transforms` has 12 floats a handle. A range beyond the last vertex ends there.
+LISSOM_BASIS_API void lissom_basis_evaluate(const lissom_basis* basis, const float* transforms,
+                                            uint32_t first, uint32_t count, float* out,
+                                            size_t stride_bytes) {
+    lissom_basis__run(basis, transforms, first, count, out, stride_bytes, 0);
+}
+
+/// As `lissom_basis_evaluate`, into the positions of the whole mesh: vertex v of the mesh stands
+/// v * stride_bytes behind `mesh_positions`, which has room for `mesh_vertex_count`. Vertices
+/// outside the region are left alone.
+LISSOM_BASIS_API void lissom_basis_scatter(const lissom_basis* basis, const float* transforms,
+                                           uint32_t first, uint32_t count, float* mesh_positions,
+                                           size_t stride_bytes) {
+    lissom_basis__run(basis, transforms, first, count, mesh_positions, stride_bytes, 1);
+}
+
+// ---- Normals
+
+LISSOM_BASIS_API void lissom_basis__normalize(float* n) {
+    float largest = 0.0f, square, root;
+    int i;
+    for (i = 0; i < 3; ++i) {
+        const float size = n[i] < 0.0f ? -n[i] : n[i];
+        if (size > largest) largest = size;
+    }
+    if (!(largest > 0.0f) || !(largest - largest == 0.0f)) return;
+    for (i = 0; i < 3; ++i) n[i] /= largest;
+    /* Newton's root of a number from 1 to 3. */
+    square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    root = 0.5f + 0.5f * square;
+    for (i = 0; i < 4; ++i) root = 0.5f * (root + square / root);
+    for (i = 0; i < 3; ++i) n[i] /= root;
+}
+
+/// Makes unit normals of a triangle mesh from its positions: the sum of the triangles' vector areas
+/// at each vertex. Zero where a vertex has none. For the whole mesh, because vertices at the border
+/// of the region have triangles on both sides. `triangles` has 3 vertices each; those that name a
+/// vertex that does not exist are passed over. Strides are in bytes, multiples of 4.
+LISSOM_BASIS_API void lissom_basis_normals(const float* positions, size_t position_stride,
+                                           uint32_t vertex_count, const uint32_t* triangles,
+                                           uint32_t triangle_count, float* normals,
+                                           size_t normal_stride) {
+    const unsigned char* const from = (const unsigned char*)positions;
+    unsigned char* const to = (unsigned char*)normals;
+    uint32_t v, t;
+    int k, c;
+    for (v = 0; v < vertex_count; ++v) {
+        float* const n = (float*)(void*)(to + v * normal_stride);
+        n[0] = n[1] = n[2] = 0.0f;
+    }
+    for (t = 0; t < triangle_count; ++t) {
+        const uint32_t* const triangle = triangles + 3 * (size_t)t;
+        const float* p[3];
+        float a[3], b[3], area[3];
+        if (triangle[0] >= vertex_count || triangle[1] >= vertex_count ||
+            triangle[2] >= vertex_count) {
+            continue;
+        }
+        for (k = 0; k < 3; ++k) {
+            p[k] = (const float*)(const void*)(from + triangle[k] * position_stride);
+        }
+        for (c = 0; c < 3; ++c) {
+            a[c] = p[1][c] - p[0][c];
+            b[c] = p[2][c] - p[0][c];
+        }
+        for (c = 0; c < 3; ++c) {
+            area[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
+        }
+        for (k = 0; k < 3; ++k) {
+            float* const n = (float*)(void*)(to + triangle[k] * normal_stride);
+            for (c = 0; c < 3; ++c) n[c] += area[c];
+        }
+    }
+    for (v = 0; v < vertex_count; ++v) {
+        lissom_basis__normalize((float*)(void*)(to + v * normal_stride));
+    }
+}
+
+// NOLINTEND
