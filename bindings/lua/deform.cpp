@@ -97,7 +97,8 @@ int add_handle(Call& call) {
     const auto path = call.object<PathObject>("where");
     const HandleOptions options{
         call.boolean("position"), call.boolean("gradient"),
-        has_weight ? std::optional<double>(call.number("weight")) : std::nullopt};
+        has_weight ? std::optional<double>(call.number("weight")) : std::nullopt,
+        call.number("falloff")};
     const std::span<const PointSpec> points =
         has_points ? read_points(call, "where") : std::span<const PointSpec>{};
     const auto result = call.create<HandleObject>();

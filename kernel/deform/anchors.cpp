@@ -3,6 +3,7 @@
 #include <string>
 
 #include "kernel/deform/constraints.h"
+#include "kernel/deform/patch_distance.h"
 
 namespace lissom {
 namespace {
@@ -10,6 +11,9 @@ namespace {
 // Weight of hard ties within the matrix. Their exactness does not depend on it; it only keeps the
 // matrix definite where nothing else holds the surface.
 constexpr double kHardWeight = 10.0;
+
+// Weight for each squared radius of area of what fades, where it begins.
+constexpr double kFading = 100.0;
 
 class AnchorBuilder {
   public:
@@ -26,6 +30,7 @@ class AnchorBuilder {
             add_point(point.row, kConstrained, static_cast<Index>(p), asked.weight,
                       asked.position.has_value(), asked.gradient.has_value());
         }
+        if (holds_.transition > 0.0) add_transition();
         return std::move(work_);
     }
 
@@ -61,6 +66,42 @@ class AnchorBuilder {
         return patch.vertex_count++;
     }
 
+    // Draws vertices within `reach` of the sources to where `owner` takes them: by density, so that
+    // neither handle nor triangles matter.
+    void add_fading(const std::vector<std::pair<Index, double>>& sources, double reach, Index owner,
+                    double strength, bool position, bool gradient) {
+        const std::vector<double> distance = patch_distances(work_.patch, sources, reach);
+        const double area = work_.radius * work_.radius;
+        for (Index v = 0; v < work_.patch.real_count; ++v) {
+            if (!(distance[v] > 0.0 && distance[v] < reach)) continue;
+            const double t = distance[v] / reach;
+            const double weight = strength * (1.0 - t * t) * (1.0 - t * t);
+            add_point({{v, 1.0}}, owner, kNoIndex, weight * work_.geometry.area[v] / area, position,
+                      gradient);
+        }
+    }
+
+    void add_falloff(const HandleState& handle, Index h) {
+        std::vector<std::pair<Index, double>> sources;
+        for (const Index v : handle.local) sources.emplace_back(v, 0.0);
+        for (const SparseRow& row : handle.points) {
+            Vec3 at = Vec3::Zero();
+            for (const auto& [v, c] : row) at += c * work_.patch.rest[v];
+            for (const auto& [v, c] : row)
+                sources.emplace_back(v, (work_.patch.rest[v] - at).norm());
+        }
+        add_fading(sources, handle.options.falloff, h, handle.options.weight.value_or(kFading),
+                   handle.options.position, handle.options.gradient);
+    }
+
+    void add_transition() {
+        std::vector<std::pair<Index, double>> sources;
+        for (Index v = 0; v < work_.patch.real_count; ++v) {
+            if (!work_.patch.in_region[v]) sources.emplace_back(v, 0.0);
+        }
+        add_fading(sources, holds_.transition, kPinned, kFading, true, true);
+    }
+
     // A soft handle is as strong as its weight says, however many vertices it has: each counts by
     // its share of their area.
     void add_handle(const HandleState& handle, Index h) {
@@ -82,6 +123,7 @@ class AnchorBuilder {
             if (weight) *weight /= points;
             add_point(row, h, kNoIndex, weight, options.position, options.gradient);
         }
+        if (options.falloff > 0.0) add_falloff(handle, h);
     }
 
     void add_point(const SparseRow& row, Index owner, Index point, std::optional<double> weight,

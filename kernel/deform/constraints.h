@@ -23,12 +23,15 @@ inline constexpr Index kConstrained = -3;
 struct HandleState {
     Region region;
     HandleOptions options;
-    Affine transform;
+    Affine transform = {};
     Vec3 center = Vec3::Zero();
     /// Its local vertices, and its points as means of local vertices.
-    std::vector<Index> local;
-    std::vector<SparseRow> points;
+    std::vector<Index> local = {};
+    std::vector<SparseRow> points = {};
     bool removed = false;
+    /// The handle that is its mirror image, or kNoIndex.
+    Index partner = kNoIndex;
+    MirrorPlane mirror = {};
 
     bool soft() const { return options.weight.has_value(); }
 };
@@ -50,6 +53,8 @@ struct Holds {
     const std::vector<PointState>& points;
     /// Stiffness of each real local vertex, or empty where all are 1.
     const std::vector<double>& stiffness;
+    /// DeformOptions::transition.
+    double transition = 0.0;
 
     /// True where a preparation cannot work on the rest patch as it is.
     bool change_patch() const;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/deform/deformer_state.h"
+#include "kernel/deform/mirror.h"
 
 namespace lissom {
 namespace {
@@ -26,6 +27,8 @@ void require_options(const DeformOptions& o) {
     require(o.coherence_weight > 0.0 && std::isfinite(o.coherence_weight),
             "coherence_weight must be above 0");
     require(o.degenerate_threshold > 1.0, "degenerate_threshold must be above 1");
+    require(o.transition >= 0.0 && std::isfinite(o.transition),
+            "transition must be a distance of 0 or more");
     require(o.displacement > 0.0 && std::isfinite(o.displacement), "displacement must be above 0");
 }
 
@@ -144,6 +147,7 @@ void Deformer::restore(const HandlePoses& poses) {
         handles[h].center = now.center;
         handles[h].local = std::move(now.local);
         handles[h].points = std::move(now.points);
+        handles[h].partner = now.partner;
     }
 }
 
@@ -155,6 +159,9 @@ void Deformer::set_transform(HandleId id, const Affine& transform) {
     const double shift = local.translation.cwiseAbs().maxCoeff();
     const bool still = turn < kIdentityTolerance && shift <= kIdentityTolerance * state_->size;
     handle.transform = still ? Affine{} : transform;
+    if (handle.partner == kNoIndex) return;
+    const Affine mirror = reflection(handle.mirror);
+    state_->handles[handle.partner].transform = still ? Affine{} : mirror * transform * mirror;
 }
 
 void Deformer::prepare(const Context& context) {

@@ -1,11 +1,13 @@
 // What a user asks a Deformer to hold: handles and constraints.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "kernel/deform/deformer.h"
 #include "kernel/deform/deformer_state.h"
+#include "kernel/deform/mirror.h"
 
 namespace lissom {
 namespace {
@@ -41,6 +43,9 @@ void require_handle_options(const HandleOptions& options) {
                     "a handle must prescribe positions, gradients or both");
     }
     require_weight(options.weight);
+    if (!(options.falloff >= 0.0 && std::isfinite(options.falloff))) {
+        throw Error(ErrorCode::invalid_argument, "a falloff must be a distance of 0 or more");
+    }
 }
 
 void require_finite(const PointConstraint& constraint) {
@@ -81,10 +86,12 @@ void Deformer::State::require_inside(const MeshPoint& point) const {
 }
 
 // Errors: handle_overlap where handles but `except`, or constraints, hold some of `vertices`.
-void Deformer::State::require_unheld(const std::vector<Index>& vertices, Index except) const {
+void Deformer::State::require_unheld(const std::vector<Index>& vertices,
+                                     std::span<const Index> except) const {
     std::vector<char> held(static_cast<std::size_t>(rest_patch->patch.vertex_count), 0);
     for (std::size_t h = 0; h < handles.size(); ++h) {
-        if (static_cast<Index>(h) == except) continue;
+        if (std::find(except.begin(), except.end(), static_cast<Index>(h)) != except.end())
+            continue;
         for (const Index v : handles[h].local) held[v] = 1;
     }
     for (const auto& entry : constraints) held[entry.first] = 1;
@@ -112,8 +119,9 @@ HandleId Deformer::State::add(HandleState handle) {
     return {static_cast<Index>(handles.size()) - 1};
 }
 
-// Errors: as add_handle, for a handle that is new, or whose number is `except`.
-void Deformer::State::require_handle_region(const Region& vertices, Index except) const {
+// Errors: as add_handle, beside the handles with numbers in `except`.
+void Deformer::State::require_handle_region(const Region& vertices,
+                                            std::span<const Index> except) const {
     require_topology(region, vertices);
     if (vertices.empty()) throw Error(ErrorCode::region_empty, "the handle has no vertices");
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
@@ -126,7 +134,7 @@ HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& optio
     State& s = *state_;
     require_handle_options(options);
     s.require_handle_region(vertices);
-    HandleState handle{vertices, options, {}, Vec3::Zero(), {}, {}, false};
+    HandleState handle{vertices, options};
     for (const Index v : vertices.vertices()) handle.local.push_back(s.local_vertex(v));
     return s.add(std::move(handle));
 }
@@ -134,13 +142,88 @@ HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& optio
 void Deformer::set_handle_region(HandleId id, const Region& vertices) {
     State& s = *state_;
     HandleState& handle = s.handle(id);
-    s.require_handle_region(vertices, id.value);
+    HandleState changed = handle;
+    changed.region = vertices;
+    changed.points.clear();
+    changed.local.clear();
+    s.require_handle_region(vertices, std::array{id.value, handle.partner});
+    for (const Index v : vertices.vertices()) changed.local.push_back(s.local_vertex(v));
+    changed.center = s.center_of(changed);
+    if (handle.partner != kNoIndex) {
+        HandleState image = s.mirrored(id.value, changed, changed.mirror);
+        s.drop_prepared();
+        s.handles[handle.partner] = std::move(image);
+    }
     s.drop_prepared();
-    handle.region = vertices;
-    handle.points.clear();
-    handle.local.clear();
-    for (const Index v : vertices.vertices()) handle.local.push_back(s.local_vertex(v));
-    handle.center = s.center_of(handle);
+    handle = std::move(changed);
+}
+
+// Errors: invalid_argument where some of the local vertices have no counterpart in the region.
+std::vector<Index> Deformer::State::counterparts_of(const std::vector<Index>& local,
+                                                    const MirrorPlane& plane) const {
+    const Patch& patch = rest_patch->patch;
+    const Affine mirror = this->local(reflection(plane));
+    const double tolerance = plane.tolerance > 0.0 ? plane.tolerance : 1e-3 * rest_patch->radius;
+    std::vector<Index> found = counterparts(patch.rest, local, patch.of_region, mirror, tolerance);
+    std::vector<Index> alone;
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        if (found[i] == kNoIndex) alone.push_back(patch.mesh_vertex[local[i]]);
+    }
+    refuse_vertices(alone, ErrorCode::invalid_argument,
+                    "the mirror plane or its tolerance leave no counterpart to ",
+                    [](Index) { return true; });
+    return found;
+}
+
+// The mirror image of a handle, which keeps clear of that handle and of all others but its present
+// image.
+HandleState Deformer::State::mirrored(Index number, const HandleState& handle,
+                                      const MirrorPlane& plane) const {
+    const Patch& patch = rest_patch->patch;
+    const Affine mirror = reflection(plane);
+    HandleState image = handle;
+    image.mirror = plane;
+    image.local = counterparts_of(handle.local, plane);
+    std::sort(image.local.begin(), image.local.end());
+    for (SparseRow& row : image.points) {
+        std::vector<Index> around;
+        for (const auto& [v, c] : row) around.push_back(v);
+        const std::vector<Index> across = counterparts_of(around, plane);
+        for (std::size_t i = 0; i < row.size(); ++i) row[i].first = across[i];
+        std::sort(row.begin(), row.end());
+    }
+    std::vector<Index> vertices, held;
+    for (const Index v : image.local) held.push_back(patch.mesh_vertex[v]);
+    vertices = held;
+    for (const SparseRow& row : image.points) {
+        for (const auto& [v, c] : row) vertices.push_back(patch.mesh_vertex[v]);
+    }
+    refuse_vertices(vertices, ErrorCode::handle_overlap,
+                    "the handle meets its mirror image; leave out what is near the plane, as ",
+                    [&](Index v) { return handle.region.contains(v); });
+    require_unheld(held, std::array{number, handle.partner});
+    image.partner = number;
+    image.region = Region(region.topology(), vertices);
+    image.center = center_of(image);
+    image.transform =
+        handle.transform.is_identity() ? Affine{} : mirror * handle.transform * mirror;
+    return image;
+}
+
+HandleId Deformer::mirror_handle(HandleId id, const MirrorPlane& plane) {
+    State& s = *state_;
+    if (s.handle(id).partner != kNoIndex) {
+        throw Error(ErrorCode::invalid_argument, "the handle has a mirror image already");
+    }
+    const HandleId added = s.add(s.mirrored(id.value, s.handle(id), plane));
+    s.handles[id.value].partner = added.value;
+    s.handles[id.value].mirror = plane;
+    return added;
+}
+
+std::optional<HandleId> Deformer::mirrored_handle(HandleId id) const {
+    const Index partner = state_->handle(id).partner;
+    return partner == kNoIndex ? std::nullopt : std::optional<HandleId>(HandleId{partner});
 }
 
 void Deformer::remove_handle(HandleId id) {
@@ -150,6 +233,7 @@ void Deformer::remove_handle(HandleId id) {
     handle.removed = true;
     handle.local.clear();
     handle.points.clear();
+    if (handle.partner != kNoIndex) s.handles[handle.partner].partner = kNoIndex;
     --s.stats.handles;
 }
 
@@ -170,8 +254,7 @@ HandleId Deformer::add_handle(std::span<const MeshPoint> points, const HandleOpt
         }
     }
     s.require_unheld(held);
-    HandleState handle{
-        Region(s.region.topology(), around), options, {}, Vec3::Zero(), {}, {}, false};
+    HandleState handle{Region(s.region.topology(), around), options};
     const Region held_region(s.region.topology(), held);
     for (const Index v : held_region.vertices()) handle.local.push_back(s.local_vertex(v));
     handle.points = std::move(rows);

@@ -140,11 +140,14 @@ void Deformer::State::prepare(const Context& context) {
     fixed_current = true;
 }
 
-// The centre of the first handle: rarely a centre of the surface itself, at which vertices that
-// differ would lie equally far.
+// The centre of the first handle, or between it and its mirror image: rarely a centre of the
+// surface itself, at which vertices that differ would lie equally far.
 Vec3 Deformer::State::start_of_sequence() const {
     for (const HandleState& h : handles) {
-        if (!h.removed) return h.center - rest_patch->patch.origin;
+        if (h.removed) continue;
+        const Vec3 center =
+            h.partner == kNoIndex ? h.center : Vec3(0.5 * (h.center + handles[h.partner].center));
+        return center - rest_patch->patch.origin;
     }
     return Vec3::Zero();
 }

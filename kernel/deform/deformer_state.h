@@ -70,10 +70,14 @@ struct Deformer::State {
     SparseRow local_row(const MeshPoint& point) const;
     Vec3 rest_position(const SparseRow& row) const;
     void require_inside(const MeshPoint& point) const;
-    void require_unheld(const std::vector<Index>& vertices, Index except = kNoIndex) const;
-    void require_handle_region(const Region& vertices, Index except = kNoIndex) const;
+    void require_unheld(const std::vector<Index>& vertices,
+                        std::span<const Index> except = {}) const;
+    void require_handle_region(const Region& vertices, std::span<const Index> except = {}) const;
     Vec3 center_of(const HandleState& handle) const;
     HandleId add(HandleState handle);
+    std::vector<Index> counterparts_of(const std::vector<Index>& local,
+                                       const MirrorPlane& plane) const;
+    HandleState mirrored(Index number, const HandleState& handle, const MirrorPlane& plane) const;
     void set_constraint(const SparseRow& row, PointConstraint asked_now);
     std::optional<PointConstraint> take_constraint(const SparseRow& row);
 
@@ -85,7 +89,7 @@ struct Deformer::State {
     Vec3 known_deviation(Index v) const;
     Mat3 known_gradient(Index v) const;
 
-    Holds holds() const { return {handles, constraints, points, stiffness}; }
+    Holds holds() const { return {handles, constraints, points, stiffness, options.transition}; }
     void collect_asked();
     LinearProblem problem() const;
     void prepare(const Context& context);
