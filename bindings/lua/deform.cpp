@@ -60,6 +60,7 @@ DeformOptions deform_options(const Call& call) {
     if (call.has("coherence")) options.coherence = call.integer("coherence");
     if (call.has("refine")) options.refine = call.integer("refine");
     take_number(call, "displacement", options.displacement);
+    options.transition = call.number("transition");
     take_number(call, "degenerate_threshold", options.degenerate_threshold);
     return options;
 }
@@ -89,6 +90,11 @@ std::vector<MeshPoint> mesh_points(const DeformObject& edit, std::span<const Poi
     return points;
 }
 
+MirrorPlane mirror_plane(const Call& call) {
+    return {call.vector("mirror.point"), call.vector("mirror.normal"),
+            call.has("mirror.tolerance") ? call.number("mirror.tolerance") : 0.0};
+}
+
 int add_handle(Call& call) {
     const auto edit = call.self<DeformObject>();
     const bool has_weight = call.has("weight"), has_points = call.kind("where") == Kind::table;
@@ -99,6 +105,8 @@ int add_handle(Call& call) {
         call.boolean("position"), call.boolean("gradient"),
         has_weight ? std::optional<double>(call.number("weight")) : std::nullopt,
         call.number("falloff")};
+    const bool mirrors = call.has("mirror");
+    const MirrorPlane plane = mirrors ? mirror_plane(call) : MirrorPlane{};
     const std::span<const PointSpec> points =
         has_points ? read_points(call, "where") : std::span<const PointSpec>{};
     const auto result = call.create<HandleObject>();
@@ -110,7 +118,17 @@ int add_handle(Call& call) {
             return deformer.add_handle(
                 path_points(edit->mesh->mesh, path->current(), call.context()), options);
         };
-        result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), add()}));
+        const HandleId id = add();
+        // A handle whose mirror image is refused is not made.
+        if (mirrors) {
+            try {
+                deformer.mirror_handle(id, plane);
+            } catch (...) {
+                deformer.remove_handle(id);
+                throw;
+            }
+        }
+        result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), id}));
     });
     return done ? 1 : call.fail();
 }
@@ -377,6 +395,19 @@ int set_handle_region(Call& call) {
     return done ? call.push_argument() : call.fail();
 }
 
+int mirrored_handle(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    HandleId id;
+    const auto result = call.create<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        id = handle->edit->deformer().mirrored_handle(handle->id).value_or(HandleId{});
+        result.set(std::make_shared<HandleObject>(HandleObject{handle->edit, id}));
+    });
+    if (!done) return call.fail();
+    if (id == HandleId{}) lua_pushnil(call.lua());
+    return 1;
+}
+
 int remove_handle(Call& call) {
     const auto handle = call.self<HandleObject>();
     const bool done =
@@ -600,6 +631,12 @@ std::vector<Parameter> deform_parameters() {
         number("degenerate_threshold", "Condition number from which a vertex counts as degenerate.")
             .above(1)
             .optional(shown(defaults.degenerate_threshold)),
+        number("transition",
+               "Within this geodesic distance of the region's outline the deformation fades into "
+               "what stays.")
+            .at_least(0)
+            .in("mesh units")
+            .defaults(0.0),
         choice("fidelity", {"default", "thesis"},
                "thesis: coherence 2, second laplacian, and the weights and threshold of the thesis "
                "where "
@@ -636,7 +673,22 @@ Type deformation_type() {
              {boolean("position", "Holds their positions.").defaults(HandleOptions{}.position),
               boolean("gradient", "Holds their orientation and scale.")
                   .defaults(HandleOptions{}.gradient),
-              weight_option()},
+              weight_option(),
+              number("falloff",
+                     "Within this geodesic distance the surface follows softly, less and less.")
+                  .at_least(0)
+                  .in("mesh units")
+                  .defaults(0.0),
+              options("mirror",
+                      {vector("point", "A point of the plane."),
+                       vector("normal", "Its normal, of any length."),
+                       number("tolerance",
+                              "How far a vertex may lie from its counterpart's mirror image.")
+                           .above(0)
+                           .in("mesh units")
+                           .optional("a thousandth of the size")},
+                      "Adds a second handle, the mirror image, and moves it along: see mirrored.")
+                  .optional("none")},
          .results = {{"lissom.Handle", "handle", "Where it is; move it and solve."}},
          .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
                     ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
@@ -667,7 +719,9 @@ edit:solve())"},
                        number("factor", "1 is as usual.").above(0)},
          .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
          .errors = {ErrorCode::handle_outside_region, ErrorCode::topology_mismatch},
-         .example = kBar + R"(edit:stiffness(bar:region{ sphere = { radius = 0.8 } }, 100)
+         .example =
+             kBar +
+             R"(edit:stiffness(bar:region{ sphere = { center = { 0, 0, 0 }, radius = 0.8 } }, 100)
 top:rotate{ axis = "z", angle = 60 }
 edit:solve())"},
         {.name = "handles",
@@ -718,6 +772,18 @@ Type handle_type() {
          .results = {{"lissom.Region", "region", "The region."}},
          .errors = kEditErrors,
          .example = kBar + "assert(top:region() == bar:region('top'))"},
+        {.name = "mirrored",
+         .body = mirrored_handle,
+         .summary = "Its mirror image, which moves along, or nil.",
+         .results = {{"lissom.Handle?", "image", "The other handle."}},
+         .errors = kEditErrors,
+         .example =
+             kBar +
+             R"(local side = bar:region{ box = { min = { 0.4, -0.5, -1 }, max = { 1, 0.5, 1 } } }
+local right = edit:handle(side, { mirror = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } })
+right:translate(0.5, 0, 0)
+assert(right:mirrored():matrix()[1][4] == -0.5)
+edit:solve())"},
         {.name = "set_region",
          .body = set_handle_region,
          .summary =

@@ -95,6 +95,37 @@ expect.equal(bar:hash(), moved)
 expect.near(top:matrix()[2][4], 0.5)
 expect.truthy(edit:solve():hash() ~= moved)
 
+-- Mirror images, falloffs and transitions.
+bar, edit = scene()
+local side = bar:region{ box = { min = { 0.4, -0.5, -1 }, max = { 1, 0.5, 1 } } }
+local mirror = { point = { 0, 0, 0 }, normal = { 2, 0, 0 } }
+local right = edit:handle(side, { mirror = mirror, falloff = 0.5 })
+local left = right:mirrored()
+expect.equal(left:mirrored(), right)
+expect.equal(edit:handles()[1]:mirrored(), nil)
+right:translate(0.5, 0.1, 0)
+expect.near_list(left:center(), { -right:center()[1], right:center()[2], right:center()[3] })
+edit:solve()
+expect.near(bar:bounds().max[1], -bar:bounds().min[1])
+expect.truthy(bar:bounds().max[1] > 0.9)
+expect.error("[handle_overlap]", function() edit:handle(bar:region("top"), { mirror = mirror }) end)
+expect.equal(#edit:handles(), 3)
+expect.error("normal", function()
+    edit:handle(bar:region("top"), { mirror = { point = { 0, 0, 0 }, normal = { 0, 0, 0 } } })
+end)
+
+local sheet = lissom.shapes.grid{ size = 4, segments = 24 }
+
+local function rim(transition)
+    local mesh = sheet:copy()
+    local part = lissom.deform(mesh, { region = mesh:region{ sphere = { center = { 0, 0, 0 }, radius = 1.6 } },
+        transition = transition })
+    part:handle(mesh:region{ sphere = { center = { 0, 0, 0 }, radius = 0.4 } }):translate(0, 1, 0)
+    part:solve()
+    return select(2, mesh:position(mesh:nearest(1.25, 0, 0).vertex))
+end
+expect.truthy(rim(0.8) < 0.6 * rim(0))
+
 -- Misuse.
 expect.error("above 0", function() edit:stiffness(bar:region("top"), 0) end)
 expect.error("list of points expected", function() edit:handle({}) end)

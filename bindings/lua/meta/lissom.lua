@@ -654,10 +654,17 @@ function Buffer:close() end
 ---@class lissom.Deformation
 local Deformation = {}
 
+---@class lissom.Deformation.HandleOptions.Mirror
+---@field point lissom.Vector A point of the plane.
+---@field normal lissom.Vector Its normal, of any length.
+---@field tolerance? number How far a vertex may lie from its counterpart's mirror image. In mesh units. Default: a thousandth of the size.
+
 ---@class lissom.Deformation.HandleOptions
 ---@field position? boolean Holds their positions. Default: true.
 ---@field gradient? boolean Holds their orientation and scale. Default: true.
 ---@field weight? number Draws instead of holding exactly: 1 is a compromise with the shape of the surface, 1e6 nearly exact. Depends on neither scale nor resolution. Default: held exactly.
+---@field falloff? number Within this geodesic distance the surface follows softly, less and less. In mesh units. Default: 0.
+---@field mirror? lissom.Deformation.HandleOptions.Mirror Adds a second handle, the mirror image, and moves it along: see mirrored. Default: none.
 
 ---Makes a handle of some vertices of the region, of a path, or of points of faces and edges. Points go exactly where the handle takes them: the points of the deformed faces with the same weights do.
 ---@param where lissom.Region|lissom.Path|table What it holds.
@@ -838,6 +845,10 @@ function Handle:center() end
 ---@return lissom.Region region # The region.
 function Handle:region() end
 
+---Its mirror image, which moves along, or nil.
+---@return lissom.Handle? image # The other handle.
+function Handle:mirrored() end
+
 ---Gives the handle other vertices. Its transform stays, and the mesh keeps the old result until the next solve.
 ---@param region lissom.Region Its new vertices.
 ---@return lissom.Handle handle # The handle itself.
@@ -986,6 +997,7 @@ function lissom.shapes.cactus(options) end
 ---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. Default: 0.
 ---@field displacement? number How far degenerate vertices are displaced. In mean lengths of their edges. Default: 0.2.
 ---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate. Default: 20000.
+---@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.
 ---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise. Default: "default".
 
 ---Prepares the deformation of a mesh, or of a region of it, by handles.
