@@ -311,14 +311,16 @@ int deformation_text(Call& call) {
 
 // ---- Handle
 
-// Sets the handle's transform to work(present transform, rest center), and returns the handle.
+// Sets the handle's transform to work(present transform, rest center), and returns the handle. The
+// transforms are about that center, so that a mesh far from the origin keeps its digits.
 template <typename Work>
 int move_handle(Call& call, const Work& work) {
     const auto handle = call.self<HandleObject>();
     const bool done = call.attempt_quick([&] {
         Deformer& deformer = handle->edit->deformer();
-        const Affine now = deformer.transform(handle->id);
-        deformer.set_transform(handle->id, work(now, deformer.handle_center(handle->id)));
+        const Vec3 center = deformer.handle_center(handle->id);
+        const Affine now = deformer.transform_about(handle->id, center);
+        deformer.set_transform(handle->id, work(now, center), center);
     });
     return done ? call.push_argument() : call.fail();
 }
@@ -331,8 +333,9 @@ int translate_handle(Call& call) {
 
 int rotate_handle(Call& call) {
     const RotationOptions options = RotationOptions::read(call);
-    return move_handle(
-        call, [&](const Affine& now, const Vec3& rest) { return options.map(now(rest)) * now; });
+    return move_handle(call, [&](const Affine& now, const Vec3& rest) {
+        return options.relative_to(rest).map(now.translation) * now;
+    });
 }
 
 int scale_handle(Call& call) {
@@ -340,18 +343,23 @@ int scale_handle(Call& call) {
     const bool has_about = call.has("about");
     const Vec3 about = has_about ? call.vector("about") : Vec3(Vec3::Zero());
     return move_handle(call, [&](const Affine& now, const Vec3& rest) {
-        return scaling(factors, has_about ? about : now(rest)) * now;
+        return scaling(factors, has_about ? Vec3(about - rest) : now.translation) * now;
     });
 }
 
 int set_handle(Call& call) {
     const TransformOptions options = TransformOptions::read(call);
-    return move_handle(call, [&](const Affine&, const Vec3& rest) { return options.map(rest); });
+    return move_handle(call, [&](const Affine&, const Vec3& rest) {
+        return options.relative_to(rest).map(Vec3::Zero());
+    });
 }
 
 int set_handle_matrix(Call& call) {
     const Affine map = call.affine("matrix");
-    return move_handle(call, [&](const Affine&, const Vec3&) { return map; });
+    const auto handle = call.self<HandleObject>();
+    const bool done =
+        call.attempt_quick([&] { handle->edit->deformer().set_transform(handle->id, map); });
+    return done ? call.push_argument() : call.fail();
 }
 
 int reset_handle(Call& call) {
@@ -371,7 +379,8 @@ int handle_center(Call& call) {
     Vec3 center = Vec3::Zero();
     const bool done = call.attempt_quick([&] {
         const Deformer& deformer = handle->edit->deformer();
-        center = deformer.transform(handle->id)(deformer.handle_center(handle->id));
+        center = deformer.handle_center(handle->id);
+        center += deformer.transform_about(handle->id, center).translation;
     });
     return done ? call.push_vector(center) : call.fail();
 }

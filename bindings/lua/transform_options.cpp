@@ -33,6 +33,13 @@ TransformOptions TransformOptions::read(const Call& call) {
     return options;
 }
 
+TransformOptions TransformOptions::relative_to(const Vec3& origin) const {
+    TransformOptions moved = *this;
+    moved.about -= origin;
+    moved.rotate_about -= origin;
+    return moved;
+}
+
 Affine TransformOptions::map(const Vec3& center) const {
     Affine map;
     if (scale != Vec3::Ones()) map = scaling(scale, has_about ? about : center);
@@ -45,6 +52,10 @@ RotationOptions RotationOptions::read(const Call& call) {
     const bool has_about = call.has("about");
     return {call.vector("axis"), has_about ? call.vector("about") : Vec3(Vec3::Zero()),
             call.number("angle") * kRadians, has_about};
+}
+
+RotationOptions RotationOptions::relative_to(const Vec3& origin) const {
+    return {axis, about - origin, angle, has_about};
 }
 
 Affine RotationOptions::map(const Vec3& center) const {

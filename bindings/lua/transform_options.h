@@ -15,6 +15,8 @@ struct TransformOptions {
     bool has_about, has_rotate_about;
 
     static TransformOptions read(const Call& call);
+    /// The same for coordinates relative to `origin`.
+    TransformOptions relative_to(const Vec3& origin) const;
     /// Scales, then rotates, then translates; about `center` where the script named no point.
     /// Throws as rotation().
     Affine map(const Vec3& center) const;
@@ -27,6 +29,8 @@ struct RotationOptions {
     bool has_about;
 
     static RotationOptions read(const Call& call);
+    /// The same for coordinates relative to `origin`.
+    RotationOptions relative_to(const Vec3& origin) const;
     /// About `center` where the script named no point. Throws as rotation().
     Affine map(const Vec3& center) const;
 };

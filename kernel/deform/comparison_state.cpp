@@ -82,7 +82,7 @@ Affine Deformer::State::comparison_base() const {
         if (prepared->owner[v] == kPinned && rings.count(v) > 0) return {};
     }
     for (const HandleState& h : handles) {
-        if (!h.removed && h.options.position) return local(h.transform);
+        if (!h.removed && h.options.position) return h.in_patch;
     }
     return {};
 }
@@ -108,22 +108,24 @@ void Deformer::State::solve_comparison(const Context& context) {
         if (prepared->known.position[v]) at[v] = known_position(v);
     }
     prepared->comparison->solve({motions, comparison_base()}, at, transforms, context);
+    next_positions.resize(rest.size());
     for (Index row = 0; row < region.size(); ++row) {
         const Index v = patch.of_region[row];
-        gradients[row] = transforms[v];
-        if (!prepared->known.position[v]) positions[row] = at[v] + patch.origin;
+        if (!prepared->known.position[v]) next_positions[row] = at[v] + patch.origin;
+    }
+    show_next();
+    for (Index row = 0; row < region.size(); ++row) {
+        gradients[row] = transforms[patch.of_region[row]];
     }
     compared = std::move(at);
     gradients_current = true;
-    write_held();
-    deformed = true;
 }
 
 // Deformation gradients of the surface as it lies: the linear maps nearest to taking each ring and
 // the normal to where they are. A method's own M_i need not turn with the surface.
 std::vector<Mat3> Deformer::State::surface_gradients() const {
     std::vector<Mat3> result(rest.size(), Mat3::Identity());
-    if (!deformed) return result;
+    if (compared.empty()) return result;
     const Patch& patch = prepared->work->patch;
     const Rings real = build_rings(patch.real_count, patch.triangles);
     const std::span<const Vec3> before(patch.rest.data(), compared.size());

@@ -15,7 +15,7 @@ constexpr double kFlat = 1e-10;
 
 // What holds one connected part of the patch.
 struct Part {
-    Elements free{ElementKind::vertex, 0, {}};
+    std::vector<Index> free;
     bool has_gradient = false;
     double positions = 0.0;
     Vec3 sum = Vec3::Zero();
@@ -56,7 +56,7 @@ void add_vertex(const Patch& patch, const TiesOfVertices& ties, const Knowledge&
     if (known.position[v]) {
         add_position(patch.rest[v], part);
     } else if (v < patch.real_count) {
-        part.free.add(patch.mesh_vertex[v]);
+        part.free.push_back(patch.mesh_vertex[v]);
     }
     const auto [first, last] = ties.anchors.equal_range(v);
     for (auto tie = first; tie != last; ++tie) add_position(patch.rest[tie->second], part);
@@ -79,9 +79,12 @@ Part collect_part(const WorkingPatch& work, const TiesOfVertices& ties, const Kn
 }
 
 void require_held(Part part) {
-    if (part.free.count == 0) return;
+    if (part.free.empty()) return;
     if (part.positions > 0.0 && (part.has_gradient || part.spans_space())) return;
-    const std::string names = describe(part.free);
+    std::sort(part.free.begin(), part.free.end());
+    Elements vertices{ElementKind::vertex, 0, {}};
+    for (const Index v : part.free) vertices.add(v);
+    const std::string names = describe(vertices);
     const std::string remedy =
         part.positions == 0.0
             ? "no position is prescribed; add a handle there, or leave a part out of the region"
@@ -90,7 +93,7 @@ void require_held(Part part) {
               "that are not in one plane";
     throw Error(ErrorCode::unconstrained,
                 "nothing holds the connected part of " + names + ": " + remedy,
-                std::move(part.free));
+                std::move(vertices));
 }
 
 Holding known_nothing(const WorkingPatch& work) {

@@ -29,6 +29,9 @@ struct HandleState {
     std::vector<Index> local = {};
     std::vector<SparseRow> points = {};
     bool removed = false;
+    /// `transform` as the patch sees it: relative to the patch's origin, with digits that the one
+    /// above lacks where the mesh lies far from the origin of its coordinates.
+    Affine in_patch{};
     /// The handle that is its mirror image, or kNoIndex.
     Index partner = kNoIndex;
     MirrorPlane mirror = {};

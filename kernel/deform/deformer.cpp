@@ -62,9 +62,9 @@ void require_implicit(const DeformOptions& options, const std::string& what) {
                                             std::string(method_name(options.method)));
 }
 
-void require_regular(const Affine& transform) {
+void require_regular(const Affine& transform, const Vec3& about) {
     const double scale = transform.linear.norm();
-    if (transform.is_finite() &&
+    if (transform.is_finite() && about.allFinite() &&
         std::abs(transform.linear.determinant()) > kSingularRatio * scale * scale * scale) {
         return;
     }
@@ -134,34 +134,43 @@ const Affine& Deformer::transform(HandleId id) const {
 }
 
 std::shared_ptr<const HandlePoses> Deformer::poses() const {
-    return std::make_shared<HandlePoses>(HandlePoses{state_->handles});
+    return std::make_shared<HandlePoses>(
+        HandlePoses{state_->handles, state_->rest_patch->patch.origin});
 }
 
 void Deformer::restore(const HandlePoses& poses) {
     std::vector<HandleState>& handles = state_->handles;
+    const bool same_origin = poses.origin == state_->rest_patch->patch.origin;
     for (std::size_t h = 0; h < poses.handles.size() && h < handles.size(); ++h) {
         if (handles[h].removed) continue;
-        HandleState now = std::move(handles[h]);
-        handles[h] = poses.handles[h];
-        handles[h].region = std::move(now.region);
-        handles[h].center = now.center;
-        handles[h].local = std::move(now.local);
-        handles[h].points = std::move(now.points);
-        handles[h].partner = now.partner;
+        handles[h].transform = poses.handles[h].transform;
+        handles[h].in_patch = poses.handles[h].in_patch;
+        if (!same_origin) state_->place(handles[h], handles[h].transform, Vec3::Zero());
     }
 }
 
 void Deformer::set_transform(HandleId id, const Affine& transform) {
+    set_transform(id, transform, Vec3::Zero());
+}
+
+void Deformer::set_transform(HandleId id, const Affine& transform, const Vec3& about) {
     HandleState& handle = state_->handle(id);
-    require_regular(transform);
-    const Affine local = state_->local(transform);
-    const double turn = (local.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
-    const double shift = local.translation.cwiseAbs().maxCoeff();
+    require_regular(transform, about);
+    state_->place(handle, transform, about);
+    const Affine& moved = handle.in_patch;
+    const double turn = (moved.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
+    const double shift = moved.translation.cwiseAbs().maxCoeff();
     const bool still = turn < kIdentityTolerance && shift <= kIdentityTolerance * state_->size;
-    handle.transform = still ? Affine{} : transform;
-    if (handle.partner == kNoIndex) return;
-    const Affine mirror = reflection(handle.mirror);
-    state_->handles[handle.partner].transform = still ? Affine{} : mirror * transform * mirror;
+    if (still) handle.transform = handle.in_patch = {};
+    if (handle.partner != kNoIndex) {
+        state_->reflect(handle, handle.mirror, state_->handles[handle.partner]);
+    }
+}
+
+Affine Deformer::transform_about(HandleId id, const Vec3& about) const {
+    const Affine& map = state_->handle(id).in_patch;
+    const Vec3 arm = about - state_->rest_patch->patch.origin;
+    return {map.linear, map.translation + (map.linear - Mat3::Identity()) * arm};
 }
 
 void Deformer::prepare(const Context& context) {
@@ -228,7 +237,7 @@ const std::vector<Vec3>& Deformer::rest_positions() const {
 void Deformer::apply_to(Mesh& mesh) const {
     State& s = *state_;
     require_same_topology(mesh, s.region.topology(), "the deformer");
-    if (!s.directions.empty()) s.find_gradients({});
+    if (!s.directions.empty()) s.find_gradients();
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row)
         out[s.region.vertices()[row]] = s.positions[row];
@@ -247,7 +256,7 @@ void Deformer::apply_rest_to(Mesh& mesh) const {
 
 void Deformer::reset() {
     State& s = *state_;
-    for (HandleState& handle : s.handles) handle.transform = {};
+    for (HandleState& handle : s.handles) handle.transform = handle.in_patch = {};
     if (!s.constraints.empty() || !s.points.empty()) s.prepared.reset();
     s.constraints.clear();
     s.points.clear();
@@ -255,7 +264,7 @@ void Deformer::reset() {
 }
 
 const std::vector<Mat3>& Deformer::gradients() {
-    state_->find_gradients({});
+    state_->find_gradients();
     return state_->gradients;
 }
 

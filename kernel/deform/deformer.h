@@ -217,14 +217,22 @@ class Deformer {
     /// Mean of the rest positions of the handle's vertices and points.
     Vec3 handle_center(HandleId handle) const;
 
-    /// Sets where a handle goes: rest position p to transform(p), gradient transform.linear.
+    /// Sets where a handle goes: rest position p to transform(p), to the bit, gradient
+    /// transform.linear.
     /// Errors: singular_transform (determinant zero or not finite); handle_removed.
     void set_transform(HandleId handle, const Affine& transform);
+    /// The same about a point: rest position p goes to about + transform(p - about). A mesh that
+    /// lies far from the origin of its coordinates keeps its digits so, where `about` is near it;
+    /// and then held vertices lie there up to the rounding of their coordinates, which composing a
+    /// transform of the whole space cannot promise.
+    void set_transform(HandleId handle, const Affine& transform, const Vec3& about);
     const Affine& transform(HandleId handle) const;
     /// How the handles stand, to be put back by `restore`, to the bit.
     std::shared_ptr<const HandlePoses> poses() const;
     /// Handles that were removed since, or added, are left as they are.
     void restore(const HandlePoses& poses);
+    /// The map f with which p goes to about + f(p - about): what to compose moves with.
+    Affine transform_about(HandleId handle, const Vec3& about) const;
 
     /// Constrains one vertex, replacing an earlier constraint of it. A vertex with neither position
     /// nor gradient is free again. Errors: out_of_range; handle_outside_region; handle_overlap

@@ -34,6 +34,7 @@ void Deformer::State::preview(const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
     if (prepared->comparison) return solve_comparison(context);
+    next_positions.resize(rest.size());
     if (prepared->solution) {
         const LinearSolution& solution = *prepared->solution;
         const Mat4 shift = base_transform() - matrix_of({});
@@ -44,13 +45,11 @@ void Deformer::State::preview(const Context& context) {
             solution.positions(shift, differences, x.data(), begin, end);
             for (Index row = begin; row < end; ++row) {
                 const Index target = prepared->region_row[row];
-                if (target != kNoIndex) positions[target] = x[row - begin].head<3>() + origin;
+                if (target != kNoIndex) next_positions[target] = x[row - begin].head<3>() + origin;
             }
         });
     }
-    write_held();
-    gradients_current = false;
-    deformed = true;
+    show_next();
 }
 
 void Deformer::State::evaluate_deviation(const Context& context) {
@@ -58,7 +57,7 @@ void Deformer::State::evaluate_deviation(const Context& context) {
     frame_base = base_transform();
     deviation.assign(static_cast<std::size_t>(patch.vertex_count), Vec4::Zero());
     for (const HandleState& h : handles) {
-        const Mat4 difference = matrix_of(local(h.transform)) - frame_base;
+        const Mat4 difference = matrix_of(h.in_patch) - frame_base;
         for (const Index v : h.local) deviation[v] = difference * homogeneous(patch.rest[v]);
     }
     for (const auto& entry : asked) deviation[entry.first] = padded(known_deviation(entry.first));
@@ -98,15 +97,18 @@ Mat3 Deformer::State::gradient_of(Index v) const {
     return count > 0 ? Mat3(sum / count) : Mat3(Mat3::Identity());
 }
 
-void Deformer::State::find_gradients(const Context& context) {
+// Of the frame that is shown, whatever transforms have been asked for since.
+void Deformer::State::find_gradients() {
     if (gradients_current) return;
-    evaluate_deviation(context);
-    const Patch& patch = prepared->work->patch;
-    for_each_block(context, region.size(), [&](Index begin, Index end) {
-        for (Index row = begin; row < end; ++row) {
-            gradients[row] = gradient_of(patch.of_region[row]);
-        }
-    });
+    const auto exchange = [&] {
+        for (std::size_t h = 0; h < shown.size(); ++h) std::swap(handles[h].in_patch, shown[h]);
+    };
+    exchange();
+    evaluate_deviation({});
+    for (Index row = 0; row < region.size(); ++row) {
+        gradients[row] = gradient_of(prepared->work->patch.of_region[row]);
+    }
+    exchange();
     gradients_current = true;
 }
 
@@ -223,7 +225,7 @@ void Deformer::State::solve_second(bool draft, const Context& context) {
         for (Index row = begin; row < end; ++row) {
             const Index v = free[row];
             const Vec3 at = base_rotation * patch.rest[v] + shift + deviation[v].head<3>();
-            positions[region_row[v]] = at + patch.origin;
+            next_positions[region_row[v]] = at + patch.origin;
         }
     });
 }
@@ -232,37 +234,35 @@ void Deformer::State::solve(bool draft, const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
     if (prepared->comparison) return solve_comparison(context);
-    context.checkpoint();
-    gradients_current = false;
+    next_positions.resize(rest.size());
     evaluate_deviation(context);
     if (!prepared->second->free_vertices().empty()) solve_second(draft, context);
-    write_held();
-    deformed = true;
+    show_next();
 }
 
-// Held vertices lie where they were asked to, to the bit. Vertices without faces that no handle
-// holds never leave their rest position.
-void Deformer::State::write_held() {
+// The last step of a frame: a cancel before it leaves what was shown. Held vertices lie where they
+// were asked to, to the bit; vertices without faces that nothing holds are at rest.
+void Deformer::State::show_next() {
+    for (const Index row : prepared->resting_rows) next_positions[row] = rest[row];
     for (const HandleState& h : handles) {
-        if (h.removed) continue;
-        const Affine transform = h.transform;
-        const bool still = transform.is_identity();
         for (const Index v : h.local) {
-            if (!prepared->known.position[v]) continue;
-            const Index row = region_row[v];
-            positions[row] = still ? rest[row] : transform(rest[row]);
+            if (prepared->known.position[v]) next_positions[region_row[v]] = held_position(h, v);
         }
     }
     for (const auto& [v, constraint] : constraints) {
-        if (constraint.position) positions[region_row[v]] = *constraint.position;
+        if (constraint.position) next_positions[region_row[v]] = *constraint.position;
     }
+    positions.swap(next_positions);
+    shown.clear();
+    for (const HandleState& h : handles) shown.push_back(h.in_patch);
+    gradients_current = false;
 }
 
 void Deformer::State::to_rest() {
     positions = rest;
+    compared.clear();
     gradients.assign(rest.size(), Mat3::Identity());
     gradients_current = true;
-    deformed = false;
 }
 
 }  // namespace lissom

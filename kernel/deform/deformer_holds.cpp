@@ -71,7 +71,7 @@ SparseRow Deformer::State::local_row(const MeshPoint& point) const {
 }
 
 Vec3 Deformer::State::rest_position(const SparseRow& row) const {
-    Vec3 at = rest_patch->patch.origin;
+    Vec3 at = Vec3::Zero();
     for (const auto& [v, c] : row) at += c * rest_patch->patch.rest[v];
     return at;
 }
@@ -106,9 +106,9 @@ void Deformer::State::require_unheld(const std::vector<Index>& vertices,
 Vec3 Deformer::State::center_of(const HandleState& handle) const {
     const auto count = static_cast<double>(handle.points.size() + handle.local.size());
     Vec3 center = Vec3::Zero();
-    for (const Index v : handle.local) center += rest[region_row[v]] / count;
+    for (const Index v : handle.local) center += rest_patch->patch.rest[v] / count;
     for (const SparseRow& row : handle.points) center += rest_position(row) / count;
-    return center;
+    return center + rest_patch->patch.origin;
 }
 
 HandleId Deformer::State::add(HandleState handle) {
@@ -162,7 +162,7 @@ void Deformer::set_handle_region(HandleId id, const Region& vertices) {
 std::vector<Index> Deformer::State::counterparts_of(const std::vector<Index>& local,
                                                     const MirrorPlane& plane) const {
     const Patch& patch = rest_patch->patch;
-    const Affine mirror = this->local(reflection(plane));
+    const Affine mirror = reflection({plane.point - patch.origin, plane.normal, 0.0});
     const double tolerance = plane.tolerance > 0.0 ? plane.tolerance : 1e-3 * rest_patch->radius;
     std::vector<Index> found = counterparts(patch.rest, local, patch.of_region, mirror, tolerance);
     std::vector<Index> alone;
@@ -175,12 +175,22 @@ std::vector<Index> Deformer::State::counterparts_of(const std::vector<Index>& lo
     return found;
 }
 
+// Moves the mirror image of a handle along.
+void Deformer::State::reflect(const HandleState& handle, const MirrorPlane& plane,
+                              HandleState& image) const {
+    image.transform = image.in_patch = {};
+    if (handle.transform.is_identity()) return;
+    const Affine whole = reflection(plane);
+    const Affine local = reflection({plane.point - rest_patch->patch.origin, plane.normal, 0.0});
+    image.transform = whole * handle.transform * whole;
+    image.in_patch = local * handle.in_patch * local;
+}
+
 // The mirror image of a handle, which keeps clear of that handle and of all others but its present
 // image.
 HandleState Deformer::State::mirrored(Index number, const HandleState& handle,
                                       const MirrorPlane& plane) const {
     const Patch& patch = rest_patch->patch;
-    const Affine mirror = reflection(plane);
     HandleState image = handle;
     image.mirror = plane;
     image.local = counterparts_of(handle.local, plane);
@@ -205,8 +215,7 @@ HandleState Deformer::State::mirrored(Index number, const HandleState& handle,
     image.partner = number;
     image.region = Region(region.topology(), vertices);
     image.center = center_of(image);
-    image.transform =
-        handle.transform.is_identity() ? Affine{} : mirror * handle.transform * mirror;
+    reflect(handle, plane, image);
     return image;
 }
 
@@ -308,6 +317,7 @@ void Deformer::set_stiffness(const Region& vertices, double factor) {
 // Replaces what is asked of a point. Where only the asked values change the preparation stays.
 void Deformer::State::set_constraint(const SparseRow& row, PointConstraint asked_now) {
     const bool wanted = asked_now.position || asked_now.gradient;
+    find_gradients();
     const std::optional<PointConstraint> before = take_constraint(row);
     const bool same_kind =
         before ? before->position.has_value() == asked_now.position.has_value() &&

@@ -4,7 +4,7 @@
 namespace lissom {
 
 void Deformer::State::drop_prepared() {
-    if (prepared) find_gradients({});
+    if (prepared) find_gradients();
     if (prepared && prepared->comparison && !directions.empty()) gradients = surface_gradients();
     prepared.reset();
 }
@@ -24,7 +24,7 @@ void Deformer::State::rebase() {
     number_rows();
     for (HandleState& handle : handles) {
         if (handle.removed) continue;
-        handle.transform = {};
+        handle.transform = handle.in_patch = {};
         handle.center = center_of(handle);
     }
     // Whatever a constraint holds stays where it is now.
@@ -33,7 +33,9 @@ void Deformer::State::rebase() {
         if (constraint.gradient) constraint.gradient = Mat3::Identity();
     }
     for (PointState& point : points) {
-        if (point.asked.position) point.asked.position = rest_position(point.row);
+        if (point.asked.position) {
+            point.asked.position = rest_position(point.row) + rest_patch->patch.origin;
+        }
         if (point.asked.gradient) point.asked.gradient = Mat3::Identity();
     }
     to_rest();

@@ -10,6 +10,12 @@
 namespace lissom {
 namespace {
 
+using Vec3L = Eigen::Matrix<long double, 3, 1>;
+using Mat3L = Eigen::Matrix<long double, 3, 3>;
+
+// A mesh is far away where its coordinates spend three digits on its place.
+constexpr double kFarAway = 1e3;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -35,6 +41,7 @@ void Deformer::State::number_rows() {
         region_row[patch.of_region[row]] = row;
         size = std::max(size, patch.rest[patch.of_region[row]].norm());
     }
+    far_away = patch.origin.norm() > kFarAway * size;
     stats.region_vertices = region.size();
     stats.zero_area_faces = patch.zero_area_faces;
     stats.inserted_vertices = patch.vertex_count - patch.real_count;
@@ -65,25 +72,44 @@ bool Deformer::State::at_rest() const {
                            return asks_nothing(entry.second, rest[region_row[entry.first]]);
                        }) &&
            std::all_of(points.begin(), points.end(), [&](const PointState& point) {
-               return asks_nothing(point.asked, rest_position(point.row));
+               return asks_nothing(point.asked,
+                                   rest_position(point.row) + rest_patch->patch.origin);
            });
 }
 
-Affine Deformer::State::local(const Affine& transform) const {
-    const Vec3& origin = rest_patch->patch.origin;
-    return {transform.linear, transform.linear * origin + transform.translation - origin};
+// Takes p to about + transform(p - about). Both forms of the transform come from differences in
+// extended precision, so that a rotation about a point far from the origin keeps its digits.
+void Deformer::State::place(HandleState& handle, const Affine& transform, const Vec3& about) const {
+    const auto moved_to = [&](const Vec3& point) -> Affine {
+        const Mat3L turn = transform.linear.cast<long double>() - Mat3L::Identity();
+        const Vec3L arm = point.cast<long double>() - about.cast<long double>();
+        return {transform.linear,
+                (transform.translation.cast<long double>() + turn * arm).cast<double>()};
+    };
+    handle.transform = about.isZero(0.0) ? transform : moved_to(Vec3::Zero());
+    handle.in_patch = moved_to(rest_patch->patch.origin);
+}
+
+// Where a vertex goes that the handle holds: transform(p), to the bit, unless the patch knows
+// better.
+Vec3 Deformer::State::held_position(const HandleState& handle, Index v) const {
+    const Affine& transform = handle.transform;
+    const Vec3& at_rest = rest[region_row[v]];
+    if (transform.is_identity()) return at_rest;
+    if (!far_away || transform.linear == Mat3::Identity()) return transform(at_rest);
+    return rest_patch->patch.origin + handle.in_patch(rest_patch->patch.rest[v]);
 }
 
 Mat4 Deformer::State::base_transform() const {
     const Index base = prepared->solution ? prepared->solution->base() : kNoIndex;
-    return matrix_of(base == kNoIndex ? Affine{} : local(handles[base].transform));
+    return matrix_of(base == kNoIndex ? Affine{} : handles[base].in_patch);
 }
 
 std::vector<Mat4> Deformer::State::differences() const {
     const Mat4 base = base_transform();
     std::vector<Mat4> differences;
     for (const Index h : prepared->solution->handles()) {
-        differences.push_back(matrix_of(local(handles[h].transform)) - base);
+        differences.push_back(matrix_of(handles[h].in_patch) - base);
     }
     return differences;
 }
@@ -91,7 +117,7 @@ std::vector<Mat4> Deformer::State::differences() const {
 Vec3 Deformer::State::known_position(Index v) const {
     const Patch& patch = prepared->work->patch;
     const Index o = prepared->owner[v];
-    if (o >= 0) return local(handles[o].transform)(patch.rest[v]);
+    if (o >= 0) return handles[o].in_patch(patch.rest[v]);
     if (o == kConstrained && asked.at(v).position) {
         return *asked.at(v).position - patch.origin;
     }
@@ -104,12 +130,12 @@ Vec3 Deformer::State::known_deviation(Index v) const {
     const Mat4 base = base_transform();
     const Vec4 rest_point = homogeneous(prepared->work->patch.rest[v]);
     if (o < 0) return known_position(v) - (base * rest_point).head<3>();
-    return ((matrix_of(local(handles[o].transform)) - base) * rest_point).head<3>();
+    return ((matrix_of(handles[o].in_patch) - base) * rest_point).head<3>();
 }
 
 Mat3 Deformer::State::known_gradient(Index v) const {
     const Index o = prepared->owner[v];
-    if (o >= 0) return handles[o].transform.linear;
+    if (o >= 0) return handles[o].in_patch.linear;
     if (o != kConstrained) return Mat3::Identity();
     return asked.at(v).gradient.value_or(Mat3(Mat3::Identity()));
 }
@@ -232,6 +258,7 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
         next->region_row.push_back(v < patch.real_count ? region_row[v] : kNoIndex);
     }
     for (const Index v : patch.of_region) {
+        if (next->owner[v] == kPinned) next->resting_rows.push_back(region_row[v]);
         if (next->known.gradient[v]) continue;
         (next->gradients.defined[v] ? next->gathered : next->averaged).push_back(v);
     }

@@ -50,10 +50,14 @@ struct Prepared {
     /// Vertices of the region without a known gradient: those with a stencil, and those without,
     /// which take the mean of their neighbours.
     std::vector<Index> gathered, averaged;
+    /// Rows of the region whose vertices have no faces and nothing that holds them.
+    std::vector<Index> resting_rows;
 };
 
 struct HandlePoses {
     std::vector<HandleState> handles;
+    /// Of the patch, which a new rest shape moves.
+    Vec3 origin;
 };
 
 struct Deformer::State {
@@ -78,11 +82,13 @@ struct Deformer::State {
     std::vector<Index> counterparts_of(const std::vector<Index>& local,
                                        const MirrorPlane& plane) const;
     HandleState mirrored(Index number, const HandleState& handle, const MirrorPlane& plane) const;
+    void reflect(const HandleState& handle, const MirrorPlane& plane, HandleState& image) const;
     void set_constraint(const SparseRow& row, PointConstraint asked_now);
     std::optional<PointConstraint> take_constraint(const SparseRow& row);
 
     // Transforms and positions below are relative to the patch's origin.
-    Affine local(const Affine& transform) const;
+    void place(HandleState& handle, const Affine& transform, const Vec3& about) const;
+    Vec3 held_position(const HandleState& handle, Index v) const;
     Mat4 base_transform() const;
     std::vector<Mat4> differences() const;
     Vec3 known_position(Index v) const;
@@ -112,7 +118,7 @@ struct Deformer::State {
 
     void evaluate_deviation(const Context& context);
     Mat3 gradient_of(Index v) const;
-    void find_gradients(const Context& context);
+    void find_gradients();
     Mat3 rotation_of(const Mat3& gradient) const;
     void preview(const Context& context);
     void find_turns(const Mat3& base_rotation, const Context& context);
@@ -121,7 +127,7 @@ struct Deformer::State {
     void solve_second(bool draft, const Context& context);
     void solve(bool draft, const Context& context);
     std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;
-    void write_held();
+    void show_next();
     void to_rest();
 
     Region region;
@@ -133,6 +139,8 @@ struct Deformer::State {
     std::vector<Vec3> rest;
     /// Greatest distance of a vertex of the region from the origin of the patch.
     double size = 0.0;
+    /// Whether coordinates of the mesh have fewer digits for its shape than `in_patch` of handles.
+    bool far_away = false;
     RestDirections directions;
 
     std::vector<HandleState> handles;
@@ -162,9 +170,14 @@ struct Deformer::State {
     std::vector<Vec4> absolute;
     /// Local positions of the last solve by a comparison method.
     std::vector<Vec3> compared;
-    std::vector<Vec3> positions;
+    /// What is shown: the positions of the last frame, the transforms of handles in it, and its
+    /// gradients where they are current. Before anything that the preparation rests on changes,
+    /// they are brought up to date. `next_positions` holds the positions of a frame that is not
+    /// done.
+    std::vector<Vec3> positions, next_positions;
+    std::vector<Affine> shown;
     std::vector<Mat3> gradients;
-    bool deformed = false, gradients_current = true;
+    bool gradients_current = true;
     DeformStats stats;
 };
 

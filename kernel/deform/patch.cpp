@@ -114,6 +114,21 @@ void insert_virtual_vertices(Patch& patch) {
     }
 }
 
+// The vertex of the region nearest to the mean of all. Positions relative to a vertex are exact
+// where coordinates are large, so that a mesh far from the origin of its coordinates has the same
+// patch as one that was brought back.
+Index middle_vertex(std::span<const Vec3> positions, const Region& region) {
+    const Vec3& first = positions[region.vertices().front()];
+    Vec3 mean = Vec3::Zero();
+    for (const Index v : region.vertices()) mean += (positions[v] - first) / region.size();
+    const auto distance = [&](Index v) { return (positions[v] - first - mean).squaredNorm(); };
+    Index middle = region.vertices().front();
+    for (const Index v : region.vertices()) {
+        if (distance(v) < distance(middle)) middle = v;
+    }
+    return middle;
+}
+
 }  // namespace
 
 Index Rings::entry(Index i, Index j) const {
@@ -177,10 +192,8 @@ Patch build_patch(const Region& region, std::span<const Vec3> positions, Index r
 
     std::vector<Index> local(static_cast<std::size_t>(topology.vertex_count()), kNoIndex);
     for (Index i = 0; i < patch.real_count; ++i) local[patch.mesh_vertex[i]] = i;
-    for (const Index v : region.vertices()) {
-        patch.of_region.push_back(local[v]);
-        patch.origin += positions[v] / region.size();
-    }
+    for (const Index v : region.vertices()) patch.of_region.push_back(local[v]);
+    patch.origin = positions[middle_vertex(positions, region)];
     patch.in_region.assign(static_cast<std::size_t>(patch.real_count), 0);
     for (const Index v : patch.of_region) patch.in_region[v] = 1;
     for (const Index v : patch.mesh_vertex) {

@@ -41,9 +41,16 @@ class Report {
         if (!json_) print(row);
         rows_.push_back(std::move(row));
     }
+    /// A row of the JSON alone; the table shows its value in another way.
+    void add_to_json(Row row) { rows_.push_back(std::move(row)); }
     /// A line between rows of the table; not part of the JSON.
     void title(const std::string& text) const {
         if (!json_) std::printf("\n%s\n", text.c_str());
+    }
+    /// A line of the table; not part of the JSON.
+    void line(const std::string& text) const {
+        if (!json_) std::printf("%s\n", text.c_str());
+        std::fflush(stdout);
     }
 
   private:
