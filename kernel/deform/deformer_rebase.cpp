@@ -24,7 +24,7 @@ void Deformer::State::rebase() {
     number_rows();
     for (HandleState& handle : handles) {
         if (handle.removed) continue;
-        handle.transform = handle.in_patch = {};
+        handle.set_at_rest();
         handle.center = center_of(handle);
     }
     // Whatever a constraint holds stays where it is now.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <utility>
 
 #include "kernel/solve/sparse_system.h"
@@ -68,6 +69,13 @@ class SerialSection {
     SerialSection(const SerialSection&) = delete;
     SerialSection& operator=(const SerialSection&) = delete;
 };
+
+// BLAS libraries without locks of their own, Debian's serial OpenBLAS among them, give wrong results
+// where two threads factor at the same time.
+std::mutex& factorization_mutex() {
+    static std::mutex mutex;
+    return mutex;
+}
 
 // CHOLMOD's settings and scratch memory.
 class Workspace {
@@ -166,6 +174,7 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
     const auto start = Clock::now();
     cholmod_sparse view = view_of(matrix);
     {
+        const std::lock_guard lock(factorization_mutex());
         [[maybe_unused]] const SerialSection serial;
         cholmod_factorize(&view, state.factor, state.workspace.get());
     }
