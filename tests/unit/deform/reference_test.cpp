@@ -3,6 +3,7 @@
 
 #include "tests/unit/deform/reference.h"
 
+#include "kernel/core/lanes.h"
 #include "kernel/deform/gradients.h"
 #include "kernel/deform/patch.h"
 #include "kernel/deform/working_patch.h"
@@ -97,6 +98,14 @@ void compare(const Scene& scene, const DeformOptions& options, double loss = 1.0
 }
 
 }  // namespace
+
+TEST_CASE("instruction set: the portable program runs no other code") {
+#ifdef LISSOM_PORTABLE
+    CHECK(!has_avx2());
+#else
+    MESSAGE("AVX2 " << (has_avx2() ? "is" : "is not") << " used");
+#endif
+}
 
 TEST_CASE("reference: every formulation is what the equations say") {
     const Scene scene = torus_scene();
