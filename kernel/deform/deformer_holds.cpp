@@ -178,10 +178,10 @@ std::vector<Index> Deformer::State::counterparts_of(const std::vector<Index>& lo
 // Moves the mirror image of a handle along.
 void Deformer::State::reflect(const HandleState& handle, const MirrorPlane& plane,
                               HandleState& image) const {
-    image.set_at_rest();
-    image.turn = -(reflection(plane).linear * handle.turn);
-    if (handle.transform.is_identity()) return;
     const Affine whole = reflection(plane);
+    image.set_at_rest();
+    image.turn = -(whole.linear * handle.turn);
+    if (handle.transform.is_identity()) return;
     const Affine local = reflection({plane.point - rest_patch->patch.origin, plane.normal, 0.0});
     image.transform = whole * handle.transform * whole;
     image.in_patch = local * handle.in_patch * local;
@@ -308,11 +308,11 @@ void Deformer::set_stiffness(const Region& vertices, double factor) {
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
                     "outside the region there is nothing to make stiff, at ",
                     [&](Index v) { return !s.region.contains(v); });
-    if (s.stiffness.empty()) {
-        s.stiffness.assign(static_cast<std::size_t>(s.rest_patch->patch.real_count), 1.0);
+    if (s.vertex_stiffness.empty()) {
+        s.vertex_stiffness.assign(static_cast<std::size_t>(s.rest_patch->patch.real_count), 1.0);
     }
     s.drop_prepared();
-    for (const Index v : vertices.vertices()) s.stiffness[s.local_vertex(v)] = factor;
+    for (const Index v : vertices.vertices()) s.vertex_stiffness[s.local_vertex(v)] = factor;
 }
 
 // Replaces what is asked of a point. Where only the asked values change the preparation stays.

@@ -99,7 +99,9 @@ struct Deformer::State {
     Vec3 known_deviation(Index v) const;
     Mat3 known_gradient(Index v) const;
 
-    Holds holds() const { return {handles, constraints, points, stiffness, options.transition}; }
+    Holds holds() const {
+        return {handles, constraints, points, vertex_stiffness, options.transition};
+    }
     void collect_asked();
     LinearProblem problem() const;
     void prepare(const Context& context);
@@ -161,7 +163,7 @@ struct Deformer::State {
     /// Constraints of points and soft ones, in the order of their rows.
     std::vector<PointState> points;
     /// Of every real local vertex; empty where all are 1.
-    std::vector<double> stiffness;
+    std::vector<double> vertex_stiffness;
     /// What is asked of every local vertex and anchor that a constraint owns.
     VertexConstraints asked;
 

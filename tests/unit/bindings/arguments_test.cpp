@@ -234,10 +234,6 @@ TEST_CASE("work that comes later is an unknown name") {
         CHECK(lua.run("return lissom." + std::string(name)).find("no function") !=
               std::string::npos);
     }
-    for (const char* option : {"method = 'implicit'", "refine = 1"}) {
-        CHECK(lua.run("lissom.deform(lissom.shapes.box(), { " + std::string(option) + " })")
-                  .find("unknown option") != std::string::npos);
-    }
     CHECK(lua.run("lissom.shapes.box():cut()").find("no method 'cut'") != std::string::npos);
 }
 
