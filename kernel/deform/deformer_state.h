@@ -52,8 +52,10 @@ struct Prepared {
     /// Vertices of the region without a known gradient: those with a stencil, and those without,
     /// which take the mean of their neighbours.
     std::vector<Index> gathered, averaged;
-    /// Found at the first turn beyond what the first system can follow.
+    /// How the second system answers to translations of handles; found at the first turn beyond
+    /// what the first system can follow.
     Eigen::MatrixXd handle_stiffness;
+    std::vector<std::vector<double>> turn_weights;
     /// Rows of the region whose vertices have no faces and nothing that holds them.
     std::vector<Index> resting_rows;
 };
@@ -131,9 +133,10 @@ struct Deformer::State {
     void turn_held(const Mat3& base_rotation);
     std::vector<Vec4> relative_turns() const;
     double winding_share() const;
-    std::vector<Vec4> spread(const std::vector<Vec4>& value, bool convex) const;
+    std::vector<Vec4> spread(const std::vector<Vec4>& value) const;
+    std::vector<Vec4> mean_of_turns(const std::vector<Vec4>& value) const;
     std::vector<Index> movable_handles() const;
-    const Eigen::MatrixXd& handle_stiffness(const Context& context);
+    void find_responses(const Context& context);
     std::vector<Vec4> mismatches(std::span<const Vec4> x, const Context& context);
     void add_constraint_moves(std::vector<Vec4>& field) const;
     void wind_turns(const Mat3& base_rotation, double share, bool draft, const Context& context);

@@ -14,8 +14,8 @@ namespace lissom {
 namespace {
 
 // Between these angles the field of turns takes over from that of the first system.
-constexpr double kFirstAngle = 120.0 * kPi / 180.0;
-constexpr double kLastAngle = 150.0 * kPi / 180.0;
+constexpr double kFirstAngle = 150.0 * kPi / 180.0;
+constexpr double kLastAngle = 178.0 * kPi / 180.0;
 
 double smooth_step(double t) {
     t = std::clamp(t, 0.0, 1.0);
@@ -56,9 +56,9 @@ double Deformer::State::winding_share() const {
     return smooth_step((greatest - kFirstAngle) / (kLastAngle - kFirstAngle));
 }
 
-// sum over h of w_h value_h at every local vertex, where w_h are the weights of translations:
-// as they are, or from zero upwards and with sum one.
-std::vector<Vec4> Deformer::State::spread(const std::vector<Vec4>& value, bool convex) const {
+// sum over h of w_h value_h at every local vertex, where w_h are the weights of translations in the
+// first system.
+std::vector<Vec4> Deformer::State::spread(const std::vector<Vec4>& value) const {
     const LinearSolution& solution = *prepared->solution;
     const std::vector<Index>& free = prepared->first->free_vertices();
     std::vector<Vec4> field(static_cast<std::size_t>(prepared->work->patch.vertex_count),
@@ -67,44 +67,79 @@ std::vector<Vec4> Deformer::State::spread(const std::vector<Vec4>& value, bool c
         for (const Index v : handles[solution.handles()[n]].local) field[v] = value[n];
     }
     for (std::size_t row = 0; row < free.size(); ++row) {
-        Vec4 sum = Vec4::Zero();
-        double total = 0.0, rest_weight = 1.0;
         for (std::size_t n = 0; n < value.size(); ++n) {
-            const double raw = solution.translation_weight(n, static_cast<Index>(row));
-            const double weight = convex ? std::clamp(raw, 0.0, 1.0) : raw;
-            sum += weight * value[n];
-            total += weight;
-            rest_weight -= raw;
+            field[free[row]] += solution.translation_weight(n, static_cast<Index>(row)) * value[n];
         }
-        if (convex) sum /= std::max(total + std::clamp(rest_weight, 0.0, 1.0), 1e-9);
-        field[free[row]] = sum;
     }
     return field;
 }
 
-// How hard the second system pulls each of the handles back when another moves by one unit: entry
-// (j, k) is the force on handle j.
-const Eigen::MatrixXd& Deformer::State::handle_stiffness(const Context& context) {
-    Eigen::MatrixXd& known = prepared->handle_stiffness;
-    const std::vector<Index> held = movable_handles();
-    if (known.size() > 0 || held.empty()) return known;
-    const auto count = static_cast<Index>(held.size());
-    Eigen::MatrixXd found(count, count);
-    for (Index first = 0; first < count; first += 3) {
-        std::vector<Vec4> x(deviation.size(), Vec4::Zero());
-        for (Index k = first; k < std::min(count, first + 3); ++k) {
-            for (const Index v : handles[held[k]].local) x[v][k - first] = 1.0;
+// The mean of `value` at every local vertex, by weights from zero upwards with sum one. They are
+// those of translations in the second system, which change evenly along a part that is twisted,
+// and in the first for handles that the second knows nothing of.
+std::vector<Vec4> Deformer::State::mean_of_turns(const std::vector<Vec4>& value) const {
+    const LinearSolution& solution = *prepared->solution;
+    std::vector<Vec4> field(static_cast<std::size_t>(prepared->work->patch.vertex_count),
+                            Vec4::Zero());
+    std::vector<double> total(field.size(), 0.0), remainder(field.size(), 1.0);
+    const auto add = [&](Index v, double raw, const Vec4& of) {
+        const double weight = std::clamp(raw, 0.0, 1.0);
+        field[v] += weight * of;
+        total[v] += weight;
+        remainder[v] -= raw;
+    };
+    const std::vector<Index>& free = prepared->first->free_vertices();
+    for (std::size_t n = 0; n < value.size(); ++n) {
+        const std::vector<double>& weights = prepared->turn_weights[n];
+        for (std::size_t v = 0; v < weights.size(); ++v) {
+            add(static_cast<Index>(v), weights[v], value[n]);
         }
-        prepared->second->solve({}, x, false, context);
-        for (Index j = 0; j < count; ++j) {
-            const Vec3 force = prepared->second->force(nullptr, x, handles[held[j]].local, context);
-            for (Index k = first; k < std::min(count, first + 3); ++k) {
-                found(j, k) = -force[k - first];
+        if (!weights.empty()) continue;
+        for (const Index v : handles[solution.handles()[n]].local) add(v, 1.0, value[n]);
+        for (std::size_t row = 0; row < free.size(); ++row) {
+            const double weight = solution.translation_weight(n, static_cast<Index>(row));
+            if (prepared->owner[free[row]] != solution.handles()[n]) {
+                add(free[row], weight, value[n]);
             }
         }
     }
-    known = found;
-    return known;
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        const double sum = total[v] + std::clamp(remainder[v], 0.0, 1.0);
+        if (sum > 0.0) field[v] /= sum;
+    }
+    return field;
+}
+
+// Moves each movable handle by one unit in the second system alone: `turn_weights` are where that
+// takes the vertices, and entry (j, k) of `handle_stiffness` is the force on handle j that handle k
+// makes.
+void Deformer::State::find_responses(const Context& context) {
+    const std::vector<Index>& all = prepared->solution->handles();
+    if (prepared->turn_weights.size() == all.size()) return;
+    const std::vector<Index> held = movable_handles();
+    const auto count = static_cast<Index>(held.size());
+    Eigen::MatrixXd forces(count, count);
+    std::vector<std::vector<double>> weights(all.size());
+    for (Index first = 0; first < count; first += 3) {
+        const Index last = std::min(count, first + 3);
+        std::vector<Vec4> x(deviation.size(), Vec4::Zero());
+        for (Index k = first; k < last; ++k) {
+            for (const Index v : handles[held[k]].local) x[v][k - first] = 1.0;
+        }
+        prepared->second->solve({}, x, false, context);
+        for (Index k = first; k < last; ++k) {
+            const auto n = std::find(all.begin(), all.end(), held[k]) - all.begin();
+            for (const Vec4& row : x) {
+                weights[static_cast<std::size_t>(n)].push_back(row[k - first]);
+            }
+        }
+        for (Index j = 0; j < count; ++j) {
+            const Vec3 force = prepared->second->force(nullptr, x, handles[held[j]].local, context);
+            for (Index k = first; k < last; ++k) forces(j, k) = -force[k - first];
+        }
+    }
+    prepared->handle_stiffness = forces;
+    prepared->turn_weights = std::move(weights);
 }
 
 // Handles that the second system could move as a whole: all that hold positions, but the base.
@@ -130,7 +165,7 @@ std::vector<Vec4> Deformer::State::mismatches(std::span<const Vec4> x, const Con
     }
     Eigen::MatrixXd natural(count, 3);
     if (count > 0)
-        natural = handle_stiffness(context).completeOrthogonalDecomposition().solve(forces);
+        natural = prepared->handle_stiffness.completeOrthogonalDecomposition().solve(forces);
     std::vector<Vec4> result;
     for (const Index h : prepared->solution->handles()) {
         const auto at = std::find(held.begin(), held.end(), h);
@@ -150,7 +185,8 @@ void Deformer::State::wind_turns(const Mat3& base_rotation, double share, bool d
     const Mat3 base = nearest_rotation(frame_base.topLeftCorner<3, 3>());
     const double base_scale = scales ? uniform_scale(frame_base.topLeftCorner<3, 3>()) : 1.0;
     const std::vector<PaddedMat3> first = turns;
-    const std::vector<Vec4> field = spread(relative_turns(), true);
+    find_responses(context);
+    const std::vector<Vec4> field = mean_of_turns(relative_turns());
     const auto asked_for = [&](Index v) -> Mat3 {
         const double scale = scales ? base_scale * std::exp(field[v][3]) : 1.0;
         return scale * rotation_of_turn(field[v].head<3>()) * base;
@@ -160,7 +196,7 @@ void Deformer::State::wind_turns(const Mat3& base_rotation, double share, bool d
     }
     std::vector<Vec4> x = deviation;
     prepared->second->solve(turns, x, draft, context);
-    std::vector<Vec4> y = spread(mismatches(x, context), false);
+    std::vector<Vec4> y = spread(mismatches(x, context));
     add_constraint_moves(y);
 
     const Rings& rings = prepared->work->rings;
