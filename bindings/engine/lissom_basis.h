@@ -60,10 +60,10 @@
 /// MIT license, as all of Lissom.
 #pragma once
 
+// NOLINTBEGIN: C, and names as C has them.
+
 #include <stddef.h>
 #include <stdint.h>
-
-// NOLINTBEGIN: C, and names as C has them.
 
 /// How the functions are declared; define it before the include to change that.
 #ifndef LISSOM_BASIS_API

@@ -3,6 +3,7 @@
 #include "bindings/lua/deform_object.h"
 #include "bindings/lua/library.h"
 #include "bindings/lua/transform_options.h"
+#include "kernel/deform/winding.h"
 
 namespace lissom::lua {
 
@@ -41,7 +42,7 @@ void refuse_options(const Call& call, DeformMethod method) {
                         std::string(method_name(method)) + "'; leave one of them out");
     };
     for (const char* option :
-         {"local_size", "second", "coherence", "displacement", "degenerate_threshold"}) {
+         {"local_size", "second", "coherence", "displacement", "degenerate_threshold", "refine"}) {
         if (call.has(option)) refuse(option);
     }
     if (call.integer("fidelity") == 1) refuse("fidelity");
@@ -276,9 +277,16 @@ int translate_handle(Call& call) {
 
 int rotate_handle(Call& call) {
     const RotationOptions options = RotationOptions::read(call);
-    return move_handle(call, [&](const Affine& now, const Vec3& rest) {
-        return options.relative_to(rest).map(now.translation) * now;
+    const auto handle = call.self<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        Deformer& deformer = handle->edit->deformer();
+        const Vec3 center = deformer.handle_center(handle->id);
+        const Affine now = deformer.transform_about(handle->id, center);
+        const Affine next = options.relative_to(center).map(now.translation) * now;
+        deformer.set_transform(handle->id, next, center,
+                               turned(deformer.turn(handle->id), options.turn()));
     });
+    return done ? call.push_argument() : call.fail();
 }
 
 int scale_handle(Call& call) {
@@ -292,9 +300,14 @@ int scale_handle(Call& call) {
 
 int set_handle(Call& call) {
     const TransformOptions options = TransformOptions::read(call);
-    return move_handle(call, [&](const Affine&, const Vec3& rest) {
-        return options.relative_to(rest).map(Vec3::Zero());
+    const auto handle = call.self<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        Deformer& deformer = handle->edit->deformer();
+        const Vec3 center = deformer.handle_center(handle->id);
+        const Affine map = options.relative_to(center).map(Vec3::Zero());
+        deformer.set_transform(handle->id, map, center, options.turn());
     });
+    return done ? call.push_argument() : call.fail();
 }
 
 int set_handle_matrix(Call& call) {
@@ -306,7 +319,11 @@ int set_handle_matrix(Call& call) {
 }
 
 int reset_handle(Call& call) {
-    return move_handle(call, [](const Affine&, const Vec3&) { return Affine{}; });
+    const auto handle = call.self<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        handle->edit->deformer().set_transform(handle->id, {}, Vec3::Zero(), Vec3::Zero());
+    });
+    return done ? call.push_argument() : call.fail();
 }
 
 int handle_matrix(Call& call) {

@@ -225,7 +225,7 @@ std::vector<Function> deform_engine_methods() {
          .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
                     ErrorCode::not_positive_definite, ErrorCode::memory_limit,
                     ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
-                    ErrorCode::not_finite, ErrorCode::file_write_failed,
+                    ErrorCode::unsupported, ErrorCode::not_finite, ErrorCode::file_write_failed,
                     ErrorCode::file_is_directory, ErrorCode::cancelled},
          .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
 local edit = lissom.deform(bar)

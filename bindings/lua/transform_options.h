@@ -20,6 +20,8 @@ struct TransformOptions {
     /// Scales, then rotates, then translates; about `center` where the script named no point.
     /// Throws as rotation().
     Affine map(const Vec3& center) const;
+    /// Its rotation vector, of any number of turns.
+    Vec3 turn() const { return angle == 0.0 ? Vec3(Vec3::Zero()) : angle / axis.norm() * axis; }
 };
 
 /// The options {axis=, angle=, about=} of a function itself.
@@ -33,6 +35,8 @@ struct RotationOptions {
     RotationOptions relative_to(const Vec3& origin) const;
     /// About `center` where the script named no point. Throws as rotation().
     Affine map(const Vec3& center) const;
+    /// Its rotation vector, of any number of turns.
+    Vec3 turn() const { return angle == 0.0 ? Vec3(Vec3::Zero()) : angle / axis.norm() * axis; }
 };
 
 }  // namespace lissom::lua

@@ -36,10 +36,9 @@ assert(sway:save(params.out .. "/cactus_sway.glb"))
 -- Handles are called as the regions that they are made of: "base", "tip", "left_tip".
 assert(edit:save_basis(params.out .. "/cactus.basis"))
 
--- Files for engines repeat vertices where texture coordinates meet, so that each carries its row of the basis,
--- counted from 0; here every vertex has one.
+-- Files for engines repeat vertices where texture coordinates meet: each carries its row of the basis.
 local rows = {}
-for i, vertex in ipairs(edit:region():vertices()) do rows[vertex] = i - 1 end
+for i, vertex in ipairs(edit:region():vertices()) do rows[vertex] = i - 1 end -- rows count from 0
 for vertex = 1, #cactus do rows[vertex] = rows[vertex] or -1 end
 cactus:add_attribute{ name = "BASIS_ROW", domain = "vertex", width = 1, values = rows }
 assert(cactus:save(params.out .. "/cactus.glb"))

@@ -1,11 +1,14 @@
 /// Vectors of four numbers, and code that is compiled twice where the compiler can choose at run
 /// time: for any processor and for those with AVX2. Loops are written once, as LISSOM_INLINE
 /// templates over Lanes, and called from one plain function and from one marked LISSOM_AVX2.
+/// Compiled with LISSOM_PORTABLE, code runs on any processor only.
 #pragma once
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(__GNUC__) && defined(__x86_64__) && !defined(LISSOM_PORTABLE)
 #define LISSOM_HAS_AVX2_PATH
 #define LISSOM_AVX2 __attribute__((target("avx2,fma")))
+#endif
+#if defined(__GNUC__)
 #define LISSOM_INLINE inline __attribute__((always_inline))
 #else
 #define LISSOM_INLINE inline

@@ -6,18 +6,13 @@
 
 #include "kernel/deform/comparison_fields.h"
 #include "kernel/deform/comparison_system.h"
+#include "kernel/deform/winding.h"
 
 namespace lissom {
 namespace {
 
 // Triangles count as having at least the area of one with an angle of half a degree.
 const double kSmallestSine = std::sin(0.5 * kPi / 180.0);
-
-Mat3 rotation_of(const Vec3& vector) {
-    const double angle = vector.norm();
-    if (angle == 0.0) return Mat3::Identity();
-    return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
-}
 
 class Propagation : public ComparisonMethod {
   public:
@@ -41,7 +36,7 @@ class Propagation : public ComparisonMethod {
         const std::size_t n = positions.size(), rows = 3 * triangles_.size();
         stretch_.clear();
         for (const SourceMotion& s : frame.sources) {
-            stretch_.push_back(rotation_of(s.rotation).transpose() * s.gradient);
+            stretch_.push_back(rotation_of_turn(s.rotation).transpose() * s.gradient);
         }
         std::vector<double> b(3 * rows), x(3 * n);
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -104,7 +99,7 @@ class Propagation : public ComparisonMethod {
             rotation += weights[s] * frame.sources[s].rotation;
             stretch += weights[s] * stretch_[s];
         }
-        return rotation_of(rotation) * stretch;
+        return rotation_of_turn(rotation) * stretch;
     }
 
     Mat3 triangle_transform(const ComparisonFrame& frame, std::size_t n) {

@@ -10,16 +10,12 @@
 
 #include "kernel/deform/deformer_state.h"
 #include "kernel/deform/polar.h"
+#include "kernel/deform/winding.h"
 
 namespace lissom {
 namespace {
 
 // The rotation in `gradient` as a vector along its axis, of a length up to pi.
-Vec3 rotation_vector(const Mat3& gradient) {
-    const Eigen::AngleAxisd turn(nearest_rotation(gradient));
-    return turn.angle() * turn.axis();
-}
-
 }  // namespace
 
 // Errors: unsupported where something is held softly or at points that are not vertices.
@@ -92,7 +88,9 @@ std::vector<SourceMotion> Deformer::State::source_motions() const {
         SourceMotion motion;
         if (source.owner >= 0) motion.gradient = handles[source.owner].transform.linear;
         if (source.owner == kConstrained) motion.gradient = *asked.at(source.vertex).gradient;
-        motion.rotation = rotation_vector(motion.gradient);
+        motion.rotation = source.owner >= 0
+                              ? handles[source.owner].turn
+                              : turn_near(nearest_rotation(motion.gradient), Vec3::Zero());
         motions.push_back(motion);
     }
     return motions;
@@ -125,7 +123,7 @@ void Deformer::State::solve_comparison(const Context& context) {
 std::vector<Mat3> Deformer::State::surface_gradients() const {
     std::vector<Mat3> result(rest.size(), Mat3::Identity());
     if (compared.empty()) return result;
-    const Patch& patch = prepared->work->patch;
+    const Patch& patch = rest_patch->patch;
     const Rings real = build_rings(patch.real_count, patch.triangles);
     const std::span<const Vec3> before(patch.rest.data(), compared.size());
     const std::vector<Vec3> normal_before = ring_geometry(real, patch.triangles, before).normal;

@@ -32,7 +32,14 @@ struct HandleState {
     /// `transform` as the patch sees it: relative to the patch's origin, with digits that the one
     /// above lacks where the mesh lies far from the origin of its coordinates.
     Affine in_patch{};
+    /// The rotation of the transform as a rotation vector that counts full turns.
+    Vec3 turn = Vec3::Zero();
 
+    bool at_rest() const { return transform.is_identity() && turn.isZero(0.0); }
+    void set_at_rest() {
+        transform = in_patch = {};
+        turn.setZero();
+    }
     bool soft() const { return options.weight.has_value(); }
 };
 

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "kernel/deform/deformer_state.h"
+#include "kernel/deform/polar.h"
+#include "kernel/deform/winding.h"
 
 namespace lissom {
 namespace {
@@ -48,6 +50,7 @@ void require_applicable(const DeformOptions& o) {
     refuse(o.coherence_weight != defaults.coherence_weight, "coherence_weight");
     refuse(o.degenerate_threshold != defaults.degenerate_threshold, "degenerate_threshold");
     refuse(o.displacement != defaults.displacement, "displacement");
+    refuse(o.refine != defaults.refine, "refine");
     refuse(!laplacian && !o.scale_free, "scale_free");
     refuse(o.method == DeformMethod::geodesic && o.weights != defaults.weights, "weights");
 }
@@ -157,14 +160,29 @@ void Deformer::set_transform(HandleId id, const Affine& transform) {
 }
 
 void Deformer::set_transform(HandleId id, const Affine& transform, const Vec3& about) {
+    set_transform(id, transform, about, turn(id));
+}
+
+void Deformer::set_transform(HandleId id, const Affine& transform, const Vec3& about,
+                             const Vec3& turn) {
     HandleState& handle = state_->handle(id);
     require_regular(transform, about);
+    if (!turn.allFinite()) {
+        throw Error(ErrorCode::not_finite, "the turn of a handle must be finite");
+    }
+    handle.turn = turn_near(nearest_rotation(transform.linear), turn);
     state_->place(handle, transform, about);
     const Affine& moved = handle.in_patch;
-    const double turn = (moved.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
+    const double change = (moved.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
     const double shift = moved.translation.cwiseAbs().maxCoeff();
-    const bool still = turn < kIdentityTolerance && shift <= kIdentityTolerance * state_->size;
-    if (still) handle.transform = handle.in_patch = {};
+    const bool still = change < kIdentityTolerance && shift <= kIdentityTolerance * state_->size;
+    if (!still) return;
+    handle.transform = handle.in_patch = {};
+    handle.turn = turn_near(Mat3::Identity(), handle.turn);
+}
+
+Vec3 Deformer::turn(HandleId id) const {
+    return state_->handle(id).turn;
 }
 
 Affine Deformer::transform_about(HandleId id, const Vec3& about) const {
@@ -256,7 +274,7 @@ void Deformer::apply_rest_to(Mesh& mesh) const {
 
 void Deformer::reset() {
     State& s = *state_;
-    for (HandleState& handle : s.handles) handle.transform = handle.in_patch = {};
+    for (HandleState& handle : s.handles) handle.set_at_rest();
     if (!s.constraints.empty() || !s.points.empty()) s.prepared.reset();
     s.constraints.clear();
     s.points.clear();

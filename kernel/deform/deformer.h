@@ -200,7 +200,15 @@ class Deformer {
     /// and then held vertices lie there up to the rounding of their coordinates, which composing a
     /// transform of the whole space cannot promise.
     void set_transform(HandleId handle, const Affine& transform, const Vec3& about);
+    /// The same, saying how far the handle turns: `turn` is a rotation vector, axis times angle in
+    /// radians, of any length. Of all that fit the transform, the nearest to it is taken; without
+    /// it, the nearest to where the handle stood, so that a drag through half a turn goes on
+    /// turning. A handle that comes back to the identity after a full turn is not at rest.
+    void set_transform(HandleId handle, const Affine& transform, const Vec3& about,
+                       const Vec3& turn);
     const Affine& transform(HandleId handle) const;
+    /// The rotation of the handle, counting full turns: axis times angle in radians.
+    Vec3 turn(HandleId handle) const;
     /// How the handles stand, to be put back by `restore`, to the bit.
     std::shared_ptr<const HandlePoses> poses() const;
     /// Handles that were removed since, or added, are left as they are.

@@ -208,6 +208,8 @@ void Deformer::State::solve_second(bool draft, const Context& context) {
             }
         });
     }
+    const double share = winding_share();
+    if (share > 0.0) wind_turns(base_rotation, share, draft, context);
     prepared->second->solve(turns, deviation, draft, context);
     for (int step = 0; step < options.refine; ++step) {
         refine_turns(base_rotation, context);

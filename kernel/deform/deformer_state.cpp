@@ -57,7 +57,7 @@ Index Deformer::State::local_vertex(Index mesh_vertex) const {
 bool Deformer::State::at_rest() const {
     return constraints.empty() && points.empty() &&
            std::all_of(handles.begin(), handles.end(),
-                       [](const auto& h) { return h.removed || h.transform.is_identity(); });
+                       [](const auto& h) { return h.removed || h.at_rest(); });
 }
 
 // Takes p to about + transform(p - about). Both forms of the transform come from differences in
@@ -207,6 +207,9 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     next->owner = std::move(holding.owner);
     next->known = std::move(holding.known);
     next->asked = std::move(holding.asked);
+    for (const Index v : patch.of_region) {
+        if (next->owner[v] == kPinned) next->resting_rows.push_back(region_row[v]);
+    }
     if (options.method != DeformMethod::implicit) {
         prepare_comparison(*next, context);
         return next;
@@ -238,7 +241,6 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
         next->region_row.push_back(v < patch.real_count ? region_row[v] : kNoIndex);
     }
     for (const Index v : patch.of_region) {
-        if (next->owner[v] == kPinned) next->resting_rows.push_back(region_row[v]);
         if (next->known.gradient[v]) continue;
         (next->gradients.defined[v] ? next->gathered : next->averaged).push_back(v);
     }

@@ -1,7 +1,9 @@
 /// The state behind a Deformer; private to kernel/deform.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "kernel/deform/comparison_method.h"
@@ -50,6 +52,8 @@ struct Prepared {
     /// Vertices of the region without a known gradient: those with a stencil, and those without,
     /// which take the mean of their neighbours.
     std::vector<Index> gathered, averaged;
+    /// Found at the first turn beyond what the first system can follow.
+    Eigen::MatrixXd handle_stiffness;
     /// Rows of the region whose vertices have no faces and nothing that holds them.
     std::vector<Index> resting_rows;
 };
@@ -110,6 +114,14 @@ struct Deformer::State {
     void preview(const Context& context);
     void find_turns(const Mat3& base_rotation, const Context& context);
     void turn_held(const Mat3& base_rotation);
+    std::vector<Vec4> relative_turns() const;
+    double winding_share() const;
+    std::vector<Vec4> spread(const std::vector<Vec4>& value, bool convex) const;
+    std::vector<Index> movable_handles() const;
+    const Eigen::MatrixXd& handle_stiffness(const Context& context);
+    std::vector<Vec4> mismatches(std::span<const Vec4> x, const Context& context);
+    void add_constraint_moves(std::vector<Vec4>& field) const;
+    void wind_turns(const Mat3& base_rotation, double share, bool draft, const Context& context);
     void refine_turns(const Mat3& base_rotation, const Context& context);
     void solve_second(bool draft, const Context& context);
     void solve(bool draft, const Context& context);

@@ -60,6 +60,11 @@ class LinearSolution {
     void positions(const Mat4& shift, std::span<const Mat4> differences, Vec4* x, Index begin,
                    Index end) const;
 
+    /// The weight of the translation of handle number h of `handles()`, degenerate vertices
+    /// displaced, and what vertex constraints add.
+    double translation_weight(std::size_t h, Index row) const { return weight_[h][row][3]; }
+    Vec3 fixed_part(Index row) const { return fixed_.empty() ? Vec3(Vec3::Zero()) : fixed_[row]; }
+
     /// Weight of handle number h of `handles()` in `position(row)`, and its fixed part.
     Vec4 weight(std::size_t h, Index row) const {
         const Index f = fold_of_[row];

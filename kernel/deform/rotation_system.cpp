@@ -225,14 +225,31 @@ void RotationSystem::add_correction(std::span<Vec4> x) const {
     for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]].head<3>() += correction_[r];
 }
 
-// Right-hand side less what the matrix makes of x, without forming the matrix.
-void RotationSystem::find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
-                                   std::vector<Vec3>& residual, const Context& context) {
+void RotationSystem::bend(const PaddedMat3* transforms, std::span<const Vec4> x,
+                          const Context& context) {
     const EnergyLoop loop = energy();
     bent_.resize(rest_.size());
     context.parallel_for(0, rings_.size(), kFrameGrain, [&](Index begin, Index end) {
         loop.bend(transforms, x.data(), bent_.data(), begin, end);
     });
+}
+
+Vec3 RotationSystem::force(const PaddedMat3* transforms, std::span<const Vec4> x,
+                           std::span<const Index> vertices, const Context& context) {
+    bend(transforms, x, context);
+    std::vector<Vec3> parts(vertices.size());
+    energy().descend(transforms, x.data(), bent_.data(), vertices.data(), parts.data(), 0,
+                     static_cast<Index>(vertices.size()));
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& part : parts) sum += part;
+    return sum;
+}
+
+// Right-hand side less what the matrix makes of x, without forming the matrix.
+void RotationSystem::find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
+                                   std::vector<Vec3>& residual, const Context& context) {
+    bend(transforms, x, context);
+    const EnergyLoop loop = energy();
     residual.resize(free_.size());
     const auto count = static_cast<Index>(free_.size());
     context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {

@@ -42,8 +42,14 @@ class RotationSystem {
     /// positions, those of anchors among them, and a guess of the free ones. Linear in both:
     /// deviations of S_i from one S give deviations of the positions from S v + t. With `draft`,
     /// one correction of the guess, about five digits; else as many as nearly full precision takes.
+    /// No transforms stand for zeros.
     void solve(std::span<const PaddedMat3> transforms, std::span<Vec4> x, bool draft,
                const Context& context);
+
+    /// The sum over `vertices` of half the downward gradient of the energy without its ties, at
+    /// positions x. Null transforms stand for zeros.
+    Vec3 force(const PaddedMat3* transforms, std::span<const Vec4> x,
+               std::span<const Index> vertices, const Context& context);
 
     /// The loops over its energy.
     EnergyLoop energy() const;
@@ -51,6 +57,7 @@ class RotationSystem {
   private:
     void assemble(const std::vector<char>& position_known, const Context& context);
     void add_ties(const WorkingPatch& work);
+    void bend(const PaddedMat3* transforms, std::span<const Vec4> x, const Context& context);
     void find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
                        std::vector<Vec3>& residual, const Context& context);
     void find_correction(const Context& context);

@@ -193,6 +193,7 @@ std::vector<Index> read_vertices(const Header& header, ByteReader& reader) {
 // `names` begin where each handle's record says.
 void set_names(std::string_view names, std::span<const std::uint32_t> starts,
                std::vector<EngineHandle>& handles) {
+    if (!names.empty() && names.back() != '\0') refuse_damaged("the last name has no end");
     for (std::size_t h = 0; h < handles.size(); ++h) {
         const std::size_t start = starts[h], end = names.find('\0', start);
         if (start >= names.size() || end == std::string_view::npos) {

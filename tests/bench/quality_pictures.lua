@@ -23,7 +23,7 @@ local cases = {
 }
 
 local methods = {
-    "first_system_only", "laplacian", "poisson", "blend", "blend_refine_1", "blend_refine_2",
+    "first_system_only", "laplacian", "poisson", "blend_the_default", "blend_refine_2",
     "CGAL_ORIGINAL_ARAP_default", "CGAL_SPOKES_AND_RIMS_default", "CGAL_SPOKES_AND_RIMS_50",
     "CGAL_SRE_ARAP_default",
 }

@@ -133,7 +133,7 @@ for _, method in ipairs{ "naive", "rotation_estimate", "similarity", "geodesic",
     local none, message, code = edit:basis()
     expect.truthy(none == nil and code == "unsupported" and message:find(method, 1, true))
     for name, value in pairs{ local_size = "keep", second = "blend", coherence = 1, displacement = 0.2,
-        degenerate_threshold = 1e4, fidelity = "thesis" } do
+        degenerate_threshold = 1e4, fidelity = "thesis", refine = 1 } do
         expect.error(name .. "' does not apply to method '" .. method,
             function() lissom.deform(mesh, { method = method, [name] = value }) end)
     end

@@ -48,7 +48,9 @@ mesh, edit, bottom, top = bar()
 top:translate(0.25, 0, 0)
 edit:preview()
 local matrix, before = top:matrix(), mesh:hash()
-local function pose(time) top:set{ rotate = { axis = "z", angle = 50 * time }, translate = { time, 0, 0 } } end
+local function pose(time)
+    top:set{ rotate = { axis = "z", angle = 50 * time }, translate = { time, 0, 0 } }
+end
 
 local glb = path .. ".glb"
 for _, options in ipairs{ {}, { preview = true } } do

@@ -98,6 +98,13 @@ TEST_CASE("a basis with damaged bytes is refused by both readers or by none") {
     CHECK(refused > 1000);
 }
 
+TEST_CASE("a last name without an end is refused") {
+    std::string bytes = small_basis();
+    bytes.back() = 'x';
+    CHECK_FALSE(is_basis(bytes));
+    CHECK_FALSE(is_read(bytes));
+}
+
 TEST_CASE("headers with sizes near the limits are refused") {
     const std::string good = small_basis();
     for (const std::uint32_t handles : {0u, 1u, 0x10000u, 0x7fffffffu, 0xffffffffu}) {

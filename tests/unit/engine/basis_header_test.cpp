@@ -79,7 +79,7 @@ TEST_CASE("a mesh may lie far from its origin and have any scale") {
     for (const double scale : {1e-6, 1.0, 1e6}) {
         const Mesh bar = moved(make_bar({}), scale, Vec3::Zero());
         const double size = surface_radius(bar);
-        for (const double offset : {1e2, 1e4}) {
+        for (const double offset : {1e2, 1e4, 1e6}) {
             CAPTURE(scale);
             CAPTURE(offset);
             const Mesh far = moved(bar, 1.0, offset * size * Vec3(1, -0.7, 0.3));

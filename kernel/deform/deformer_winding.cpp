@@ -1,0 +1,199 @@
+// Rotations of handles beyond half a turn. The first system cannot tell a turn by t from one by t
+// minus a full turn; what was asked for is propagated instead, and only what the handles'
+// translations add is taken as the first system would.
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernel/deform/deformer_state.h"
+#include "kernel/deform/polar.h"
+#include "kernel/deform/winding.h"
+
+namespace lissom {
+namespace {
+
+// Between these angles the field of turns takes over from that of the first system.
+constexpr double kFirstAngle = 120.0 * kPi / 180.0;
+constexpr double kLastAngle = 150.0 * kPi / 180.0;
+
+double smooth_step(double t) {
+    t = std::clamp(t, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+}  // namespace
+
+// Turns and logarithms of scale of the solution's handles, relative to the base.
+std::vector<Vec4> Deformer::State::relative_turns() const {
+    const LinearSolution& solution = *prepared->solution;
+    const bool based = solution.base() != kNoIndex;
+    const Mat3 base = based ? handles[solution.base()].in_patch.linear : Mat3(Mat3::Identity());
+    const Vec3 base_turn = based ? handles[solution.base()].turn : Vec3(Vec3::Zero());
+    const Mat3 back = nearest_rotation(base).transpose();
+    std::vector<Vec4> turns_of_handles;
+    for (const Index h : solution.handles()) {
+        const HandleState& handle = handles[h];
+        Vec4 relative;
+        const Mat3& linear = handle.in_patch.linear;
+        relative.head<3>() = turn_near(nearest_rotation(linear) * back, handle.turn - base_turn);
+        relative[3] = std::log(uniform_scale(linear) / uniform_scale(base));
+        turns_of_handles.push_back(relative);
+    }
+    return turns_of_handles;
+}
+
+// How much of the field of turns a frame takes, by the greatest turn between two handles.
+double Deformer::State::winding_share() const {
+    if (!prepared->solution) return 0.0;
+    std::vector<Vec4> ends = relative_turns();
+    ends.push_back(Vec4::Zero());
+    double greatest = 0.0;
+    for (const Vec4& a : ends) {
+        for (const Vec4& b : ends) greatest = std::max(greatest, (a - b).head<3>().norm());
+    }
+    return smooth_step((greatest - kFirstAngle) / (kLastAngle - kFirstAngle));
+}
+
+// sum over h of w_h value_h at every local vertex, where w_h are the weights of translations:
+// as they are, or from zero upwards and with sum one.
+std::vector<Vec4> Deformer::State::spread(const std::vector<Vec4>& value, bool convex) const {
+    const LinearSolution& solution = *prepared->solution;
+    const std::vector<Index>& free = prepared->first->free_vertices();
+    std::vector<Vec4> field(static_cast<std::size_t>(prepared->work->patch.vertex_count),
+                            Vec4::Zero());
+    for (std::size_t n = 0; n < value.size(); ++n) {
+        for (const Index v : handles[solution.handles()[n]].local) field[v] = value[n];
+    }
+    for (std::size_t row = 0; row < free.size(); ++row) {
+        Vec4 sum = Vec4::Zero();
+        double total = 0.0, rest_weight = 1.0;
+        for (std::size_t n = 0; n < value.size(); ++n) {
+            const double raw = solution.translation_weight(n, static_cast<Index>(row));
+            const double weight = convex ? std::clamp(raw, 0.0, 1.0) : raw;
+            sum += weight * value[n];
+            total += weight;
+            rest_weight -= raw;
+        }
+        if (convex) sum /= std::max(total + std::clamp(rest_weight, 0.0, 1.0), 1e-9);
+        field[free[row]] = sum;
+    }
+    return field;
+}
+
+// How hard the second system pulls each of the handles back when another moves by one unit: entry
+// (j, k) is the force on handle j.
+const Eigen::MatrixXd& Deformer::State::handle_stiffness(const Context& context) {
+    Eigen::MatrixXd& stiffness = prepared->handle_stiffness;
+    const std::vector<Index> held = movable_handles();
+    if (stiffness.size() > 0 || held.empty()) return stiffness;
+    const auto count = static_cast<Index>(held.size());
+    Eigen::MatrixXd found(count, count);
+    for (Index first = 0; first < count; first += 3) {
+        std::vector<Vec4> x(deviation.size(), Vec4::Zero());
+        for (Index k = first; k < std::min(count, first + 3); ++k) {
+            for (const Index v : handles[held[k]].local) x[v][k - first] = 1.0;
+        }
+        prepared->second->solve({}, x, false, context);
+        for (Index j = 0; j < count; ++j) {
+            const Vec3 force = prepared->second->force(nullptr, x, handles[held[j]].local, context);
+            for (Index k = first; k < std::min(count, first + 3); ++k) {
+                found(j, k) = -force[k - first];
+            }
+        }
+    }
+    stiffness = found;
+    return stiffness;
+}
+
+// Handles that the second system could move as a whole: all that hold positions, but the base.
+std::vector<Index> Deformer::State::movable_handles() const {
+    std::vector<Index> movable;
+    for (const Index h : prepared->solution->handles()) {
+        const HandleState& handle = handles[h];
+        if (handle.options.position && !handle.soft() && !handle.local.empty()) {
+            movable.push_back(h);
+        }
+    }
+    return movable;
+}
+
+// How far each handle of the solution is from where the present turns alone would put it.
+std::vector<Vec4> Deformer::State::mismatches(std::span<const Vec4> x, const Context& context) {
+    const std::vector<Index> held = movable_handles();
+    const auto count = static_cast<Index>(held.size());
+    Eigen::MatrixXd forces(count, 3);
+    for (Index j = 0; j < count; ++j) {
+        forces.row(j) =
+            prepared->second->force(turns.data(), x, handles[held[j]].local, context).transpose();
+    }
+    Eigen::MatrixXd natural(count, 3);
+    if (count > 0)
+        natural = handle_stiffness(context).completeOrthogonalDecomposition().solve(forces);
+    std::vector<Vec4> result;
+    for (const Index h : prepared->solution->handles()) {
+        const auto at = std::find(held.begin(), held.end(), h);
+        const Vec3 shift =
+            at == held.end() ? Vec3(Vec3::Zero()) : Vec3(natural.row(at - held.begin()));
+        result.push_back(padded(Vec3(-shift)));
+    }
+    return result;
+}
+
+// Blends into `turns`, by `share`, the rotations of the field of turns: each vertex turns by the
+// mean of the handles' rotation vectors; the second system says where the handles would then lie
+// by themselves, and what they are off by bends the surface as pure translations do.
+void Deformer::State::wind_turns(const Mat3& base_rotation, double share, bool draft,
+                                 const Context& context) {
+    const bool scales = options.local_size == LocalSize::scale;
+    const Mat3 base = nearest_rotation(frame_base.topLeftCorner<3, 3>());
+    const double base_scale = scales ? uniform_scale(frame_base.topLeftCorner<3, 3>()) : 1.0;
+    const std::vector<PaddedMat3> first = turns;
+    const std::vector<Vec4> field = spread(relative_turns(), true);
+    const auto asked_for = [&](Index v) -> Mat3 {
+        const double scale = scales ? base_scale * std::exp(field[v][3]) : 1.0;
+        return scale * rotation_of_turn(field[v].head<3>()) * base;
+    };
+    for (const std::vector<Index>* vertices : {&prepared->gathered, &prepared->averaged}) {
+        for (const Index v : *vertices) turns[v].topRows<3>() = asked_for(v) - base_rotation;
+    }
+    std::vector<Vec4> x = deviation;
+    prepared->second->solve(turns, x, draft, context);
+    std::vector<Vec4> y = spread(mismatches(x, context), false);
+    add_constraint_moves(y);
+
+    const Rings& rings = prepared->work->rings;
+    const GradientLoop loop{rings.begin.data(), rings.neighbor.data(),
+                            prepared->gradients.self.data(), prepared->gradients.neighbor.data()};
+    const auto blend = [&](Index v, const Mat3& m) {
+        const double scale = scales ? uniform_scale(m) : 1.0;
+        const Mat3 before = first[v].topRows<3>() + base_rotation;
+        const Mat3 now = scale * nearest_rotation(m);
+        const Mat3 mean = (1.0 - share) * before + share * now;
+        const double mean_scale =
+            scales ? (1.0 - share) * uniform_scale(before) + share * scale : 1.0;
+        turns[v].topRows<3>() = mean_scale * nearest_rotation(mean) - base_rotation;
+    };
+    const auto all = static_cast<Index>(prepared->gathered.size());
+    context.parallel_for(0, all, kFrameGrain, [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            const Index v = prepared->gathered[i];
+            Mat3 shear;
+            loop.gather(&v, y.data(), &shear, 0, 1);
+            blend(v, asked_for(v) + shear);
+        }
+    });
+    for (const Index v : prepared->averaged) blend(v, asked_for(v));
+}
+
+// What vertex constraints add to the positions, where the base is still.
+void Deformer::State::add_constraint_moves(std::vector<Vec4>& field) const {
+    if (asked.empty()) return;
+    for (const auto& entry : asked) field[entry.first] += padded(known_deviation(entry.first));
+    const std::vector<Index>& free = prepared->first->free_vertices();
+    for (std::size_t row = 0; row < free.size(); ++row) {
+        field[free[row]] += padded(prepared->solution->fixed_part(static_cast<Index>(row)));
+    }
+}
+
+}  // namespace lissom

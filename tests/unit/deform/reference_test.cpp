@@ -1,0 +1,136 @@
+// The fast path against a slow one that is written straight from the equations. The program
+// test_deform_portable runs the same tests on code for any processor.
+
+#include "tests/unit/deform/reference.h"
+
+#include "kernel/core/lanes.h"
+#include "kernel/deform/gradients.h"
+#include "kernel/deform/patch.h"
+#include "kernel/deform/working_patch.h"
+#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/triangulate.h"
+#include "tests/unit/deform/models.h"
+#include "tests/unit/deform/scene.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+// Errors of the fast path, in sizes: of the first system, of the second, and of a drag's frame.
+// The first is that of a well-shaped mesh; nearly degenerate vertices cost the digits that their
+// condition number has.
+constexpr double kFirst = 1e-11, kSecond = 1e-9, kDraft = 1e-4;
+constexpr double kNearlyDegenerate = 100.0;
+
+std::vector<std::pair<std::string, DeformOptions>> formulations() {
+    std::vector<std::pair<std::string, DeformOptions>> list;
+    const auto add = [&](const std::string& name, auto change) {
+        DeformOptions options;
+        change(options);
+        list.emplace_back(name, options);
+    };
+    add("blend", [](DeformOptions&) {});
+    add("laplacian", [](DeformOptions& o) { o.second = SecondSystem::laplacian; });
+    add("poisson", [](DeformOptions& o) { o.second = SecondSystem::poisson; });
+    add("scale", [](DeformOptions& o) { o.local_size = LocalSize::scale; });
+    add("two rings", [](DeformOptions& o) { o.coherence = 2; });
+    add("uniform", [](DeformOptions& o) { o.weights = LaplacianWeights::uniform; });
+    add("coherence", [](DeformOptions& o) { o.coherence_weight = 7.0; });
+    add("thesis", [](DeformOptions& o) { o = DeformOptions::thesis(); });
+    add("thesis, blend", [](DeformOptions& o) {
+        o = DeformOptions::thesis();
+        o.second = SecondSystem::blend;
+    });
+    return list;
+}
+
+Scene torus_scene() {
+    Mesh torus = make_torus({1.0, 0.4, 18, 9});
+    for (Vec3& p : torus.edit_positions()) p += 0.1 * Vec3(p.y() * p.z(), p.x() * p.x(), p.y());
+    triangulate(torus);
+    return make_scene(torus);
+}
+
+// Rest positions with degenerate vertices displaced, as a deformer of the scene displaces them.
+std::vector<Vec3> displaced_rest(const Scene& scene, const Vec3& start,
+                                 const DeformOptions& options) {
+    const WorkingPatch work(build_patch(scene.mesh, scene.all(), 1), options);
+    const auto n = static_cast<std::size_t>(scene.mesh.vertex_count());
+    Knowledge known{std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 1)};
+    for (const auto* handle : {&scene.low, &scene.high}) {
+        for (const Index v : *handle) {
+            known.position[v] = known.gradient[v] = 1;
+            known.gradient_wanted[v] = 0;
+        }
+    }
+    const GradientStencils g = make_gradients(work.patch, work.rings, work.geometry, known,
+                                              start - work.patch.origin, options);
+    return mapped(g.displaced_rest, translation(work.patch.origin));
+}
+
+void compare(const Scene& scene, const DeformOptions& options, double loss = 1.0) {
+    Edit edit = make_edit(scene, options);
+    Deformer& d = edit.deformer;
+    const Affine high = bend(scene, d.handle_center(edit.high), 1.2);
+    const Affine low = scaling({1.2, 0.9, 1.1}, d.handle_center(edit.low));
+    d.set_transform(edit.high, high);
+    d.set_transform(edit.low, low);
+    std::map<Index, Affine> held;
+    for (const Index v : scene.high) held[v] = high;
+    for (const Index v : scene.low) held[v] = low;
+    const Reference reference(scene.mesh, displaced_rest(scene, d.handle_center(edit.low), options),
+                              held, options);
+    const std::vector<Vec3> displaced = reference.first();
+    const std::vector<Vec3> first = reference.pulled_back(displaced);
+    CHECK(greatest_distance(d.preview(), first) < loss * kFirst * scene.size);
+    CHECK(greatest_distance(d.solve_first_directly(), first) < loss * kFirst * scene.size);
+    const std::vector<Vec3> second = reference.second(displaced);
+    CHECK(greatest_distance(d.solve(), second) < kSecond * scene.size);
+    CHECK(greatest_distance(d.solve_draft(), second) < kDraft * scene.size);
+    const std::vector<Mat3> expected = reference.gradients(displaced), got = d.gradients();
+    double worst = 0.0;
+    for (std::size_t v = 0; v < got.size(); ++v) {
+        worst = std::max(worst, (got[v] - expected[v]).norm());
+    }
+    CHECK(worst < 1e-9);
+}
+
+}  // namespace
+
+TEST_CASE("instruction set: the portable program runs no other code") {
+#ifdef LISSOM_PORTABLE
+    CHECK(!has_avx2());
+#else
+    MESSAGE("AVX2 " << (has_avx2() ? "is" : "is not") << " used");
+#endif
+}
+
+TEST_CASE("reference: every formulation is what the equations say") {
+    const Scene scene = torus_scene();
+    for (const auto& [name, options] : formulations()) {
+        CAPTURE(name);
+        compare(scene, options);
+    }
+}
+
+TEST_CASE("reference: with degenerate vertices, displaced and pulled back") {
+    Mesh bar = make_bar({1.0, 3.0, 3, 9});
+    triangulate(bar);
+    const Scene scene = make_scene(bar);
+    REQUIRE(greatest_distance(displaced_rest(scene, Vec3::Zero(), {}),
+                              {bar.positions().begin(), bar.positions().end()}) > 0.01);
+    for (const auto& [name, options] : formulations()) {
+        CAPTURE(name);
+        compare(scene, options, kNearlyDegenerate);
+    }
+}
+
+TEST_CASE("reference: real meshes") {
+    for (const std::string name :
+         {"decimated-knight.off", "torus_vcg.off", "kitten_lowres.obj", "arap_bar2.off"}) {
+        CAPTURE(name);
+        if (const Scene* scene = model_scene(name)) compare(*scene, {}, kNearlyDegenerate);
+    }
+}
