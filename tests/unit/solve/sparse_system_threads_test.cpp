@@ -49,8 +49,9 @@ class CancellingHost {
 }  // namespace
 
 TEST_CASE("solve: every structure satisfies its system") {
-    for (const auto& [name, a] : test::matrices()) {
-        CAPTURE(name);
+    for (const test::NamedMatrix& named : test::matrices()) {
+        const SymmetricMatrix& a = named.matrix;
+        CAPTURE(named.name);
         const std::vector<double> x = solution(a);
         std::vector<double> product(x.size());
         a.multiply(x.data(), product.data(), 1);

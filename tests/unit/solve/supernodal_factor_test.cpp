@@ -67,9 +67,10 @@ std::vector<Processor> processors() {
 }  // namespace
 
 TEST_CASE("supernodal factor: L L^T is the matrix, for every structure and processor") {
-    for (const auto& [name, a] : test::matrices()) {
+    for (const test::NamedMatrix& named : test::matrices()) {
+        const SymmetricMatrix& a = named.matrix;
+        CAPTURE(named.name);
         if (a.size() > 3000) continue;
-        CAPTURE(name);
         for (const Processor processor : processors()) {
             const Factored f = factored(a, processor);
             REQUIRE(f.failed == kNoIndex);
@@ -79,16 +80,18 @@ TEST_CASE("supernodal factor: L L^T is the matrix, for every structure and proce
 }
 
 TEST_CASE("supernodal factor: the paths for two processors agree") {
-    for (const auto& [name, a] : test::matrices()) {
-        CAPTURE(name);
+    for (const test::NamedMatrix& named : test::matrices()) {
+        const SymmetricMatrix& a = named.matrix;
+        CAPTURE(named.name);
         const Factored plain = factored(a, Processor::any), best = factored(a, best_processor());
         CHECK(greatest_difference(plain.value, best.value) < 1e-12);
     }
 }
 
 TEST_CASE("supernodal factor: threads do not change a bit") {
-    for (const auto& [name, a] : test::matrices()) {
-        CAPTURE(name);
+    for (const test::NamedMatrix& named : test::matrices()) {
+        const SymmetricMatrix& a = named.matrix;
+        CAPTURE(named.name);
         const Factored one = factored(a, best_processor());
         for (const int threads : {2, 4}) {
             ContextOptions options;
