@@ -1,7 +1,9 @@
 // lissom.deform: Deformation and Handle.
 #include "bindings/lua/buffer.h"
 #include "bindings/lua/deform_object.h"
+#include "bindings/lua/deform_points.h"
 #include "bindings/lua/library.h"
+#include "bindings/lua/path_object.h"
 #include "bindings/lua/transform_options.h"
 #include "kernel/deform/winding.h"
 
@@ -59,6 +61,7 @@ DeformOptions deform_options(const Call& call) {
     if (call.has("coherence")) options.coherence = call.integer("coherence");
     if (call.has("refine")) options.refine = call.integer("refine");
     take_number(call, "displacement", options.displacement);
+    options.transition = call.number("transition");
     take_number(call, "degenerate_threshold", options.degenerate_threshold);
     return options;
 }
@@ -82,13 +85,50 @@ int deform_mesh(Call& call) {
 
 // ---- Deformation
 
+std::vector<MeshPoint> mesh_points(const DeformObject& edit, std::span<const PointSpec> specs) {
+    std::vector<MeshPoint> points;
+    for (const PointSpec& spec : specs) points.push_back(spec.point(*edit.topology));
+    return points;
+}
+
+MirrorPlane mirror_plane(const Call& call) {
+    return {call.vector("mirror.point"), call.vector("mirror.normal"),
+            call.has("mirror.tolerance") ? call.number("mirror.tolerance") : 0.0};
+}
+
 int add_handle(Call& call) {
     const auto edit = call.self<DeformObject>();
-    const auto region = call.object<RegionObject>("region");
-    const HandleOptions options{call.boolean("position"), call.boolean("gradient")};
+    const bool has_weight = call.has("weight"), has_points = call.kind("where") == Kind::table;
+    const bool on_path = luaL_testudata(call.lua(), 2, PathObject::kTypeName) != nullptr;
+    const auto region = call.object<RegionObject>("where");
+    const auto path = call.object<PathObject>("where");
+    const HandleOptions options{
+        call.boolean("position"), call.boolean("gradient"),
+        has_weight ? std::optional<double>(call.number("weight")) : std::nullopt,
+        call.number("falloff")};
+    const bool mirrors = call.has("mirror");
+    const MirrorPlane plane = mirrors ? mirror_plane(call) : MirrorPlane{};
+    const std::span<const PointSpec> points =
+        has_points ? read_points(call, "where") : std::span<const PointSpec>{};
     const auto result = call.create<HandleObject>();
     const bool done = call.attempt([&] {
-        const HandleId id = edit->deformer().add_handle(region->current(), options);
+        Deformer& deformer = edit->deformer();
+        const auto add = [&]() -> HandleId {
+            if (has_points) return deformer.add_handle(mesh_points(*edit, points), options);
+            if (!on_path) return deformer.add_handle(region->current(), options);
+            return deformer.add_handle(
+                path_points(edit->mesh->mesh, path->current(), call.context()), options);
+        };
+        const HandleId id = add();
+        // A handle whose mirror image is refused is not made.
+        if (mirrors) {
+            try {
+                deformer.mirror_handle(id, plane);
+            } catch (...) {
+                deformer.remove_handle(id);
+                throw;
+            }
+        }
         result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), id}));
     });
     return done ? 1 : call.fail();
@@ -96,16 +136,28 @@ int add_handle(Call& call) {
 
 int constrain(Call& call) {
     const auto edit = call.self<DeformObject>();
-    const Index vertex = call.id("vertex");
+    const PointSpec point = read_point_options(call);
     const bool has_position = call.has("position"), has_gradient = call.has("gradient");
+    const bool has_weight = call.has("weight");
+    const double weight = has_weight ? call.number("weight") : 1.0;
     const Vec3 position = has_position ? call.vector("position") : Vec3(Vec3::Zero());
     const Mat3 gradient = has_gradient ? call.matrix3("gradient") : Mat3(Mat3::Identity());
     const bool done = call.attempt([&] {
-        VertexConstraint constraint{vertex, std::nullopt, std::nullopt};
+        PointConstraint constraint{point.point(*edit->topology)};
+        if (has_weight) constraint.weight = weight;
         if (has_position) constraint.position = position;
         if (has_gradient) constraint.gradient = gradient;
         edit->deformer().constrain(constraint);
     });
+    return done ? call.push_argument() : call.fail();
+}
+
+int set_stiffness(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const auto region = call.object<RegionObject>("region");
+    const double factor = call.number("factor");
+    const bool done =
+        call.attempt([&] { edit->deformer().set_stiffness(region->current(), factor); });
     return done ? call.push_argument() : call.fail();
 }
 
@@ -137,6 +189,11 @@ int solve(Call& call) {
 
 int reset_all(Call& call) {
     const int results = write_result(call, [](Deformer& deformer) { deformer.reset(); });
+    return results == 1 ? call.push_argument() : results;
+}
+
+int rebase(Call& call) {
+    const int results = write_result(call, [](Deformer& deformer) { deformer.rebase(); });
     return results == 1 ? call.push_argument() : results;
 }
 
@@ -356,6 +413,27 @@ int handle_region(Call& call) {
     return done ? 1 : call.fail();
 }
 
+int set_handle_region(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    const auto region = call.object<RegionObject>("region");
+    const bool done = call.attempt(
+        [&] { handle->edit->deformer().set_handle_region(handle->id, region->current()); });
+    return done ? call.push_argument() : call.fail();
+}
+
+int mirrored_handle(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    HandleId id;
+    const auto result = call.create<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        id = handle->edit->deformer().mirrored_handle(handle->id).value_or(HandleId{});
+        result.set(std::make_shared<HandleObject>(HandleObject{handle->edit, id}));
+    });
+    if (!done) return call.fail();
+    if (id == HandleId{}) lua_pushnil(call.lua());
+    return 1;
+}
+
 int remove_handle(Call& call) {
     const auto handle = call.self<HandleObject>();
     const bool done =
@@ -399,6 +477,23 @@ edit:handle(bar:region("bottom"))
 local top = edit:handle(bar:region("top"))
 )";
 
+Parameter weight_option() {
+    return number("weight",
+                  "Draws instead of holding exactly: 1 is a compromise with the shape of the "
+                  "surface, 1e6 nearly exact. Depends on neither scale nor resolution.")
+        .above(0)
+        .optional("held exactly");
+}
+
+std::vector<Parameter> constraint_fields() {
+    std::vector<Parameter> fields = point_fields();
+    fields.push_back(vector("position", "Where it goes.").optional("free"));
+    fields.push_back(
+        matrix3("gradient", "Rows of its 3 x 3 deformation gradient.").optional("free"));
+    fields.push_back(weight_option());
+    return fields;
+}
+
 std::vector<Function> solving_methods() {
     const std::vector<Result> mesh = {
         {"lissom.Mesh", "mesh", "The mesh; nil, message, code where there is no solution."}};
@@ -434,6 +529,21 @@ top:translate(1, 0, 0)
 edit:solve()
 edit:reset()
 assert(bar:hash() == before))"},
+        {.name = "apply",
+         .body = rebase,
+         .summary =
+             "Takes the last result as the new rest shape. Handles keep their vertices and hold "
+             "where they are now, with the identity as transform; constraints hold where their "
+             "points are now. Factors are rebuilt at the next solve, and reset returns to this "
+             "shape.",
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .errors = kEditErrors,
+         .example = kBar + R"(top:translate(1, 0, 0)
+edit:solve()
+edit:apply()
+assert(top:matrix()[1][4] == 0)
+top:translate(1, 0, 0)
+edit:solve())"},
         {.name = "stats",
          .body = stats,
          .summary = "Sizes and times of the last preparation.",
@@ -547,6 +657,12 @@ std::vector<Parameter> deform_parameters() {
         number("degenerate_threshold", "Condition number from which a vertex counts as degenerate.")
             .above(1)
             .optional(shown(defaults.degenerate_threshold)),
+        number("transition",
+               "Within this geodesic distance of the region's outline the deformation fades into "
+               "what stays.")
+            .at_least(0)
+            .in("mesh units")
+            .defaults(0.0),
         choice("fidelity", {"default", "thesis"},
                "thesis: coherence 2, second laplacian, and the weights and threshold of the thesis "
                "where "
@@ -568,31 +684,72 @@ Type deformation_type() {
     type.methods = {
         {.name = "handle",
          .body = add_handle,
-         .summary = "Makes a handle of some vertices of the region.",
-         .arguments = {object("region", "lissom.Region", "Its vertices.")},
+         .summary =
+             "Makes a handle of some vertices of the region, of a path, or of points of faces and "
+             "edges. Points go exactly where the handle takes them: the points of the deformed "
+             "faces with the same weights do.",
+         .arguments = {either("where",
+                              {object("region", "lissom.Region", "Its vertices."),
+                               object("path", "lissom.Path", "Its vertices."),
+                               table("points",
+                                     "A list of {vertex=}, {edge={a, b}, at=}, {face=, bary=}, or "
+                                     "of what Mesh:nearest and Mesh:pick return.")},
+                              "What it holds.")},
          .options =
              {boolean("position", "Holds their positions.").defaults(HandleOptions{}.position),
               boolean("gradient", "Holds their orientation and scale.")
-                  .defaults(HandleOptions{}.gradient)},
+                  .defaults(HandleOptions{}.gradient),
+              weight_option(),
+              number("falloff",
+                     "Within this geodesic distance the surface follows softly, less and less.")
+                  .at_least(0)
+                  .in("mesh units")
+                  .defaults(0.0),
+              options("mirror",
+                      {vector("point", "A point of the plane."),
+                       vector("normal", "Its normal, of any length."),
+                       number("tolerance",
+                              "How far a vertex may lie from its counterpart's mirror image.")
+                           .above(0)
+                           .in("mesh units")
+                           .optional("a thousandth of the size")},
+                      "Adds a second handle, the mirror image, and moves it along: see mirrored.")
+                  .optional("none")},
          .results = {{"lissom.Handle", "handle", "Where it is; move it and solve."}},
          .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
                     ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
-                    ErrorCode::invalid_argument},
-         .example = kBar},
+                    ErrorCode::invalid_argument, ErrorCode::out_of_range, ErrorCode::mesh_empty},
+         .example = kBar + R"(local side = edit:handle({ bar:nearest(0.5, 0, 0) }, { weight = 2 })
+side:translate(0.5, 0, 0)
+edit:solve())"},
         {.name = "constrain",
          .body = constrain,
          .summary =
-             "Holds one vertex, in place of an earlier constraint; without position and gradient "
-             "the vertex is free again. Returns the deformation.",
-         .options =
-             {id("vertex", "Id of the vertex."),
-              vector("position", "Where it goes.").optional("free"),
-              matrix3("gradient", "Rows of its 3 x 3 deformation gradient.").optional("free")},
+             "Holds one vertex, or a point of an edge or face, in place of an earlier constraint; "
+             "without position and gradient it is free again. Returns the deformation.",
+         .options = constraint_fields(),
          .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
          .errors = {ErrorCode::out_of_range, ErrorCode::handle_outside_region,
-                    ErrorCode::handle_overlap, ErrorCode::topology_mismatch},
+                    ErrorCode::handle_overlap, ErrorCode::invalid_argument,
+                    ErrorCode::topology_mismatch},
          .example = kBar + R"(local v = bar:nearest(0.5, 0, 0).vertex
-edit:constrain{ vertex = v, position = { 1, 0, 0 } }:solve())"},
+edit:constrain{ vertex = v, position = { 1, 0, 0 } }
+edit:constrain{ face = 1, bary = { 0.4, 0.3, 0.2, 0.1 }, position = { 1, -2, 0 }, weight = 10 }
+edit:solve())"},
+        {.name = "stiffness",
+         .body = set_stiffness,
+         .summary =
+             "Sets how much a part of the surface resists being bent and stretched: stiff parts "
+             "move rigidly, soft ones take the bend.",
+         .arguments = {object("region", "lissom.Region", "The part."),
+                       number("factor", "1 is as usual.").above(0)},
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .errors = {ErrorCode::handle_outside_region, ErrorCode::topology_mismatch},
+         .example =
+             kBar +
+             R"(edit:stiffness(bar:region{ sphere = { center = { 0, 0, 0 }, radius = 0.8 } }, 100)
+top:rotate{ axis = "z", angle = 60 }
+edit:solve())"},
         {.name = "handles",
          .body = handles,
          .summary = "Its handles.",
@@ -641,6 +798,29 @@ Type handle_type() {
          .results = {{"lissom.Region", "region", "The region."}},
          .errors = kEditErrors,
          .example = kBar + "assert(top:region() == bar:region('top'))"},
+        {.name = "mirrored",
+         .body = mirrored_handle,
+         .summary = "Its mirror image, which moves along, or nil.",
+         .results = {{"lissom.Handle?", "image", "The other handle."}},
+         .errors = kEditErrors,
+         .example =
+             kBar +
+             R"(local side = bar:region{ box = { min = { 0.4, -0.5, -1 }, max = { 1, 0.5, 1 } } }
+local right = edit:handle(side, { mirror = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } })
+right:translate(0.5, 0, 0)
+assert(right:mirrored():matrix()[1][4] == -0.5)
+edit:solve())"},
+        {.name = "set_region",
+         .body = set_handle_region,
+         .summary =
+             "Gives the handle other vertices. Its transform stays, and the mesh keeps the old "
+             "result until the next solve.",
+         .arguments = {object("region", "lissom.Region", "Its new vertices.")},
+         .results = {{"lissom.Handle", "handle", "The handle itself."}},
+         .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
+                    ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
+                    ErrorCode::handle_removed},
+         .example = kBar + "top:set_region(bar:region('top'):grow(1)):translate(0, 1, 0)"},
         {.name = "remove",
          .body = remove_handle,
          .summary = "Takes the handle out of the deformation; it cannot be used any more.",

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "kernel/deform/constraints.h"
+#include "kernel/deform/patch_distance.h"
 
 namespace lissom {
 namespace {
@@ -11,11 +12,15 @@ namespace {
 // matrix definite where nothing else holds the surface.
 constexpr double kHardWeight = 10.0;
 
+// Weight for each squared radius of area of what fades, where it begins.
+constexpr double kFading = 100.0;
+
 class AnchorBuilder {
   public:
     AnchorBuilder(const WorkingPatch& rest, const Holds& holds) : work_(rest), holds_(holds) {}
 
     WorkingPatch build() {
+        if (!holds_.stiffness.empty()) stiffen();
         for (std::size_t h = 0; h < holds_.handles.size(); ++h) {
             if (!holds_.handles[h].removed) add_handle(holds_.handles[h], static_cast<Index>(h));
         }
@@ -25,10 +30,30 @@ class AnchorBuilder {
             add_point(point.row, kConstrained, static_cast<Index>(p), asked.weight,
                       asked.position.has_value(), asked.gradient.has_value());
         }
+        if (holds_.transition > 0.0) add_transition();
         return std::move(work_);
     }
 
   private:
+    // Virtual vertices are as stiff as what surrounds them.
+    void stiffen() {
+        const Patch& patch = work_.patch;
+        work_.stiffness = holds_.stiffness;
+        for (Index v = patch.real_count; v < patch.surface_count; ++v) {
+            double sum = 0.0;
+            int count = 0;
+            for (const Index n : work_.rings.ring(v)) {
+                if (n >= patch.real_count) continue;
+                sum += holds_.stiffness[n];
+                ++count;
+            }
+            work_.stiffness.push_back(count > 0 ? sum / count : 1.0);
+        }
+        for (Index v = 0; v < patch.surface_count; ++v) {
+            work_.laplacian.weight[v] *= work_.stiffness[v];
+        }
+    }
+
     Index add_anchor(const SparseRow& row, Index owner, Index point) {
         Patch& patch = work_.patch;
         Vec3 at = Vec3::Zero();
@@ -39,6 +64,42 @@ class AnchorBuilder {
         work_.anchor_owner.push_back(owner);
         work_.anchor_point.push_back(point);
         return patch.vertex_count++;
+    }
+
+    // Draws vertices within `reach` of the sources to where `owner` takes them: by density, so that
+    // neither handle nor triangles matter.
+    void add_fading(const std::vector<std::pair<Index, double>>& sources, double reach, Index owner,
+                    double strength, bool position, bool gradient) {
+        const std::vector<double> distance = patch_distances(work_.patch, sources, reach);
+        const double area = work_.radius * work_.radius;
+        for (Index v = 0; v < work_.patch.real_count; ++v) {
+            if (!(distance[v] > 0.0 && distance[v] < reach)) continue;
+            const double t = distance[v] / reach;
+            const double weight = strength * (1.0 - t * t) * (1.0 - t * t);
+            add_point({{v, 1.0}}, owner, kNoIndex, weight * work_.geometry.area[v] / area, position,
+                      gradient);
+        }
+    }
+
+    void add_falloff(const HandleState& handle, Index h) {
+        std::vector<std::pair<Index, double>> sources;
+        for (const Index v : handle.local) sources.emplace_back(v, 0.0);
+        for (const SparseRow& row : handle.points) {
+            Vec3 at = Vec3::Zero();
+            for (const auto& [v, c] : row) at += c * work_.patch.rest[v];
+            for (const auto& [v, c] : row)
+                sources.emplace_back(v, (work_.patch.rest[v] - at).norm());
+        }
+        add_fading(sources, handle.options.falloff, h, handle.options.weight.value_or(kFading),
+                   handle.options.position, handle.options.gradient);
+    }
+
+    void add_transition() {
+        std::vector<std::pair<Index, double>> sources;
+        for (Index v = 0; v < work_.patch.real_count; ++v) {
+            if (!work_.patch.in_region[v]) sources.emplace_back(v, 0.0);
+        }
+        add_fading(sources, holds_.transition, kPinned, kFading, true, true);
     }
 
     // A soft handle is as strong as its weight says, however many vertices it has: each counts by
@@ -62,6 +123,7 @@ class AnchorBuilder {
             if (weight) *weight /= points;
             add_point(row, h, kNoIndex, weight, options.position, options.gradient);
         }
+        if (options.falloff > 0.0) add_falloff(handle, h);
     }
 
     void add_point(const SparseRow& row, Index owner, Index point, std::optional<double> weight,
@@ -84,6 +146,7 @@ void add_empty_anchors(WorkingPatch& work) {
     work.geometry.normal.resize(n, Vec3::Zero());
     work.laplacian.self.resize(n, 0.0);
     work.laplacian.weight.resize(n, 0.0);
+    if (!work.stiffness.empty()) work.stiffness.resize(n, 1.0);
 }
 
 Ties without(const Ties& ties, const std::vector<Index>& dropped) {

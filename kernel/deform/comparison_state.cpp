@@ -18,13 +18,14 @@ namespace {
 // The rotation in `gradient` as a vector along its axis, of a length up to pi.
 }  // namespace
 
-// Errors: unsupported where something is held softly or at points that are not vertices.
+// Errors: unsupported where something is held softly or at points that are not vertices, or is
+// stiff.
 void Deformer::State::require_plain_holds() const {
-    if (!holds().need_anchors()) return;
+    if (!holds().change_patch()) return;
     throw Error(ErrorCode::unsupported,
                 "method " + std::string(method_name(options.method)) +
-                    " holds vertices exactly; weights, and points in faces or on edges, are for "
-                    "method implicit");
+                    " holds vertices exactly; weights, stiffness, and points in faces or on edges "
+                    "are for method implicit");
 }
 
 void Deformer::State::find_sources(Prepared& next) const {

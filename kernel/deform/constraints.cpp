@@ -141,10 +141,11 @@ void hold_anchors(const WorkingPatch& work, Holding& holding) {
 
 }  // namespace
 
-bool Holds::need_anchors() const {
-    return !points.empty() || std::any_of(handles.begin(), handles.end(), [](const auto& h) {
-        return !h.removed && (h.soft() || !h.points.empty());
-    });
+bool Holds::change_patch() const {
+    return !points.empty() || !stiffness.empty() || transition > 0.0 ||
+           std::any_of(handles.begin(), handles.end(), [](const auto& h) {
+               return !h.removed && (h.soft() || !h.points.empty() || h.options.falloff > 0.0);
+           });
 }
 
 Holding find_holding(const WorkingPatch& work, const Holds& holds) {

@@ -23,17 +23,20 @@ inline constexpr Index kConstrained = -3;
 struct HandleState {
     Region region;
     HandleOptions options;
-    Affine transform;
+    Affine transform = {};
     Vec3 center = Vec3::Zero();
     /// Its local vertices, and its points as means of local vertices.
-    std::vector<Index> local;
-    std::vector<SparseRow> points;
+    std::vector<Index> local = {};
+    std::vector<SparseRow> points = {};
     bool removed = false;
     /// `transform` as the patch sees it: relative to the patch's origin, with digits that the one
     /// above lacks where the mesh lies far from the origin of its coordinates.
     Affine in_patch{};
     /// The rotation of the transform as a rotation vector that counts full turns.
     Vec3 turn = Vec3::Zero();
+    /// The handle that is its mirror image, or kNoIndex.
+    Index partner = kNoIndex;
+    MirrorPlane mirror = {};
 
     bool at_rest() const { return transform.is_identity() && turn.isZero(0.0); }
     void set_at_rest() {
@@ -58,9 +61,13 @@ struct Holds {
     const std::vector<HandleState>& handles;
     const VertexConstraints& constraints;
     const std::vector<PointState>& points;
+    /// Stiffness of each real local vertex, or empty where all are 1.
+    const std::vector<double>& stiffness;
+    /// DeformOptions::transition.
+    double transition = 0.0;
 
-    /// True where a preparation needs anchors.
-    bool need_anchors() const;
+    /// True where a preparation cannot work on the rest patch as it is.
+    bool change_patch() const;
 };
 
 /// Who holds which local vertices of a patch, and what that makes known.
@@ -71,7 +78,8 @@ struct Holding {
     std::vector<std::pair<Index, Index>> asked;
 };
 
-/// The patch with an anchor for every point and every vertex that is held softly.
+/// The patch with the stiffness asked for, and an anchor for every point and every vertex that is
+/// held softly.
 /// Errors: handle_overlap where a point leaves nothing to move, naming its vertices.
 std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest, const Holds& holds);
 

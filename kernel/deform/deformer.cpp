@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/deform/deformer_state.h"
+#include "kernel/deform/mirror.h"
 #include "kernel/deform/polar.h"
 #include "kernel/deform/winding.h"
 
@@ -28,6 +29,8 @@ void require_options(const DeformOptions& o) {
     require(o.coherence_weight > 0.0 && std::isfinite(o.coherence_weight),
             "coherence_weight must be above 0");
     require(o.degenerate_threshold > 1.0, "degenerate_threshold must be above 1");
+    require(o.transition >= 0.0 && std::isfinite(o.transition),
+            "transition must be a distance of 0 or more");
     require(o.displacement > 0.0 && std::isfinite(o.displacement), "displacement must be above 0");
 }
 
@@ -112,16 +115,6 @@ const DeformOptions& Deformer::options() const {
     return state_->options;
 }
 
-void Deformer::remove_handle(HandleId id) {
-    HandleState& handle = state_->handle(id);
-    state_->find_gradients();
-    handle.removed = true;
-    handle.local.clear();
-    handle.points.clear();
-    state_->prepared.reset();
-    --state_->stats.handles;
-}
-
 std::vector<HandleId> Deformer::handles() const {
     std::vector<HandleId> ids;
     for (std::size_t h = 0; h < state_->handles.size(); ++h) {
@@ -143,15 +136,20 @@ const Affine& Deformer::transform(HandleId id) const {
     return state_->handle(id).transform;
 }
 
-// Of a handle nothing but its pose ever changes.
 std::shared_ptr<const HandlePoses> Deformer::poses() const {
-    return std::make_shared<HandlePoses>(HandlePoses{state_->handles});
+    return std::make_shared<HandlePoses>(
+        HandlePoses{state_->handles, state_->rest_patch->patch.origin});
 }
 
 void Deformer::restore(const HandlePoses& poses) {
     std::vector<HandleState>& handles = state_->handles;
+    const bool same_origin = poses.origin == state_->rest_patch->patch.origin;
     for (std::size_t h = 0; h < poses.handles.size() && h < handles.size(); ++h) {
-        if (!handles[h].removed) handles[h] = poses.handles[h];
+        if (handles[h].removed) continue;
+        handles[h].transform = poses.handles[h].transform;
+        handles[h].in_patch = poses.handles[h].in_patch;
+        handles[h].turn = poses.handles[h].turn;
+        if (!same_origin) state_->place(handles[h], handles[h].transform, Vec3::Zero());
     }
 }
 
@@ -176,9 +174,13 @@ void Deformer::set_transform(HandleId id, const Affine& transform, const Vec3& a
     const double change = (moved.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
     const double shift = moved.translation.cwiseAbs().maxCoeff();
     const bool still = change < kIdentityTolerance && shift <= kIdentityTolerance * state_->size;
-    if (!still) return;
-    handle.transform = handle.in_patch = {};
-    handle.turn = turn_near(Mat3::Identity(), handle.turn);
+    if (still) {
+        handle.transform = handle.in_patch = {};
+        handle.turn = turn_near(Mat3::Identity(), handle.turn);
+    }
+    if (handle.partner != kNoIndex) {
+        state_->reflect(handle, handle.mirror, state_->handles[handle.partner]);
+    }
 }
 
 Vec3 Deformer::turn(HandleId id) const {

@@ -87,6 +87,9 @@ struct DeformOptions {
     /// Weights each vertex by its area and each coherence pair by its cotangent, so that the result
     /// does not depend on scale or resolution. Off: both terms literally as Eq 2.6 and 2.7.
     bool scale_free = true;
+    /// Within this geodesic distance of the region's outline the surface is drawn to rest, more and
+    /// more, so that the deformation fades into what stays; in units of length.
+    double transition = 0.0;
 
     /// The thesis to the letter: coherence 2, threshold 2e5, literal weights, second system (2.10).
     static DeformOptions thesis();
@@ -100,6 +103,17 @@ struct HandleOptions {
     /// are drawn there: at 1 a compromise with the shape of the surface, at 1e6 nearly hard. What a
     /// weight does depends on neither scale nor resolution.
     std::optional<double> weight = std::nullopt;
+    /// Within this geodesic distance of the handle the surface follows it softly, less and less; in
+    /// units of length.
+    double falloff = 0.0;
+};
+
+/// A plane in which a handle is mirrored.
+struct MirrorPlane {
+    Vec3 point = Vec3::Zero(), normal = Vec3::UnitX();
+    /// How far a vertex may lie from the mirror image of its counterpart; 0 is a thousandth of the
+    /// surface's radius.
+    double tolerance = 0.0;
 };
 
 /// Names a handle of one Deformer. Ids are not used again after a removal.
@@ -183,6 +197,18 @@ class Deformer {
     HandleId add_handle(std::span<const MeshPoint> points, const HandleOptions& options = {});
     /// Errors: handle_removed.
     void remove_handle(HandleId handle);
+    /// Adds the mirror image of a handle: a second handle with the same options, whose transform is
+    /// always the mirrored one; moving either moves both. On a symmetric mesh the result is then
+    /// symmetric. Errors: invalid_argument where vertices have no counterpart across the plane,
+    /// naming them, or where the handle has one already; handle_overlap where the handle meets its
+    /// image, or others hold it; handle_removed.
+    HandleId mirror_handle(HandleId handle, const MirrorPlane& plane);
+    /// The mirror image of a handle, or nothing.
+    std::optional<HandleId> mirrored_handle(HandleId handle) const;
+    /// Gives a handle other vertices, and no points; its transform stays, and a mirrored handle
+    /// follows. The result stays as it is until the next solve, which refactors.
+    /// Errors: as add_handle and mirror_handle; handle_removed.
+    void set_handle_region(HandleId handle, const Region& vertices);
     /// Handles in the order they were added.
     std::vector<HandleId> handles() const;
     /// Its vertices; those around its points among them.
@@ -225,6 +251,12 @@ class Deformer {
     /// preparation where what is held already leaves the point nothing to move.
     void constrain(const PointConstraint& constraint);
 
+    /// Sets how much the surface at `vertices` resists being bent and stretched, beside 1 for the
+    /// rest: stiff parts move rigidly, and soft ones take the bend. Refactors.
+    /// Errors: topology_mismatch; handle_outside_region; invalid_argument for a factor that is not
+    /// above 0.
+    void set_stiffness(const Region& vertices, double factor);
+
     /// Assembles and factors what the present handles need, if that has not been done. `preview`
     /// and `solve` do it by themselves. Errors: unconstrained, naming a part of the region that
     /// nothing holds; zero_area; not_positive_definite; memory_limit; cancelled; unsupported for
@@ -259,6 +291,13 @@ class Deformer {
     /// All transforms to the identity and `positions()` to the rest shape, to the bit; vertex
     /// constraints go.
     void reset();
+
+    /// Takes `positions()`, the last result, as the new rest shape. Handles keep their vertices and
+    /// options, and their transforms become the identity: they hold where they are now. Constraints
+    /// stay and hold where their points are now, however far from what was asked. Factors are
+    /// rebuilt at the next solve, which gives the same shape to the bit as long as nothing is
+    /// moved.
+    void rebase();
 
     /// Deformation gradients M_i of the region's vertices in the last solve or preview, before
     /// shear is taken out; the identity before one. For a comparison method, the M_i by which it

@@ -150,10 +150,16 @@ void Deformer::State::find_turns(const Mat3& base_rotation, const Context& conte
 
 // Handles turn as a whole.
 void Deformer::State::turn_held(const Mat3& base_rotation) {
-    for (const HandleState& h : handles) {
+    for (std::size_t n = 0; n < handles.size(); ++n) {
+        const HandleState& h = handles[n];
         if (h.removed || h.soft() || !h.options.gradient) continue;
         const PaddedMat3 turn = padded_columns(rotation_of(h.transform.linear) - base_rotation);
         for (const Index v : h.local) turns[v] = turn;
+        for (const SparseRow& row : h.points) {
+            for (const auto& [v, c] : row) {
+                if (prepared->owner[v] == static_cast<Index>(n)) turns[v] = turn;
+            }
+        }
     }
     for (const auto& entry : asked) {
         const Index v = entry.first;

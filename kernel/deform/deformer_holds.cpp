@@ -1,11 +1,13 @@
 // What a user asks a Deformer to hold: handles and constraints.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "kernel/deform/deformer.h"
 #include "kernel/deform/deformer_state.h"
+#include "kernel/deform/mirror.h"
 
 namespace lissom {
 namespace {
@@ -23,6 +25,12 @@ void refuse_vertices(const std::vector<Index>& vertices, ErrorCode code, const s
     throw Error(code, message + names, std::move(elements));
 }
 
+void require_topology(const Region& region, const Region& vertices) {
+    if (vertices.topology() == region.topology()) return;
+    throw Error(ErrorCode::topology_mismatch,
+                "the region given belongs to another mesh or to an older version of this one");
+}
+
 void require_weight(const std::optional<double>& weight) {
     if (!weight || (*weight > 0.0 && std::isfinite(*weight))) return;
     throw Error(ErrorCode::invalid_argument,
@@ -35,6 +43,9 @@ void require_handle_options(const HandleOptions& options) {
                     "a handle must prescribe positions, gradients or both");
     }
     require_weight(options.weight);
+    if (!(options.falloff >= 0.0 && std::isfinite(options.falloff))) {
+        throw Error(ErrorCode::invalid_argument, "a falloff must be a distance of 0 or more");
+    }
 }
 
 void require_finite(const PointConstraint& constraint) {
@@ -74,11 +85,14 @@ void Deformer::State::require_inside(const MeshPoint& point) const {
                     "a point lies outside the region, between ", [](Index) { return true; });
 }
 
-// Errors: handle_overlap where other handles or constraints hold some of `vertices`.
-void Deformer::State::require_unheld(const std::vector<Index>& vertices) const {
+// Errors: handle_overlap where handles but `except`, or constraints, hold some of `vertices`.
+void Deformer::State::require_unheld(const std::vector<Index>& vertices,
+                                     std::span<const Index> except) const {
     std::vector<char> held(static_cast<std::size_t>(rest_patch->patch.vertex_count), 0);
-    for (const HandleState& h : handles) {
-        for (const Index v : h.local) held[v] = 1;
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+        if (std::find(except.begin(), except.end(), static_cast<Index>(h)) != except.end())
+            continue;
+        for (const Index v : handles[h].local) held[v] = 1;
     }
     for (const auto& entry : constraints) held[entry.first] = 1;
     for (const PointState& point : points) {
@@ -89,34 +103,148 @@ void Deformer::State::require_unheld(const std::vector<Index>& vertices) const {
                     [&](Index v) { return held[local_vertex(v)] != 0; });
 }
 
+Vec3 Deformer::State::center_of(const HandleState& handle) const {
+    const auto count = static_cast<double>(handle.points.size() + handle.local.size());
+    Vec3 center = Vec3::Zero();
+    for (const Index v : handle.local) center += rest_patch->patch.rest[v] / count;
+    for (const SparseRow& row : handle.points) center += rest_position(row) / count;
+    return center + rest_patch->patch.origin;
+}
+
 HandleId Deformer::State::add(HandleState handle) {
-    std::size_t count = handle.points.size() + handle.local.size();
-    for (const Index v : handle.local) handle.center += rest_patch->patch.rest[v] / count;
-    for (const SparseRow& row : handle.points) handle.center += rest_position(row) / count;
-    handle.center += rest_patch->patch.origin;
-    find_gradients();
+    handle.center = center_of(handle);
+    drop_prepared();
     handles.push_back(std::move(handle));
-    prepared.reset();
     ++stats.handles;
     return {static_cast<Index>(handles.size()) - 1};
 }
 
-HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& options) {
-    State& s = *state_;
-    if (vertices.topology() != s.region.topology()) {
-        throw Error(
-            ErrorCode::topology_mismatch,
-            "the handle's region belongs to another mesh or to an older version of this one");
-    }
+// Errors: as add_handle, beside the handles with numbers in `except`.
+void Deformer::State::require_handle_region(const Region& vertices,
+                                            std::span<const Index> except) const {
+    require_topology(region, vertices);
     if (vertices.empty()) throw Error(ErrorCode::region_empty, "the handle has no vertices");
-    require_handle_options(options);
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
                     "the handle reaches outside the region at ",
-                    [&](Index v) { return !s.region.contains(v); });
-    s.require_unheld(vertices.vertices());
-    HandleState handle{vertices, options, {}, Vec3::Zero(), {}, {}, false};
+                    [&](Index v) { return !region.contains(v); });
+    require_unheld(vertices.vertices(), except);
+}
+
+HandleId Deformer::add_handle(const Region& vertices, const HandleOptions& options) {
+    State& s = *state_;
+    require_handle_options(options);
+    s.require_handle_region(vertices);
+    HandleState handle{vertices, options};
     for (const Index v : vertices.vertices()) handle.local.push_back(s.local_vertex(v));
     return s.add(std::move(handle));
+}
+
+void Deformer::set_handle_region(HandleId id, const Region& vertices) {
+    State& s = *state_;
+    HandleState& handle = s.handle(id);
+    HandleState changed = handle;
+    changed.region = vertices;
+    changed.points.clear();
+    changed.local.clear();
+    s.require_handle_region(vertices, std::array{id.value, handle.partner});
+    for (const Index v : vertices.vertices()) changed.local.push_back(s.local_vertex(v));
+    changed.center = s.center_of(changed);
+    if (handle.partner != kNoIndex) {
+        HandleState image = s.mirrored(id.value, changed, changed.mirror);
+        s.drop_prepared();
+        s.handles[handle.partner] = std::move(image);
+    }
+    s.drop_prepared();
+    handle = std::move(changed);
+}
+
+// Errors: invalid_argument where some of the local vertices have no counterpart in the region.
+std::vector<Index> Deformer::State::counterparts_of(const std::vector<Index>& local,
+                                                    const MirrorPlane& plane) const {
+    const Patch& patch = rest_patch->patch;
+    const Affine mirror = reflection({plane.point - patch.origin, plane.normal, 0.0});
+    const double tolerance = plane.tolerance > 0.0 ? plane.tolerance : 1e-3 * rest_patch->radius;
+    std::vector<Index> found = counterparts(patch.rest, local, patch.of_region, mirror, tolerance);
+    std::vector<Index> alone;
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        if (found[i] == kNoIndex) alone.push_back(patch.mesh_vertex[local[i]]);
+    }
+    refuse_vertices(alone, ErrorCode::invalid_argument,
+                    "the mirror plane or its tolerance leave no counterpart to ",
+                    [](Index) { return true; });
+    return found;
+}
+
+// Moves the mirror image of a handle along.
+void Deformer::State::reflect(const HandleState& handle, const MirrorPlane& plane,
+                              HandleState& image) const {
+    image.set_at_rest();
+    image.turn = -(reflection(plane).linear * handle.turn);
+    if (handle.transform.is_identity()) return;
+    const Affine whole = reflection(plane);
+    const Affine local = reflection({plane.point - rest_patch->patch.origin, plane.normal, 0.0});
+    image.transform = whole * handle.transform * whole;
+    image.in_patch = local * handle.in_patch * local;
+}
+
+// The mirror image of a handle, which keeps clear of that handle and of all others but its present
+// image.
+HandleState Deformer::State::mirrored(Index number, const HandleState& handle,
+                                      const MirrorPlane& plane) const {
+    const Patch& patch = rest_patch->patch;
+    HandleState image = handle;
+    image.mirror = plane;
+    image.local = counterparts_of(handle.local, plane);
+    std::sort(image.local.begin(), image.local.end());
+    for (SparseRow& row : image.points) {
+        std::vector<Index> around;
+        for (const auto& [v, c] : row) around.push_back(v);
+        const std::vector<Index> across = counterparts_of(around, plane);
+        for (std::size_t i = 0; i < row.size(); ++i) row[i].first = across[i];
+        std::sort(row.begin(), row.end());
+    }
+    std::vector<Index> vertices, held;
+    for (const Index v : image.local) held.push_back(patch.mesh_vertex[v]);
+    vertices = held;
+    for (const SparseRow& row : image.points) {
+        for (const auto& [v, c] : row) vertices.push_back(patch.mesh_vertex[v]);
+    }
+    refuse_vertices(vertices, ErrorCode::handle_overlap,
+                    "the handle meets its mirror image; leave out what is near the plane, as ",
+                    [&](Index v) { return handle.region.contains(v); });
+    require_unheld(held, std::array{number, handle.partner});
+    image.partner = number;
+    image.region = Region(region.topology(), vertices);
+    image.center = center_of(image);
+    reflect(handle, plane, image);
+    return image;
+}
+
+HandleId Deformer::mirror_handle(HandleId id, const MirrorPlane& plane) {
+    State& s = *state_;
+    if (s.handle(id).partner != kNoIndex) {
+        throw Error(ErrorCode::invalid_argument, "the handle has a mirror image already");
+    }
+    const HandleId added = s.add(s.mirrored(id.value, s.handle(id), plane));
+    s.handles[id.value].partner = added.value;
+    s.handles[id.value].mirror = plane;
+    return added;
+}
+
+std::optional<HandleId> Deformer::mirrored_handle(HandleId id) const {
+    const Index partner = state_->handle(id).partner;
+    return partner == kNoIndex ? std::nullopt : std::optional<HandleId>(HandleId{partner});
+}
+
+void Deformer::remove_handle(HandleId id) {
+    State& s = *state_;
+    HandleState& handle = s.handle(id);
+    s.drop_prepared();
+    handle.removed = true;
+    handle.local.clear();
+    handle.points.clear();
+    if (handle.partner != kNoIndex) s.handles[handle.partner].partner = kNoIndex;
+    --s.stats.handles;
 }
 
 HandleId Deformer::add_handle(std::span<const MeshPoint> points, const HandleOptions& options) {
@@ -136,8 +264,7 @@ HandleId Deformer::add_handle(std::span<const MeshPoint> points, const HandleOpt
         }
     }
     s.require_unheld(held);
-    HandleState handle{
-        Region(s.region.topology(), around), options, {}, Vec3::Zero(), {}, {}, false};
+    HandleState handle{Region(s.region.topology(), around), options};
     const Region held_region(s.region.topology(), held);
     for (const Index v : held_region.vertices()) handle.local.push_back(s.local_vertex(v));
     handle.points = std::move(rows);
@@ -172,17 +299,33 @@ void Deformer::constrain(const PointConstraint& given) {
     s.set_constraint(row, std::move(asked));
 }
 
+void Deformer::set_stiffness(const Region& vertices, double factor) {
+    State& s = *state_;
+    require_topology(s.region, vertices);
+    if (!(factor > 0.0 && std::isfinite(factor))) {
+        throw Error(ErrorCode::invalid_argument, "a stiffness must be above 0; 1 is as usual");
+    }
+    refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
+                    "outside the region there is nothing to make stiff, at ",
+                    [&](Index v) { return !s.region.contains(v); });
+    if (s.stiffness.empty()) {
+        s.stiffness.assign(static_cast<std::size_t>(s.rest_patch->patch.real_count), 1.0);
+    }
+    s.drop_prepared();
+    for (const Index v : vertices.vertices()) s.stiffness[s.local_vertex(v)] = factor;
+}
+
 // Replaces what is asked of a point. Where only the asked values change the preparation stays.
 void Deformer::State::set_constraint(const SparseRow& row, PointConstraint asked_now) {
     const bool wanted = asked_now.position || asked_now.gradient;
     find_gradients();
     const std::optional<PointConstraint> before = take_constraint(row);
-    if (!wanted && !before) return;
-    const bool same_kind = wanted && before &&
-                           before->position.has_value() == asked_now.position.has_value() &&
-                           before->gradient.has_value() == asked_now.gradient.has_value() &&
-                           before->weight == asked_now.weight;
-    if (!same_kind) prepared.reset();
+    const bool same_kind =
+        before ? before->position.has_value() == asked_now.position.has_value() &&
+                     before->gradient.has_value() == asked_now.gradient.has_value() &&
+                     before->weight == asked_now.weight
+               : !wanted;
+    if (!same_kind) drop_prepared();
     fixed_current = false;
     if (!wanted) return;
     if (row.size() == 1 && !asked_now.weight) {

@@ -25,20 +25,26 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen)
     : region(given),
       options(chosen),
-      rest_patch(std::make_shared<WorkingPatch>(build_patch(mesh, given, 1), chosen)),
+      rest_patch(std::make_shared<WorkingPatch>(build_patch(given, mesh.positions(), 1), chosen)),
       directions(mesh, given) {
+    for (const Index v : region.vertices()) rest.push_back(mesh.position(v));
+    number_rows();
+    to_rest();
+}
+
+// What follows from the rest patch.
+void Deformer::State::number_rows() {
     const Patch& patch = rest_patch->patch;
     region_row.assign(static_cast<std::size_t>(patch.vertex_count), kNoIndex);
+    size = 0.0;
     for (Index row = 0; row < region.size(); ++row) {
         region_row[patch.of_region[row]] = row;
-        rest.push_back(mesh.position(region.vertices()[row]));
         size = std::max(size, patch.rest[patch.of_region[row]].norm());
     }
     far_away = patch.origin.norm() > kFarAway * size;
     stats.region_vertices = region.size();
     stats.zero_area_faces = patch.zero_area_faces;
     stats.inserted_vertices = patch.vertex_count - patch.real_count;
-    to_rest();
 }
 
 HandleState& Deformer::State::handle(HandleId id) {
@@ -55,9 +61,20 @@ Index Deformer::State::local_vertex(Index mesh_vertex) const {
 }
 
 bool Deformer::State::at_rest() const {
-    return constraints.empty() && points.empty() &&
-           std::all_of(handles.begin(), handles.end(),
-                       [](const auto& h) { return h.removed || h.at_rest(); });
+    const auto asks_nothing = [](const auto& constraint, const Vec3& at) {
+        return (!constraint.position || *constraint.position == at) &&
+               (!constraint.gradient || *constraint.gradient == Mat3::Identity());
+    };
+    return std::all_of(handles.begin(), handles.end(),
+                       [](const auto& h) { return h.removed || h.at_rest(); }) &&
+           std::all_of(constraints.begin(), constraints.end(),
+                       [&](const auto& entry) {
+                           return asks_nothing(entry.second, rest[region_row[entry.first]]);
+                       }) &&
+           std::all_of(points.begin(), points.end(), [&](const PointState& point) {
+               return asks_nothing(point.asked,
+                                   rest_position(point.row) + rest_patch->patch.origin);
+           });
 }
 
 // Takes p to about + transform(p - about). Both forms of the transform come from differences in
@@ -149,11 +166,14 @@ void Deformer::State::prepare(const Context& context) {
     fixed_current = true;
 }
 
-// The centre of the first handle: rarely a centre of the surface itself, at which vertices that
-// differ would lie equally far.
+// The centre of the first handle, or between it and its mirror image: rarely a centre of the
+// surface itself, at which vertices that differ would lie equally far.
 Vec3 Deformer::State::start_of_sequence() const {
     for (const HandleState& h : handles) {
-        if (!h.removed) return h.center - rest_patch->patch.origin;
+        if (h.removed) continue;
+        const Vec3 center =
+            h.partner == kNoIndex ? h.center : Vec3(0.5 * (h.center + handles[h.partner].center));
+        return center - rest_patch->patch.origin;
     }
     return Vec3::Zero();
 }
@@ -199,7 +219,7 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     require_area();
     auto next = std::make_unique<Prepared>();
     if (options.method != DeformMethod::implicit) require_plain_holds();
-    next->work = holds().need_anchors() ? anchored(*rest_patch, holds()) : rest_patch;
+    next->work = holds().change_patch() ? anchored(*rest_patch, holds()) : rest_patch;
     const Patch& patch = next->work->patch;
     const Rings& rings = next->work->rings;
     Holding holding = find_holding(*next->work, holds());

@@ -60,6 +60,8 @@ struct Prepared {
 
 struct HandlePoses {
     std::vector<HandleState> handles;
+    /// Of the patch, which a new rest shape moves.
+    Vec3 origin;
 };
 
 struct Deformer::State {
@@ -69,11 +71,22 @@ struct Deformer::State {
     Index local_vertex(Index mesh_vertex) const;
     bool at_rest() const;
 
+    void number_rows();
+    void rebase();
+    /// To be called before what is held changes: the last result stays until the next solve.
+    void drop_prepared();
     SparseRow local_row(const MeshPoint& point) const;
     Vec3 rest_position(const SparseRow& row) const;
     void require_inside(const MeshPoint& point) const;
-    void require_unheld(const std::vector<Index>& vertices) const;
+    void require_unheld(const std::vector<Index>& vertices,
+                        std::span<const Index> except = {}) const;
+    void require_handle_region(const Region& vertices, std::span<const Index> except = {}) const;
+    Vec3 center_of(const HandleState& handle) const;
     HandleId add(HandleState handle);
+    std::vector<Index> counterparts_of(const std::vector<Index>& local,
+                                       const MirrorPlane& plane) const;
+    HandleState mirrored(Index number, const HandleState& handle, const MirrorPlane& plane) const;
+    void reflect(const HandleState& handle, const MirrorPlane& plane, HandleState& image) const;
     void set_constraint(const SparseRow& row, PointConstraint asked_now);
     std::optional<PointConstraint> take_constraint(const SparseRow& row);
 
@@ -86,7 +99,7 @@ struct Deformer::State {
     Vec3 known_deviation(Index v) const;
     Mat3 known_gradient(Index v) const;
 
-    Holds holds() const { return {handles, constraints, points}; }
+    Holds holds() const { return {handles, constraints, points, stiffness, options.transition}; }
     void collect_asked();
     LinearProblem problem() const;
     void prepare(const Context& context);
@@ -147,6 +160,8 @@ struct Deformer::State {
     VertexConstraints constraints;
     /// Constraints of points and soft ones, in the order of their rows.
     std::vector<PointState> points;
+    /// Of every real local vertex; empty where all are 1.
+    std::vector<double> stiffness;
     /// What is asked of every local vertex and anchor that a constraint owns.
     VertexConstraints asked;
 

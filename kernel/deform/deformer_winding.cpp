@@ -43,9 +43,10 @@ std::vector<Vec4> Deformer::State::relative_turns() const {
     return turns_of_handles;
 }
 
-// How much of the field of turns a frame takes, by the greatest turn between two handles.
+// How much of the field of turns a frame takes, by the greatest turn between two handles. The
+// thesis's literal formulation has no such field.
 double Deformer::State::winding_share() const {
-    if (!prepared->solution) return 0.0;
+    if (!prepared->solution || !options.scale_free) return 0.0;
     std::vector<Vec4> ends = relative_turns();
     ends.push_back(Vec4::Zero());
     double greatest = 0.0;
@@ -84,9 +85,9 @@ std::vector<Vec4> Deformer::State::spread(const std::vector<Vec4>& value, bool c
 // How hard the second system pulls each of the handles back when another moves by one unit: entry
 // (j, k) is the force on handle j.
 const Eigen::MatrixXd& Deformer::State::handle_stiffness(const Context& context) {
-    Eigen::MatrixXd& stiffness = prepared->handle_stiffness;
+    Eigen::MatrixXd& known = prepared->handle_stiffness;
     const std::vector<Index> held = movable_handles();
-    if (stiffness.size() > 0 || held.empty()) return stiffness;
+    if (known.size() > 0 || held.empty()) return known;
     const auto count = static_cast<Index>(held.size());
     Eigen::MatrixXd found(count, count);
     for (Index first = 0; first < count; first += 3) {
@@ -102,8 +103,8 @@ const Eigen::MatrixXd& Deformer::State::handle_stiffness(const Context& context)
             }
         }
     }
-    stiffness = found;
-    return stiffness;
+    known = found;
+    return known;
 }
 
 // Handles that the second system could move as a whole: all that hold positions, but the base.

@@ -103,9 +103,11 @@ class Assembler {
     bool has_gradient(Index i) const { return known_.gradient[i] || gradients_.defined[i]; }
     bool has_row(Index i) const { return has_gradient(i) && laplacian_.weight[i] > 0.0; }
 
-    double edge_coherence(Index entry) const {
-        if (!options_.scale_free) return 2.0;  // Eq 2.7 counts every pair from both its ends
-        return std::max(geometry_.cotangent[entry], kSmallestCoherence);
+    double edge_coherence(Index a, Index b, Index entry) const {
+        const double stiffness = work_.stiffness_between(a, b);
+        // Eq 2.7 counts every pair from both its ends.
+        if (!options_.scale_free) return 2.0 * stiffness;
+        return stiffness * std::max(geometry_.cotangent[entry], kSmallestCoherence);
     }
 
     // Calls use(b, weight) for every pair (a, b) of SF in Eq 2.7 where both have gradients.
@@ -119,12 +121,12 @@ class Assembler {
                 }
             }
             pairs.drain([&](Index c, double) {
-                if (has_gradient(c)) use(c, second);
+                if (has_gradient(c)) use(c, second * work_.stiffness_between(a, c));
             });
         }
         for (Index e = rings_.begin[a]; e < rings_.begin[a + 1]; ++e) {
             const Index b = rings_.neighbor[e];
-            if (has_gradient(b)) use(b, edge_coherence(e));
+            if (has_gradient(b)) use(b, edge_coherence(a, b, e));
         }
     }
 

@@ -117,11 +117,11 @@ void insert_virtual_vertices(Patch& patch) {
 // The vertex of the region nearest to the mean of all. Positions relative to a vertex are exact
 // where coordinates are large, so that a mesh far from the origin of its coordinates has the same
 // patch as one that was brought back.
-Index middle_vertex(const Mesh& mesh, const Region& region) {
-    const Vec3& first = mesh.position(region.vertices().front());
+Index middle_vertex(std::span<const Vec3> positions, const Region& region) {
+    const Vec3& first = positions[region.vertices().front()];
     Vec3 mean = Vec3::Zero();
-    for (const Index v : region.vertices()) mean += (mesh.position(v) - first) / region.size();
-    const auto distance = [&](Index v) { return (mesh.position(v) - first - mean).squaredNorm(); };
+    for (const Index v : region.vertices()) mean += (positions[v] - first) / region.size();
+    const auto distance = [&](Index v) { return (positions[v] - first - mean).squaredNorm(); };
     Index middle = region.vertices().front();
     for (const Index v : region.vertices()) {
         if (distance(v) < distance(middle)) middle = v;
@@ -183,8 +183,8 @@ Rings build_rings(Index vertex_count, const WeightedTriangles& triangles) {
     return rings;
 }
 
-Patch build_patch(const Mesh& mesh, const Region& region, Index rings) {
-    const Topology& topology = mesh.topology();
+Patch build_patch(const Region& region, std::span<const Vec3> positions, Index rings) {
+    const Topology& topology = *region.topology();
     const std::vector<Index> faces = faces_within(topology, region, rings);
     Patch patch;
     patch.mesh_vertex = vertices_of(topology, faces, region);
@@ -193,14 +193,14 @@ Patch build_patch(const Mesh& mesh, const Region& region, Index rings) {
     std::vector<Index> local(static_cast<std::size_t>(topology.vertex_count()), kNoIndex);
     for (Index i = 0; i < patch.real_count; ++i) local[patch.mesh_vertex[i]] = i;
     for (const Index v : region.vertices()) patch.of_region.push_back(local[v]);
-    patch.origin = mesh.position(middle_vertex(mesh, region));
+    patch.origin = positions[middle_vertex(positions, region)];
     patch.in_region.assign(static_cast<std::size_t>(patch.real_count), 0);
     for (const Index v : patch.of_region) patch.in_region[v] = 1;
     for (const Index v : patch.mesh_vertex) {
         patch.on_boundary.push_back(static_cast<char>(topology.is_boundary(v)));
-        patch.rest.push_back(mesh.position(v) - patch.origin);
+        patch.rest.push_back(positions[v] - patch.origin);
     }
-    patch.triangles = weighted_triangles(topology, mesh.positions(), faces);
+    patch.triangles = weighted_triangles(topology, positions, faces);
     for (Triangle& t : patch.triangles.triangle) t = {local[t[0]], local[t[1]], local[t[2]]};
     find_zero_areas(patch);
     insert_virtual_vertices(patch);

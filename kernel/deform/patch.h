@@ -70,7 +70,11 @@ struct Patch {
     Index zero_area_faces = 0;
 };
 
-/// Cuts the patch of `region` out of `mesh`, `rings` rings wider than the region.
-Patch build_patch(const Mesh& mesh, const Region& region, Index rings);
+/// Cuts the patch of `region` out of its mesh, `rings` rings wider than the region. Only the
+/// positions of its vertices need to be right.
+Patch build_patch(const Region& region, std::span<const Vec3> positions, Index rings);
+inline Patch build_patch(const Mesh& mesh, const Region& region, Index rings) {
+    return build_patch(region, mesh.positions(), rings);
+}
 
 }  // namespace lissom

@@ -42,22 +42,33 @@ RestDirections::RestDirections(const Mesh& mesh, const Region& region) {
     }
 }
 
-void RestDirections::apply_to(Mesh& mesh, std::span<const Mat3> gradients) const {
-    if (empty()) return;
+// Where nothing turned, values are to come back to the bit: then the rotation is exactly I.
+std::vector<Mat3> RestDirections::rotations_of(std::span<const Mat3> gradients) {
     std::vector<Mat3> rotations;
     rotations.reserve(gradients.size());
     for (const Mat3& m : gradients)
         rotations.push_back(m.isIdentity(0.0) ? Mat3(Mat3::Identity()) : nearest_rotation(m));
+    return rotations;
+}
+
+void RestDirections::apply_to(Mesh& mesh, std::span<const Mat3> gradients) const {
+    if (empty()) return;
+    const std::vector<Mat3> rotations = rotations_of(gradients);
     for (const Values& values : attributes_) {
         Attribute* target = mesh.attributes().find(values.name);
         if (!target || target->domain != values.domain || target->width != values.width) continue;
         for (std::size_t i = 0; i < values.value.size(); ++i) {
-            const Index row = values.row[i];
-            // Where nothing turned the value comes back to the bit.
-            const Vec3 turned = gradients[row].isIdentity(0.0)
-                                    ? values.value[i]
-                                    : Vec3(rotations[row] * values.value[i]);
+            const Vec3 turned = rotations[values.row[i]] * values.value[i];
             std::copy_n(turned.data(), 3, target->at(values.element[i]).begin());
+        }
+    }
+}
+
+void RestDirections::rebase(std::span<const Mat3> gradients) {
+    const std::vector<Mat3> rotations = rotations_of(gradients);
+    for (Values& values : attributes_) {
+        for (std::size_t i = 0; i < values.value.size(); ++i) {
+            values.value[i] = rotations[values.row[i]] * values.value[i];
         }
     }
 }

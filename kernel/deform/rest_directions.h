@@ -21,8 +21,12 @@ class RestDirections {
     /// Writes each value, turned by the rotation of its vertex's deformation gradient; gradients
     /// come in the region's order. Attributes that `mesh` has no more are passed over.
     void apply_to(Mesh& mesh, std::span<const Mat3> gradients) const;
+    /// Takes the values so turned as those of the rest shape.
+    void rebase(std::span<const Mat3> gradients);
 
   private:
+    static std::vector<Mat3> rotations_of(std::span<const Mat3> gradients);
+
     struct Values {
         std::string name;
         Domain domain;

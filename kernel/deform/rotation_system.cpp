@@ -87,8 +87,10 @@ RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>
     edge_sum_.assign(rest.size(), Vec4::Zero());
     for (Index i = 0; i < patch.real_count; ++i) {
         rest_.push_back(padded(rest[i]));
+        row_weight_[i] *= work.stiffness_between(i, i);
         for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
             const Vec4 edge = padded(rest[i] - rest[rings_.neighbor[e]]);
+            edge_weight_[e] *= work.stiffness_between(i, rings_.neighbor[e]);
             laplacian_[i] += coefficient_[e] * edge;
             edge_sum_[i] += 0.5 * edge_weight_[e] * edge;
         }

@@ -21,11 +21,20 @@ struct WorkingPatch {
     /// RMS distance of the surface to its centroid.
     double radius = 0.0;
 
+    /// Stiffness of each local vertex, or empty where all are 1. The weights of `laplacian` include
+    /// it.
+    std::vector<double> stiffness;
+
     /// What holds the surface beside held vertices. For each anchor its owner (constraints.h) and
     /// the number of its point constraint, or kNoIndex.
     Ties ties;
     std::vector<GradientTie> gradient_ties;
     std::vector<Index> anchor_owner, anchor_point;
+
+    /// Mean stiffness of two vertices.
+    double stiffness_between(Index a, Index b) const {
+        return stiffness.empty() ? 1.0 : 0.5 * (stiffness[a] + stiffness[b]);
+    }
 
     /// Weight of a tie of weight 1 in the first system, for squared distances and for squared
     /// differences of gradients.

@@ -654,25 +654,48 @@ function Buffer:close() end
 ---@class lissom.Deformation
 local Deformation = {}
 
+---@class lissom.Deformation.HandleOptions.Mirror
+---@field point lissom.Vector A point of the plane.
+---@field normal lissom.Vector Its normal, of any length.
+---@field tolerance? number How far a vertex may lie from its counterpart's mirror image. In mesh units. Default: a thousandth of the size.
+
 ---@class lissom.Deformation.HandleOptions
 ---@field position? boolean Holds their positions. Default: true.
 ---@field gradient? boolean Holds their orientation and scale. Default: true.
+---@field weight? number Draws instead of holding exactly: 1 is a compromise with the shape of the surface, 1e6 nearly exact. Depends on neither scale nor resolution. Default: held exactly.
+---@field falloff? number Within this geodesic distance the surface follows softly, less and less. In mesh units. Default: 0.
+---@field mirror? lissom.Deformation.HandleOptions.Mirror Adds a second handle, the mirror image, and moves it along: see mirrored. Default: none.
 
----Makes a handle of some vertices of the region.
----@param region lissom.Region Its vertices.
+---Makes a handle of some vertices of the region, of a path, or of points of faces and edges. Points go exactly where the handle takes them: the points of the deformed faces with the same weights do.
+---@param where lissom.Region|lissom.Path|table What it holds.
 ---@param options? lissom.Deformation.HandleOptions
 ---@return lissom.Handle handle # Where it is; move it and solve.
-function Deformation:handle(region, options) end
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Deformation:handle(where, options) end
 
 ---@class lissom.Deformation.ConstrainOptions
----@field vertex integer Id of the vertex.
+---@field vertex? integer A vertex.
+---@field edge? integer[] The two vertices of an edge.
+---@field at? number Where on the edge: 0 is its first vertex, 1 its second. Default: 0.5.
+---@field face? integer A face.
+---@field bary? number[] Weights of the face's corners, which sum to 1.
+---@field triangle? integer[] Three vertices of the face that bary weighs instead, as nearest and pick give.
 ---@field position? lissom.Vector Where it goes. Default: free.
 ---@field gradient? number[][] Rows of its 3 x 3 deformation gradient. Default: free.
+---@field weight? number Draws instead of holding exactly: 1 is a compromise with the shape of the surface, 1e6 nearly exact. Depends on neither scale nor resolution. Default: held exactly.
 
----Holds one vertex, in place of an earlier constraint; without position and gradient the vertex is free again. Returns the deformation.
----@param options lissom.Deformation.ConstrainOptions
+---Holds one vertex, or a point of an edge or face, in place of an earlier constraint; without position and gradient it is free again. Returns the deformation.
+---@param options? lissom.Deformation.ConstrainOptions
 ---@return lissom.Deformation edit # The deformation itself.
 function Deformation:constrain(options) end
+
+---Sets how much a part of the surface resists being bent and stretched: stiff parts move rigidly, soft ones take the bend.
+---@param region lissom.Region The part.
+---@param factor number 1 is as usual.
+---@return lissom.Deformation edit # The deformation itself.
+function Deformation:stiffness(region, factor) end
 
 ---Its handles.
 ---@return lissom.Handle[] handles # In the order they were made.
@@ -707,6 +730,10 @@ function Deformation:solve(options) end
 ---Handles and mesh go back to the rest shape, to the bit; vertex constraints go.
 ---@return lissom.Deformation edit # The deformation itself.
 function Deformation:reset() end
+
+---Takes the last result as the new rest shape. Handles keep their vertices and hold where they are now, with the identity as transform; constraints hold where their points are now. Factors are rebuilt at the next solve, and reset returns to this shape.
+---@return lissom.Deformation edit # The deformation itself.
+function Deformation:apply() end
 
 ---Sizes and times of the last preparation.
 ---@return lissom.DeformStats stats # Times are in seconds, sizes in bytes.
@@ -817,6 +844,15 @@ function Handle:center() end
 ---The handle's vertices.
 ---@return lissom.Region region # The region.
 function Handle:region() end
+
+---Its mirror image, which moves along, or nil.
+---@return lissom.Handle? image # The other handle.
+function Handle:mirrored() end
+
+---Gives the handle other vertices. Its transform stays, and the mesh keeps the old result until the next solve.
+---@param region lissom.Region Its new vertices.
+---@return lissom.Handle handle # The handle itself.
+function Handle:set_region(region) end
 
 ---Takes the handle out of the deformation; it cannot be used any more.
 function Handle:remove() end
@@ -961,6 +997,7 @@ function lissom.shapes.cactus(options) end
 ---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. Default: 0.
 ---@field displacement? number How far degenerate vertices are displaced. In mean lengths of their edges. Default: 0.2.
 ---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate. Default: 20000.
+---@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.
 ---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise. Default: "default".
 
 ---Prepares the deformation of a mesh, or of a region of it, by handles.

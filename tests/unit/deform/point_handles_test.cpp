@@ -116,6 +116,11 @@ TEST_CASE("face points: a handle of them turns the faces, and follows similariti
     for (const Index v : points[0].vertices) {
         CHECK(Eigen::AngleAxisd(d.gradients()[v]).angle() == doctest::Approx(0.7));
     }
+    // The face lies as its gradient says, and so does what the second system makes of it.
+    const std::vector<Index>& face = points[0].vertices;
+    const Vec3 side = scene.mesh.position(face[1]) - scene.mesh.position(face[0]);
+    const Vec3 now = d.positions()[face[1]] - d.positions()[face[0]];
+    CHECK((now - Eigen::AngleAxisd(0.7, Vec3::UnitY()) * side).norm() < 0.1 * side.norm());
     CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-11 * scene.size);
 
     Affine map = rotation({1, 2, 3}, 1.4, {5, 0, 0});
