@@ -27,12 +27,6 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernel DESTINATION ${CMAKE_INSTALL_INCLU
 install(FILES ${PROJECT_SOURCE_DIR}/bindings/engine/lissom_basis.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom/bindings/engine)
 
-# Static libraries pass on what they were linked with: the package finds the same libraries again.
-get_target_property(solve_libraries lissom_solve LINK_LIBRARIES)
-set(LISSOM_OPENMP OFF)
-if("OpenMP::OpenMP_CXX" IN_LIST solve_libraries)
-    set(LISSOM_OPENMP ON)
-endif()
 configure_package_config_file(
     ${PROJECT_SOURCE_DIR}/cmake/lissom-config.cmake.in ${PROJECT_BINARY_DIR}/lissom-config.cmake
     INSTALL_DESTINATION ${LISSOM_PACKAGE_DIR})

@@ -15,12 +15,15 @@ namespace lissom {
 struct FactorStats {
     /// Entries of the Cholesky factor, and the bytes it takes, known after `analyze`.
     std::size_t factor_nonzeros = 0, factor_bytes = 0;
+    /// Further bytes that `factor` takes while it runs.
+    std::size_t working_bytes = 0;
     double analyze_seconds = 0, factor_seconds = 0;
 };
 
-/// A factored symmetric positive definite matrix, for use by one thread at a time. Supernodal
-/// Cholesky with AMD ordering by CHOLMOD; Eigen's SimplicialLDLT where the build is without GPL.
-/// Starts no threads.
+/// A factored symmetric positive definite matrix, for use by one thread at a time; several may be
+/// in use at the same time. Supernodal Cholesky, ordered and analysed by CHOLMOD; Eigen's
+/// SimplicialLDLT where the build is without GPL. `factor` runs on the threads of its context, and
+/// its result does not depend on their number.
 class SparseSystem {
   public:
     SparseSystem();

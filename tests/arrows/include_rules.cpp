@@ -19,7 +19,7 @@ struct Rule {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> table = {
         {"kernel/core", {"kernel/core"}, {"Eigen", "TBB"}},
-        {"kernel/solve", {"kernel/core", "kernel/solve"}, {"Eigen", "CHOLMOD", "OpenMP"}},
+        {"kernel/solve", {"kernel/core", "kernel/solve"}, {"Eigen", "CHOLMOD"}},
         {"kernel/mesh", {"kernel/core", "kernel/solve", "kernel/mesh"}, {"Eigen", "OpenMesh"}},
         {"kernel/deform",
          {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform"},
