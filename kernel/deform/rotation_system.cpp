@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kernel/deform/firm_factor.h"
+#include "kernel/deform/patch_distance.h"
 #include "kernel/deform/row_accumulator.h"
 
 namespace lissom {
@@ -25,6 +27,12 @@ constexpr double kPrecision = 1e-10;
 // surface and, at least, in mean edge lengths.
 constexpr double kBlendRadii = 0.06;
 constexpr double kBlendEdges = 3.0;
+
+// That length is for the neighbourhood of held vertices, where edges alone would leave a crease. It
+// fades to a share of itself over this distance, in radii of the surface, as inside a part it would
+// resist twisting.
+constexpr double kInnerShare = 0.08;
+constexpr double kFadeRadii = 0.1;
 
 // Weight of squared lengths of a tie of weight 1 beside the edges.
 constexpr double kPositionUnit = 1.0;
@@ -75,6 +83,7 @@ RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>
     const RingGeometry geometry = ring_geometry(rings_, patch.triangles, rest);
     const double factor = laplacian_factor_of(patch, rings_, options.second);
     row_weight_ = row_weights(rings_, geometry, options, factor);
+    if (options.second == SecondSystem::blend) fade_laplacian(patch, position_known);
     edge_weight_ = edge_weights(geometry, options);
     coefficient_ = geometry.cotangent;
     if (options.weights == LaplacianWeights::uniform) {
@@ -98,6 +107,20 @@ RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>
     }
     assemble(position_known, context);
     add_ties(work);
+}
+
+void RotationSystem::fade_laplacian(const Patch& patch, const std::vector<char>& position_known) {
+    const double reach = kFadeRadii * surface_radius_of(patch.triangles, patch.rest);
+    std::vector<std::pair<Index, double>> held;
+    for (Index i = 0; i < patch.real_count; ++i) {
+        if (position_known[i]) held.emplace_back(i, 0.0);
+    }
+    const std::vector<double> distance = patch_distances(patch, held, 3.0 * reach);
+    for (Index i = 0; i < patch.real_count; ++i) {
+        const double near = std::exp(-std::pow(distance[i] / reach, 2.0));
+        const double share = kInnerShare + (1.0 - kInnerShare) * near;
+        row_weight_[i] *= share * share;
+    }
 }
 
 void RotationSystem::add_ties(const WorkingPatch& work) {

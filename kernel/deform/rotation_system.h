@@ -20,9 +20,10 @@ namespace lissom {
 ///   e  sum over edges of w_ij |(x_i - x_j) - (S_i + S_j) (v_i - v_j) / 2|^2
 /// + l2 sum over vertices of a_i |D(x)_i - S_i D(v)_i|^2
 /// with e = 0, l2 = 1 for `laplacian`; e = 1, l2 = 0 for `poisson`; and e = 1, l2 = (0.06 R)^2, at
-/// least (3 h)^2, for `blend`, where R is the radius of the region's surface and h its mean edge
-/// length. With D = -F C for a diagonal F and the Laplacian C of symmetric coefficients, its matrix
-/// is K = W + C G C, the Laplacian of edge weights and that of rows G = l2 A F^2.
+/// least (3 h)^2, near held vertices for `blend`, where R is the radius of the region's surface and
+/// h its mean edge length; away from them l fades to a twelfth. With D = -F C for a diagonal F and
+/// the Laplacian C of symmetric coefficients, its matrix is K = W + C G C, the Laplacian of edge
+/// weights and that of rows G = l2 A F^2.
 class RotationSystem {
   public:
     RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
@@ -56,6 +57,7 @@ class RotationSystem {
 
   private:
     void assemble(const std::vector<char>& position_known, const Context& context);
+    void fade_laplacian(const Patch& patch, const std::vector<char>& position_known);
     void add_ties(const WorkingPatch& work);
     void bend(const PaddedMat3* transforms, std::span<const Vec4> x, const Context& context);
     void find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,

@@ -1,7 +1,8 @@
 /// A slow deformation straight from the thesis's equations 2.3 to 2.11 and from what this project
 /// changes in them, in dense matrices of extended precision: the oracle for the fast one.
 ///
-/// It shares no code with the kernel but the options. It takes triangle meshes, with degenerate
+/// It shares no code with the kernel but the options and the distances from what is held, over
+/// which a blend fades. It takes triangle meshes, with degenerate
 /// vertices displaced already (Eq 2.9), and holds vertices by affine maps, with their gradients.
 #pragma once
 
@@ -17,6 +18,8 @@
 #include <vector>
 
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/patch.h"
+#include "kernel/deform/patch_distance.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom::test {
@@ -39,6 +42,7 @@ class Reference {
             if (held_.count(v) > 0) continue;
             unknown_[v] = static_cast<Index>(unknown_.size());
         }
+        find_fading(mesh);
     }
 
     /// Positions after the first system (Eq 2.8), where degenerate vertices are displaced.
@@ -100,7 +104,7 @@ class Reference {
                 for (auto& entry : row) entry.second *= 0.5L;
             }
             const Vec3 delta = applied(row, rest_).cast<double>();
-            system.add(factor * weight, known(row), Real3((s[i] * delta).cast<Real>()));
+            system.add(factor * faded_[i] * weight, known(row), Real3((s[i] * delta).cast<Real>()));
         }
         return solved(system);
     }
@@ -123,7 +127,7 @@ class Reference {
                 add(0.5 * w, x[i] - x[j], rest_[i] - rest_[j]);
             }
             const Row row = laplacian_row(i);
-            add(factor * row_weight(i), applied(row, x).cast<double>(),
+            add(factor * faded_[i] * row_weight(i), applied(row, x).cast<double>(),
                 applied(row, rest_).cast<double>());
             const Mat3 r = rotation_and_scale(held_.count(i) > 0 ? held_.at(i).linear : product);
             sum += squares - 2.0 * r.cwiseProduct(product).sum();
@@ -327,17 +331,9 @@ class Reference {
         return scale * u * svd.matrixV().transpose();
     }
 
-    /// l^2 of the second system.
-    double laplacian_factor() const {
-        if (options_.second == SecondSystem::laplacian) return 1.0;
-        if (options_.second == SecondSystem::poisson) return 0.0;
-        double edges = 0.0, length = 0.0, area = 0.0, moment = 0.0;
-        for (Index i = 0; i < size(); ++i) {
-            for (const Index j : rings_[i]) {
-                edges += 1.0;
-                length += (rest_[i] - rest_[j]).norm();
-            }
-        }
+    /// RMS distance of the surface to its centroid.
+    double radius() const {
+        double area = 0.0, moment = 0.0;
         Vec3 center = Vec3::Zero();
         for (const auto& t : faces_) {
             const Vec3 &a = rest_[t[0]], &b = rest_[t[1]], &c = rest_[t[2]];
@@ -349,9 +345,37 @@ class Reference {
                 ((a + b + c).squaredNorm() + a.squaredNorm() + b.squaredNorm() + c.squaredNorm()) /
                 12.0;
         }
-        const double radius = std::sqrt(moment / area - (center / area).squaredNorm());
-        const double l = std::max(0.06 * radius, 3.0 * length / edges);
+        return std::sqrt(moment / area - (center / area).squaredNorm());
+    }
+
+    /// l^2 of the second system.
+    double laplacian_factor() const {
+        if (options_.second == SecondSystem::laplacian) return 1.0;
+        if (options_.second == SecondSystem::poisson) return 0.0;
+        double edges = 0.0, length = 0.0;
+        for (Index i = 0; i < size(); ++i) {
+            for (const Index j : rings_[i]) {
+                edges += 1.0;
+                length += (rest_[i] - rest_[j]).norm();
+            }
+        }
+        const double l = std::max(0.06 * radius(), 3.0 * length / edges);
         return l * l;
+    }
+
+    /// How much of l^2 a blend leaves at each vertex.
+    void find_fading(const Mesh& mesh) {
+        faded_.assign(rest_.size(), 1.0);
+        if (options_.second != SecondSystem::blend) return;
+        const double reach = 0.1 * radius();
+        std::vector<std::pair<Index, double>> sources;
+        for (const auto& entry : held_) sources.emplace_back(entry.first, 0.0);
+        const Patch patch = build_patch(mesh, Region::all(mesh.shared_topology()), 1);
+        const std::vector<double> distance = patch_distances(patch, sources, 3.0 * reach);
+        for (Index i = 0; i < size(); ++i) {
+            const double near = std::exp(-std::pow(distance[i] / reach, 2.0));
+            faded_[i] = std::pow(0.08 + 0.92 * near, 2.0);
+        }
     }
 
     std::map<Index, Affine> held_;
@@ -360,7 +384,7 @@ class Reference {
     std::vector<std::array<Index, 3>> faces_;
     std::vector<std::set<Index>> rings_;
     std::map<std::pair<Index, Index>, double> cotangent_;
-    std::vector<double> area_;
+    std::vector<double> area_, faded_;
     std::vector<std::map<Index, Real3>> stencils_;
     std::map<Index, Index> unknown_;
 };
