@@ -257,13 +257,12 @@ const std::vector<Vec3>& Deformer::rest_positions() const {
 void Deformer::apply_to(Mesh& mesh) const {
     State& s = *state_;
     require_same_topology(mesh, s.region.topology(), "the deformer");
-    if (!s.directions.empty()) s.find_gradients();
+    const bool turns = !s.directions.empty();
+    const std::vector<Mat3> rotations = turns ? s.shown_rotations() : std::vector<Mat3>();
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row)
         out[s.region.vertices()[row]] = s.positions[row];
-    if (s.directions.empty()) return;
-    const bool comparison = s.prepared && s.prepared->comparison;
-    s.directions.apply_to(mesh, comparison ? s.surface_gradients() : s.gradients);
+    if (turns) s.directions.apply_to(mesh, rotations);
 }
 
 void Deformer::apply_rest_to(Mesh& mesh) const {

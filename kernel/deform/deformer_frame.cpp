@@ -112,6 +112,21 @@ void Deformer::State::find_gradients() {
     gradients_current = true;
 }
 
+// What directions of the surface that is shown have turned by: S_i of the second system where it
+// was solved, else deformation gradients.
+std::vector<Mat3> Deformer::State::shown_rotations() {
+    if (prepared && prepared->comparison) return surface_gradients();
+    if (!turned) {
+        find_gradients();
+        return gradients;
+    }
+    std::vector<Mat3> rotations;
+    for (const Index v : rest_patch->patch.of_region) {
+        rotations.push_back(turned_base + turns[v].topRows<3>());
+    }
+    return rotations;
+}
+
 // S of the second system for a deformation gradient: R, or R s.
 Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
     const Mat3 r = nearest_rotation(gradient);
@@ -205,6 +220,7 @@ void Deformer::State::refine_turns(const Mat3& base_rotation, const Context& con
 void Deformer::State::solve_second(bool draft, const Context& context) {
     const Patch& patch = prepared->work->patch;
     const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
+    turned_base = base_rotation;
     const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
     find_turns(base_rotation, context);
     if (!remainder.isZero(0.0)) {
@@ -237,9 +253,12 @@ void Deformer::State::solve(bool draft, const Context& context) {
     if (at_rest()) return to_rest();
     if (prepared->comparison) return solve_comparison(context);
     next_positions.resize(rest.size());
+    turned = false;
     evaluate_deviation(context);
-    if (!prepared->second->free_vertices().empty()) solve_second(draft, context);
+    const bool has_free = !prepared->second->free_vertices().empty();
+    if (has_free) solve_second(draft, context);
     show_next();
+    turned = has_free;
 }
 
 // The last step of a frame: a cancel before it leaves what was shown. Held vertices lie where they
@@ -258,10 +277,12 @@ void Deformer::State::show_next() {
     shown.clear();
     for (const HandleState& h : handles) shown.push_back(h.in_patch);
     gradients_current = false;
+    turned = false;
 }
 
 void Deformer::State::to_rest() {
     positions = rest;
+    turned = false;
     compared.clear();
     gradients.assign(rest.size(), Mat3::Identity());
     gradients_current = true;

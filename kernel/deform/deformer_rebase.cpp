@@ -11,8 +11,8 @@ void Deformer::State::drop_prepared() {
 
 // The patch keeps its faces and numbers; what is around the region stays.
 void Deformer::State::rebase() {
+    if (!directions.empty()) directions.rebase(shown_rotations());
     drop_prepared();
-    if (!directions.empty()) directions.rebase(gradients);
     const Patch& before = rest_patch->patch;
     std::vector<Vec3> at(static_cast<std::size_t>(region.topology()->vertex_count()), Vec3::Zero());
     for (Index i = 0; i < before.real_count; ++i) {

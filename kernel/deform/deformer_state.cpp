@@ -158,6 +158,7 @@ void Deformer::State::prepare(const Context& context) {
     if (!prepared) {
         prepared = factored(context);
         turns.clear();
+        turned = false;
         fixed_current = false;
     }
     if (fixed_current) return;

@@ -127,6 +127,7 @@ struct Deformer::State {
     void evaluate_deviation(const Context& context);
     Mat3 gradient_of(Index v) const;
     void find_gradients();
+    std::vector<Mat3> shown_rotations();
     Mat3 rotation_of(const Mat3& gradient) const;
     void preview(const Context& context);
     void find_turns(const Mat3& base_rotation, const Context& context);
@@ -183,6 +184,9 @@ struct Deformer::State {
     /// S_i less that of the base, for the second system. Outside the region they stay zero, as then
     /// the base is the identity.
     std::vector<PaddedMat3> turns;
+    /// Whether `turns`, over this base, are those of the frame that is shown.
+    bool turned = false;
+    Mat3 turned_base = Mat3::Identity();
     /// Scratch of the refinement: positions less the translation of the base.
     std::vector<Vec4> absolute;
     /// Local positions of the last solve by a comparison method.

@@ -118,8 +118,8 @@ local sheet = lissom.shapes.grid{ size = 4, segments = 24 }
 
 local function rim(transition)
     local mesh = sheet:copy()
-    local part = lissom.deform(mesh, { region = mesh:region{ sphere = { center = { 0, 0, 0 }, radius = 1.6 } },
-        transition = transition })
+    local inner = mesh:region{ sphere = { center = { 0, 0, 0 }, radius = 1.6 } }
+    local part = lissom.deform(mesh, { region = inner, transition = transition })
     part:handle(mesh:region{ sphere = { center = { 0, 0, 0 }, radius = 0.4 } }):translate(0, 1, 0)
     part:solve()
     return select(2, mesh:position(mesh:nearest(1.25, 0, 0).vertex))

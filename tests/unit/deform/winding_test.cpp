@@ -128,3 +128,35 @@ TEST_CASE("winding: what all handles share does not count") {
     }
     CHECK(worst < 1e-9 * scene.size);
 }
+
+TEST_CASE("winding: custom normals turn as far as the surface") {
+    Scene scene = bar_scene();
+    Attribute normals{"normal", Domain::vertex, 3, ScalarType::float32, {}};
+    for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
+        normals.values.insert(normals.values.end(), {1.0, 0.0, 0.0});
+    }
+    scene.mesh.attributes().add(normals);
+    Edit edit = make_edit(scene);
+    Mesh mesh = scene.mesh;
+    twist(edit, 360.0);
+    edit.deformer.solve();
+    edit.deformer.apply_to(mesh);
+    const Attribute& turned_normals = *mesh.attributes().find("normal");
+    double worst = 0.0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (std::abs(scene.mesh.position(v).y()) > 1e-6) continue;
+        const auto n = turned_normals.at(v);
+        worst = std::max(worst, (Vec3(n[0], n[1], n[2]) + Vec3::UnitX()).norm());
+    }
+    CHECK(worst < 0.2);
+    edit.deformer.rebase();
+    twist(edit, 0.0);
+    edit.deformer.solve();
+    edit.deformer.apply_to(mesh);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (std::abs(scene.mesh.position(v).y()) > 1e-6) continue;
+        const auto n = mesh.attributes().find("normal")->at(v);
+        worst = std::max(worst, (Vec3(n[0], n[1], n[2]) + Vec3::UnitX()).norm());
+    }
+    CHECK(worst < 0.2);
+}
