@@ -53,17 +53,15 @@ LISSOM_AVX2 void upper_with_avx2(const View& factor, Index first, Index last, La
 using Sweep = void (*)(const View&, Index, Index, Lanes<float>*, Lanes<float>*);
 
 struct Sweeps {
-    Sweep lower = lower_anywhere, upper = upper_anywhere;
-
-    Sweeps() {
-#ifdef LISSOM_HAS_AVX2_PATH
-        if (has_avx2()) {
-            lower = lower_with_avx2;
-            upper = upper_with_avx2;
-        }
-#endif
-    }
+    Sweep lower, upper;
 };
+
+Sweeps choose_sweeps() {
+#ifdef LISSOM_HAS_AVX2_PATH
+    if (has_avx2()) return {lower_with_avx2, upper_with_avx2};
+#endif
+    return {lower_anywhere, upper_anywhere};
+}
 
 Lanes<float> to_lanes(const Vec3& v, double factor) {
     Lanes<float> lanes{};
@@ -200,7 +198,7 @@ void SingleFactor::solve(std::span<const Vec3> b, std::span<Vec3> x, Scratch& sc
     };
     const View view{nodes_.super.data(), nodes_.first_row.data(), nodes_.first_value.data(),
                     nodes_.row.data(), nodes_.value.data()};
-    const Sweeps sweeps;
+    const Sweeps sweeps = choose_sweeps();
     const auto read = [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) at[i] = to_lanes(b[permutation_[i]], in);
     };
