@@ -128,7 +128,7 @@ void TieRows::prepare(
     for (Index n = 0; n < count; ++n) {
         for (const auto& [row, c] : hard[n]->free) schur.row(n) += c * response_.row(row);
     }
-    schur_.compute(schur);
+    schur_.emplace(schur);
 }
 
 std::size_t TieRows::response_bytes(const Ties& ties, Index unknowns) {

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -87,7 +88,7 @@ class TieRows {
             }
             if (miss.isZero(0.0)) return;
             Eigen::Map<Eigen::VectorXd>(x.data(), response_.rows()).noalias() -=
-                response_ * schur_.solve(miss);
+                response_ * schur_->solve(miss);
         }
     }
 
@@ -110,7 +111,7 @@ class TieRows {
 
     std::vector<Tie> ties_;
     Eigen::MatrixXd response_;
-    Eigen::LDLT<Eigen::MatrixXd> schur_;
+    std::optional<Eigen::LDLT<Eigen::MatrixXd>> schur_;
 };
 
 /// Of the hard ties, those whose rows over unknown vertices the ties before them determine.
