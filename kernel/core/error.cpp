@@ -164,8 +164,8 @@ const std::vector<ErrorCode>& all_codes() {
 }
 
 std::string_view kind_name(ElementKind kind) {
-    constexpr std::array<std::string_view, 8> names{"element", "vertex", "edge",      "face",
-                                                    "corner",  "row",    "component", "line"};
+    constexpr std::array<std::string_view, 9> names{
+        "element", "vertex", "edge", "face", "corner", "row", "component", "line", "strand"};
     return names[static_cast<std::size_t>(kind)];
 }
 

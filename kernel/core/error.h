@@ -52,7 +52,7 @@ enum class ErrorCode {
 };
 
 /// The kind of element that the ids of an error number.
-enum class ElementKind { none, vertex, edge, face, corner, row, component, line };
+enum class ElementKind { none, vertex, edge, face, corner, row, component, line, strand };
 
 /// Elements named by an error. At most `kMaximumIds` ids are kept; `count` is the true number.
 /// Edges are given as pairs of vertex ids, so `ids` then holds two entries an edge.
