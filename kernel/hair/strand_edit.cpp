@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -139,11 +140,13 @@ std::vector<std::uint32_t> joined_ids(const Strands& a, const Strands& b) {
 
 void join_groups(const Strands& a, const Strands& b, Strands& result) {
     std::vector<std::string> names = a.group_names();
+    std::unordered_map<std::string, Index> places;
+    for (std::size_t i = 0; i < names.size(); ++i) places.emplace(names[i], static_cast<Index>(i));
     std::vector<Index> place;
     for (const std::string& name : b.group_names()) {
-        const auto found = std::find(names.begin(), names.end(), name);
-        place.push_back(static_cast<Index>(found - names.begin()));
-        if (found == names.end()) names.push_back(name);
+        const auto [found, added] = places.emplace(name, static_cast<Index>(names.size()));
+        if (added) names.push_back(name);
+        place.push_back(found->second);
     }
     std::vector<Index> groups = b.groups();
     for (Index& group : groups) group = group == kNoIndex ? kNoIndex : place[at(group)];

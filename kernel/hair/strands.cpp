@@ -108,6 +108,10 @@ void Strands::set_groups(std::vector<Index> groups, std::vector<std::string> nam
 
 void Strands::set_ids(std::vector<std::uint32_t> ids) {
     if (!ids.empty()) require_length(ids.size(), size(), "ids");
+    std::size_t number = 0;
+    const bool are_numbers =
+        std::all_of(ids.begin(), ids.end(), [&](std::uint32_t id) { return id == number++; });
+    if (are_numbers) ids.clear();
     ids_ = std::move(ids);
 }
 

@@ -105,7 +105,7 @@ class Strands {
     Index group(Index strand) const { return groups_.empty() ? kNoIndex : groups_[at(strand)]; }
     /// The group called `name`, or kNoIndex.
     Index find_group(std::string_view name) const;
-    /// The id of each strand; empty where a strand's id is its number.
+    /// The id of each strand; empty where every id is the strand's number.
     const std::vector<std::uint32_t>& ids() const { return ids_; }
     std::uint32_t id(Index strand) const {
         return ids_.empty() ? static_cast<std::uint32_t>(strand) : ids_[at(strand)];

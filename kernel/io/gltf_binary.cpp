@@ -33,6 +33,11 @@ const char* type_name(Index width) {
     return kNames[static_cast<std::size_t>(width - 1)];
 }
 
+int target_for(BufferUse use) {
+    return use == BufferUse::indices ? TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER
+                                     : TINYGLTF_TARGET_ARRAY_BUFFER;
+}
+
 std::size_t padded(std::size_t size) {
     return (size + 3) / 4 * 4;
 }
@@ -75,8 +80,9 @@ std::size_t GltfBinary::add_view(std::string_view bytes) {
     return views_.size() - 1;
 }
 
-std::size_t GltfBinary::add(Json accessor, std::string_view bytes) {
+std::size_t GltfBinary::add(Json accessor, std::string_view bytes, std::optional<BufferUse> use) {
     accessor["bufferView"] = add_view(bytes);
+    if (use) views_.back()["target"] = target_for(*use);
     accessors_.push_back(std::move(accessor));
     return accessors_.size() - 1;
 }
@@ -91,11 +97,8 @@ std::size_t GltfBinary::add(const WrittenNumbers& numbers, BufferUse use, bool w
                   {"type", type_name(numbers.width)}};
     if (numbers.normalized) accessor["normalized"] = true;
     if (with_bounds) add_bounds(numbers, accessor);
-    const std::size_t added = add(std::move(accessor), encoded(numbers, stride));
-    Json& view = views_.back();
-    view["target"] =
-        is_indices ? TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER : TINYGLTF_TARGET_ARRAY_BUFFER;
-    if (!is_indices && stride != size) view["byteStride"] = stride;
+    const std::size_t added = add(std::move(accessor), encoded(numbers, stride), use);
+    if (!is_indices && stride != size) views_.back()["byteStride"] = stride;
     return added;
 }
 

@@ -2,6 +2,7 @@
 /// kernel/io and not installed.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,8 +30,8 @@ class GltfBinary {
     /// Adds numbers and returns the accessor's number. Elements start at multiples of 4 bytes where
     /// they are of vertices. `with_bounds` adds the least and largest values.
     std::size_t add(const WrittenNumbers& numbers, BufferUse use, bool with_bounds = false);
-    /// Adds an accessor with given bytes.
-    std::size_t add(Json accessor, std::string_view bytes);
+    /// Adds an accessor with given bytes; `use` is that of their view.
+    std::size_t add(Json accessor, std::string_view bytes, std::optional<BufferUse> use = {});
     /// Adds bytes and returns the number of their view.
     std::size_t add_view(std::string_view bytes);
 

@@ -1,0 +1,264 @@
+#include "kernel/io/strand_file.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/io/byte_source.h"
+#include "kernel/io/cyhair.h"
+#include "kernel/io/file.h"
+#include "kernel/io/gltf_strands.h"
+#include "kernel/io/hair_salon.h"
+#include "kernel/io/obj_strands.h"
+#include "kernel/io/rib_curves.h"
+#include "kernel/io/strand_check.h"
+#include "kernel/io/usda_curves.h"
+
+namespace lissom {
+namespace {
+
+// A format: how it is read, from a source or as a text, if at all, how it is written, and what it
+// holds.
+struct Format {
+    std::string_view extension;
+    Strands (*read)(ByteSource& source, const Context& context);
+    UsdaHair (*read_text)(std::string_view bytes, const Context& context);
+    void (*write)(const Strands& strands, const StrandSaveOptions& options, std::string& bytes,
+                  const Context& context);
+    StrandCapacity capacity;
+
+    bool readable() const { return read || read_text; }
+};
+
+void write_hair_file(const Strands& strands, const StrandSaveOptions&, std::string& bytes,
+                     const Context&) {
+    write_cyhair(strands, bytes);
+}
+void write_data_file(const Strands& strands, const StrandSaveOptions&, std::string& bytes,
+                     const Context&) {
+    write_hair_salon(strands, bytes);
+}
+void write_usda_file(const Strands& strands, const StrandSaveOptions& options, std::string& bytes,
+                     const Context& context) {
+    write_usda(strands, options.unit, options.up, bytes, context);
+}
+template <void (*Write)(const Strands&, std::string&, const Context&)>
+void write_plainly(const Strands& strands, const StrandSaveOptions&, std::string& bytes,
+                   const Context& context) {
+    Write(strands, bytes, context);
+}
+
+constexpr StrandCapacity kCyHair{2, true, true, true, false, false, false};
+// A strand of one point says that there is no hair.
+constexpr StrandCapacity kHairSalon{1, false, false, false, false, false, false};
+constexpr StrandCapacity kUsda{2, true, true, false, true, true, true};
+constexpr StrandCapacity kRib{2, true, true, false, false, true, false};
+constexpr StrandCapacity kGltf{2, false, true, false, false, false, false};
+constexpr StrandCapacity kObj{2, false, false, false, false, true, false};
+
+constexpr std::array<Format, 7> kFormats{{
+    {"hair", read_cyhair, nullptr, write_hair_file, kCyHair},
+    {"data", read_hair_salon, nullptr, write_data_file, kHairSalon},
+    {"usda", nullptr, read_usda, write_usda_file, kUsda},
+    {"rib", nullptr, nullptr, write_plainly<write_rib>, kRib},
+    {"glb", nullptr, nullptr, write_plainly<write_glb_strands>, kGltf},
+    {"gltf", nullptr, nullptr, write_plainly<write_gltf_strands>, kGltf},
+    {"obj", nullptr, nullptr, write_plainly<write_obj_strands>, kObj},
+}};
+
+std::vector<std::string> extensions(bool for_reading) {
+    std::vector<std::string> list;
+    for (const Format& format : kFormats) {
+        if (!for_reading || format.readable()) list.emplace_back(format.extension);
+    }
+    return list;
+}
+
+// Lower case and without a leading dot.
+std::string normalized(std::string_view extension) {
+    if (extension.starts_with('.')) extension.remove_prefix(1);
+    std::string result(extension);
+    for (char& c : result) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return result;
+}
+
+const Format& find_format(std::string_view extension, bool for_reading) {
+    const std::string wanted = normalized(extension);
+    for (const Format& format : kFormats) {
+        if (format.extension == wanted && (!for_reading || format.readable())) return format;
+    }
+    std::string known;
+    for (const std::string& name : extensions(for_reading)) {
+        known += (known.empty() ? "" : ", ") + name;
+    }
+    throw Error(ErrorCode::unknown_format,
+                (wanted.empty() ? "there is no extension"
+                                : "hair cannot be " +
+                                      std::string(for_reading ? "read from '." : "written to '.") +
+                                      wanted + "' files") +
+                    std::string("; known are ") + known);
+}
+
+void require_unit(double unit) {
+    if (unit > 0.0 && std::isfinite(unit)) return;
+    throw Error(ErrorCode::invalid_argument,
+                "unit is " + std::to_string(unit) + ", but must be positive and finite");
+}
+
+// Puts points and widths into another frame: those of a file that is z-up into the kernel's where
+// `up` is 1, the other way where it is -1, as they are where it is 0.
+void change_frame(Strands& strands, int up, double scale, const Context& context) {
+    if (up == 0 && scale == 1.0) return;
+    context.parallel_for(0, strands.size(), 256, [&](Index begin, Index end) {
+        for (Index s = begin; s < end; ++s) {
+            StrandEdit strand = strands.edit_strand(s);
+            if (scale != 1.0) {
+                strand = (strand.cast<double>() * scale).cast<float>().eval();
+            }
+            if (up == 0) continue;
+            strand.row(1).swap(strand.row(2));
+            strand.row(up > 0 ? 2 : 1) *= -1.0f;
+        }
+    });
+    if (scale == 1.0) return;
+    StrandWidths widths = strands.widths();
+    widths.common = static_cast<float>(widths.common * scale);
+    for (float& width : widths.values) width = static_cast<float>(width * scale);
+    strands.set_widths(std::move(widths));
+}
+
+void require_range(const Strands& strands) {
+    require_finite(strands.points(), 3, 0, strands.offsets());
+    for (const float width : strands.widths().values) {
+        if (std::isfinite(width)) continue;
+        throw Error(ErrorCode::not_finite, "widths exceed the range of 32-bit numbers");
+    }
+}
+
+Strands in_kernel_frame(UsdaHair hair, const StrandLoadOptions& options, const Context& context) {
+    const UpAxis up = options.up == UpAxis::none ? hair.up : options.up;
+    const double unit = options.unit.value_or(hair.meters_per_unit.value_or(1.0));
+    // Where the file says nothing of widths, they are in metres as they are.
+    const StrandWidths usual = hair.strands.widths();
+    change_frame(hair.strands, up == UpAxis::z ? 1 : 0, unit, context);
+    if (!hair.has_widths) hair.strands.set_widths(usual);
+    if (unit != 1.0) require_range(hair.strands);
+    return std::move(hair.strands);
+}
+
+Strands decode(ByteSource* source, std::string_view text, const Format& format,
+               const StrandLoadOptions& options, const Context& context) {
+    if (options.unit) require_unit(*options.unit);
+    Progress progress(context, "load strands");
+    progress.step(0.9);
+    UsdaHair hair;
+    if (source) {
+        hair.strands = format.read(*source, context);
+        hair.has_widths = format.capacity.widths;
+    } else {
+        // Numbers in memory are no longer than those of a text, but lists grow by doubling.
+        const MemoryCharge charge = context.charge(4 * text.size(), "reading strands");
+        hair = format.read_text(text, context);
+    }
+    progress.step(0.1);
+    return in_kernel_frame(std::move(hair), options, context);
+}
+
+EncodedStrands encode(const Strands& strands, const Format& format,
+                      const StrandSaveOptions& options, const Context& context) {
+    require_unit(options.unit);
+    Progress progress(context, "save strands");
+    progress.step(0.3);
+    const MemoryCharge charge = context.charge(2 * strands.memory_bytes(), "saving strands");
+    CheckedStrands checked = check_strands(strands, format.capacity, options, context);
+    progress.step(0.7);
+    if (options.up == UpAxis::z || options.unit != 1.0) {
+        if (!checked.changed) checked.changed = strands;
+        change_frame(*checked.changed, options.up == UpAxis::z ? -1 : 0, 1.0 / options.unit,
+                     context);
+        require_range(*checked.changed);
+    }
+    EncodedStrands result;
+    format.write(checked.changed ? *checked.changed : strands, options, result.bytes, context);
+    result.report = std::move(checked.report);
+    for (const StrandFinding& finding : result.report.findings) {
+        context.log(LogLevel::warning, finding.message);
+    }
+    return result;
+}
+
+// Runs an action and puts where it failed before the message: the file, and the line where there is
+// one.
+template <typename Action>
+auto with_place_in_errors(const std::string& file, const Action& action) {
+    try {
+        return action();
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::cancelled) throw;
+        std::string place = file;
+        const Elements& elements = error.elements();
+        if (elements.kind == ElementKind::line && !elements.ids.empty()) {
+            place += (file.empty() ? "line " : ":") + std::to_string(elements.ids[0] + 1LL);
+        }
+        if (!place.empty()) place += ": ";
+        throw Error(error.code(), place + error.message(), elements);
+    }
+}
+
+}  // namespace
+
+Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions& options,
+                     const Context& context) {
+    require_file(path);
+    const std::string name = display_name(path);
+    const Format& format = with_place_in_errors(
+        name, [&]() -> const Format& { return find_format(display_name(path.extension()), true); });
+    if (!format.read) {
+        const FileContent file = read_file(path, context);
+        return with_place_in_errors(
+            name, [&] { return decode(nullptr, file.bytes, format, options, context); });
+    }
+    return with_place_in_errors(name, [&] {
+        ByteSource source(path);
+        return decode(&source, {}, format, options, context);
+    });
+}
+
+StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,
+                          const StrandSaveOptions& options, const Context& context) {
+    EncodedStrands encoded = with_place_in_errors(display_name(path), [&] {
+        return encode(strands, find_format(display_name(path.extension()), false), options,
+                      context);
+    });
+    write_file_atomically(path, encoded.bytes, context);
+    return std::move(encoded.report);
+}
+
+Strands decode_strands(std::string_view bytes, std::string_view extension,
+                       const StrandLoadOptions& options, const Context& context) {
+    const Format& format = find_format(extension, true);
+    return with_place_in_errors("", [&] {
+        ByteSource source(bytes);
+        return decode(format.read ? &source : nullptr, bytes, format, options, context);
+    });
+}
+
+EncodedStrands encode_strands(const Strands& strands, std::string_view extension,
+                              const StrandSaveOptions& options, const Context& context) {
+    return encode(strands, find_format(extension, false), options, context);
+}
+
+const std::vector<std::string>& readable_strand_extensions() {
+    static const std::vector<std::string> list = extensions(true);
+    return list;
+}
+
+const std::vector<std::string>& writable_strand_extensions() {
+    static const std::vector<std::string> list = extensions(false);
+    return list;
+}
+
+}  // namespace lissom

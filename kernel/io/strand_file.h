@@ -1,0 +1,87 @@
+/// Hair files: loading and saving strands by extension. .hair (Cem Yuksel), .data (HairSalon) and
+/// .usda (BasisCurves) are read and written; .rib (RenderMan), .glb and .gltf (one LINES primitive)
+/// and .obj (lines) are written. Each format has a file of its own, which says what it holds.
+///
+/// In the kernel hair is in metres, y up, widths are diameters. Strands are checked before they are
+/// written: the report says what was found, what was changed for the file, and what was left out of
+/// it; so does the Context's log.
+///
+/// All functions may throw, besides what they list: cancelled, memory_limit. Messages begin with
+/// the file's path, and with the line where there is one.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/hair/strands.h"
+#include "kernel/io/mesh_file.h"
+#include "kernel/io/strand_report.h"
+
+namespace lissom {
+
+/// How the coordinates of a file become those of the strands.
+struct StrandLoadOptions {
+    /// The file's up axis. None: what the file says (.usda), else nothing is turned. The sample
+    /// files of .hair are z-up.
+    UpAxis up = UpAxis::none;
+    /// Length of the file's unit in metres: points and widths are multiplied by it. Positive,
+    /// finite. Absent: what the file says (.usda), else 1.
+    std::optional<double> unit = std::nullopt;
+};
+
+/// The inverse of StrandLoadOptions, and what is checked.
+struct StrandSaveOptions {
+    /// The up axis the file shall have.
+    UpAxis up = UpAxis::none;
+    /// Length of the file's unit in metres: points and widths are divided by it. Positive, finite.
+    double unit = 1.0;
+    /// False: what would be changed or left out for the file (see StrandFindingKind, but for
+    /// content_dropped) is an error instead.
+    bool mend = true;
+    /// Signed distance in metres to the head; empty: it is not checked that roots come first.
+    std::function<double(const Vec3&)> distance = {};
+};
+
+/// Reads strands; the extension, in any case, names the format. Files are read within memory and
+/// time in proportion to their size.
+/// Errors: unknown_format; file_not_found, file_is_directory, file_empty, file_unreadable;
+/// file_syntax, file_truncated, file_too_large, unsupported; not_finite; invalid_argument for a bad
+/// unit. Where they concern a strand, its number is among their elements.
+Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions& options = {},
+                     const Context& context = {});
+
+/// Checks strands and writes them, whole or not at all; the extension, in any case, names the
+/// format. The strands stay as they are. Errors: unknown_format; file_write_failed,
+/// file_is_directory; file_too_large where the format cannot count as many; not_finite where values
+/// exceed the range of 32-bit numbers; invalid_argument for a bad unit, and, with mend false, for
+/// what would be changed.
+StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,
+                          const StrandSaveOptions& options = {}, const Context& context = {});
+
+/// As `load_strands`, from the content of a file in memory. `extension` as in
+/// `readable_strand_extensions`.
+Strands decode_strands(std::string_view bytes, std::string_view extension,
+                       const StrandLoadOptions& options = {}, const Context& context = {});
+
+/// The content of a file and what was found before.
+struct EncodedStrands {
+    std::string bytes;
+    StrandReport report;
+};
+
+/// As `save_strands`, into memory. `extension` as in `writable_strand_extensions`.
+EncodedStrands encode_strands(const Strands& strands, std::string_view extension,
+                              const StrandSaveOptions& options = {}, const Context& context = {});
+
+/// Extensions that `load_strands` knows: lower case, without the dot.
+const std::vector<std::string>& readable_strand_extensions();
+
+/// Extensions that `save_strands` knows: lower case, without the dot.
+const std::vector<std::string>& writable_strand_extensions();
+
+}  // namespace lissom
