@@ -34,7 +34,7 @@ void Deformer::State::preview(const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
     if (prepared->comparison) return solve_comparison(context);
-    next_positions.resize(rest.size());
+    next_positions.resize(rest.size() + prepared->work->patch.inserted.size());
     if (prepared->solution) {
         const LinearSolution& solution = *prepared->solution;
         const Mat4 shift = base_transform() - matrix_of({});
@@ -44,7 +44,7 @@ void Deformer::State::preview(const Context& context) {
             std::array<Vec4, kBlock> x;
             solution.positions(shift, differences, x.data(), begin, end);
             for (Index row = begin; row < end; ++row) {
-                const Index target = prepared->region_row[row];
+                const Index target = prepared->frame_row[row];
                 if (target != kNoIndex) next_positions[target] = x[row - begin].head<3>() + origin;
             }
         });
@@ -56,9 +56,10 @@ void Deformer::State::evaluate_deviation(const Context& context) {
     const Patch& patch = prepared->work->patch;
     frame_base = base_transform();
     deviation.assign(static_cast<std::size_t>(patch.vertex_count), Vec4::Zero());
-    for (const HandleState& h : handles) {
-        const Mat4 difference = matrix_of(h.in_patch) - frame_base;
-        for (const Index v : h.local) deviation[v] = difference * homogeneous(patch.rest[v]);
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+        const Mat4 difference = matrix_of(handles[h].in_patch) - frame_base;
+        for (const Index v : prepared->held[h])
+            deviation[v] = difference * homogeneous(patch.rest[v]);
     }
     for (const auto& entry : asked) deviation[entry.first] = padded(known_deviation(entry.first));
     for (Index v = patch.surface_count; v < patch.vertex_count; ++v) {
@@ -169,7 +170,7 @@ void Deformer::State::turn_held(const Mat3& base_rotation) {
         const HandleState& h = handles[n];
         if (h.removed || h.soft() || !h.options.gradient) continue;
         const PaddedMat3 turn = padded_columns(rotation_of(h.transform.linear) - base_rotation);
-        for (const Index v : h.local) turns[v] = turn;
+        for (const Index v : prepared->held[n]) turns[v] = turn;
         for (const SparseRow& row : h.points) {
             for (const auto& [v, c] : row) {
                 if (prepared->owner[v] == static_cast<Index>(n)) turns[v] = turn;
@@ -243,7 +244,7 @@ void Deformer::State::solve_second(bool draft, const Context& context) {
         for (Index row = begin; row < end; ++row) {
             const Index v = free[row];
             const Vec3 at = base_rotation * patch.rest[v] + shift + deviation[v].head<3>();
-            next_positions[region_row[v]] = at + patch.origin;
+            next_positions[frame_row(patch, v)] = at + patch.origin;
         }
     });
 }
@@ -252,13 +253,25 @@ void Deformer::State::solve(bool draft, const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
     if (prepared->comparison) return solve_comparison(context);
-    next_positions.resize(rest.size());
+    next_positions.resize(rest.size() + prepared->work->patch.inserted.size());
     turned = false;
     evaluate_deviation(context);
     const bool has_free = !prepared->second->free_vertices().empty();
     if (has_free) solve_second(draft, context);
     show_next();
     turned = has_free;
+}
+
+// Moves what is behind the region in `next_positions` to `inserted`.
+void Deformer::State::take_inserted() {
+    const Patch& patch = prepared->work->patch;
+    shown_patch = prepared->work;
+    inserted.assign(next_positions.begin() + region.size(), next_positions.end());
+    next_positions.resize(rest.size());
+    for (std::size_t k = 0; k < inserted.size(); ++k) {
+        const Index v = patch.mesh_count() + static_cast<Index>(k);
+        if (prepared->known.position[v]) inserted[k] = known_position(v) + patch.origin;
+    }
 }
 
 // The last step of a frame: a cancel before it leaves what was shown. Held vertices lie where they
@@ -273,6 +286,7 @@ void Deformer::State::show_next() {
     for (const auto& [v, constraint] : constraints) {
         if (constraint.position) next_positions[region_row[v]] = *constraint.position;
     }
+    take_inserted();
     positions.swap(next_positions);
     shown.clear();
     for (const HandleState& h : handles) shown.push_back(h.in_patch);
@@ -284,6 +298,8 @@ void Deformer::State::to_rest() {
     positions = rest;
     turned = false;
     compared.clear();
+    inserted.clear();
+    shown_patch.reset();
     gradients.assign(rest.size(), Mat3::Identity());
     gradients_current = true;
 }

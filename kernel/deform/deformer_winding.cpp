@@ -64,7 +64,7 @@ std::vector<Vec4> Deformer::State::spread(const std::vector<Vec4>& value) const 
     std::vector<Vec4> field(static_cast<std::size_t>(prepared->work->patch.vertex_count),
                             Vec4::Zero());
     for (std::size_t n = 0; n < value.size(); ++n) {
-        for (const Index v : handles[solution.handles()[n]].local) field[v] = value[n];
+        for (const Index v : prepared->held[solution.handles()[n]]) field[v] = value[n];
     }
     for (std::size_t row = 0; row < free.size(); ++row) {
         for (std::size_t n = 0; n < value.size(); ++n) {
@@ -95,7 +95,7 @@ std::vector<Vec4> Deformer::State::mean_of_turns(const std::vector<Vec4>& value)
             add(static_cast<Index>(v), weights[v], value[n]);
         }
         if (!weights.empty()) continue;
-        for (const Index v : handles[solution.handles()[n]].local) add(v, 1.0, value[n]);
+        for (const Index v : prepared->held[solution.handles()[n]]) add(v, 1.0, value[n]);
         for (std::size_t row = 0; row < free.size(); ++row) {
             const double weight = solution.translation_weight(n, static_cast<Index>(row));
             if (prepared->owner[free[row]] != solution.handles()[n]) {
@@ -124,7 +124,7 @@ void Deformer::State::find_responses(const Context& context) {
         const Index last = std::min(count, first + 3);
         std::vector<Vec4> x(deviation.size(), Vec4::Zero());
         for (Index k = first; k < last; ++k) {
-            for (const Index v : handles[held[k]].local) x[v][k - first] = 1.0;
+            for (const Index v : prepared->held[held[k]]) x[v][k - first] = 1.0;
         }
         prepared->second->solve({}, x, false, context);
         for (Index k = first; k < last; ++k) {
@@ -134,7 +134,8 @@ void Deformer::State::find_responses(const Context& context) {
             }
         }
         for (Index j = 0; j < count; ++j) {
-            const Vec3 force = prepared->second->force(nullptr, x, handles[held[j]].local, context);
+            const Vec3 force =
+                prepared->second->force(nullptr, x, prepared->held[held[j]], context);
             for (Index k = first; k < last; ++k) forces(j, k) = -force[k - first];
         }
     }
@@ -161,7 +162,7 @@ std::vector<Vec4> Deformer::State::mismatches(std::span<const Vec4> x, const Con
     Eigen::MatrixXd forces(count, 3);
     for (Index j = 0; j < count; ++j) {
         forces.row(j) =
-            prepared->second->force(turns.data(), x, handles[held[j]].local, context).transpose();
+            prepared->second->force(turns.data(), x, prepared->held[held[j]], context).transpose();
     }
     Eigen::MatrixXd natural(count, 3);
     if (count > 0)
