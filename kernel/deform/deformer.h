@@ -73,7 +73,8 @@ struct DeformOptions {
     LocalSize local_size = LocalSize::keep;
     LaplacianWeights weights = LaplacianWeights::cotangent;
     /// How often, 0 to 2, the rotations are fitted to the result and it is solved for again: less
-    /// distortion, for half a frame each. More would wear twisted parts thin.
+    /// distortion, for half a frame each. Rotations go further than what fits, so that two do what
+    /// four or five would; more would wear twisted parts thin.
     int refine = 0;
     /// Rings of neighbours whose gradients are kept similar (the pairs SF of Eq 2.7): 1 or 2.
     int coherence = 1;

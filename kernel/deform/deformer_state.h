@@ -139,7 +139,9 @@ struct Deformer::State {
     void find_turns(const Mat3& base_rotation, const Context& context);
     void turn_held(const Mat3& base_rotation);
     std::vector<Vec4> relative_turns() const;
-    double winding_share() const;
+    double greatest_turn() const;
+    static double winding_share(double greatest);
+    static double far_share(double greatest);
     std::vector<Vec4> spread(const std::vector<Vec4>& value) const;
     std::vector<Vec4> mean_of_turns(const std::vector<Vec4>& value) const;
     std::vector<Index> movable_handles() const;
@@ -147,7 +149,7 @@ struct Deformer::State {
     std::vector<Vec4> mismatches(std::span<const Vec4> x, const Context& context);
     void add_constraint_moves(std::vector<Vec4>& field) const;
     void wind_turns(const Mat3& base_rotation, double share, bool draft, const Context& context);
-    void refine_turns(const Mat3& base_rotation, const Context& context);
+    void refine_turns(const Mat3& base_rotation, double further, const Context& context);
     void solve_second(bool draft, const Context& context);
     void solve(bool draft, const Context& context);
     std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;

@@ -17,6 +17,10 @@ namespace {
 constexpr double kFirstAngle = 150.0 * kPi / 180.0;
 constexpr double kLastAngle = 178.0 * kPi / 180.0;
 
+// Up to this angle a refinement stops going further than what fits best: sides of a part that is
+// twisted more would cave in until they meet.
+constexpr double kFarAngle = 270.0 * kPi / 180.0;
+
 double smooth_step(double t) {
     t = std::clamp(t, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
@@ -43,9 +47,8 @@ std::vector<Vec4> Deformer::State::relative_turns() const {
     return turns_of_handles;
 }
 
-// How much of the field of turns a frame takes, by the greatest turn between two handles. The
-// thesis's literal formulation has no such field.
-double Deformer::State::winding_share() const {
+// The greatest turn between two handles. The thesis's literal formulation knows no turns.
+double Deformer::State::greatest_turn() const {
     if (!prepared->solution || !options.scale_free) return 0.0;
     std::vector<Vec4> ends = relative_turns();
     ends.push_back(Vec4::Zero());
@@ -53,7 +56,16 @@ double Deformer::State::winding_share() const {
     for (const Vec4& a : ends) {
         for (const Vec4& b : ends) greatest = std::max(greatest, (a - b).head<3>().norm());
     }
+    return greatest;
+}
+
+// How much of the field of turns a frame takes.
+double Deformer::State::winding_share(double greatest) {
     return smooth_step((greatest - kFirstAngle) / (kLastAngle - kFirstAngle));
+}
+
+double Deformer::State::far_share(double greatest) {
+    return smooth_step((greatest - kLastAngle) / (kFarAngle - kLastAngle));
 }
 
 // sum over h of w_h value_h at every local vertex, where w_h are the weights of translations in the
