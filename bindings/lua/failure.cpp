@@ -15,7 +15,8 @@ void copy_text(char* target, std::size_t size, const char* text) {
 
 bool counts_from_one_in_lua(ElementKind kind) {
     return kind == ElementKind::vertex || kind == ElementKind::edge || kind == ElementKind::face ||
-           kind == ElementKind::corner || kind == ElementKind::component;
+           kind == ElementKind::corner || kind == ElementKind::component ||
+           kind == ElementKind::strand;
 }
 
 bool is_digit_at(const std::string& text, std::size_t place) {

@@ -41,11 +41,13 @@ Library kernel_library() {
     add(library.functions, mesh_functions());
     add(library.functions, shape_functions());
     add(library.functions, deform_functions());
+    add(library.functions, strand_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
-    library.types = {whole_mesh_type(),  region_type(), path_type(),      buffer_type(),
-                     deformation_type(), handle_type(), parameters_type()};
+    library.types = {whole_mesh_type(),  region_type(), path_type(),    buffer_type(),
+                     deformation_type(), handle_type(), strands_type(), parameters_type()};
     library.records = kernel_records();
+    add(library.records, strand_records());
     return library;
 }
 

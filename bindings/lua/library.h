@@ -30,6 +30,10 @@ std::vector<Function> deform_functions();
 
 std::vector<Function> shape_functions();
 
+Type strands_type();
+std::vector<Function> strand_functions();
+std::vector<Record> strand_records();
+
 Type parameters_type();
 std::vector<Function> parameter_functions();
 

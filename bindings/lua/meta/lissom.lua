@@ -142,6 +142,29 @@
 ---@field group string Heading that it stands under, or an empty string.
 ---@field help string What it does, or an empty string.
 
+---Measures of strands.
+---@class lissom.StrandStats
+---@field strands integer Number of strands.
+---@field points integer Number of points.
+---@field least_points integer Fewest points of a strand.
+---@field most_points integer Most points of a strand.
+---@field least_length number Length of the shortest, in metres.
+---@field mean_length number Mean length, in metres.
+---@field most_length number Length of the longest, in metres.
+---@field greatest_turn number Greatest angle between two segments, in degrees.
+---@field greatest_turn_strand integer|nil The strand that has it.
+---@field sharp integer Strands with a sharp turn.
+---@field zero_length integer Strands without length.
+---@field zero_segments integer Strands with a segment without length.
+---@field not_finite integer Strands with a coordinate that is NaN or infinite.
+
+---What was found in strands that were saved.
+---@class lissom.StrandFinding
+---@field kind string strands_too_short, points_repeated, content_dropped, ...
+---@field message string What was found, and what was done about it.
+---@field count integer Number of strands concerned.
+---@field strands integer[] The strands, the first hundred of them.
+
 ---An oriented 2-manifold of polygons, with or without boundary. Vertices and faces count from 1.
 ---@class lissom.Mesh
 ---@operator len: integer
@@ -865,6 +888,194 @@ function Handle:remove() end
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Handle:close() end
 
+---Hair: polylines from root to tip, in metres. Strands count from 1. Operators never move roots, and what they do to a strand does not depend on how many there are.
+---@class lissom.Strands
+---@operator len: integer
+local Strands = {}
+
+---The points of one strand, root first: a copy, a row of x, y, z a point.
+---@param strand integer Its number.
+---@return lissom.Buffer points # The points.
+function Strands:strand(strand) end
+
+---The points of all strands, one strand after the other: a copy.
+---@return lissom.Buffer points # A row of x, y, z a point.
+function Strands:points() end
+
+---How many points each strand has.
+---@return integer[] counts # One number a strand.
+function Strands:point_counts() end
+
+---The names of the groups.
+---@return string[] names # In their order; empty where there are none.
+function Strands:groups() end
+
+---The axis-aligned box around all points.
+---@return lissom.Bounds bounds # The box.
+function Strands:bounds() end
+
+---A hash of all that the strands hold, the same on every platform.
+---@return string hash # 16 hexadecimal digits.
+function Strands:hash() end
+
+---@class lissom.Strands.StatsOptions
+---@field sharp_turn? number A turn between two segments above this is sharp. In degrees. Default: 90.
+
+---Counts, lengths and turns, and how many strands are damaged.
+---@param options? lissom.Strands.StatsOptions
+---@return lissom.StrandStats stats # What was measured.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Strands:stats(options) end
+
+---@class lissom.Strands.SaveOptions
+---@field up? "y"|"z" The up axis that the file shall have. Default: y.
+---@field unit? number Length of the file's unit in metres: points and widths are divided by it. In metres. Default: 1.
+---@field mend? boolean false makes what would be changed or left out an error that names the strands. Default: true.
+
+---Writes the strands to a .hair, .data, .usda, .rib, .glb, .gltf or .obj file, whole or not at all. They are checked before, and changed where they would break in other programs; the strands themselves stay as they are.
+---@param path string The file; its extension names the format.
+---@param options? lissom.Strands.SaveOptions
+---@return lissom.Strands strands # The strands themselves.
+---@return lissom.StrandFinding[] report # What was found, changed or left out.
+function Strands:save(path, options) end
+
+---@class lissom.Strands.SelectOptions
+---@field strands? integer[] Their numbers, in the order wanted.
+---@field group? string Those of a group.
+---@field first? integer So many from the beginning: a level of detail.
+---@field where? fun(strand: integer, x: number, y: number, z: number): boolean Those for which the function, asked with the root, returns true.
+
+---Some of the strands as new ones, with all that is known of them.
+---@param options lissom.Strands.SelectOptions
+---@return lissom.Strands strands # The new strands; nil, message, code where no group has the name.
+function Strands:select(options) end
+
+---A copy of all strands.
+---@return lissom.Strands strands # The new strands.
+function Strands:copy() end
+
+---Adds other strands after these. Groups of the same name become one.
+---@param other lissom.Strands The strands to add.
+---@return lissom.Strands strands # The strands themselves.
+function Strands:append(other) end
+
+---@class lissom.Strands.TransformOptions.Rotate
+---@field axis "x"|"y"|"z"|lissom.Vector Axis of the rotation.
+---@field angle number Angle, counter-clockwise seen against the axis. In degrees.
+---@field about? lissom.Vector A point on the axis. Default: the option `about`.
+
+---@class lissom.Strands.TransformOptions
+---@field translate? lissom.Vector Added last. In mesh units. Default: {0, 0, 0}.
+---@field rotate? lissom.Strands.TransformOptions.Rotate Applied after the scale. Default: none.
+---@field scale? number|lissom.Vector Factor for all axes, or one for each; applied first. Default: 1.
+---@field about? lissom.Vector The point that scale and rotation keep. Default: the origin.
+
+---Scales, then rotates, then translates all points. Widths scale too.
+---@param options? lissom.Strands.TransformOptions
+---@return lissom.Strands strands # The strands themselves.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Strands:transform(options) end
+
+---@class lissom.Strands.ResampleOptions
+---@field count? integer Points of each strand.
+---@field step? number Distance of points. In metres.
+
+---Spreads points evenly along each strand; roots and tips stay.
+---@param options lissom.Strands.ResampleOptions
+---@return lissom.Strands strands # The strands themselves.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Strands:resample(options) end
+
+---@class lissom.Strands.ClumpOptions
+---@field clumps? integer Number of guides: the strands of the lowest ids. Default: 2500.
+---@field strength? number Part of the way to the guide that tips move. Default: 0.3.
+---@field variation? number The strength of a clump is up to this fraction higher or lower, at random. Default: 0.5.
+---@field shape? number The pull grows with this power of the place along the strand. Default: 1.
+---@field radius? number Strands rooted further from their guide stay. In metres. Default: 0.03.
+---@field apart? number How much it counts for the choice of a guide that strands are combed apart, as at a parting. Default: 0.5.
+---@field tip_spread? number Random distance by which tips miss their guide. In metres. Default: 0.001.
+---@field offset? number Random distance by which the tip of a whole clump moves. In metres. Default: 0.
+---@field within_groups? boolean Guides are of the strand's own group. Default: true.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Gathers strands around guides; roots stay.
+---@param options? lissom.Strands.ClumpOptions
+---@return lissom.Strands strands # The strands themselves.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Strands:clump(options) end
+
+---@class lissom.Strands.NoiseOptions
+---@field amplitude? number Greatest distance, about, that a tip moves. In metres. Default: 0.0016.
+---@field across? number Distance of roots that wander apart. In metres. Default: 0.02.
+---@field along? number Length along a strand of one deviation. In metres. Default: 0.11.
+---@field shape? number The amplitude grows with this power of the place along the strand. Default: 1.
+---@field cumulative? boolean Deviations add up along the strand. Default: false.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Lets strands wander off their course, neighbours together; roots stay.
+---@param options? lissom.Strands.NoiseOptions
+---@return lissom.Strands strands # The strands themselves.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Strands:noise(options) end
+
+---@class lissom.Strands.TaperOptions
+---@field tip? number Width of the tip as a fraction of what it was. Default: 0.2.
+---@field start? number Where the taper begins: 0 is the root, 1 the tip. Default: 0.
+---@field shape? number 1 is a cone, 2 stays wide for longer. Default: 1.
+
+---Makes strands thinner towards their tips.
+---@param options? lissom.Strands.TaperOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:taper(options) end
+
+---@class lissom.Strands.TrimOptions.Plane
+---@field point lissom.Vector A point of the plane.
+---@field normal lissom.Vector Points to the side that is cut off.
+
+---@class lissom.Strands.TrimOptions
+---@field length? number Longest length that is left. In metres. Default: no limit.
+---@field factor? number Part of its length that each strand keeps. Default: 1.
+---@field variation? number Each strand keeps up to this fraction less, at random. Default: 0.
+---@field plane? lissom.Strands.TrimOptions.Plane What lies beyond a plane is cut off.
+---@field jitter? number Each strand meets the plane moved by at most this. In metres. Default: 0.
+---@field least? number No strand becomes shorter. In metres. Default: 0.001.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Cuts strands off at the tip, where the first of the options says so.
+---@param options? lissom.Strands.TrimOptions
+---@return lissom.Strands strands # The strands themselves.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Strands:trim(options) end
+
+---@class lissom.Strands.SmoothOptions
+---@field iterations? integer Number of passes. Default: 3.
+---@field strength? number Fraction of the way to the middle of its neighbours that a point moves in a pass. Default: 0.5.
+
+---Evens out kinks along each strand; roots and tips stay.
+---@param options? lissom.Strands.SmoothOptions
+---@return lissom.Strands strands # The strands themselves.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Strands:smooth(options) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Strands:close() end
+
 ---Values of a script's parameters: `params.length`. Values that are set are checked as those of the command line.
 ---@class lissom.Params
 ---@field [string] any
@@ -1014,6 +1225,28 @@ function lissom.shapes.cactus(options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function lissom.deform(mesh, options) end
+
+---@class lissom.Load_strandsOptions
+---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: what the file says, else y.
+---@field unit? number Length of the file's unit in metres. In metres. Default: what the file says, else 1.
+
+---Reads hair from a .hair, .data (HairSalon) or .usda (BasisCurves) file.
+---@param path string The file; its extension names the format.
+---@param options? lissom.Load_strandsOptions
+---@return lissom.Strands strands # The strands; nil, message, code where the file is at fault.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.load_strands(path, options) end
+
+---@class lissom.StrandsOptions
+---@field points lissom.Vector[] The points of all strands, root to tip, in metres.
+---@field counts integer[] How many of them each strand has.
+
+---Strands of given points.
+---@param options lissom.StrandsOptions
+---@return lissom.Strands strands # The new strands.
+function lissom.strands(options) end
 
 ---@class lissom.ParamsOptions.Declarations
 ---@field type "number"|"integer"|"boolean"|"string"|"choice"|"file" What its values are.
