@@ -15,13 +15,9 @@ constexpr std::string_view kMagic = "HAIR";
 constexpr std::size_t kHeaderBytes = 128, kTextBytes = 88;
 constexpr Index kMostSegments = 65535;
 
-enum ArrayBit : std::uint32_t {
-    kSegments = 1,
-    kPoints = 2,
-    kThickness = 4,
-    kTransparency = 8,
-    kColors = 16,
-};
+// Bits that say which arrays follow.
+using ArrayBit = std::uint32_t;
+constexpr ArrayBit kSegments = 1, kPoints = 2, kThickness = 4, kTransparency = 8, kColors = 16;
 
 struct Header {
     std::uint32_t strands = 0, points = 0, arrays = 0, segments = 0;

@@ -31,7 +31,8 @@ class RibWriter {
         text_ += "##RenderMan RIB-Structure 1.1\nversion 3.04\n";
         std::vector<std::vector<Index>> blocks(strands_.group_names().size() + 1);
         for (Index s = 0; s < strands_.size(); ++s) {
-            blocks[static_cast<std::size_t>(strands_.group(s) + 1)].push_back(s);
+            const Index group = strands_.group(s);
+            blocks[group == kNoIndex ? 0 : static_cast<std::size_t>(group) + 1].push_back(s);
         }
         for (std::size_t g = 0; g < blocks.size(); ++g) {
             progress.update(double(g) / double(blocks.size()));
