@@ -42,7 +42,8 @@ const char* const kValues[] = {"nil",
                                "grid:boundaries()[1]",
                                "edit",
                                "handle",
-                               "params"};
+                               "params",
+                               "strands"};
 
 // Objects of each type to call methods on.
 const char* const kSetup = R"(
@@ -53,9 +54,11 @@ function fresh()
     box = lissom.shapes.box()
     edit = lissom.deform(box)
     handle = edit:handle(box:region("top"))
+    strands = lissom.strands{ points = { { 0, 0, 0 }, { 0, 1, 0 } }, counts = { 2 } }
     objects = { ["lissom.Mesh"] = box, ["lissom.Region"] = box:region("top"),
         ["lissom.Path"] = grid:boundaries()[1], ["lissom.Buffer"] = box:positions(),
-        ["lissom.Deformation"] = edit, ["lissom.Handle"] = handle, ["lissom.Params"] = params }
+        ["lissom.Deformation"] = edit, ["lissom.Handle"] = handle, ["lissom.Params"] = params,
+        ["lissom.Strands"] = strands }
 end
 )";
 
