@@ -21,10 +21,6 @@ constexpr double kEarDepth = 4.0 / 155.0;
 // shoulder.
 constexpr double kReach = 1.3, kLowest = 0.75;
 
-double smoothstep(double t) {
-    return t * t * (3.0 - 2.0 * t);
-}
-
 double to_margin(double distance, double softness) {
     if (softness > 0.0) return std::clamp(distance / softness + kBelow, -kMost, kMost);
     return distance > 0.0 ? kMost : -kMost;
@@ -73,17 +69,6 @@ bool HairlineTest::inside(double margin) {
     return margin > kBelow;
 }
 
-std::vector<HairlinePoint> default_hairline() {
-    std::vector<HairlinePoint> points;
-    const std::vector<std::pair<double, double>> degrees = {
-        {0, 35}, {20, 36},  {38, 35}, {52, 27},   {62, 12},   {70, -2},   {76, -10}, {81, -6},
-        {86, 8}, {100, 10}, {112, 6}, {122, -12}, {135, -32}, {155, -42}, {180, -45}};
-    for (const auto& [azimuth, elevation] : degrees) {
-        points.push_back({azimuth * kDegree, elevation * kDegree});
-    }
-    return points;
-}
-
 void require_hairline(const std::vector<HairlinePoint>& hairline) {
     double last = -1.0;
     for (const auto& [azimuth, elevation] : hairline) {
@@ -99,17 +84,6 @@ void require_hairline(const std::vector<HairlinePoint>& hairline) {
     if (hairline.empty()) {
         throw Error(ErrorCode::invalid_argument, "the hairline has no points");
     }
-}
-
-double hairline_elevation(const std::vector<HairlinePoint>& hairline, double azimuth) {
-    const double at = std::abs(std::remainder(azimuth, 2.0 * kPi));
-    const auto next = std::find_if(hairline.begin(), hairline.end(),
-                                   [&](const HairlinePoint& p) { return p.azimuth > at; });
-    if (next == hairline.begin()) return next->elevation;
-    if (next == hairline.end()) return hairline.back().elevation;
-    const HairlinePoint &a = *std::prev(next), &b = *next;
-    const double t = smoothstep((at - a.azimuth) / (b.azimuth - a.azimuth));
-    return a.elevation + t * (b.elevation - a.elevation);
 }
 
 std::vector<double> margins_of_hairline(const Mesh& head, const std::vector<Vec3>& normals,

@@ -7,19 +7,11 @@
 #include <vector>
 
 #include "kernel/hair/head_frame.h"
+#include "kernel/mesh/hairline.h"
 #include "kernel/mesh/region.h"
 #include "kernel/mesh/spatial_tree.h"
 
 namespace lissom {
-
-/// A point of the hairline: hair grows above `elevation` at the azimuths `azimuth` and -azimuth.
-struct HairlinePoint {
-    double azimuth = 0.0, elevation = 0.0;
-};
-
-/// The hairline of an adult without receding hair: down in front of the ears, around and below
-/// them, and to the nape.
-std::vector<HairlinePoint> default_hairline();
 
 struct ScalpOptions {
     /// Directions of the head in the mesh; guessed where absent (head_frame.h).
@@ -116,8 +108,5 @@ class Scalp {
     SpatialTree tree_;
     MemoryCharge charge_;
 };
-
-/// Elevation of a hairline at an azimuth of any sign.
-double hairline_elevation(const std::vector<HairlinePoint>& hairline, double azimuth);
 
 }  // namespace lissom

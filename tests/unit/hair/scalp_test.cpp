@@ -1,5 +1,6 @@
 #include "kernel/hair/scalp.h"
 
+#include "kernel/mesh/head.h"
 #include "kernel/mesh/region_select.h"
 #include "kernel/mesh/shapes.h"
 #include "tests/unit/hair/hair_support.h"
@@ -137,6 +138,17 @@ TEST_CASE("a guessed region has crown, sides and nape, but neither face nor ears
     CHECK(!holds(180, -70));
 }
 
+TEST_CASE("the generated head has the frame it was made with") {
+    const Mesh head = make_head();
+    const Scalp scalp(head);
+    CHECK(!scalp.guessed());
+    CHECK(scalp.frame().axes == Mat3::Identity());
+    CHECK(scalp.frame().center.norm() < 0.01);
+    CHECK(std::abs(scalp.scale() - 1.0) < 0.02);
+    CHECK(scalp.unit() == 1.0);
+    CHECK(std::abs(scalp.frame().length - 0.19) < 0.005);
+}
+
 TEST_CASE("a given region is kept, and hair thins out towards its outline") {
     Mesh mesh = egg();
     const Region top = select_plane(mesh, Vec3(0, 0.05, 0), Vec3::UnitY());
@@ -158,13 +170,7 @@ TEST_CASE("a given region is kept, and hair thins out towards its outline") {
     }
 }
 
-TEST_CASE("the hairline is settable and smooth between its points") {
-    const std::vector<HairlinePoint> hairline = {{0.0, 1.0}, {1.0, 0.0}, {kPi, -0.5}};
-    CHECK(hairline_elevation(hairline, 0.0) == 1.0);
-    CHECK(hairline_elevation(hairline, -0.5) == Approx(0.5));
-    CHECK(hairline_elevation(hairline, 1.0) == Approx(0.0));
-    CHECK(hairline_elevation(hairline, 2.0 * kPi - 1.0) == Approx(0.0));
-    CHECK(hairline_elevation(hairline, kPi) == -0.5);
+TEST_CASE("a higher hairline leaves a smaller scalp") {
     ScalpOptions high = upright(), low = upright();
     high.hairline = {{0.0, 60 * kDegree}};
     low.hairline = {{0.0, 20 * kDegree}};
