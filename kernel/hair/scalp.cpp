@@ -111,16 +111,24 @@ Vec3 Scalp::normal_at(const Triangle& triangle, const Vec3& barycentric) const {
     return length > 0.0 ? Vec3(sum / length) : Vec3::Zero();
 }
 
+std::optional<SurfacePoint> Scalp::surface_in(const ScalpDirection& direction) const {
+    const Vec3 ray = vector_of(direction);
+    const auto leaves = [&](const SurfacePoint& hit) { return hit.normal.dot(ray) > 0.0; };
+    const std::optional<SurfacePoint> first = tree_.pick(frame_.center, ray);
+    if (!first || leaves(*first)) return first;
+    const std::vector<SurfacePoint> hits = tree_.pick_all(frame_.center, ray);
+    const auto found = std::find_if(hits.begin(), hits.end(), leaves);
+    return found == hits.end() ? std::nullopt : std::optional(*found);
+}
+
 ScalpPoint Scalp::at(const ScalpDirection& direction, double lift) const {
     if (!std::isfinite(direction.azimuth) || !std::isfinite(direction.elevation) ||
         !std::isfinite(lift)) {
         throw Error(ErrorCode::not_finite, "azimuth, elevation or lift is NaN or infinite");
     }
-    const Vec3 ray = vector_of(direction);
-    for (const SurfacePoint& hit : tree_.pick_all(frame_.center, ray)) {
-        if (hit.normal.dot(ray) <= 0.0) continue;
-        const Vec3 normal = normal_at(hit.triangle, hit.barycentric);
-        return {hit.position + lift * scale_ * normal, normal, hit};
+    if (const std::optional<SurfacePoint> hit = surface_in(direction)) {
+        const Vec3 normal = normal_at(hit->triangle, hit->barycentric);
+        return {hit->position + lift * scale_ * normal, normal, *hit};
     }
     const auto degrees = [](double angle) {
         return std::to_string(std::lround(angle * 180.0 / kPi));

@@ -76,6 +76,8 @@ class Scalp {
     /// from the center, along its normal there.
     /// Errors: not_finite; out_of_range where the head has no surface in that direction.
     ScalpPoint at(const ScalpDirection& direction, double lift = 0.0) const;
+    /// Where a ray from the center first leaves the head; nothing where it never does.
+    std::optional<SurfacePoint> surface_in(const ScalpDirection& direction) const;
     /// Direction of a point of the mesh from the center.
     ScalpDirection direction_of(const Vec3& point) const;
     /// Unit vector in the mesh.
