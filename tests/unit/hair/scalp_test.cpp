@@ -93,7 +93,7 @@ TEST_CASE("real heads: up, front, unit and the size of the scalp are guessed") {
         const char* name;
         double front, unit;
     };
-    for (const auto& [name, front, unit] :
+    for (const Head& head :
          {Head{"ict_head.obj", 1, 1}, Head{"makehuman_head.obj", 1, 1},
           Head{"digitalsalon_head.obj", 1, 1}, Head{"face_scan_open.obj", 1, 0.01},
           Head{"hairstep_usc_head.obj", 1, 1}, Head{"human_neutral.obj", 1, 1},
@@ -102,16 +102,16 @@ TEST_CASE("real heads: up, front, unit and the size of the scalp are guessed") {
           Head{"sintel-collider.obj", 1, 1}, Head{"sintel_head.obj", 1, 1},
           Head{"african_head.obj", 1, 0}, Head{"LeePerrySmith.glb", 1, 0},
           Head{"WaltHead.obj", 1, 0}}) {
-        const auto mesh = test::load_head(name);
+        const auto mesh = test::load_head(head.name);
         if (!mesh) continue;
-        CAPTURE(name);
+        CAPTURE(head.name);
         const Scalp scalp(*mesh);
         CHECK((scalp.frame().up() - Vec3::UnitY()).norm() < 1e-9);
-        CHECK((scalp.frame().front() - front * Vec3::UnitZ()).norm() < 1e-9);
+        CHECK((scalp.frame().front() - head.front * Vec3::UnitZ()).norm() < 1e-9);
         CHECK(scalp.frame().asymmetry < 0.05);
         CHECK(scalp.frame().roughness < 0.05);
         CHECK(scalp.frame().forwardness > 0.05);
-        if (unit > 0.0) CHECK(scalp.unit() == unit);
+        if (head.unit > 0.0) CHECK(scalp.unit() == head.unit);
         CHECK(root_area(*mesh, scalp) > 0.050);
         CHECK(root_area(*mesh, scalp) < 0.072);
         CHECK(scalp.default_box().contains(scalp.at({0.0, 1.2}, 0.05).position));
