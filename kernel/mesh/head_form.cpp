@@ -108,7 +108,7 @@ double lips(const Vec3& p) {
     const Vec3 q(p.x(), p.y(), p.z() + bend);
     const double upper = ellipsoid(q, Vec3(0, -0.0745, 0.0860), Vec3(0.0270, 0.0078, 0.0150));
     const double lower = ellipsoid(q, Vec3(0, -0.0880, 0.0850), Vec3(0.0225, 0.0088, 0.0150));
-    return join(upper, lower, 0.002);
+    return join(upper, lower, 0.004);
 }
 
 // A shell that stands off the head, its rim to the back.
@@ -127,7 +127,7 @@ double ear(const Vec3& p) {
 }
 
 double eyes(const Vec3& p) {
-    return ellipsoid(p, Vec3(0.0320, -0.0120, 0.0665), Vec3(0.0175, 0.0120, 0.0170));
+    return ellipsoid(p, Vec3(0.0325, -0.0125, 0.0670), Vec3(0.0175, 0.0115, 0.0185));
 }
 
 // The head for x >= 0.
@@ -138,9 +138,9 @@ double half_form(const Vec3& p) {
     d = join(d, brow(p), 0.020);
     const double socket = ellipsoid(p, Vec3(0.0330, -0.0105, 0.0975), Vec3(0.0205, 0.0125, 0.0165));
     d = carve(d, socket, 0.015);
-    d = join(d, eyes(p), 0.004);
+    d = join(d, eyes(p), 0.005);
     d = join(d, nose(p), 0.016);
-    d = join(d, lips(p), 0.005);
+    d = join(d, lips(p), 0.007);
     d = join(d, ear(p), 0.012);
     return -join(-d, p.y() - kHeadBottom, 0.02);
 }
