@@ -11,7 +11,7 @@ namespace lissom {
 namespace {
 
 // Columns that a thread fills, and rows that it computes, at a time.
-constexpr Index kFillGrain = 16, kRowGrain = 96;
+constexpr Index kFillGrain = 16, kRowGrain = 72;
 
 using Scratch = std::unique_ptr<double[]>;
 

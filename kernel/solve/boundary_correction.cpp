@@ -28,7 +28,7 @@ class Correction {
 
     void run(std::span<const Vec3> multipliers, double* field) {
         start(multipliers, field);
-        Vec3 rz_before = Vec3::Zero();
+        Vec3 rz_before = Vec3::Zero(), alpha = Vec3::Zero();
         for (int iteration = 0; iteration < kMostIterations; ++iteration) {
             precondition();
             if (greatest(step_.get()) <= problem_.tolerance) {
@@ -36,9 +36,11 @@ class Correction {
                 return;
             }
             const Vec3 rz = dot(residual_.get(), step_.get());
-            turn(ratio(rz, rz_before));
+            // Of the forms of beta the one that bears a preconditioner solved to a tolerance.
+            const Vec3 change = -alpha.cwiseProduct(dot(product_.get(), step_.get()));
+            turn(iteration == 0 ? Vec3(Vec3::Zero()) : ratio(change, rz_before));
             multiply();
-            const Vec3 alpha = ratio(rz, dot(direction_.get(), product_.get()));
+            alpha = ratio(rz, dot(direction_.get(), product_.get()));
             add(field, alpha, direction_.get());
             add(residual_.get(), -alpha, product_.get());
             rz_before = rz;
@@ -58,6 +60,7 @@ class Correction {
             for (int c = 0; c < kComponents; ++c) residual_[c * count_ + at] += multipliers[i][c];
         }
         std::fill_n(direction_.get(), 3 * count_, 0.0);
+        std::fill_n(product_.get(), 3 * count_, 0.0);
     }
 
     // step = (zero-flux system)^-1 residual. With u = A0+ r: (G + W^-2) lambda - 1 a = U'u,
@@ -73,13 +76,21 @@ class Correction {
         for (const GridPoint& p : rows.point) {
             g.push_back(vector_at(step_.get(), size_, size_.index(p)));
         }
-        DualSolution dual = problem_.dual.solve(g, total, {}, workspace_, context_);
+        const DualSolution dual = problem_.dual.solve(g, total, {}, workspace_, context_);
         FieldSink sink;
         sink.components = workspace_.second.get();
         sink.constant = dual.constant;
         problem_.green.apply_at(rows.point, dual.multiplier, workspace_.first.get(),
                                 workspace_.second.get(), sink, context_);
         add(step_.get(), -Vec3::Ones(), workspace_.second.get());
+        // U't is W^-2 lambda; what multipliers found to a tolerance leave there, W^2 would raise.
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const auto at = static_cast<std::size_t>(size_.index(rows.point[i]));
+            const double square = rows.weight[i] * rows.weight[i];
+            for (int c = 0; c < kComponents; ++c) {
+                step_[c * count_ + at] = dual.multiplier[i][c] / square;
+            }
+        }
     }
 
     // product = (A0 + U W^2 U') direction.

@@ -56,23 +56,23 @@ bool same_rows(const std::vector<GridConstraint>& a, const std::vector<GridConst
 
 struct Entry {
     Index point;
-    double square;
+    double weight;
     Vec3 value;
     std::uint64_t stamp;
 };
 
 // Entries [begin, end), all of one point. One alone stays as it is, to the bit.
 MergedConstraint merge(const Entry* begin, const Entry* end) {
-    MergedConstraint merged{begin->point, std::sqrt(begin->square), begin->value, begin->stamp};
+    MergedConstraint merged{begin->point, begin->weight, begin->value, begin->stamp};
     if (end - begin == 1) return merged;
     double square = 0.0;
     Vec3 sum = Vec3::Zero();
     for (const Entry* e = begin; e != end; ++e) {
-        square += e->square;
-        sum += e->square * e->value;
-        merged.stamp = std::max(merged.stamp, e->stamp);
+        square += e->weight * e->weight;
+        sum += e->weight * e->weight * e->value;
+        merged.weight = std::max(merged.weight, e->weight);
+        merged.stamp = std::min(merged.stamp, e->stamp);
     }
-    merged.weight = std::sqrt(square);
     merged.value = sum / square;
     return merged;
 }
@@ -119,7 +119,7 @@ std::vector<MergedConstraint> GridConstraints::merged() const {
     std::vector<Entry> entries;
     for (const auto& entry : owners_) {
         for (const GridConstraint& c : entry.second.constraints) {
-            entries.push_back({c.point, c.weight * c.weight, c.value, entry.second.stamp});
+            entries.push_back({c.point, c.weight, c.value, entry.second.stamp});
         }
     }
     std::stable_sort(entries.begin(), entries.end(),

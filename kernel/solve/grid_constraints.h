@@ -26,14 +26,14 @@ struct MergedConstraint {
     Index point = 0;
     double weight = 0.0;
     Vec3 value = Vec3::Zero();
-    /// When an owner of this point last changed its points or weights.
+    /// When its owners last changed their points or weights: of several, the one who did so first.
     std::uint64_t stamp = 0;
 };
 
-/// The constraints of all owners. Several owners may constrain one point. What they give is merged
-/// as the least squares of (4.2) merges rows: weights w^2 add up, and the value is the average by
-/// w^2. So each point stands in the system once, and the result does not depend on the order of
-/// edits.
+/// The constraints of all owners. Several owners may constrain one point; it stands in the system
+/// once, with the average of their values by w^2 and the greatest of their weights. So the result
+/// does not depend on the order of edits, and an owner that comes to a point or leaves it does not
+/// change the matrix as long as another is there.
 class GridConstraints {
   public:
     explicit GridConstraints(const GridSize& size) : size_(size) {}

@@ -16,8 +16,9 @@ namespace lissom {
 namespace {
 
 constexpr double kLeastTolerance = 1e-12, kGreatestTolerance = 1e-2;
-// How much more exactly multipliers are found than the field that is asked for.
-constexpr double kInnerTolerance = 0.1;
+// How much more exactly multipliers are found than the field that is asked for, and the most that
+// double precision gives.
+constexpr double kInnerTolerance = 0.1, kLeastInnerTolerance = 1e-13;
 constexpr Index kCopyGrain = 1 << 14;
 
 void require_valid(const GridFieldOptions& options) {
@@ -74,8 +75,9 @@ struct GridField::State {
         const MemoryCharge working =
             context.charge(GridGreen::working_bytes(size), "the tables of a grid");
         green = std::make_unique<GridGreen>(size, options.tension, context);
-        dual = std::make_unique<DualSystem>(*green, options.dense_limit,
-                                            options.tolerance * kInnerTolerance);
+        dual = std::make_unique<DualSystem>(
+            *green, options.dense_limit,
+            std::max(kLeastInnerTolerance, kInnerTolerance * options.tolerance));
     }
 
     void solve_dual(std::span<const MergedConstraint> merged, const Context& context);

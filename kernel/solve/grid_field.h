@@ -33,7 +33,7 @@ struct GridFieldOptions {
     Index dense_limit = 3000;
     /// Iterations, of the dual solver beyond `dense_limit` and for the thesis's boundary, end at
     /// this share of the greatest given component; 1e-12 to 1e-2.
-    double tolerance = 1e-7;
+    double tolerance = 1e-6;
     /// Further solves, for the residual in double precision. Without them the field is accurate to
     /// 1e-9 or better.
     int refinements = 0;
