@@ -43,8 +43,8 @@ void refuse_options(const Call& call, DeformMethod method) {
                     "option '" + option + "' does not apply to method '" +
                         std::string(method_name(method)) + "'; leave one of them out");
     };
-    for (const char* option :
-         {"local_size", "second", "coherence", "displacement", "degenerate_threshold", "refine"}) {
+    for (const char* option : {"local_size", "second", "coherence", "displacement",
+                               "degenerate_threshold", "refine", "refine_borders"}) {
         if (call.has(option)) refuse(option);
     }
     if (call.integer("fidelity") == 1) refuse("fidelity");
@@ -60,6 +60,7 @@ DeformOptions deform_options(const Call& call) {
     take_choice(call, "weights", options.weights);
     if (call.has("coherence")) options.coherence = call.integer("coherence");
     if (call.has("refine")) options.refine = call.integer("refine");
+    if (call.has("refine_borders")) options.refine_borders = call.boolean("refine_borders");
     take_number(call, "displacement", options.displacement);
     options.transition = call.number("transition");
     take_number(call, "degenerate_threshold", options.degenerate_threshold);
@@ -197,6 +198,12 @@ int rebase(Call& call) {
     return results == 1 ? call.push_argument() : results;
 }
 
+int refined_mesh(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    return new_mesh(
+        call, [&] { return edit->deformer().refined_mesh(edit->mesh->mesh, call.context()); });
+}
+
 int stats(Call& call) {
     const auto edit = call.self<DeformObject>();
     DeformStats s;
@@ -210,6 +217,7 @@ int stats(Call& call) {
                   {"handles", static_cast<std::size_t>(s.handles)},
                   {"displaced_vertices", static_cast<std::size_t>(s.displaced_vertices)},
                   {"inserted_vertices", static_cast<std::size_t>(s.inserted_vertices)},
+                  {"refined_vertices", static_cast<std::size_t>(s.refined_vertices)},
                   {"zero_area_faces", static_cast<std::size_t>(s.zero_area_faces)},
                   {"first_nonzeros", s.first_nonzeros},
                   {"second_nonzeros", s.second_nonzeros},
@@ -529,6 +537,18 @@ top:translate(1, 0, 0)
 edit:solve()
 edit:reset()
 assert(bar:hash() == before))"},
+        {.name = "refined_mesh",
+         .body = refined_mesh,
+         .summary =
+             "The deformed mesh with the vertices that the deformation worked on where the border "
+             "of what is held is coarse beside the region: behind the mesh's own, on faces that "
+             "become triangles. Without such vertices it is a copy.",
+         .results = {{"lissom.Mesh", "refined", "A new mesh."}},
+         .errors = kEditErrors,
+         .example = kBar + R"(top:translate(1, 0, 0)
+edit:solve()
+local refined = edit:refined_mesh()
+assert(refined:vertex_count() == bar:vertex_count() + edit:stats().refined_vertices))"},
         {.name = "apply",
          .body = rebase,
          .summary =
@@ -650,6 +670,10 @@ std::vector<Parameter> deform_parameters() {
                 "less distortion for half a frame each.")
             .at_least(0)
             .optional(std::to_string(defaults.refine)),
+        boolean("refine_borders",
+                "Works on a surface that is refined where the border of what is held is coarse "
+                "beside the region; the mesh keeps its faces.")
+            .optional("true"),
         number("displacement", "How far degenerate vertices are displaced.")
             .above(0)
             .in("mean lengths of their edges")

@@ -138,6 +138,7 @@ std::vector<Record> kernel_records() {
           {"integer", "handles", "Handles."},
           {"integer", "displaced_vertices", "Degenerate vertices displaced."},
           {"integer", "inserted_vertices", "Vertices inserted at corners of the boundary."},
+          {"integer", "refined_vertices", "Vertices that a refinement of coarse borders added."},
           {"integer", "zero_area_faces", "Faces without area."},
           {"integer", "first_nonzeros", "Entries of the first system's factor."},
           {"integer", "second_nonzeros", "Entries of the second system's factor."},

@@ -39,12 +39,17 @@ class AnchorBuilder {
     void stiffen() {
         const Patch& patch = work_.patch;
         work_.stiffness = holds_.stiffness;
+        for (const SparseRow& row : patch.inserted) {
+            double sum = 0.0;
+            for (const auto& [v, c] : row) sum += c * holds_.stiffness[v];
+            work_.stiffness.push_back(sum);
+        }
         for (Index v = patch.real_count; v < patch.surface_count; ++v) {
             double sum = 0.0;
             int count = 0;
             for (const Index n : work_.rings.ring(v)) {
                 if (n >= patch.real_count) continue;
-                sum += holds_.stiffness[n];
+                sum += work_.stiffness[n];
                 ++count;
             }
             work_.stiffness.push_back(count > 0 ? sum / count : 1.0);

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "kernel/deform/boundary_refinement.h"
+
 namespace lissom {
 namespace {
 
@@ -55,7 +57,7 @@ void add_vertex(const Patch& patch, const TiesOfVertices& ties, const Knowledge&
     part.has_gradient = part.has_gradient || known.gradient[v] || ties.turned.count(v) > 0;
     if (known.position[v]) {
         add_position(patch.rest[v], part);
-    } else if (v < patch.real_count) {
+    } else if (v < patch.mesh_count()) {
         part.free.push_back(patch.mesh_vertex[v]);
     }
     const auto [first, last] = ties.anchors.equal_range(v);
@@ -119,6 +121,18 @@ void hold_handle(const WorkingPatch& work, const HandleState& handle, Index h, H
     }
 }
 
+// Vertices of a refinement between vertices of one holder are its own.
+void hold_inserted(const Patch& patch, Holding& holding) {
+    for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
+        const SparseRow& row = patch.inserted[static_cast<std::size_t>(v - patch.mesh_count())];
+        const Index holder = common_holder(row, holding), first = row.front().first;
+        if (holder == kFree) continue;
+        holding.owner[v] = holder;
+        holding.known.position[v] = 1;
+        holding.known.gradient[v] = holding.known.gradient[first];
+    }
+}
+
 // Gives free vertices around a point its gradient.
 void turn_around(const SparseRow& row, Index owner, Index point, Holding& holding) {
     for (const auto& [v, c] : row) {
@@ -160,6 +174,7 @@ Holding find_holding(const WorkingPatch& work, const Holds& holds) {
         holding.known.position[v] = constraint.position.has_value() || work.rings.count(v) == 0;
         holding.known.gradient[v] = constraint.gradient.has_value();
     }
+    hold_inserted(work.patch, holding);
     // Points come last: vertices that are held keep their holder.
     for (std::size_t h = 0; h < holds.handles.size(); ++h) {
         const HandleState& handle = holds.handles[h];

@@ -54,6 +54,7 @@ void require_applicable(const DeformOptions& o) {
     refuse(o.degenerate_threshold != defaults.degenerate_threshold, "degenerate_threshold");
     refuse(o.displacement != defaults.displacement, "displacement");
     refuse(o.refine != defaults.refine, "refine");
+    refuse(o.refine_borders != defaults.refine_borders, "refine_borders");
     refuse(!laplacian && !o.scale_free, "scale_free");
     refuse(o.method == DeformMethod::geodesic && o.weights != defaults.weights, "weights");
 }
@@ -317,8 +318,8 @@ HandleBasis Deformer::basis(const Context& context) {
     const LinearSolution& solution = *s.prepared->solution;
     const std::vector<Index>& free = s.prepared->first->free_vertices();
     for (std::size_t f = 0; f < free.size(); ++f) {
-        const Index row = s.prepared->region_row[f];
-        if (row == kNoIndex) continue;
+        const Index row = s.prepared->frame_row[f];
+        if (row == kNoIndex || row >= s.region.size()) continue;
         Vec4 rest_part = homogeneous(s.prepared->work->patch.rest[free[f]] + o);
         for (std::size_t h = 0; h < solution.handles().size(); ++h) {
             Vec4 w = solution.weight(h, static_cast<Index>(f));

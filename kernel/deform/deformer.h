@@ -73,7 +73,8 @@ struct DeformOptions {
     LocalSize local_size = LocalSize::keep;
     LaplacianWeights weights = LaplacianWeights::cotangent;
     /// How often, 0 to 2, the rotations are fitted to the result and it is solved for again: less
-    /// distortion, for half a frame each. More would wear twisted parts thin.
+    /// distortion, for half a frame each. Rotations go further than what fits, so that two do what
+    /// four or five would; more would wear twisted parts thin.
     int refine = 0;
     /// Rings of neighbours whose gradients are kept similar (the pairs SF of Eq 2.7): 1 or 2.
     int coherence = 1;
@@ -81,6 +82,10 @@ struct DeformOptions {
     double coherence_weight = 1.0;
     /// A vertex is degenerate where the condition number of V_i V_i^T exceeds this (section 2.4.3).
     double degenerate_threshold = 2e4;
+    /// Works on a surface that is refined along the borders of what is held, where they are coarse
+    /// beside the region (section 2.5): else a few held vertices would say where a detailed region
+    /// goes. The result is that of the mesh's own vertices; see Deformer::refined_mesh.
+    bool refine_borders = true;
     /// s_disp of Eq 2.9: displacement of degenerate vertices in mean lengths of their edges; above
     /// 0.
     double displacement = 0.2;
@@ -147,6 +152,8 @@ struct DeformStats {
     /// Degenerate vertices displaced, vertices inserted at corners of the boundary, zero-area
     /// faces.
     Index displaced_vertices = 0, inserted_vertices = 0, zero_area_faces = 0;
+    /// Vertices that a refinement of coarse borders added.
+    Index refined_vertices = 0;
     std::size_t first_nonzeros = 0, second_nonzeros = 0, factor_bytes = 0;
     double assemble_seconds = 0, first_factor_seconds = 0, second_factor_seconds = 0;
     double basis_seconds = 0;
@@ -284,6 +291,11 @@ class Deformer {
     /// Writes `positions()` into the region's vertices of `mesh`; custom normals turn with the
     /// surface. Errors: topology_mismatch.
     void apply_to(Mesh& mesh) const;
+    /// `mesh` as apply_to leaves it, with the vertices that a refinement of coarse borders
+    /// inserted: behind its own, where the last result has them. Faces that they lie on become
+    /// triangles; attributes are interpolated. A mesh without such vertices is only copied. Errors:
+    /// topology_mismatch; as prepare.
+    Mesh refined_mesh(const Mesh& mesh, const Context& context = {});
     /// Writes the rest shape into the region's vertices of `mesh`, with the custom normals it had.
     /// Errors: topology_mismatch.
     void apply_rest_to(Mesh& mesh) const;

@@ -12,6 +12,12 @@ namespace {
 // Vertices whose matrices are worked on while they are in the cache.
 constexpr Index kBlock = 256;
 
+// How far beyond the rotations that fit best a refinement goes, in steps from the last ones: far in
+// all steps but the last, which takes back what went too far. Two such steps lower the energy as
+// four or five without would.
+constexpr double kFurther = 1.6;
+constexpr double kLastFurther = 0.5;
+
 // Calls work(begin, end) for blocks of [0, count), in parallel.
 template <typename Work>
 void for_each_block(const Context& context, Index count, const Work& work) {
@@ -34,7 +40,7 @@ void Deformer::State::preview(const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
     if (prepared->comparison) return solve_comparison(context);
-    next_positions.resize(rest.size());
+    next_positions.resize(rest.size() + prepared->work->patch.inserted.size());
     if (prepared->solution) {
         const LinearSolution& solution = *prepared->solution;
         const Mat4 shift = base_transform() - matrix_of({});
@@ -44,7 +50,7 @@ void Deformer::State::preview(const Context& context) {
             std::array<Vec4, kBlock> x;
             solution.positions(shift, differences, x.data(), begin, end);
             for (Index row = begin; row < end; ++row) {
-                const Index target = prepared->region_row[row];
+                const Index target = prepared->frame_row[row];
                 if (target != kNoIndex) next_positions[target] = x[row - begin].head<3>() + origin;
             }
         });
@@ -56,9 +62,10 @@ void Deformer::State::evaluate_deviation(const Context& context) {
     const Patch& patch = prepared->work->patch;
     frame_base = base_transform();
     deviation.assign(static_cast<std::size_t>(patch.vertex_count), Vec4::Zero());
-    for (const HandleState& h : handles) {
-        const Mat4 difference = matrix_of(h.in_patch) - frame_base;
-        for (const Index v : h.local) deviation[v] = difference * homogeneous(patch.rest[v]);
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+        const Mat4 difference = matrix_of(handles[h].in_patch) - frame_base;
+        for (const Index v : prepared->held[h])
+            deviation[v] = difference * homogeneous(patch.rest[v]);
     }
     for (const auto& entry : asked) deviation[entry.first] = padded(known_deviation(entry.first));
     for (Index v = patch.surface_count; v < patch.vertex_count; ++v) {
@@ -169,7 +176,7 @@ void Deformer::State::turn_held(const Mat3& base_rotation) {
         const HandleState& h = handles[n];
         if (h.removed || h.soft() || !h.options.gradient) continue;
         const PaddedMat3 turn = padded_columns(rotation_of(h.transform.linear) - base_rotation);
-        for (const Index v : h.local) turns[v] = turn;
+        for (const Index v : prepared->held[n]) turns[v] = turn;
         for (const SparseRow& row : h.points) {
             for (const auto& [v, c] : row) {
                 if (prepared->owner[v] == static_cast<Index>(n)) turns[v] = turn;
@@ -187,8 +194,10 @@ void Deformer::State::turn_held(const Mat3& base_rotation) {
 
 // Rotations that fit the present positions best, as in the local step of Sorkine and Alexa,
 // "As-rigid-as-possible surface modeling" (2007), for the energy of the second system: with its
-// solution in between, that energy never increases. Scales stay.
-void Deformer::State::refine_turns(const Mat3& base_rotation, const Context& context) {
+// solution in between, that energy never increases. Successive over-relaxation: the rotations then
+// go on by `further` times the change. Scales stay.
+void Deformer::State::refine_turns(const Mat3& base_rotation, double further,
+                                   const Context& context) {
     const Patch& patch = prepared->work->patch;
     std::vector<Vec4>& x = absolute;
     x.resize(static_cast<std::size_t>(patch.real_count));
@@ -206,11 +215,17 @@ void Deformer::State::refine_turns(const Mat3& base_rotation, const Context& con
             const auto count = static_cast<std::size_t>(end - begin);
             loop.fit(x.data(), vertices->data(), m.data(), begin, end);
             nearest_rotations({m.data(), count}, {m.data(), count});
+            const auto turn_of = [&](std::size_t i) {
+                return turns[(*vertices)[static_cast<std::size_t>(begin) + i]].topRows<3>();
+            };
+            std::array<double, kBlock> scale;
             for (std::size_t i = 0; i < count; ++i) {
-                auto turn = turns[(*vertices)[static_cast<std::size_t>(begin) + i]].topRows<3>();
-                const double scale = scales ? uniform_scale(base_rotation + turn) : 1.0;
-                turn = scale * m[i] - base_rotation;
+                const Mat3 before = base_rotation + turn_of(i);
+                scale[i] = scales ? uniform_scale(before) : 1.0;
+                m[i] += further * (m[i] - before / scale[i]);
             }
+            nearest_rotations({m.data(), count}, {m.data(), count});
+            for (std::size_t i = 0; i < count; ++i) turn_of(i) = scale[i] * m[i] - base_rotation;
         });
     }
 }
@@ -230,11 +245,12 @@ void Deformer::State::solve_second(bool draft, const Context& context) {
             }
         });
     }
-    const double share = winding_share();
+    const double greatest = greatest_turn(), share = winding_share(greatest);
     if (share > 0.0) wind_turns(base_rotation, share, draft, context);
     prepared->second->solve(turns, deviation, draft, context);
-    for (int step = 0; step < options.refine; ++step) {
-        refine_turns(base_rotation, context);
+    for (int step = 1; step <= options.refine; ++step) {
+        const double further = step < options.refine ? kFurther : kLastFurther;
+        refine_turns(base_rotation, further * (1.0 - far_share(greatest)), context);
         prepared->second->solve(turns, deviation, draft, context);
     }
     const Vec3 shift = frame_base.topRightCorner<3, 1>();
@@ -243,7 +259,7 @@ void Deformer::State::solve_second(bool draft, const Context& context) {
         for (Index row = begin; row < end; ++row) {
             const Index v = free[row];
             const Vec3 at = base_rotation * patch.rest[v] + shift + deviation[v].head<3>();
-            next_positions[region_row[v]] = at + patch.origin;
+            next_positions[frame_row(patch, v)] = at + patch.origin;
         }
     });
 }
@@ -252,13 +268,25 @@ void Deformer::State::solve(bool draft, const Context& context) {
     prepare(context);
     if (at_rest()) return to_rest();
     if (prepared->comparison) return solve_comparison(context);
-    next_positions.resize(rest.size());
+    next_positions.resize(rest.size() + prepared->work->patch.inserted.size());
     turned = false;
     evaluate_deviation(context);
     const bool has_free = !prepared->second->free_vertices().empty();
     if (has_free) solve_second(draft, context);
     show_next();
     turned = has_free;
+}
+
+// Moves what is behind the region in `next_positions` to `inserted`.
+void Deformer::State::take_inserted() {
+    const Patch& patch = prepared->work->patch;
+    shown_patch = prepared->work;
+    inserted.assign(next_positions.begin() + region.size(), next_positions.end());
+    next_positions.resize(rest.size());
+    for (std::size_t k = 0; k < inserted.size(); ++k) {
+        const Index v = patch.mesh_count() + static_cast<Index>(k);
+        if (prepared->known.position[v]) inserted[k] = known_position(v) + patch.origin;
+    }
 }
 
 // The last step of a frame: a cancel before it leaves what was shown. Held vertices lie where they
@@ -273,6 +301,7 @@ void Deformer::State::show_next() {
     for (const auto& [v, constraint] : constraints) {
         if (constraint.position) next_positions[region_row[v]] = *constraint.position;
     }
+    take_inserted();
     positions.swap(next_positions);
     shown.clear();
     for (const HandleState& h : handles) shown.push_back(h.in_patch);
@@ -284,6 +313,8 @@ void Deformer::State::to_rest() {
     positions = rest;
     turned = false;
     compared.clear();
+    inserted.clear();
+    shown_patch.reset();
     gradients.assign(rest.size(), Mat3::Identity());
     gradients_current = true;
 }

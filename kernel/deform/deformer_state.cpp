@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/deform/boundary_refinement.h"
 #include "kernel/deform/polar.h"
 
 namespace lissom {
@@ -193,7 +194,7 @@ void Deformer::State::refuse_singular(const Error& error, const std::vector<Inde
     const Patch& patch = rest_patch->patch;
     Elements vertices{ElementKind::vertex, 0, {}};
     for (const Index row : error.elements().ids) {
-        if (free[row] < patch.real_count) vertices.add(patch.mesh_vertex[free[row]]);
+        if (free[row] < patch.mesh_count()) vertices.add(patch.mesh_vertex[free[row]]);
     }
     vertices.count = std::max(vertices.count, error.elements().count);
     const std::string names = describe(vertices);
@@ -215,12 +216,36 @@ void Deformer::State::factor(System& system, const Context& context) const {
     }
 }
 
+std::shared_ptr<const WorkingPatch> Deformer::State::working_patch() const {
+    std::shared_ptr<const WorkingPatch> work = rest_patch;
+    if (options.refine_borders && options.method == DeformMethod::implicit) {
+        std::optional<Patch> refined =
+            refined_at_borders(work->patch, find_holding(*work, holds()));
+        if (refined) work = std::make_shared<WorkingPatch>(std::move(*refined), options);
+    }
+    return holds().change_patch() ? anchored(*work, holds()) : work;
+}
+
+void Deformer::State::collect_held(Prepared& next) const {
+    const Patch& patch = next.work->patch;
+    for (const HandleState& handle : handles) next.held.push_back(handle.local);
+    for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
+        if (next.owner[v] >= 0) next.held[next.owner[v]].push_back(v);
+    }
+}
+
+// Where a frame keeps the position of local vertex v.
+Index Deformer::State::frame_row(const Patch& patch, Index v) const {
+    if (v < patch.mesh_count()) return region_row[v];
+    return v < patch.real_count ? region.size() + v - patch.mesh_count() : kNoIndex;
+}
+
 std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     Progress progress(context, "deform: prepare");
     require_area();
     auto next = std::make_unique<Prepared>();
     if (options.method != DeformMethod::implicit) require_plain_holds();
-    next->work = holds().change_patch() ? anchored(*rest_patch, holds()) : rest_patch;
+    next->work = working_patch();
     const Patch& patch = next->work->patch;
     const Rings& rings = next->work->rings;
     Holding holding = find_holding(*next->work, holds());
@@ -228,6 +253,7 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     next->owner = std::move(holding.owner);
     next->known = std::move(holding.known);
     next->asked = std::move(holding.asked);
+    collect_held(*next);
     for (const Index v : patch.of_region) {
         if (next->owner[v] == kPinned) next->resting_rows.push_back(region_row[v]);
     }
@@ -259,13 +285,15 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
     progress.step(0.15);
     const auto basis_start = std::chrono::steady_clock::now();
     for (const Index v : next->first->free_vertices()) {
-        next->region_row.push_back(v < patch.real_count ? region_row[v] : kNoIndex);
+        next->frame_row.push_back(frame_row(patch, v));
     }
-    for (const Index v : patch.of_region) {
+    std::vector<Index> surface = patch.of_region;
+    for (Index v = patch.mesh_count(); v < patch.real_count; ++v) surface.push_back(v);
+    for (const Index v : surface) {
         if (next->known.gradient[v]) continue;
         (next->gradients.defined[v] ? next->gathered : next->averaged).push_back(v);
     }
-    if (!next->region_row.empty()) {
+    if (!next->frame_row.empty()) {
         next->solution = std::make_unique<LinearSolution>(
             LinearProblem{patch, rings, next->gradients, *next->first, next->owner, handles},
             context);
@@ -279,8 +307,12 @@ std::unique_ptr<Prepared> Deformer::State::factored(const Context& context) {
 void Deformer::State::count_costs(const Prepared& next) {
     const FactorStats &first = next.first->stats(), &second = next.second->stats();
     stats.free_vertices = static_cast<Index>(next.second->free_vertices().size());
-    stats.constrained_vertices = region.size() - stats.free_vertices;
+    stats.constrained_vertices = 0;
+    for (const Index v : next.work->patch.of_region) {
+        stats.constrained_vertices += next.known.position[v];
+    }
     stats.displaced_vertices = static_cast<Index>(next.gradients.displaced.size());
+    stats.refined_vertices = static_cast<Index>(next.work->patch.inserted.size());
     stats.first_nonzeros = first.factor_nonzeros;
     stats.second_nonzeros = second.factor_nonzeros;
     stats.factor_bytes = first.factor_bytes + second.factor_bytes;

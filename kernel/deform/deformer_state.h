@@ -35,6 +35,8 @@ struct GradientSource {
 struct Prepared {
     std::shared_ptr<const WorkingPatch> work;
     std::vector<Index> owner;
+    /// The local vertices of each handle, with those that a refinement inserted between them.
+    std::vector<std::vector<Index>> held;
     Knowledge known;
     /// Local vertices and anchors that take what a point constraint asks, with its number.
     std::vector<std::pair<Index, Index>> asked;
@@ -47,10 +49,11 @@ struct Prepared {
     std::unique_ptr<ComparisonMethod> comparison;
     std::vector<Index> source;
     std::vector<GradientSource> sources;
-    /// Row in the region of each row of the solution, or kNoIndex for virtual vertices.
-    std::vector<Index> region_row;
-    /// Vertices of the region without a known gradient: those with a stencil, and those without,
-    /// which take the mean of their neighbours.
+    /// Row among the positions of a frame of each row of the solution, or kNoIndex for virtual
+    /// vertices.
+    std::vector<Index> frame_row;
+    /// Vertices of the region and of a refinement without a known gradient: those with a stencil,
+    /// and those without, which take the mean of their neighbours.
     std::vector<Index> gathered, averaged;
     /// How the second system answers to translations of handles; found at the first turn beyond
     /// what the first system can follow.
@@ -107,6 +110,9 @@ struct Deformer::State {
     void collect_asked();
     LinearProblem problem() const;
     void prepare(const Context& context);
+    std::shared_ptr<const WorkingPatch> working_patch() const;
+    void collect_held(Prepared& next) const;
+    Index frame_row(const Patch& patch, Index v) const;
     std::unique_ptr<Prepared> factored(const Context& context);
     template <typename System>
     void factor(System& system, const Context& context) const;
@@ -133,7 +139,9 @@ struct Deformer::State {
     void find_turns(const Mat3& base_rotation, const Context& context);
     void turn_held(const Mat3& base_rotation);
     std::vector<Vec4> relative_turns() const;
-    double winding_share() const;
+    double greatest_turn() const;
+    static double winding_share(double greatest);
+    static double far_share(double greatest);
     std::vector<Vec4> spread(const std::vector<Vec4>& value) const;
     std::vector<Vec4> mean_of_turns(const std::vector<Vec4>& value) const;
     std::vector<Index> movable_handles() const;
@@ -141,10 +149,11 @@ struct Deformer::State {
     std::vector<Vec4> mismatches(std::span<const Vec4> x, const Context& context);
     void add_constraint_moves(std::vector<Vec4>& field) const;
     void wind_turns(const Mat3& base_rotation, double share, bool draft, const Context& context);
-    void refine_turns(const Mat3& base_rotation, const Context& context);
+    void refine_turns(const Mat3& base_rotation, double further, const Context& context);
     void solve_second(bool draft, const Context& context);
     void solve(bool draft, const Context& context);
     std::vector<Vec3> pulled_back(const std::vector<Vec3>& from) const;
+    void take_inserted();
     void show_next();
     void to_rest();
 
@@ -194,8 +203,11 @@ struct Deformer::State {
     /// What is shown: the positions of the last frame, the transforms of handles in it, and its
     /// gradients where they are current. Before anything that the preparation rests on changes,
     /// they are brought up to date. `next_positions` holds the positions of a frame that is not
-    /// done.
+    /// done: those of the region, then those of vertices that a refinement inserted.
     std::vector<Vec3> positions, next_positions;
+    /// Inserted vertices as they are shown and the patch they belong to; null at rest.
+    std::vector<Vec3> inserted;
+    std::shared_ptr<const WorkingPatch> shown_patch;
     std::vector<Affine> shown;
     std::vector<Mat3> gradients;
     bool gradients_current = true;

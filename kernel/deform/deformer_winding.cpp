@@ -17,6 +17,10 @@ namespace {
 constexpr double kFirstAngle = 150.0 * kPi / 180.0;
 constexpr double kLastAngle = 178.0 * kPi / 180.0;
 
+// Up to this angle a refinement stops going further than what fits best: sides of a part that is
+// twisted more would cave in until they meet.
+constexpr double kFarAngle = 270.0 * kPi / 180.0;
+
 double smooth_step(double t) {
     t = std::clamp(t, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
@@ -43,9 +47,8 @@ std::vector<Vec4> Deformer::State::relative_turns() const {
     return turns_of_handles;
 }
 
-// How much of the field of turns a frame takes, by the greatest turn between two handles. The
-// thesis's literal formulation has no such field.
-double Deformer::State::winding_share() const {
+// The greatest turn between two handles. The thesis's literal formulation knows no turns.
+double Deformer::State::greatest_turn() const {
     if (!prepared->solution || !options.scale_free) return 0.0;
     std::vector<Vec4> ends = relative_turns();
     ends.push_back(Vec4::Zero());
@@ -53,7 +56,16 @@ double Deformer::State::winding_share() const {
     for (const Vec4& a : ends) {
         for (const Vec4& b : ends) greatest = std::max(greatest, (a - b).head<3>().norm());
     }
+    return greatest;
+}
+
+// How much of the field of turns a frame takes.
+double Deformer::State::winding_share(double greatest) {
     return smooth_step((greatest - kFirstAngle) / (kLastAngle - kFirstAngle));
+}
+
+double Deformer::State::far_share(double greatest) {
+    return smooth_step((greatest - kLastAngle) / (kFarAngle - kLastAngle));
 }
 
 // sum over h of w_h value_h at every local vertex, where w_h are the weights of translations in the
@@ -64,7 +76,7 @@ std::vector<Vec4> Deformer::State::spread(const std::vector<Vec4>& value) const 
     std::vector<Vec4> field(static_cast<std::size_t>(prepared->work->patch.vertex_count),
                             Vec4::Zero());
     for (std::size_t n = 0; n < value.size(); ++n) {
-        for (const Index v : handles[solution.handles()[n]].local) field[v] = value[n];
+        for (const Index v : prepared->held[solution.handles()[n]]) field[v] = value[n];
     }
     for (std::size_t row = 0; row < free.size(); ++row) {
         for (std::size_t n = 0; n < value.size(); ++n) {
@@ -95,7 +107,7 @@ std::vector<Vec4> Deformer::State::mean_of_turns(const std::vector<Vec4>& value)
             add(static_cast<Index>(v), weights[v], value[n]);
         }
         if (!weights.empty()) continue;
-        for (const Index v : handles[solution.handles()[n]].local) add(v, 1.0, value[n]);
+        for (const Index v : prepared->held[solution.handles()[n]]) add(v, 1.0, value[n]);
         for (std::size_t row = 0; row < free.size(); ++row) {
             const double weight = solution.translation_weight(n, static_cast<Index>(row));
             if (prepared->owner[free[row]] != solution.handles()[n]) {
@@ -124,7 +136,7 @@ void Deformer::State::find_responses(const Context& context) {
         const Index last = std::min(count, first + 3);
         std::vector<Vec4> x(deviation.size(), Vec4::Zero());
         for (Index k = first; k < last; ++k) {
-            for (const Index v : handles[held[k]].local) x[v][k - first] = 1.0;
+            for (const Index v : prepared->held[held[k]]) x[v][k - first] = 1.0;
         }
         prepared->second->solve({}, x, false, context);
         for (Index k = first; k < last; ++k) {
@@ -134,7 +146,8 @@ void Deformer::State::find_responses(const Context& context) {
             }
         }
         for (Index j = 0; j < count; ++j) {
-            const Vec3 force = prepared->second->force(nullptr, x, handles[held[j]].local, context);
+            const Vec3 force =
+                prepared->second->force(nullptr, x, prepared->held[held[j]], context);
             for (Index k = first; k < last; ++k) forces(j, k) = -force[k - first];
         }
     }
@@ -161,7 +174,7 @@ std::vector<Vec4> Deformer::State::mismatches(std::span<const Vec4> x, const Con
     Eigen::MatrixXd forces(count, 3);
     for (Index j = 0; j < count; ++j) {
         forces.row(j) =
-            prepared->second->force(turns.data(), x, handles[held[j]].local, context).transpose();
+            prepared->second->force(turns.data(), x, prepared->held[held[j]], context).transpose();
     }
     Eigen::MatrixXd natural(count, 3);
     if (count > 0)

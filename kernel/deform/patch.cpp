@@ -93,25 +93,9 @@ bool split_edge(WeightedTriangles& triangles, Index a, Index b, Index middle) {
         if (at_a == first.end() || at_b == second.end()) continue;
         *at_a = *at_b = middle;
         triangles.triangle[i] = first;
-        triangles.add(second, triangles.weight[i]);
+        triangles.add(second, triangles.weight[i], triangles.face[i]);
     }
     return triangles.size() > count;
-}
-
-// Splits the edge opposite each boundary vertex of valence 2 in the region. One split may serve the
-// vertices on both sides.
-void insert_virtual_vertices(Patch& patch) {
-    patch.split_triangles = patch.triangles;
-    const Rings rings = build_rings(patch.real_count, patch.triangles);
-    for (Index v = 0; v < patch.real_count; ++v) {
-        if (!patch.in_region[v] || !patch.on_boundary[v] || rings.count(v) != 2) continue;
-        const Index a = rings.ring(v)[0], b = rings.ring(v)[1];
-        if (!split_edge(patch.split_triangles, a, b, patch.vertex_count)) continue;
-        ++patch.vertex_count;
-        patch.rest.push_back(0.5 * (patch.rest[a] + patch.rest[b]));
-        patch.in_region.push_back(1);
-        patch.on_boundary.push_back(0);
-    }
 }
 
 // The vertex of the region nearest to the mean of all. Positions relative to a vertex are exact
@@ -147,11 +131,13 @@ WeightedTriangles weighted_triangles(const Topology& topology, std::span<const V
             continue;
         }
         for (int k = 0; k < 4; ++k) {
-            result.add({face[k], face[(k + 1) % 4], face[(k + 2) % 4]}, 0.5);
+            result.add({face[k], face[(k + 1) % 4], face[(k + 2) % 4]}, 0.5, f);
         }
     }
-    for (const Triangle& t : triangulate_faces(topology, positions, other).triangles)
-        result.add(t, 1.0);
+    const Triangulation rest = triangulate_faces(topology, positions, other);
+    for (std::size_t t = 0; t < rest.triangles.size(); ++t) {
+        result.add(rest.triangles[t], 1.0, rest.face[t]);
+    }
     return result;
 }
 
@@ -183,12 +169,34 @@ Rings build_rings(Index vertex_count, const WeightedTriangles& triangles) {
     return rings;
 }
 
+// Splits the edge opposite each boundary vertex of valence 2 in the region. One split may serve the
+// vertices on both sides.
+void insert_virtual_vertices(Patch& patch) {
+    const auto real = static_cast<std::size_t>(patch.real_count);
+    patch.rest.resize(real);
+    patch.in_region.resize(real);
+    patch.on_boundary.resize(real);
+    patch.vertex_count = patch.real_count;
+    patch.split_triangles = patch.triangles;
+    const Rings rings = build_rings(patch.real_count, patch.triangles);
+    for (Index v = 0; v < patch.real_count; ++v) {
+        if (!patch.in_region[v] || !patch.on_boundary[v] || rings.count(v) != 2) continue;
+        const Index a = rings.ring(v)[0], b = rings.ring(v)[1];
+        if (!split_edge(patch.split_triangles, a, b, patch.vertex_count)) continue;
+        ++patch.vertex_count;
+        patch.rest.push_back(0.5 * (patch.rest[a] + patch.rest[b]));
+        patch.in_region.push_back(1);
+        patch.on_boundary.push_back(0);
+    }
+    patch.surface_count = patch.vertex_count;
+}
+
 Patch build_patch(const Region& region, std::span<const Vec3> positions, Index rings) {
     const Topology& topology = *region.topology();
     const std::vector<Index> faces = faces_within(topology, region, rings);
     Patch patch;
     patch.mesh_vertex = vertices_of(topology, faces, region);
-    patch.real_count = patch.vertex_count = static_cast<Index>(patch.mesh_vertex.size());
+    patch.real_count = patch.mesh_count();
 
     std::vector<Index> local(static_cast<std::size_t>(topology.vertex_count()), kNoIndex);
     for (Index i = 0; i < patch.real_count; ++i) local[patch.mesh_vertex[i]] = i;
@@ -204,7 +212,6 @@ Patch build_patch(const Region& region, std::span<const Vec3> positions, Index r
     for (Triangle& t : patch.triangles.triangle) t = {local[t[0]], local[t[1]], local[t[2]]};
     find_zero_areas(patch);
     insert_virtual_vertices(patch);
-    patch.surface_count = patch.vertex_count;
     return patch;
 }
 

@@ -7,6 +7,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
+#include "kernel/deform/sparse_row.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 #include "kernel/mesh/triangulation.h"
@@ -28,15 +29,19 @@ struct Rings {
 
 /// Triangles and how much each counts. A convex quad appears as the two triangles of either
 /// diagonal, each counting one half, so that operators do not favour one diagonal; all others count
-/// one.
+/// one. The four of a quad follow each other, before all others: the k-th has corners k, k + 1 and
+/// k + 2 of the quad.
 struct WeightedTriangles {
     std::vector<Triangle> triangle;
     std::vector<double> weight;
+    /// The face that each is part of.
+    std::vector<Index> face;
 
     std::size_t size() const { return triangle.size(); }
-    void add(const Triangle& t, double w) {
+    void add(const Triangle& t, double w, Index part_of) {
         triangle.push_back(t);
         weight.push_back(w);
+        face.push_back(part_of);
     }
 };
 
@@ -48,14 +53,17 @@ Rings build_rings(Index vertex_count, const WeightedTriangles& triangles);
 
 /// The region and as many rings around it as the stencils of free vertices reach.
 ///
-/// Local vertices [0, real_count) are vertices of the mesh, ascending; [real_count, vertex_count)
-/// are virtual ones, inserted at the midpoint of the edge opposite a boundary vertex of valence 2
-/// (section 2.4.3). Virtual vertices exist in `split_triangles` only and have no ids outside.
-/// Beyond `surface_count` a preparation may add anchors, which no triangle uses (ties.h).
+/// Local vertices [0, mesh_count()) are vertices of the mesh, ascending. Up to `real_count` follow
+/// those that a local refinement inserted (boundary_refinement.h), and up to `surface_count`
+/// virtual ones at the midpoint of the edge opposite a boundary vertex of valence 2 (section
+/// 2.4.3), which exist in `split_triangles` only. Beyond, up to `vertex_count`, a preparation may
+/// add anchors, which no triangle uses (ties.h).
 struct Patch {
     Index real_count = 0, surface_count = 0, vertex_count = 0;
-    /// Mesh vertex of each real local vertex.
+    /// Mesh vertex of each local vertex that the mesh has.
     std::vector<Index> mesh_vertex;
+    /// For each vertex of a refinement, the vertices of the mesh that it is the mean of.
+    std::vector<SparseRow> inserted;
     std::vector<char> in_region, on_boundary;
     /// Rest positions relative to `origin`, virtual vertices included.
     std::vector<Vec3> rest;
@@ -68,11 +76,16 @@ struct Patch {
     /// faces.
     Elements zero_area_vertices{ElementKind::vertex, 0, {}};
     Index zero_area_faces = 0;
+
+    Index mesh_count() const { return static_cast<Index>(mesh_vertex.size()); }
 };
 
 /// Cuts the patch of `region` out of its mesh, `rings` rings wider than the region. Only the
 /// positions of its vertices need to be right.
 Patch build_patch(const Region& region, std::span<const Vec3> positions, Index rings);
+
+/// Makes `split_triangles` of `triangles`, with the virtual vertices behind the real ones.
+void insert_virtual_vertices(Patch& patch);
 inline Patch build_patch(const Mesh& mesh, const Region& region, Index rings) {
     return build_patch(region, mesh.positions(), rings);
 }

@@ -32,7 +32,7 @@ constexpr double kBlendEdges = 3.0;
 // fades to a share of itself over this distance, in radii of the surface, as inside a part it would
 // resist twisting.
 constexpr double kInnerShare = 0.08;
-constexpr double kFadeRadii = 0.1;
+constexpr double kFadeRadii = 0.06;
 
 // Weight of squared lengths of a tie of weight 1 beside the edges.
 constexpr double kPositionUnit = 1.0;

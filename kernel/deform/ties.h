@@ -12,12 +12,10 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/deform/sparse_row.h"
 #include "kernel/solve/sparse_matrix.h"
 
 namespace lissom {
-
-/// A row of coefficients of vertices, in any order.
-using SparseRow = std::vector<std::pair<Index, double>>;
 
 /// Ties of a patch. Tie t asks that the sum of its row over vertices equals the anchor's position:
 /// exactly where it is hard, or else in the least squares sense, with a weight that has no unit.

@@ -110,6 +110,7 @@
 ---@field handles integer Handles.
 ---@field displaced_vertices integer Degenerate vertices displaced.
 ---@field inserted_vertices integer Vertices inserted at corners of the boundary.
+---@field refined_vertices integer Vertices that a refinement of coarse borders added.
 ---@field zero_area_faces integer Faces without area.
 ---@field first_nonzeros integer Entries of the first system's factor.
 ---@field second_nonzeros integer Entries of the second system's factor.
@@ -731,6 +732,10 @@ function Deformation:solve(options) end
 ---@return lissom.Deformation edit # The deformation itself.
 function Deformation:reset() end
 
+---The deformed mesh with the vertices that the deformation worked on where the border of what is held is coarse beside the region: behind the mesh's own, on faces that become triangles. Without such vertices it is a copy.
+---@return lissom.Mesh refined # A new mesh.
+function Deformation:refined_mesh() end
+
 ---Takes the last result as the new rest shape. Handles keep their vertices and hold where they are now, with the identity as transform; constraints hold where their points are now. Factors are rebuilt at the next solve, and reset returns to this shape.
 ---@return lissom.Deformation edit # The deformation itself.
 function Deformation:apply() end
@@ -995,6 +1000,7 @@ function lissom.shapes.cactus(options) end
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1.
 ---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
 ---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. Default: 0.
+---@field refine_borders? boolean Works on a surface that is refined where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
 ---@field displacement? number How far degenerate vertices are displaced. In mean lengths of their edges. Default: 0.2.
 ---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate. Default: 20000.
 ---@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.

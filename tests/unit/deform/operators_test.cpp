@@ -84,7 +84,7 @@ TEST_CASE("areas: the mixed Voronoi areas share out the surface") {
 
 TEST_CASE("cotangents: collapsed and needle triangles stay finite and bounded") {
     const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0.5, 1e-9, 0}, {2, 0, 0}};
-    const WeightedTriangles triangles{{{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}, {1.0, 1.0, 1.0}};
+    const WeightedTriangles triangles{{{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}, {1.0, 1.0, 1.0}, {0, 1, 2}};
     const Rings rings = build_rings(5, triangles);
     const RingGeometry g = ring_geometry(rings, triangles, p);
     const double bound = 3.0 / std::tan(0.5 * kPi / 180.0);

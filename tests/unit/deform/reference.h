@@ -367,7 +367,7 @@ class Reference {
     void find_fading(const Mesh& mesh) {
         faded_.assign(rest_.size(), 1.0);
         if (options_.second != SecondSystem::blend) return;
-        const double reach = 0.1 * radius();
+        const double reach = 0.06 * radius();
         std::vector<std::pair<Index, double>> sources;
         for (const auto& entry : held_) sources.emplace_back(entry.first, 0.0);
         const Patch patch = build_patch(mesh, Region::all(mesh.shared_topology()), 1);
