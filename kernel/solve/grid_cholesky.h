@@ -6,16 +6,10 @@
 
 #include "kernel/core/context.h"
 #include "kernel/solve/constraint_rows.h"
+#include "kernel/solve/grid_field_options.h"
 #include "kernel/solve/grid_laplacian.h"
 
 namespace lissom {
-
-/// What the factorisations of a grid have cost so far.
-struct GridCholeskyStats {
-    /// Factorisations from nothing, and constraints added to or taken from a factor.
-    Index factorisations = 0, updated = 0;
-    std::size_t factor_nonzeros = 0;
-};
 
 /// The sparse Cholesky factor of A0 + U W^2 U', equation (4.3), changed with the constraints by the
 /// updates and downdates of section 4.4.2; where very many change it is made again, which is then

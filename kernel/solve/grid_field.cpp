@@ -10,7 +10,9 @@
 #include "kernel/solve/constraint_rows.h"
 #include "kernel/solve/dual_system.h"
 #include "kernel/solve/field_workspace.h"
+#include "kernel/solve/grid_cholesky.h"
 #include "kernel/solve/grid_green.h"
+#include "kernel/solve/grid_laplacian.h"
 
 namespace lissom {
 namespace {

@@ -6,38 +6,11 @@
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "kernel/solve/grid_cholesky.h"
 #include "kernel/solve/grid_constraints.h"
-#include "kernel/solve/grid_laplacian.h"
+#include "kernel/solve/grid_field_options.h"
 #include "kernel/solve/grid_size.h"
 
 namespace lissom {
-
-enum class GridSolver {
-    /// The unknowns are the multipliers of the constraints; the field follows by a cosine
-    /// transform.
-    dual,
-    /// The unknowns are the vectors at all points; one sparse factor is updated and downdated with
-    /// the constraints, as in section 4.4.2 of the thesis. Slow: the reference.
-    cholesky,
-};
-
-struct GridFieldOptions {
-    GridBoundary boundary = GridBoundary::zero_flux;
-    GridSolver solver = GridSolver::dual;
-    /// tau >= 0: adds (tau / 6) |t_i - t_j|^2 for each edge of the grid to the energy (4.1). The
-    /// biharmonic field overshoots away from the constraints; 0.03 takes most of that away.
-    double tension = 0.0;
-    /// Constraints from which on the dual solver iterates: its dense factor takes 8 bytes for the
-    /// square of their number.
-    Index dense_limit = 3000;
-    /// Iterations, of the dual solver beyond `dense_limit` and for the thesis's boundary, end at
-    /// this share of the greatest given component; 1e-12 to 1e-2.
-    double tolerance = 1e-6;
-    /// Further solves, for the residual in double precision. Without them the field is accurate to
-    /// 1e-9 or better.
-    int refinements = 0;
-};
 
 /// The field t that minimises the energy (4.1) of the thesis subject to the soft constraints of
 /// (4.2):

@@ -3,18 +3,11 @@
 #pragma once
 
 #include "kernel/core/context.h"
+#include "kernel/solve/grid_field_options.h"
 #include "kernel/solve/grid_size.h"
 #include "kernel/solve/sparse_matrix.h"
 
 namespace lissom {
-
-/// How the Laplacian of (4.1) is weighted at the faces of the grid.
-enum class GridBoundary {
-    /// 1/6 for each neighbour everywhere, as if the field went on mirrored behind the faces.
-    zero_flux,
-    /// 1 / |N(i)|, as the thesis has it: rows at faces, edges and corners weigh more.
-    thesis,
-};
 
 /// The operator A0 = D'D + (tau / 6) L of equation (4.3) with the tension tau: L is the graph
 /// Laplacian of the grid, D = -S L with S = 1/6 or 1 / |N(i)|, so that A0 = L S^2 L + (tau / 6) L.

@@ -12,7 +12,7 @@ using test::solved_field;
 
 namespace {
 
-const GridSize kSize{14, 12, 13};
+const GridSize kSize{11, 9, 10};
 
 using Curves = std::vector<std::vector<GridConstraint>>;
 
