@@ -9,28 +9,11 @@
 namespace lissom {
 namespace {
 
-// Vertices whose matrices are worked on while they are in the cache.
-constexpr Index kBlock = 256;
-
 // How far beyond the rotations that fit best a refinement goes, in steps from the last ones: far in
 // all steps but the last, which takes back what went too far. Two such steps lower the energy as
 // four or five without would.
 constexpr double kFurther = 1.6;
 constexpr double kLastFurther = 0.5;
-
-// Calls work(begin, end) for blocks of [0, count), in parallel.
-template <typename Work>
-void for_each_block(const Context& context, Index count, const Work& work) {
-    context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
-        for (Index b = begin; b < end; b += kBlock) work(b, std::min(end, b + kBlock));
-    });
-}
-
-GradientLoop gradient_loop(const Prepared& prepared) {
-    const Rings& rings = prepared.work->rings;
-    return {rings.begin.data(), rings.neighbor.data(), prepared.gradients.self.data(),
-            prepared.gradients.neighbor.data()};
-}
 
 }  // namespace
 
@@ -47,7 +30,7 @@ void Deformer::State::preview(const Context& context) {
         const std::vector<Mat4> differences = this->differences();
         const Vec3& origin = rest_patch->patch.origin;
         for_each_block(context, solution.rows(), [&](Index begin, Index end) {
-            std::array<Vec4, kBlock> x;
+            std::array<Vec4, kFrameBlock> x;
             solution.positions(shift, differences, x.data(), begin, end);
             for (Index row = begin; row < end; ++row) {
                 const Index target = prepared->frame_row[row];
@@ -75,7 +58,7 @@ void Deformer::State::evaluate_deviation(const Context& context) {
     const std::vector<Index>& free = prepared->first->free_vertices();
     const std::vector<Mat4> differences = this->differences();
     for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
-        std::array<Vec4, kBlock> x;
+        std::array<Vec4, kFrameBlock> x;
         prepared->solution->deviations(differences, x.data(), begin, end);
         for (Index row = begin; row < end; ++row) deviation[free[row]] = x[row - begin];
     });
@@ -90,7 +73,7 @@ Mat3 Deformer::State::gradient_of(Index v) const {
     const auto gathered = [&](Index u) -> Mat3 {
         if (prepared->known.gradient[u]) return known_gradient(u);
         Mat3 m;
-        gradient_loop(*prepared).gather(&u, deviation.data(), &m, 0, 1);
+        prepared->gradient_loop().gather(&u, deviation.data(), &m, 0, 1);
         return base + m;
     };
     if (prepared->gradients.defined[v]) return gathered(v);
@@ -150,10 +133,10 @@ void Deformer::State::find_turns(const Mat3& base_rotation, const Context& conte
     }
     const std::vector<Index>& vertices = prepared->gathered;
     for_each_block(context, static_cast<Index>(vertices.size()), [&](Index begin, Index end) {
-        std::array<Mat3, kBlock> m;
-        std::array<double, kBlock> scale;
+        std::array<Mat3, kFrameBlock> m;
+        std::array<double, kFrameBlock> scale;
         const auto count = static_cast<std::size_t>(end - begin);
-        gradient_loop(*prepared).gather(vertices.data(), deviation.data(), m.data(), begin, end);
+        prepared->gradient_loop().gather(vertices.data(), deviation.data(), m.data(), begin, end);
         for (std::size_t i = 0; i < count; ++i) {
             m[i] += base;
             scale[i] = scales ? uniform_scale(m[i]) : 1.0;
@@ -211,14 +194,14 @@ void Deformer::State::refine_turns(const Mat3& base_rotation, double further,
     for (const std::vector<Index>* vertices : {&prepared->gathered, &prepared->averaged}) {
         const auto all = static_cast<Index>(vertices->size());
         for_each_block(context, all, [&](Index begin, Index end) {
-            std::array<Mat3, kBlock> m;
+            std::array<Mat3, kFrameBlock> m;
             const auto count = static_cast<std::size_t>(end - begin);
             loop.fit(x.data(), vertices->data(), m.data(), begin, end);
             nearest_rotations({m.data(), count}, {m.data(), count});
             const auto turn_of = [&](std::size_t i) {
                 return turns[(*vertices)[static_cast<std::size_t>(begin) + i]].topRows<3>();
             };
-            std::array<double, kBlock> scale;
+            std::array<double, kFrameBlock> scale;
             for (std::size_t i = 0; i < count; ++i) {
                 const Mat3 before = base_rotation + turn_of(i);
                 scale[i] = scales ? uniform_scale(before) : 1.0;

@@ -9,6 +9,7 @@
 #include "kernel/deform/comparison_method.h"
 #include "kernel/deform/constraints.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/frame_blocks.h"
 #include "kernel/deform/frame_loops.h"
 #include "kernel/deform/gradient_system.h"
 #include "kernel/deform/gradients.h"
@@ -20,9 +21,6 @@
 #include "kernel/deform/working_patch.h"
 
 namespace lissom {
-
-/// Vertices evaluated in one piece of a parallel loop of a frame.
-inline constexpr Index kFrameGrain = 4096;
 
 /// Vertices whose gradient is prescribed together: those of a handle, one with a constraint, or all
 /// that are pinned.
@@ -61,6 +59,11 @@ struct Prepared {
     std::vector<std::vector<double>> turn_weights;
     /// Rows of the region whose vertices have no faces and nothing that holds them.
     std::vector<Index> resting_rows;
+
+    GradientLoop gradient_loop() const {
+        return {work->rings.begin.data(), work->rings.neighbor.data(), gradients.self.data(),
+                gradients.neighbor.data()};
+    }
 };
 
 struct HandlePoses {
@@ -149,6 +152,11 @@ struct Deformer::State {
     std::vector<Vec4> mismatches(std::span<const Vec4> x, const Context& context);
     void add_constraint_moves(std::vector<Vec4>& field) const;
     void wind_turns(const Mat3& base_rotation, double share, bool draft, const Context& context);
+    void take_mean_turns(const Mat3& base_rotation, const Context& context);
+    void bend_turns(std::span<const Index> vertices, std::span<Mat3> gradient,
+                    const Mat3& base_rotation);
+    void blend_turns(std::span<const Index> vertices, std::span<const PaddedMat3> before,
+                     double share, const Mat3& base_rotation);
     void refine_turns(const Mat3& base_rotation, double further, const Context& context);
     void solve_second(bool draft, const Context& context);
     void solve(bool draft, const Context& context);

@@ -194,46 +194,73 @@ std::vector<Vec4> Deformer::State::mismatches(std::span<const Vec4> x, const Con
 // by themselves, and what they are off by bends the surface as pure translations do.
 void Deformer::State::wind_turns(const Mat3& base_rotation, double share, bool draft,
                                  const Context& context) {
-    const bool scales = options.local_size == LocalSize::scale;
-    const Mat3 base = nearest_rotation(frame_base.topLeftCorner<3, 3>());
-    const double base_scale = scales ? uniform_scale(frame_base.topLeftCorner<3, 3>()) : 1.0;
-    const std::vector<PaddedMat3> first = turns;
+    std::vector<PaddedMat3> before;
+    if (share < 1.0) before = turns;
     find_responses(context);
-    const std::vector<Vec4> field = mean_of_turns(relative_turns());
-    const auto asked_for = [&](Index v) -> Mat3 {
-        const double scale = scales ? base_scale * std::exp(field[v][3]) : 1.0;
-        return scale * rotation_of_turn(field[v].head<3>()) * base;
-    };
-    for (const std::vector<Index>* vertices : {&prepared->gathered, &prepared->averaged}) {
-        for (const Index v : *vertices) turns[v].topRows<3>() = asked_for(v) - base_rotation;
-    }
+    take_mean_turns(base_rotation, context);
     std::vector<Vec4> x = deviation;
     prepared->second->solve(turns, x, draft, context);
     std::vector<Vec4> y = spread(mismatches(x, context));
     add_constraint_moves(y);
 
-    const Rings& rings = prepared->work->rings;
-    const GradientLoop loop{rings.begin.data(), rings.neighbor.data(),
-                            prepared->gradients.self.data(), prepared->gradients.neighbor.data()};
-    const auto blend = [&](Index v, const Mat3& m) {
-        const double scale = scales ? uniform_scale(m) : 1.0;
-        const Mat3 before = first[v].topRows<3>() + base_rotation;
-        const Mat3 now = scale * nearest_rotation(m);
-        const Mat3 mean = (1.0 - share) * before + share * now;
-        const double mean_scale =
-            scales ? (1.0 - share) * uniform_scale(before) + share * scale : 1.0;
-        turns[v].topRows<3>() = mean_scale * nearest_rotation(mean) - base_rotation;
-    };
-    const auto all = static_cast<Index>(prepared->gathered.size());
-    context.parallel_for(0, all, kFrameGrain, [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) {
-            const Index v = prepared->gathered[i];
-            Mat3 shear;
-            loop.gather(&v, y.data(), &shear, 0, 1);
-            blend(v, asked_for(v) + shear);
-        }
+    const std::vector<Index>& vertices = prepared->gathered;
+    for_each_block(context, static_cast<Index>(vertices.size()), [&](Index begin, Index end) {
+        std::array<Mat3, kFrameBlock> m;
+        const std::span<Mat3> block(m.data(), static_cast<std::size_t>(end - begin));
+        prepared->gradient_loop().gather(vertices.data(), y.data(), m.data(), begin, end);
+        bend_turns({vertices.data() + begin, block.size()}, block, base_rotation);
+        blend_turns({vertices.data() + begin, block.size()}, before, share, base_rotation);
     });
-    for (const Index v : prepared->averaged) blend(v, asked_for(v));
+    blend_turns(prepared->averaged, before, share, base_rotation);
+}
+
+// Makes `turns` the means of the handles' turns.
+void Deformer::State::take_mean_turns(const Mat3& base_rotation, const Context& context) {
+    const bool scales = options.local_size == LocalSize::scale;
+    const Mat3 base = nearest_rotation(frame_base.topLeftCorner<3, 3>());
+    const double base_scale = scales ? uniform_scale(frame_base.topLeftCorner<3, 3>()) : 1.0;
+    const std::vector<Vec4> field = mean_of_turns(relative_turns());
+    for (const std::vector<Index>* vertices : {&prepared->gathered, &prepared->averaged}) {
+        for_each_block(context, static_cast<Index>(vertices->size()), [&](Index begin, Index end) {
+            for (Index i = begin; i < end; ++i) {
+                const Index v = (*vertices)[static_cast<std::size_t>(i)];
+                const double scale = scales ? base_scale * std::exp(field[v][3]) : 1.0;
+                turns[v].topRows<3>() =
+                    scale * rotation_of_turn(field[v].head<3>()) * base - base_rotation;
+            }
+        });
+    }
+}
+
+// Takes the rotations nearest to `turns` with the given gradients added, which are overwritten.
+void Deformer::State::bend_turns(std::span<const Index> vertices, std::span<Mat3> gradient,
+                                 const Mat3& base_rotation) {
+    const bool scales = options.local_size == LocalSize::scale;
+    std::array<double, kFrameBlock> scale;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        gradient[i] += base_rotation + turns[vertices[i]].topRows<3>();
+        scale[i] = scales ? uniform_scale(gradient[i]) : 1.0;
+    }
+    nearest_rotations(gradient, gradient);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        turns[vertices[i]].topRows<3>() = scale[i] * gradient[i] - base_rotation;
+    }
+}
+
+// Takes the means, by `share`, of `turns` and those from before.
+void Deformer::State::blend_turns(std::span<const Index> vertices,
+                                  std::span<const PaddedMat3> before, double share,
+                                  const Mat3& base_rotation) {
+    if (before.empty()) return;
+    const bool scales = options.local_size == LocalSize::scale;
+    for (const Index v : vertices) {
+        const Mat3 first = base_rotation + before[v].topRows<3>();
+        const Mat3 now = base_rotation + turns[v].topRows<3>();
+        const double scale =
+            scales ? (1.0 - share) * uniform_scale(first) + share * uniform_scale(now) : 1.0;
+        const Mat3 mean = (1.0 - share) * first + share * now;
+        turns[v].topRows<3>() = scale * nearest_rotation(mean) - base_rotation;
+    }
 }
 
 // What vertex constraints add to the positions, where the base is still.

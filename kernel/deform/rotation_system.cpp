@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernel/deform/firm_factor.h"
+#include "kernel/deform/frame_blocks.h"
 #include "kernel/deform/patch_distance.h"
 #include "kernel/deform/row_accumulator.h"
 
@@ -15,8 +16,6 @@ namespace {
 Index grain_of(Index size) {
     return std::max<Index>(1024, (size + 15) / 16);
 }
-
-constexpr Index kFrameGrain = 4096;
 
 // A factor in single precision serves where one correction leaves less than this of the error;
 // corrections go on to this precision.
