@@ -85,7 +85,7 @@ TEST_CASE("maximin factor: after edits it is what it would be from nothing, to t
     MaximinFactor edited;
     auto constraints = test::random_constraints(size, 300, random);
     for (int step = 0; step < 12; ++step) {
-        const auto at = static_cast<std::ptrdiff_t>(20 * step);
+        const auto at = std::ptrdiff_t{20} * step;
         if (step % 3 == 0)
             constraints.erase(constraints.begin() + at, constraints.begin() + at + 7);
         if (step % 3 == 1) constraints[at].weight = 7.0;
