@@ -2,6 +2,7 @@
 #include "kernel/mesh/shapes.h"
 #include "bindings/lua/library.h"
 #include "bindings/lua/mesh_object.h"
+#include "kernel/mesh/head.h"
 
 namespace lissom::lua {
 namespace {
@@ -78,6 +79,11 @@ int cactus(Call& call) {
     return new_mesh(call, [&] { return make_cactus(options, call.context()); });
 }
 
+int head(Call& call) {
+    const HeadOptions options{call.number("height"), call.integer("vertices")};
+    return new_mesh(call, [&] { return make_head(options, call.context()); });
+}
+
 Parameter length(const std::string& name, double value, const std::string& help) {
     return number(name, help).defaults(value).above(0).in("mesh units");
 }
@@ -104,6 +110,7 @@ std::vector<Function> shape_functions() {
     const CylinderOptions cylinder_defaults;
     const TorusOptions torus_defaults;
     const CactusOptions cactus_defaults;
+    const HeadOptions head_defaults;
     return {
         {.name = "shapes.box",
          .body = box,
@@ -196,7 +203,21 @@ std::vector<Function> shape_functions() {
                          .between(0, 0.2)},
          .results = mesh,
          .errors = {ErrorCode::invalid_argument, ErrorCode::out_of_range, ErrorCode::cancelled},
-         .example = "local cactus = lissom.shapes.cactus{ vertices = 2000, ribs = 8 }"}};
+         .example = "local cactus = lissom.shapes.cactus{ vertices = 2000, ribs = 8 }"},
+        {.name = "shapes.head",
+         .body = head,
+         .summary = "A bald, stylised head with neck and shoulders that faces +z, to show hair on; "
+                    "symmetric in x, the origin between the ears. Regions: scalp, ears, bottom.",
+         .options = {number("height", "From the bottom of the bust to the crown.")
+                         .defaults(head_defaults.height)
+                         .above(0)
+                         .in("metres"),
+                     integer("vertices", "Vertices wanted; the result is within 10 %.")
+                         .defaults(head_defaults.vertices)
+                         .between(3000, 500000)},
+         .results = mesh,
+         .errors = {ErrorCode::invalid_argument, ErrorCode::memory_limit, ErrorCode::cancelled},
+         .example = "local head = lissom.shapes.head{ vertices = 5000 }"}};
 }
 
 }  // namespace lissom::lua

@@ -20,7 +20,8 @@ void Deformer::State::rebase() {
     }
     rest = positions;
     for (Index row = 0; row < region.size(); ++row) at[region.vertices()[row]] = rest[row];
-    rest_patch = std::make_shared<WorkingPatch>(build_patch(region, at, 1), options);
+    rest_patch = std::make_shared<WorkingPatch>(
+        build_patch(region, at, kPatchRings, before.mesh_vertex), options);
     number_rows();
     for (HandleState& handle : handles) {
         if (handle.removed) continue;

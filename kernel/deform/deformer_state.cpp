@@ -26,7 +26,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen)
     : region(given),
       options(chosen),
-      rest_patch(std::make_shared<WorkingPatch>(build_patch(given, mesh.positions(), 1), chosen)),
+      rest_patch(std::make_shared<WorkingPatch>(
+          build_patch(given, mesh.positions(), kPatchRings, near_order(given, kPatchRings)),
+          chosen)),
       directions(mesh, given) {
     for (const Index v : region.vertices()) rest.push_back(mesh.position(v));
     number_rows();
@@ -56,9 +58,11 @@ HandleState& Deformer::State::handle(HandleId id) {
     return handles[id.value];
 }
 
+// Of a vertex of the region.
 Index Deformer::State::local_vertex(Index mesh_vertex) const {
-    const auto& ids = rest_patch->patch.mesh_vertex;
-    return static_cast<Index>(std::lower_bound(ids.begin(), ids.end(), mesh_vertex) - ids.begin());
+    const std::vector<Index>& ids = region.vertices();
+    const auto row = std::lower_bound(ids.begin(), ids.end(), mesh_vertex) - ids.begin();
+    return rest_patch->patch.of_region[static_cast<std::size_t>(row)];
 }
 
 bool Deformer::State::at_rest() const {
@@ -193,9 +197,12 @@ void Deformer::State::require_area() const {
 void Deformer::State::refuse_singular(const Error& error, const std::vector<Index>& free) const {
     const Patch& patch = rest_patch->patch;
     Elements vertices{ElementKind::vertex, 0, {}};
+    std::vector<Index> ids;
     for (const Index row : error.elements().ids) {
-        if (free[row] < patch.mesh_count()) vertices.add(patch.mesh_vertex[free[row]]);
+        if (free[row] < patch.mesh_count()) ids.push_back(patch.mesh_vertex[free[row]]);
     }
+    std::sort(ids.begin(), ids.end());
+    for (const Index v : ids) vertices.add(v);
     vertices.count = std::max(vertices.count, error.elements().count);
     const std::string names = describe(vertices);
     throw Error(ErrorCode::unconstrained,

@@ -22,6 +22,9 @@
 
 namespace lissom {
 
+/// Rings around the region that the stencils of its vertices reach.
+inline constexpr Index kPatchRings = 1;
+
 /// Vertices whose gradient is prescribed together: those of a handle, one with a constraint, or all
 /// that are pinned.
 struct GradientSource {

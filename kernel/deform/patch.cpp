@@ -191,11 +191,31 @@ void insert_virtual_vertices(Patch& patch) {
     patch.surface_count = patch.vertex_count;
 }
 
-Patch build_patch(const Region& region, std::span<const Vec3> positions, Index rings) {
+std::vector<Index> near_order(const Region& region, Index rings) {
+    const Topology& topology = *region.topology();
+    const std::vector<Index> vertices =
+        vertices_of(topology, faces_within(topology, region, rings), region);
+    std::vector<char> waiting(static_cast<std::size_t>(topology.vertex_count()), 0);
+    for (const Index v : vertices) waiting[v] = 1;
+    std::vector<Index> order;
+    order.reserve(vertices.size());
+    for (const Index start : vertices) {
+        if (std::exchange(waiting[start], 0)) order.push_back(start);
+        for (std::size_t next = order.size() - 1; next < order.size(); ++next) {
+            for (const Index n : topology.neighbors(order[next])) {
+                if (std::exchange(waiting[n], 0)) order.push_back(n);
+            }
+        }
+    }
+    return order;
+}
+
+Patch build_patch(const Region& region, std::span<const Vec3> positions, Index rings,
+                  std::vector<Index> order) {
     const Topology& topology = *region.topology();
     const std::vector<Index> faces = faces_within(topology, region, rings);
     Patch patch;
-    patch.mesh_vertex = vertices_of(topology, faces, region);
+    patch.mesh_vertex = order.empty() ? vertices_of(topology, faces, region) : std::move(order);
     patch.real_count = patch.mesh_count();
 
     std::vector<Index> local(static_cast<std::size_t>(topology.vertex_count()), kNoIndex);

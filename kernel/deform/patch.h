@@ -53,7 +53,7 @@ Rings build_rings(Index vertex_count, const WeightedTriangles& triangles);
 
 /// The region and as many rings around it as the stencils of free vertices reach.
 ///
-/// Local vertices [0, mesh_count()) are vertices of the mesh, ascending. Up to `real_count` follow
+/// Local vertices [0, mesh_count()) are vertices of the mesh. Up to `real_count` follow
 /// those that a local refinement inserted (boundary_refinement.h), and up to `surface_count`
 /// virtual ones at the midpoint of the edge opposite a boundary vertex of valence 2 (section
 /// 2.4.3), which exist in `split_triangles` only. Beyond, up to `vertex_count`, a preparation may
@@ -80,9 +80,15 @@ struct Patch {
     Index mesh_count() const { return static_cast<Index>(mesh_vertex.size()); }
 };
 
+/// Mesh vertices of a patch in an order in which neighbours are near each other, so that loops over
+/// one-rings find them in the cache: by breadth first. It follows from the faces alone.
+std::vector<Index> near_order(const Region& region, Index rings);
+
 /// Cuts the patch of `region` out of its mesh, `rings` rings wider than the region. Only the
-/// positions of its vertices need to be right.
-Patch build_patch(const Region& region, std::span<const Vec3> positions, Index rings);
+/// positions of its vertices need to be right. They are numbered as in `order`, all of them, or
+/// else ascending.
+Patch build_patch(const Region& region, std::span<const Vec3> positions, Index rings,
+                  std::vector<Index> order = {});
 
 /// Makes `split_triangles` of `triangles`, with the virtual vertices behind the real ones.
 void insert_virtual_vertices(Patch& patch);

@@ -26,6 +26,8 @@ struct DenseProduct {
     Index above = 0;
     bool accumulate = false;
     double* packed = nullptr;
+    /// Stride of b where it is not that of a.
+    std::ptrdiff_t b_stride = 0;
 };
 
 /// Columns [first, first + columns) of a block; at most kPanelColumns.

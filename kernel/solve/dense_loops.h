@@ -119,9 +119,10 @@ LISSOM_INLINE void multiply_slice(const DenseProduct& p, const double* a, Index 
 
 template <int Rows>
 LISSOM_INLINE void multiply_dense(const DenseProduct& p) {
+    const std::ptrdiff_t b_stride = p.b_stride != 0 ? p.b_stride : p.stride;
     for (Index k = 0; k < p.depth; k += kPackedDepth) {
         const Index depth = std::min(kPackedDepth, p.depth - k);
-        pack_strips(p.b + k * p.stride, p.stride, p.columns, depth, p.packed);
+        pack_strips(p.b + k * b_stride, b_stride, p.columns, depth, p.packed);
         multiply_slice<Rows>(p, p.a + k * p.stride, depth, p.accumulate || k > 0);
     }
 }

@@ -1,27 +1,11 @@
 #include <cholmod.h>
 
 #include "kernel/core/error.h"
+#include "kernel/solve/cholmod_view.h"
 #include "kernel/solve/supernodes.h"
 
 namespace lissom {
 namespace {
-
-// A view of `matrix` as CHOLMOD sees it; CHOLMOD does not write to it.
-cholmod_sparse view_of(const SymmetricMatrix& matrix) {
-    cholmod_sparse view{};
-    view.nrow = view.ncol = static_cast<std::size_t>(matrix.size());
-    view.nzmax = matrix.row.size();
-    view.p = const_cast<Index*>(matrix.begin.data());
-    view.i = const_cast<Index*>(matrix.row.data());
-    view.x = const_cast<double*>(matrix.value.data());
-    view.stype = -1;
-    view.itype = CHOLMOD_INT;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = 1;
-    view.packed = 1;
-    return view;
-}
 
 // CHOLMOD's settings and scratch memory, and the pattern it finds.
 class Analysis {
@@ -33,7 +17,7 @@ class Analysis {
         common_.nmethods = 1;
         common_.method[0].ordering = CHOLMOD_AMD;
         common_.postorder = 1;
-        cholmod_sparse view = view_of(matrix);
+        cholmod_sparse view = cholmod_view(matrix);
         factor_ = cholmod_analyze(&view, &common_);
     }
     ~Analysis() {

@@ -16,10 +16,15 @@ local cactus = lissom.shapes.cactus{ vertices = 3000, height = 5 }
 expect.truthy(math.abs(#cactus - 3000) <= 300)
 expect.near(cactus:bounds().max[2], 5, 0.2)
 expect.equal(#cactus:regions(), 6)
+local head = lissom.shapes.head{ vertices = 3000, height = 40 }
+expect.truthy(math.abs(#head - 3000) <= 300 and head:is_closed())
+expect.near(head:bounds().max[2] - head:bounds().min[2], 40, 0.5)
+expect.truthy(#head:region("scalp") > 0 and #head:regions() == 3)
+expect.error("integer from 3000 to 500000 expected, got 10", function() lissom.shapes.head{ vertices = 10 } end)
 
 expect.error("finite number above 0 expected, got -1", function() lissom.shapes.sphere{ radius = -1 } end)
 expect.error("integer of at least 3 expected, got 2", function() lissom.shapes.torus{ segments = 2 } end)
 expect.error("integer or {x, y, z} expected", function() lissom.shapes.box{ segments = { 1, 2 } } end)
 expect.error("[invalid_argument]", function() lissom.shapes.torus{ radius = 1, tube_radius = 2 } end)
 expect.error("did you mean 'cactus'?", function() lissom.shapes.catcus() end)
-expect.error("no function 'head'", function() lissom.shapes.head() end)
+expect.error("no function 'hat'", function() lissom.shapes.hat() end)

@@ -1203,6 +1203,18 @@ function lissom.shapes.torus(options) end
 ---@return lissom.Elements? elements # The elements concerned.
 function lissom.shapes.cactus(options) end
 
+---@class lissom.HeadOptions
+---@field height? number From the bottom of the bust to the crown. In metres. Default: 0.4.
+---@field vertices? integer Vertices wanted; the result is within 10 %. Default: 10000.
+
+---A bald, stylised head with neck and shoulders that faces +z, to show hair on; symmetric in x, the origin between the ears. Regions: scalp, ears, bottom.
+---@param options? lissom.HeadOptions
+---@return lissom.Mesh mesh # A new mesh that faces outward.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.shapes.head(options) end
+
 ---@class lissom.DeformOptions
 ---@field region? lissom.Region What may move. Outside nothing does. Default: all.
 ---@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview is as solve. Default: "implicit".

@@ -1,5 +1,6 @@
 #include "kernel/deform/operators.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/mesh/measures.h"
@@ -84,7 +85,8 @@ TEST_CASE("areas: the mixed Voronoi areas share out the surface") {
 
 TEST_CASE("cotangents: collapsed and needle triangles stay finite and bounded") {
     const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0.5, 1e-9, 0}, {2, 0, 0}};
-    const WeightedTriangles triangles{{{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}, {1.0, 1.0, 1.0}, {0, 1, 2}};
+    const WeightedTriangles triangles{
+        {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}, {1.0, 1.0, 1.0}, {0, 1, 2}};
     const Rings rings = build_rings(5, triangles);
     const RingGeometry g = ring_geometry(rings, triangles, p);
     const double bound = 3.0 / std::tan(0.5 * kPi / 180.0);
@@ -99,4 +101,28 @@ TEST_CASE("surface radius: a sphere's is its radius, wherever it lies") {
     CHECK(surface_radius_of(o.triangles, o.positions) == doctest::Approx(3.0).epsilon(2e-3));
     CHECK(surface_radius_of(o.triangles, o.positions) ==
           doctest::Approx(surface_radius(sphere)).epsilon(1e-9));
+}
+
+TEST_CASE("patch: the order by nearness has every vertex once, and neighbours near each other") {
+    SphereOptions options;
+    options.segments = 40;
+    const Mesh mesh = make_sphere(options);
+    const Region all = Region::all(mesh.shared_topology());
+    const std::vector<Index> order = near_order(all, 1);
+    std::vector<Index> place(static_cast<std::size_t>(mesh.vertex_count()), kNoIndex);
+    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<Index>(i);
+    CHECK(std::count(place.begin(), place.end(), kNoIndex) == 0);
+    const auto farthest = [&](const auto& at) {
+        Index greatest = 0;
+        for (Index e = 0; e < mesh.topology().edge_count(); ++e) {
+            const auto [a, b] = mesh.topology().edge(e);
+            greatest = std::max(greatest, std::abs(at(a) - at(b)));
+        }
+        return greatest;
+    };
+    CHECK(4 * farthest([&](Index v) { return place[v]; }) < farthest([](Index v) { return v; }));
+    const Patch patch = build_patch(all, mesh.positions(), 1, order);
+    for (Index row = 0; row < all.size(); ++row) {
+        CHECK(patch.mesh_vertex[patch.of_region[row]] == all.vertices()[row]);
+    }
 }

@@ -1,0 +1,53 @@
+/// Where a head is, which way it stands and how large it is, guessed from its bald shape.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// A frame on a head. Width and length are those of the horizontal slice whose depth below the top
+/// is half its width: it lies above the ears of any head, whatever its unit.
+struct HeadFrame {
+    /// On the axis of the slice, 0.65 widths below the top: about the middle between the ears.
+    Vec3 center = Vec3::Zero();
+    /// Columns: the head's left (+x), up (+y) and front (+z), orthonormal.
+    Mat3 axes = Mat3::Identity();
+    /// Of the slice, in the mesh's unit.
+    double width = 0.0, length = 0.0;
+    /// How well the shape is that of a head: the mean distance of the head to its mirror image and
+    /// of the slice to an ellipse, as fractions of the width. Heads have less than 0.05 of each.
+    double asymmetry = 0.0, roughness = 0.0;
+    /// How much farther the face reaches forward than the neck backward, as a fraction of the
+    /// length: positive for heads, about 0 where front and back are alike.
+    double forwardness = 0.0;
+
+    Vec3 left() const { return axes.col(0); }
+    Vec3 up() const { return axes.col(1); }
+    Vec3 front() const { return axes.col(2); }
+    /// A point or direction of the mesh in the frame, in the mesh's unit, and back.
+    Vec3 local(const Vec3& point) const { return axes.transpose() * (point - center); }
+    Vec3 world(const Vec3& local) const { return center + axes * local; }
+};
+
+/// What is known of a head. Directions need not have unit length; front is made upright to up.
+struct HeadHints {
+    std::optional<Vec3> up = std::nullopt, front = std::nullopt;
+};
+
+/// Guesses the frame of a bald head, bust or body. Of the directions along the mesh's axes those
+/// are chosen that make the top of the head round, its halves alike and the face look forward; of
+/// equally good ones those nearest to up = +y, front = +z. Only the component with the largest area
+/// counts.
+/// Errors: mesh_empty without faces; invalid_argument for hints without length or parallel, and
+/// where no direction has a slice as wide as twice its depth; not_finite for hints; cancelled.
+HeadFrame guess_head_frame(const Mesh& mesh, const HeadHints& hints = {},
+                           const Context& context = {});
+
+/// Vertices and faces of the component of `mesh` that has the largest area.
+std::vector<Index> largest_component(const Mesh& mesh);
+
+}  // namespace lissom

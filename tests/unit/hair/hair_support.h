@@ -1,0 +1,74 @@
+/// Heads and checks shared by the tests of kernel/hair.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "kernel/io/mesh_file.h"
+#include "kernel/mesh/measures.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/triangulation.h"
+#include "tests/unit/support.h"
+
+namespace lissom::test {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A real head, or nothing, with a message, where the data is absent.
+inline std::optional<Mesh> load_head(const std::string& name) {
+    const auto path = data_file("heads/" + name);
+    if (!path) return std::nullopt;
+    return load_mesh(*path);
+}
+
+/// Random points that are the same on every platform.
+class RandomPoints {
+  public:
+    explicit RandomPoints(std::uint32_t seed) : engine_(seed) {}
+    double uniform(double low, double high) {
+        return low + (high - low) * (engine_() / 4294967296.0);
+    }
+    Vec3 in_box(const Box& box) {
+        Vec3 p;
+        for (int axis = 0; axis < 3; ++axis) p[axis] = uniform(box.min[axis], box.max[axis]);
+        return p;
+    }
+
+  private:
+    std::mt19937 engine_;
+};
+
+inline Box grown(Box box, double share) {
+    const Vec3 margin = share * (box.max - box.min);
+    return {box.min - margin, box.max + margin};
+}
+
+inline Mesh moved(const Mesh& mesh, const Affine& map) {
+    Mesh result = mesh;
+    for (Vec3& p : result.edit_positions()) p = map(p);
+    return result;
+}
+
+inline Context threads(int count) {
+    ContextOptions options;
+    options.threads = count;
+    return Context(options);
+}
+
+/// Generalised winding number: the solid angles of all triangles (Van Oosterom and Strackee 1983).
+inline double winding_number(const Mesh& mesh, const Vec3& p) {
+    double sum = 0.0;
+    for (const auto& [i, j, k] : triangulate_faces(mesh.topology(), mesh.positions()).triangles) {
+        const Vec3 a = mesh.position(i) - p, b = mesh.position(j) - p, c = mesh.position(k) - p;
+        const double u = a.norm(), v = b.norm(), w = c.norm();
+        sum +=
+            std::atan2(a.dot(b.cross(c)), u * v * w + a.dot(b) * w + b.dot(c) * u + c.dot(a) * v);
+    }
+    return sum / (2.0 * kPi);
+}
+
+}  // namespace lissom::test
