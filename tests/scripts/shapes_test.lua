@@ -20,7 +20,8 @@ local head = lissom.shapes.head{ vertices = 3000, height = 40 }
 expect.truthy(math.abs(#head - 3000) <= 300 and head:is_closed())
 expect.near(head:bounds().max[2] - head:bounds().min[2], 40, 0.5)
 expect.truthy(#head:region("scalp") > 0 and #head:regions() == 3)
-expect.error("integer from 3000 to 500000 expected, got 10", function() lissom.shapes.head{ vertices = 10 } end)
+expect.error("integer from 3000 to 500000 expected, got 10",
+    function() lissom.shapes.head{ vertices = 10 } end)
 
 expect.error("finite number above 0 expected, got -1", function() lissom.shapes.sphere{ radius = -1 } end)
 expect.error("integer of at least 3 expected, got 2", function() lissom.shapes.torus{ segments = 2 } end)
