@@ -60,12 +60,14 @@ struct Warp {
 struct Lines {
     std::array<std::vector<double>, 3> at;
 
-    explicit Lines(double step) {
+    // `shift` moves the lines across y and z, in steps.
+    Lines(double step, const Vec2& shift) {
         const Box box = head_form_box();
         const Warp x{box.min.x(), box.max.x(), -0.097, 0.097};
         const Warp y{box.min.y(), box.max.y(), -0.105, 0.0, 3.2};
         const Warp z{box.min.z(), box.max.z(), -0.03, 0.12};
-        at = {x.lines(0.0, step), y.lines(-0.05, step), z.lines(0.08, step)};
+        at = {x.lines(0.0, step), y.lines(-0.05 + step * shift.x(), step),
+              z.lines(0.08 + step * shift.y(), step)};
     }
 
     Index count(int axis) const { return static_cast<Index>(at[axis].size()); }
@@ -76,8 +78,8 @@ struct Lines {
 
 class HeadBuilder {
   public:
-    HeadBuilder(double step, const Context& context)
-        : context_(context), lines_(step), middle_(lines_.count(0) / 2 - 1) {
+    HeadBuilder(double step, const Vec2& shift, const Context& context)
+        : context_(context), lines_(step, shift), middle_(lines_.count(0) / 2 - 1) {
         for (int axis = 0; axis < 3; ++axis) counts_[axis] = lines_.count(axis);
     }
 
@@ -281,6 +283,24 @@ void name_regions(Mesh& mesh) {
     mesh.set_region("bottom", Region(mesh.shared_topology(), std::move(bottom)));
 }
 
+// Where a part is about as thin as a cell, two sheets of the surface share vertices of the net, and
+// it is no manifold: lines that lie a little elsewhere then tell them apart.
+Mesh build_manifold(double step, const Context& context) {
+    constexpr int kAttempts = 40;
+    for (int attempt = 0;; ++attempt) {
+        // Spread evenly by multiples of irrational numbers.
+        const Vec2 shift(std::fmod(0.7548776662 * attempt, 1.0),
+                         std::fmod(0.5698402910 * attempt, 1.0));
+        try {
+            return HeadBuilder(step, shift, context).build();
+        } catch (const Error& error) {
+            const bool shared = error.code() == ErrorCode::nonmanifold_edge ||
+                                error.code() == ErrorCode::nonmanifold_vertex;
+            if (!shared || attempt == kAttempts) throw;
+        }
+    }
+}
+
 }  // namespace
 
 Mesh make_head(const HeadOptions& options, const Context& context) {
@@ -291,7 +311,7 @@ Mesh make_head(const HeadOptions& options, const Context& context) {
     }
     // Vertices grow with the square of the lines' number.
     const double step = 0.0132 * std::sqrt(10000.0 / options.vertices);
-    Mesh mesh = HeadBuilder(step, context).build();
+    Mesh mesh = build_manifold(step, context);
     name_regions(mesh);
     const double scale = options.height / (kHeadTop - kHeadBottom);
     for (Vec3& p : mesh.edit_positions()) p *= scale;
