@@ -205,7 +205,8 @@ void Deformer::State::refine_turns(const Mat3& base_rotation, double further,
             for (std::size_t i = 0; i < count; ++i) {
                 const Mat3 before = base_rotation + turn_of(i);
                 scale[i] = scales ? uniform_scale(before) : 1.0;
-                m[i] += further * (m[i] - before / scale[i]);
+                // Nothing to go on from where the surface has shrunk to a point.
+                if (scale[i] > 0.0) m[i] += further * (m[i] - before / scale[i]);
             }
             nearest_rotations({m.data(), count}, {m.data(), count});
             for (std::size_t i = 0; i < count; ++i) turn_of(i) = scale[i] * m[i] - base_rotation;
