@@ -68,8 +68,9 @@ local bumpy = displaced(plane)
 local kept = figures.deformed(bumpy, {}, handles, true)
 local uniform, edit = figures.deformed(plane, { weights = "uniform" }, handles, true)
 local cotangent = figures.deformed(plane, {}, handles, true)
-local second = figures.deformed(plane, {}, handles)
-local second_uniform = figures.deformed(plane, { weights = "uniform" }, handles)
+-- Laplacian coordinates in the least squares sense (Eq 2.10).
+local second = figures.deformed(plane, { second = "laplacian" }, handles)
+local second_uniform = figures.deformed(plane, { second = "laplacian", weights = "uniform" }, handles)
 print(string.format("%d vertices, %d of %d free ones displaced", #plane, edit:stats().displaced_vertices,
     edit:stats().free_vertices))
 
