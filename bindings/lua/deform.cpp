@@ -2,6 +2,7 @@
 #include "bindings/lua/buffer.h"
 #include "bindings/lua/deform_object.h"
 #include "bindings/lua/deform_points.h"
+#include "bindings/lua/deform_texts.h"
 #include "bindings/lua/library.h"
 #include "bindings/lua/path_object.h"
 #include "bindings/lua/transform_options.h"
@@ -326,16 +327,6 @@ const std::vector<ErrorCode> kBasisErrors = {
     ErrorCode::unconstrained, ErrorCode::zero_area,         ErrorCode::not_positive_definite,
     ErrorCode::memory_limit,  ErrorCode::topology_mismatch, ErrorCode::unsupported,
     ErrorCode::cancelled};
-const std::vector<ErrorCode> kEditErrors = {ErrorCode::handle_removed,
-                                            ErrorCode::topology_mismatch};
-
-// The start of every example: a bar whose top bends over.
-const std::string kBar = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
-local edit = lissom.deform(bar)
-edit:handle(bar:region("bottom"))
-local top = edit:handle(bar:region("top"))
-)";
-
 Parameter weight_option() {
     return number("weight",
                   "Draws instead of holding exactly: 1 is a compromise with the shape of the "

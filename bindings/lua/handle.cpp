@@ -1,5 +1,6 @@
 // lissom.deform: Handle.
 #include "bindings/lua/deform_object.h"
+#include "bindings/lua/deform_texts.h"
 #include "bindings/lua/library.h"
 #include "bindings/lua/transform_options.h"
 #include "kernel/deform/winding.h"
@@ -155,16 +156,6 @@ int handle_text(Call& call) {
 
 const std::vector<ErrorCode> kHandleErrors = {
     ErrorCode::handle_removed, ErrorCode::singular_transform, ErrorCode::topology_mismatch};
-const std::vector<ErrorCode> kEditErrors = {ErrorCode::handle_removed,
-                                            ErrorCode::topology_mismatch};
-
-// The start of every example: a bar whose top bends over.
-const std::string kBar = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
-local edit = lissom.deform(bar)
-edit:handle(bar:region("bottom"))
-local top = edit:handle(bar:region("top"))
-)";
-
 std::vector<Function> handle_moves() {
     const std::vector<Result> self = {{"lissom.Handle", "handle", "The handle itself."}};
     const std::string center = "the handle's center where it is now";
