@@ -50,9 +50,6 @@ struct DividingPlace {
     double along = 0.0;
     /// Local frame, orthonormal: of the curve, outward from the scalp, and to the right.
     Vec3 tangent = Vec3::Zero(), normal = Vec3::Zero(), right = Vec3::Zero();
-
-    /// Distance to the line along the skin.
-    double skin_distance() const;
 };
 
 /// A line on the scalp with its local frames.
@@ -67,13 +64,14 @@ class DividingLine {
     DividingPlace place(const Vec3& point) const;
     /// Distance of a point of the scalp to the line along the skin. For the gap of bare skin: no
     /// roots where it is less than kPartingGap / 2.
-    double skin_distance(const Vec3& point) const { return place(point).skin_distance(); }
+    double skin_distance(const Vec3& point) const;
     double length() const { return lengths_.back(); }
 
   private:
     std::vector<Vec3> points_, tangents_, normals_;
     /// Arc length up to each point.
     std::vector<double> lengths_;
+    double longest_segment_ = 0.0;
 };
 
 /// Width of the bare skin at a parting, in metres.
