@@ -1,240 +1,315 @@
 #include "kernel/hair/growth.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
-#include "kernel/hair/strand_random.h"
+#include "kernel/core/error.h"
+#include "kernel/hair/growth_loops.h"
+#include "kernel/hair/growth_roots.h"
 
 namespace lissom {
 namespace {
 
-using Vec3f = Eigen::Vector3f;
-using Quad = Eigen::Array4f;
+// Strands that are grown by one thread into one list.
+constexpr Index kTuft = 512;
+static_assert(kGrowthWave % kTuft == 0);
 
-// Roots whose strands are grown by one thread into one list.
-constexpr Index kChunk = 1024;
+constexpr std::size_t kMostPoints = std::numeric_limits<Index>::max();
 
-// A strand is pushed out of the head this often a segment, as distances between grid points are
-// interpolated.
-constexpr int kPushes = 3;
+// The least segment, as a share of the usual one, and in roundings of the greatest coordinate: so
+// its ends are different points.
+constexpr double kLeastSegment = 1e-3, kLeastRoundings = 8.0;
 
-void require_options(const GrowthOptions& o, const Mesh& head) {
-    const auto require = [](bool holds, const char* message) {
-        if (!holds) throw Error(ErrorCode::invalid_argument, message);
-    };
-    const auto is_length = [](double x) { return x >= 0.0 && std::isfinite(x); };
+// More room for points than the strands so far let expect.
+constexpr double kSlack = 1.02;
+
+void require(bool holds, const char* message) {
+    if (!holds) throw Error(ErrorCode::invalid_argument, message);
+}
+
+bool is_length(double x) {
+    return x >= 0.0 && std::isfinite(x);
+}
+
+bool is_share(double x) {
+    return x >= 0.0 && x <= 1.0;
+}
+
+bool is_direction(const Vec3& v) {
+    return v.allFinite() && v.norm() > 0.0;
+}
+
+void require_tie(const HairTie& tie) {
+    require(tie.center.allFinite() && is_direction(tie.direction),
+            "a tie needs a center and a direction of finite numbers, not of length 0");
+    require(is_length(tie.radius) && is_length(tie.tail_length),
+            "the radius and the tail of a tie must be lengths of 0 or more");
+    require(is_share(tie.ragged), "how ragged a tail is must be from 0 to 1");
+}
+
+void require_cut(const HairCut& cut) {
+    require(cut.point.allFinite() && is_direction(cut.normal),
+            "a cut needs a point and a normal of finite numbers, not of length 0");
+    require(is_length(cut.ragged), "how ragged a cut is must be a length of 0 or more");
+}
+
+void require_lengths(const GrowthOptions& o) {
     require(is_length(o.length), "the length of hair must be 0 or more");
-    require(o.variation >= 0.0 && o.variation <= 1.0, "variation must be from 0 to 1");
+    require(is_share(o.variation), "variation must be from 0 to 1");
     require(o.segment > 0.0 && o.segment <= 10.0, "segment must be above 0 and at most 10 steps");
     require(o.least_speed >= 0.0 && o.least_speed < 1.0, "least_speed must be from 0 to below 1");
     require(o.most_segments >= 1, "most_segments must be at least 1");
     require(is_length(o.lift), "lift must be 0 or more");
     require(is_length(o.clearance) && is_length(o.layer) && is_length(o.ramp),
             "clearance, layer and ramp must be lengths of 0 or more");
-    require(o.unit > 0.0 && std::isfinite(o.unit), "unit must be above 0");
-    const auto vertices = static_cast<std::size_t>(head.vertex_count());
-    require(o.length_map.empty() || o.length_map.size() == vertices,
+}
+
+void require_options(const GrowthOptions& o, Index head_vertices) {
+    require_lengths(o);
+    require(o.placement.is_finite() && o.placement.linear.determinant() != 0.0,
+            "the placement of hair must be finite and must not flatten it");
+    require(o.length_map.empty() || o.length_map.size() == static_cast<std::size_t>(head_vertices),
             "a length map needs one factor for every vertex of the head");
     require(std::all_of(o.length_map.begin(), o.length_map.end(), is_length),
             "factors of a length map must be finite and not negative");
+    for (const HairTie& tie : o.ties) require_tie(tie);
+    for (const HairCut& cut : o.cuts) require_cut(cut);
 }
 
-// The grid in coordinates of its cells.
-class GridReader {
-  public:
-    explicit GridReader(const HairField& field)
-        : values_(field.values().data()),
-          nx_(field.layout().counts[0]),
-          nxy_(nx_ * field.layout().counts[1]) {
+// The grid's cells to the coordinates of strands.
+Affine placement_of_cells(const GridLayout& layout, const Affine& placement) {
+    return placement * Affine{layout.step * Mat3::Identity(), layout.origin};
+}
+
+// The least length of a segment in cells.
+double least_move(const GridLayout& layout, const GrowthOptions& options) {
+    const Affine placed = placement_of_cells(layout, options.placement);
+    double farthest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        Vec3 cell;
         for (int axis = 0; axis < 3; ++axis) {
-            last_[axis] = static_cast<float>(field.layout().counts[axis] - 1);
+            cell[axis] = (corner >> axis) & 1 ? layout.counts[axis] : 0.0;
         }
+        farthest = std::max(farthest, placed(cell).cwiseAbs().maxCoeff());
     }
-
-    bool contains(const Vec3f& at) const {
-        return (at.array() >= 0.0f).all() && (at.array() <= last_.array()).all();
-    }
-
-    // Vector and distance at a point of the grid; the gradient of the distance a step.
-    Quad read(const Vec3f& at, Vec3f* gradient) const {
-        const Vec3f floor = at.array().floor().min(last_.array() - 1.0f);
-        const Vec3f t = at - floor;
-        const auto cell = static_cast<Index>(floor.x()) + nx_ * static_cast<Index>(floor.y()) +
-                          nxy_ * static_cast<Index>(floor.z());
-        const auto corner = [&](Index offset) {
-            return Quad(
-                Eigen::Map<const Quad>(values_ + 4 * static_cast<std::size_t>(cell + offset)));
-        };
-        const auto between = [](const Quad& a, const Quad& b, float s) -> Quad {
-            return a + s * (b - a);
-        };
-        const Quad a = corner(0), b = corner(1), c = corner(nx_), d = corner(nx_ + 1),
-                   e = corner(nxy_), f = corner(nxy_ + 1), g = corner(nxy_ + nx_),
-                   h = corner(nxy_ + nx_ + 1);
-        const Quad ab = between(a, b, t.x()), cd = between(c, d, t.x()), ef = between(e, f, t.x()),
-                   gh = between(g, h, t.x());
-        const Quad low = between(ab, cd, t.y()), high = between(ef, gh, t.y());
-        if (gradient) {
-            const float x0 = between(b - a, d - c, t.y())[3], x1 = between(f - e, h - g, t.y())[3];
-            *gradient = {x0 + t.z() * (x1 - x0), between(cd - ab, gh - ef, t.z())[3],
-                         (high - low)[3]};
-        }
-        return between(low, high, t.z());
-    }
-
-  private:
-    const float* values_;
-    Index nx_, nxy_;
-    Vec3f last_;
-};
-
-// Strands in coordinates of the grid's cells, so that a step of the grid is one.
-class Grower {
-  public:
-    Grower(const HairField& field, const GrowthOptions& options)
-        : reader_(field), options_(options), layout_(field.layout()) {}
-
-    // Appends the points of the strand of a root to `points`, in metres.
-    void grow(const Root& root, Index number, double factor, std::vector<float>& points) const {
-        const double step = layout_.step;
-        const auto id = static_cast<std::uint64_t>(number);
-        const double spread = options_.variation * signed_random(mixed(options_.seed, id, 0));
-        const double u = signed_random(mixed(options_.seed, id, 1));
-        const auto length = static_cast<float>(options_.length * factor * (1.0 + spread) / step);
-        const auto floor = static_cast<float>((options_.clearance + options_.layer * u * u) / step);
-        const auto ramp = static_cast<float>(std::max(options_.ramp / step, 1e-6));
-
-        Vec3f at = ((root.position - layout_.origin) / step).cast<float>();
-        put(at, points);
-        float grown = 0.0f;
-        for (Index k = 0; k < options_.most_segments && grown < length; ++k) {
-            if (!reader_.contains(at)) return;
-            Vec3f v = reader_.read(at, nullptr).head<3>();
-            if (k == 0) v = lifted(v, root.normal.cast<float>());
-            const float speed = v.norm();
-            if (!(speed >= static_cast<float>(options_.least_speed))) return;
-            const float most = std::min(static_cast<float>(options_.segment), length - grown);
-            Vec3f next = at + v * (speed > 1.0f ? most / speed : most);
-            if (options_.avoid) push_out(next, floor * std::min(1.0f, (grown + most) / ramp));
-            const float moved = (next - at).norm();
-            if (!(moved > 0.0f)) return;
-            grown += moved;
-            at = next;
-            put(at, points);
-        }
-    }
-
-  private:
-    Vec3f lifted(const Vec3f& v, const Vec3f& normal) const {
-        const float inward = std::min(0.0f, v.dot(normal));
-        return v - inward * normal + static_cast<float>(options_.lift) * normal;
-    }
-
-    void push_out(Vec3f& at, float floor) const {
-        for (int push = 0; push < kPushes; ++push) {
-            if (!reader_.contains(at)) return;
-            Vec3f outward;
-            const float missing =
-                floor - reader_.read(at, &outward)[3] / static_cast<float>(layout_.step);
-            if (!(missing > 0.0f)) return;
-            const float slope = outward.norm();
-            if (!(slope > 0.0f)) return;
-            at += missing / slope * outward;
-        }
-    }
-
-    void put(const Vec3f& at, std::vector<float>& points) const {
-        const Vec3 place = options_.unit * (layout_.origin + layout_.step * at.cast<double>());
-        for (int d = 0; d < 3; ++d) points.push_back(static_cast<float>(place[d]));
-    }
-
-    GridReader reader_;
-    const GrowthOptions& options_;
-    const GridLayout& layout_;
-};
-
-// What one thread has grown.
-struct Tuft {
-    std::vector<float> points;
-    std::vector<Index> ends;
-};
-
-double length_factor(const GrowthOptions& options, const Root& root) {
-    if (options.length_map.empty()) return 1.0;
-    double factor = 0.0;
-    for (int k = 0; k < 3; ++k)
-        factor += root.barycentric[k] * options.length_map[root.triangle[k]];
-    return factor;
+    // At most how many cells one unit of the strands' coordinates is.
+    const double cells = placed.linear.inverse().norm();
+    const double rounding = farthest * std::numeric_limits<float>::epsilon() * cells;
+    return std::max(kLeastSegment * options.segment, kLeastRoundings * rounding);
 }
 
-// Weights of the first three corners of its face, negative where it lies beyond their triangle.
-Eigen::Vector3f corner_weights(const Mesh& head, const Root& root) {
-    const std::span<const Index> face = head.topology().face(root.face);
-    const Vec3 &a = head.position(face[0]), &b = head.position(face[1]),
-               &c = head.position(face[2]);
-    const Vec3 normal = (b - a).cross(c - a);
-    const double area = normal.squaredNorm();
-    if (!(area > 0.0)) return Eigen::Vector3f::Constant(1.0f / 3.0f);
-    const double at_b = (root.position - a).cross(c - a).dot(normal) / area;
-    const double at_c = (b - a).cross(root.position - a).dot(normal) / area;
-    return Vec3(1.0 - at_b - at_c, at_b, at_c).cast<float>();
+TieRule tie_rule(const HairTie& tie, const GridLayout& layout) {
+    const double radius = tie.radius / layout.step;
+    return {((tie.center - layout.origin) / layout.step).cast<float>(),
+            tie.direction.normalized().cast<float>(), static_cast<float>(radius * radius),
+            static_cast<float>(tie.tail_length / layout.step), static_cast<float>(tie.ragged)};
 }
 
-StrandRoots roots_of(const Mesh& head, std::span<const Root> roots) {
-    StrandRoots result;
-    for (const Root& root : roots) {
-        result.faces.push_back(root.face);
-        result.barycentrics.push_back(corner_weights(head, root));
+CutRule cut_rule(const HairCut& cut, const GridLayout& layout) {
+    const Vec3 normal = cut.normal.normalized();
+    return {normal.cast<float>(),
+            static_cast<float>(normal.dot(cut.point - layout.origin) / layout.step),
+            static_cast<float>(cut.ragged / layout.step)};
+}
+
+GrowthRules rules_of(const GridLayout& layout, const GrowthOptions& options) {
+    GrowthRules rules{};
+    rules.segment = static_cast<float>(options.segment);
+    rules.least_speed = static_cast<float>(options.least_speed);
+    rules.least_move = static_cast<float>(least_move(layout, options));
+    rules.lift = static_cast<float>(options.lift);
+    rules.inverse_ramp = static_cast<float>(1.0 / std::max(options.ramp / layout.step, 1e-6));
+    rules.inverse_step = static_cast<float>(1.0 / layout.step);
+    rules.avoid = options.avoid;
+    rules.spare_tied = options.spare_tied;
+    rules.most_segments = options.most_segments;
+    for (const HairTie& tie : options.ties) rules.ties.push_back(tie_rule(tie, layout));
+    for (const HairCut& cut : options.cuts) rules.cuts.push_back(cut_rule(cut, layout));
+    const Affine placed = placement_of_cells(layout, options.placement);
+    rules.linear = placed.linear.cast<float>();
+    rules.translation = placed.translation.cast<float>();
+    return rules;
+}
+
+QuadGrid grid_of(const HairField& field) {
+    const std::array<Index, 3>& counts = field.layout().counts;
+    QuadGrid grid{field.values().data(), counts[0], counts[0] * counts[1], {}};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        grid.last[axis] = static_cast<float>(counts[axis] - 1);
     }
-    return result;
+    return grid;
 }
 
 }  // namespace
 
-void grow(const Mesh& head, const HairField& field, std::span<const Root> roots,
-          const GrowthOptions& options, Strands& strands, const Context& context) {
-    std::vector<float> points;
-    std::vector<Index> offsets;
-    strands.release(points, offsets);
-    strands = {};
-    require_options(options, head);
-    const Grower grower(field, options);
-    const auto count = static_cast<Index>(roots.size());
-    std::vector<Tuft> tufts(static_cast<std::size_t>((count + kChunk - 1) / kChunk));
-    context.parallel_for(0, count, kChunk, [&](Index begin, Index end) {
-        Tuft& tuft = tufts[static_cast<std::size_t>(begin / kChunk)];
-        for (Index i = begin; i < end; ++i) {
-            const Root& root = roots[static_cast<std::size_t>(i)];
-            grower.grow(root, i, length_factor(options, root), tuft.points);
-            tuft.ends.push_back(static_cast<Index>(tuft.points.size() / 3));
-        }
-    });
+struct StrandGrower::State {
+    State(const Mesh& head, std::span<const Root> all, const Context& context)
+        : roots(head, all, context) {}
 
-    std::size_t total = 0;
-    std::vector<std::size_t> first;
+    Seedling seedling(Index i, const GridLayout& layout, const GrowthOptions& options) const;
+
+    GrowthRoots roots;
+    // Scratch: the strands of one wave.
+    std::vector<Tuft> tufts;
+    std::vector<std::vector<Seedling>> seedlings;
+};
+
+Seedling StrandGrower::State::seedling(Index i, const GridLayout& layout,
+                                       const GrowthOptions& options) const {
+    const StrandChance& chance = roots.chance(i);
+    const double step = layout.step, u = chance.layer;
+    const double length =
+        options.length * roots.factor(i) * (1.0 + options.variation * chance.length);
+    return {((roots.position(i) - layout.origin) / step).cast<float>(),
+            roots.normal(i),
+            static_cast<float>(length / step),
+            static_cast<float>((options.clearance + options.layer * u * u) / step),
+            chance.cut,
+            chance.tail};
+}
+
+namespace {
+
+// Growth into one list of points, wave after wave.
+class Harvest {
+  public:
+    Harvest(Index strands, Strands& into, const Context& context)
+        : strands_(into), context_(context), count_(strands) {
+        strands_.release(points_, offsets_);
+        offsets_.resize(static_cast<std::size_t>(strands) + 1);
+        offsets_[0] = 0;
+    }
+
+    // Takes the strands of a wave that begins with root `first`.
+    void take(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts);
+    void finish(const StrandRoots& roots);
+
+    GrowthReport report;
+
+  private:
+    void number_points(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts);
+    void make_room(Index done);
+
+    Strands& strands_;
+    const Context& context_;
+    Index count_;
+    std::vector<float> points_;
+    std::vector<Index> offsets_;
+    MemoryCharge charge_;
+};
+
+// Calls visit(shoot, root) for the strands of some tufts of a wave that begins with `first`.
+template <typename Visit>
+void for_each_shoot(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts,
+                    const Visit& visit) {
     for (const Tuft& tuft : tufts) {
-        first.push_back(total);
-        total += tuft.points.size();
+        for (const Tuft::Shoot& shoot : tuft.shoots) visit(tuft, shoot, roots.number(first++));
     }
-    const auto charge = context.charge(total * sizeof(float), "strands");
-    points.resize(total);
-    offsets.assign(1, 0);
-    for (std::size_t t = 0; t < tufts.size(); ++t) {
-        for (const Index end : tufts[t].ends) {
-            offsets.push_back(static_cast<Index>(first[t] / 3) + end);
-        }
-    }
-    context.parallel_for(0, static_cast<Index>(tufts.size()), 1, [&](Index begin, Index end) {
-        for (Index t = begin; t < end; ++t) {
-            std::copy(tufts[t].points.begin(), tufts[t].points.end(),
-                      points.begin() + static_cast<std::ptrdiff_t>(first[t]));
-        }
+}
+
+void Harvest::number_points(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
+    Index last = first;
+    for_each_shoot(roots, first, tufts, [&](const Tuft&, const Tuft::Shoot& shoot, Index root) {
+        offsets_[static_cast<std::size_t>(root) + 1] = shoot.count;
+        ++report.ends[static_cast<std::size_t>(shoot.end)];
+        if (!report.ties.empty()) report.ties[static_cast<std::size_t>(root)] = shoot.tie;
+        ++last;
     });
-    strands = Strands(std::move(points), std::move(offsets));
-    strands.set_roots(roots_of(head, roots));
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+        const std::size_t end =
+            static_cast<std::size_t>(offsets_[i]) + static_cast<std::size_t>(offsets_[i + 1]);
+        require(end <= kMostPoints,
+                "hair has more points than can be numbered; grow fewer or shorter strands, or "
+                "longer segments");
+        offsets_[i + 1] = static_cast<Index>(end);
+    }
+    make_room(last);
+}
+
+// Room for the first `done` strands, and for the others to come.
+void Harvest::make_room(Index done) {
+    const auto needed = 3 * static_cast<std::size_t>(offsets_[static_cast<std::size_t>(done)]);
+    if (needed <= points_.size()) return;
+    const double all = kSlack * static_cast<double>(needed) * count_ / done;
+    const std::size_t size = done == count_ ? needed : static_cast<std::size_t>(all);
+    charge_ = {};
+    charge_ = context_.charge(size * sizeof(float), "strands");
+    points_.resize(size);
+}
+
+void Harvest::take(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
+    number_points(roots, first, tufts);
+    context_.parallel_for(0, static_cast<Index>(tufts.size()), 1, [&](Index begin, Index end) {
+        const auto some =
+            tufts.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+        for_each_shoot(
+            roots, first + begin * kTuft, some,
+            [&](const Tuft& tuft, const Tuft::Shoot& shoot, Index root) {
+                const auto to =
+                    3 * static_cast<std::size_t>(offsets_[static_cast<std::size_t>(root)]);
+                std::copy_n(tuft.points.data() + shoot.first,
+                            3 * static_cast<std::size_t>(shoot.count), points_.data() + to);
+            });
+    });
+}
+
+void Harvest::finish(const StrandRoots& roots) {
+    points_.resize(3 * static_cast<std::size_t>(offsets_.back()));
+    strands_ = Strands(std::move(points_), std::move(offsets_));
+    strands_.set_roots(roots);
+}
+
+}  // namespace
+
+StrandGrower::StrandGrower(const Mesh& head, std::span<const Root> roots, const Context& context)
+    : state_(std::make_unique<State>(head, roots, context)) {}
+StrandGrower::~StrandGrower() = default;
+StrandGrower::StrandGrower(StrandGrower&&) noexcept = default;
+StrandGrower& StrandGrower::operator=(StrandGrower&&) noexcept = default;
+
+Index StrandGrower::size() const {
+    return state_->roots.size();
+}
+
+GrowthReport StrandGrower::grow(const HairField& field, const GrowthOptions& options,
+                                Strands& strands, const Context& context) {
+    GrowthRoots& roots = state_->roots;
+    Harvest harvest(size(), strands, context);
+    require_options(options, roots.head_vertices());
+    roots.set_seed(options.seed, context);
+    roots.set_length_map(options.length_map, context);
+    if (!options.ties.empty()) harvest.report.ties.resize(static_cast<std::size_t>(size()));
+
+    const GrowthRules rules = rules_of(field.layout(), options);
+    const QuadGrid grid = grid_of(field);
+    const GrowthLoop loop = best_growth_loop();
+    state_->tufts.resize(kGrowthWave / kTuft);
+    state_->seedlings.resize(kGrowthWave / kTuft);
+    for (Index first = 0; first < size(); first += kGrowthWave) {
+        const Index last = std::min(size(), first + kGrowthWave);
+        context.parallel_for(first, last, kTuft, [&](Index begin, Index end) {
+            const auto number = static_cast<std::size_t>((begin - first) / kTuft);
+            std::vector<Seedling>& seedlings = state_->seedlings[number];
+            seedlings.clear();
+            for (Index i = begin; i < end; ++i) {
+                seedlings.push_back(state_->seedling(i, field.layout(), options));
+            }
+            grow_tuft(grid, rules, seedlings, loop, state_->tufts[number]);
+        });
+        const auto grown = static_cast<std::size_t>((last - first + kTuft - 1) / kTuft);
+        harvest.take(roots, first, std::span(state_->tufts).first(grown));
+    }
+    harvest.finish(roots.strand_roots());
+    return std::move(harvest.report);
+}
+
+GrowthReport grow(const Mesh& head, const HairField& field, std::span<const Root> roots,
+                  const GrowthOptions& options, Strands& strands, const Context& context) {
+    return StrandGrower(head, roots, context).grow(field, options, strands, context);
 }
 
 }  // namespace lissom

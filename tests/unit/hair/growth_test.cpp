@@ -167,5 +167,5 @@ TEST_CASE("growth: no roots, no segments, and bad options") {
     CHECK(code([](auto& o) { o.length = -1.0; }) == ErrorCode::invalid_argument);
     CHECK(code([](auto& o) { o.most_segments = 0; }) == ErrorCode::invalid_argument);
     CHECK(code([](auto& o) { o.length_map = {1.0}; }) == ErrorCode::invalid_argument);
-    CHECK(code([](auto& o) { o.unit = 0.0; }) == ErrorCode::invalid_argument);
+    CHECK(code([](auto& o) { o.placement.linear.setZero(); }) == ErrorCode::invalid_argument);
 }

@@ -1,0 +1,437 @@
+// Strands grow in lanes, one beside the other, so that most of the work is vector instructions
+// over lanes; loops over lanes are written for compilers to vectorise. A lane goes from point to
+// point of its strand: at each turn of the loop it reads the field where it is about to go and is
+// either pushed out of the head, and looks again, or it goes there. What seldom happens (a push, a
+// tie, the end of a strand) is done for single lanes. This file is compiled without contraction to
+// fused instructions: then every processor gives the same strands.
+#include "kernel/hair/growth_loops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "kernel/hair/growth_lanes.h"
+
+namespace lissom {
+namespace {
+
+using lissom::all;
+using lissom::choose;
+
+// A strand is pushed out of the head this often a segment, as distances between grid points are
+// interpolated.
+constexpr std::int32_t kPushes = 3;
+
+// Of the sharpest turn, 88 degrees: rounding of the points makes no right angle of it.
+constexpr float kLeastCosine = 0.035f;
+
+// Most tails are about as long as they may be.
+constexpr double kTailPower = 1.4;
+
+constexpr std::size_t kFirstBuffer = 64;
+
+struct Floats3 {
+    Floats x{}, y{}, z{};
+};
+
+LISSOM_INLINE Floats3 all(const Eigen::Vector3f& v) {
+    return {all(v[0]), all(v[1]), all(v[2])};
+}
+
+LISSOM_INLINE Floats3 sum(const Floats3& a, const Floats3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+LISSOM_INLINE Floats3 difference(const Floats3& a, const Floats3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+LISSOM_INLINE Floats3 scaled(const Floats3& a, const Floats& by) {
+    return {a.x * by, a.y * by, a.z * by};
+}
+
+LISSOM_INLINE Floats dot(const Floats3& a, const Floats3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+LISSOM_INLINE Floats3 choose(const Ints& yes, const Floats3& a, const Floats3& b) {
+    return {choose(yes, a.x, b.x), choose(yes, a.y, b.y),
+            choose(yes, a.z, b.z)};
+}
+
+void set(Floats3& v, int k, const Eigen::Vector3f& to) {
+    v.x[k] = to[0];
+    v.y[k] = to[1];
+    v.z[k] = to[2];
+}
+
+Eigen::Vector3f at(const Floats3& v, int k) {
+    return {v.x[k], v.y[k], v.z[k]};
+}
+
+// The field where the strands are about to go.
+struct Reading {
+    Floats3 vector;
+    Floats distance;
+};
+
+// The segments that strands are about to take, of those that are not pushed.
+struct Segments {
+    Ints go;
+    Floats3 way;
+    Floats length;
+    // Whether a cut ends the strand.
+    Ints cut;
+};
+
+constexpr std::int32_t code(StrandEnd end) {
+    return 1 + static_cast<std::int32_t>(end);
+}
+
+class LaneGrower {
+  public:
+    LaneGrower(const QuadGrid& grid, const GrowthRules& rules, std::span<const Seedling> seedlings,
+               Tuft& tuft)
+        : grid_(grid), rules_(rules), seedlings_(seedlings), tuft_(tuft) {
+        tuft_.points.clear();
+        tuft_.shoots.assign(seedlings.size(), {});
+        for (int k = 0; k < kLanes; ++k) enlarge(k);
+    }
+
+    LISSOM_INLINE void run() {
+        for (int k = 0; k < kLanes; ++k) begin_strand(k);
+        while (growing_count_ > 0) {
+            locate();
+            const Reading here = read_all();
+            const Floats missing = missing_height(here);
+            const Ints push = growing_ & inside_ & (missing > all(0.0f)) & (pushes_ < all(kPushes));
+            if (any(push)) push_lanes(push, missing);
+            Segments next = segments_of(growing_ & no(push));
+            for (std::size_t i = 0; i < rules_.ties.size(); ++i) meet_tie(rules_.ties[i], i, next);
+            shorten(next, next.length > length_ - grown_, (length_ - grown_) / next.length);
+            for (const CutRule& cut : rules_.cuts) meet_cut(cut, next);
+            go_on(next, here);
+        }
+    }
+
+  private:
+    LISSOM_INLINE void locate() {
+        const Floats3 last{all(grid_.last[0]), all(grid_.last[1]), all(grid_.last[2])};
+        const Floats zero = all(0.0f);
+        const Floats x = least(most(to_.x, zero), last.x), y = least(most(to_.y, zero), last.y),
+                     z = least(most(to_.z, zero), last.z);
+        const Ints one = all(std::int32_t{1});
+        const Ints i = least(truncate(x), truncate(last.x) - one),
+                   j = least(truncate(y), truncate(last.y) - one),
+                   l = least(truncate(z), truncate(last.z) - one);
+        place_ = {x - to_floats(i), y - to_floats(j), z - to_floats(l)};
+        cell_ = i + all(grid_.nx) * j + all(grid_.nxy) * l;
+        inside_ = (x == to_.x) & (y == to_.y) & (z == to_.z);
+    }
+
+    const float* corner(int k) const {
+        return grid_.values + 4 * static_cast<std::size_t>(cell_[k]);
+    }
+
+    // Two corners, neighbours along x, at a time.
+    LISSOM_INLINE HalfFloats read(int k) const {
+        const float* from = corner(k);
+        const std::size_t nx = 4 * static_cast<std::size_t>(grid_.nx),
+                          nxy = 4 * static_cast<std::size_t>(grid_.nxy);
+        const Floats a = load(from), b = load(from + nx), c = load(from + nxy),
+                     d = load(from + nxy + nx);
+        const Floats ty = all(place_.y[k]), tz = all(place_.z[k]);
+        const Floats front = a + ty * (b - a), back = c + ty * (d - c);
+        HalfFloats low, high;
+        split(front + tz * (back - front), low, high);
+        const float tx = place_.x[k];
+        return low + HalfFloats{tx, tx, tx, tx} * (high - low);
+    }
+
+    LISSOM_INLINE Reading read_all() const {
+        HalfFloats quads[kLanes];
+        for (int k = 0; k < kLanes; ++k) quads[k] = read(k);
+        Floats columns[4];
+        transpose(quads, columns);
+        return {{columns[0], columns[1], columns[2]}, columns[3]};
+    }
+
+    // How far the next points are below their floors.
+    LISSOM_INLINE Floats missing_height(const Reading& here) const {
+        if (!rules_.avoid) return all(-1.0f);
+        const Floats share =
+            least(all(1.0f), (grown_ + all(rules_.segment)) * all(rules_.inverse_ramp));
+        return floor_ * share - here.distance * all(rules_.inverse_step);
+    }
+
+    // The gradient of the distance a step, at the next point.
+    Eigen::Vector3f outward(int k) const {
+        const float* from = corner(k) + 3;
+        const std::size_t nx = 4 * static_cast<std::size_t>(grid_.nx),
+                          nxy = 4 * static_cast<std::size_t>(grid_.nxy);
+        const float tx = place_.x[k], ty = place_.y[k], tz = place_.z[k];
+        const auto between = [](float low, float high, float t) { return low + t * (high - low); };
+        // Edges along x, by their y and z.
+        float value[4], slope[4];
+        for (unsigned edge = 0; edge < 4; ++edge) {
+            const float* low = from + (edge & 1u ? nx : 0) + (edge & 2u ? nxy : 0);
+            slope[edge] = low[4] - low[0];
+            value[edge] = low[0] + tx * slope[edge];
+        }
+        return {between(between(slope[0], slope[1], ty), between(slope[2], slope[3], ty), tz),
+                between(value[1] - value[0], value[3] - value[2], tz),
+                between(value[2] - value[0], value[3] - value[1], ty)};
+    }
+
+    void push_lanes(const Ints& push, const Floats& missing) {
+        for (int k = 0; k < kLanes; ++k) {
+            if (!push[k]) continue;
+            const Eigen::Vector3f normal = outward(k);
+            const float slope = std::sqrt(normal.squaredNorm());
+            pushes_[k] += slope > 0.0f ? 1 : kPushes;
+            if (slope > 0.0f) set(to_, k, at(to_, k) + missing[k] / slope * normal);
+        }
+    }
+
+    LISSOM_INLINE Segments segments_of(const Ints& go) const {
+        const Floats3 way = difference(to_, at_);
+        return {go, way, root(dot(way, way)), all(std::int32_t{0})};
+    }
+
+    // Ends segments before the next points, where asked.
+    LISSOM_INLINE void shorten(Segments& next, const Ints& asked, const Floats& share) {
+        const Ints yes = asked & next.go;
+        next.way = choose(yes, scaled(next.way, share), next.way);
+        next.length = choose(yes, next.length * share, next.length);
+        to_ = choose(yes, sum(at_, next.way), to_);
+    }
+
+    LISSOM_INLINE void meet_tie(const TieRule& tie, std::size_t number, const Segments& next) {
+        const Floats3 direction = all(tie.direction), center = all(tie.center);
+        const Floats before = dot(direction, difference(at_, center)),
+                     after = dot(direction, difference(to_, center));
+        const Ints passes =
+            (before < all(0.0f)) & no(after < all(0.0f)) & (tie_ < all(0)) & next.go;
+        if (any(passes)) pass_plane(tie, number, next, passes, before / (before - after));
+    }
+
+    // Catches strands that pass the plane of a tie, that share of the segment on, within its
+    // radius.
+    void pass_plane(const TieRule& tie, std::size_t number, const Segments& next,
+                    const Ints& passes, const Floats& share) {
+        for (int k = 0; k < kLanes; ++k) {
+            if (!passes[k]) continue;
+            const Eigen::Vector3f off = at(at_, k) + share[k] * at(next.way, k) - tie.center;
+            if (off.squaredNorm() > tie.square_radius) continue;
+            tie_[k] = static_cast<std::int32_t>(number);
+            const double part =
+                1.0 - tie.ragged * std::pow(static_cast<double>(tail_[k]), kTailPower);
+            length_[k] =
+                grown_[k] + share[k] * next.length[k] + tie.tail_length * static_cast<float>(part);
+        }
+    }
+
+    LISSOM_INLINE void meet_cut(const CutRule& cut, Segments& next) {
+        const Floats3 normal = all(cut.normal);
+        const Floats plane = all(cut.offset) + all(cut.ragged) * cut_;
+        const Floats before = dot(normal, at_) - plane, after = dot(normal, to_) - plane;
+        const Ints can_be = all(std::int32_t{rules_.spare_tied ? 0 : -1}) | (tie_ < all(0));
+        const Ints passes = no(before > all(0.0f)) & (after > all(0.0f)) & can_be & next.go;
+        shorten(next, passes, before / (before - after));
+        next.cut = next.cut | passes;
+    }
+
+    // Takes the segments that may be taken, ends strands, and chooses the points after.
+    LISSOM_INLINE void go_on(const Segments& next, const Reading& here) {
+        const Floats speed = root(dot(here.vector, here.vector));
+        const Floats grown = grown_ + next.length, left = length_ - grown;
+        const Ints moves = next.length > all(rules_.least_move);
+        const Ints turns =
+            (dot(next.way, way_) < all(kLeastCosine) * next.length) & (segments_ > all(0));
+        const Ints take = next.go & moves & no(turns);
+        const Ints end = next.go & ends_of(next, moves, turns, left, speed);
+
+        const Floats scale = least(all(rules_.segment) / most(speed, all(1.0f)), left / speed);
+        put_points(take);
+        way_ = choose(take, scaled(next.way, all(1.0f) / next.length), way_);
+        at_ = choose(take, to_, at_);
+        to_ = choose(take, sum(to_, scaled(here.vector, scale)), to_);
+        grown_ = choose(take, grown, grown_);
+        pushes_ = choose(take, all(0), pushes_);
+        if (any(end)) end_lanes(end);
+    }
+
+    // The code of what ends each strand with this segment, or before it, or 0; the last that holds
+    // counts.
+    LISSOM_INLINE Ints ends_of(const Segments& next, const Ints& moves, const Ints& turns,
+                               const Floats& left, const Floats& speed) const {
+        const auto mark = [](Ints& end, const Ints& yes, StrandEnd why) {
+            end = choose(yes, all(code(why)), end);
+        };
+        Ints end = all(0);
+        mark(end, segments_ > all(rules_.most_segments - 2), StrandEnd::segments);
+        mark(end, no(speed > all(rules_.least_speed)), StrandEnd::slow);
+        mark(end, no(inside_), StrandEnd::left_grid);
+        mark(end, no(left > all(rules_.least_move)), StrandEnd::length);
+        mark(end, turns, StrandEnd::turned);
+        mark(end, no(moves), StrandEnd::stuck);
+        mark(end, next.cut & no(moves & turns), StrandEnd::cut);
+        return end;
+    }
+
+    // Adds the next points to the strands; of those that do not take them they are overwritten
+    // later.
+    LISSOM_INLINE void put_points(const Ints& take) {
+        const Eigen::Matrix3f& m = rules_.linear;
+        const Floats x = all(rules_.translation[0]) + all(m(0, 0)) * to_.x + all(m(0, 1)) * to_.y +
+                         all(m(0, 2)) * to_.z;
+        const Floats y = all(rules_.translation[1]) + all(m(1, 0)) * to_.x + all(m(1, 1)) * to_.y +
+                         all(m(1, 2)) * to_.z;
+        const Floats z = all(rules_.translation[2]) + all(m(2, 0)) * to_.x + all(m(2, 1)) * to_.y +
+                         all(m(2, 2)) * to_.z;
+        for (int k = 0; k < kLanes; ++k) {
+            float* point = ends_[k] + 3 * static_cast<std::ptrdiff_t>(segments_[k]);
+            point[0] = x[k];
+            point[1] = y[k];
+            point[2] = z[k];
+        }
+        segments_ = segments_ - take;
+        const Ints full = segments_ > capacity_;
+        if (any(full)) enlarge_lanes(full);
+    }
+
+    void enlarge_lanes(const Ints& full) {
+        for (int k = 0; k < kLanes; ++k) {
+            if (full[k]) enlarge(k);
+        }
+    }
+
+    void enlarge(int k) {
+        std::vector<float>& buffer = buffers_[static_cast<std::size_t>(k)];
+        buffer.resize(std::max(3 * kFirstBuffer, 2 * buffer.size()));
+        ends_[k] = buffer.data() + 3;
+        capacity_[k] = static_cast<std::int32_t>(buffer.size() / 3) - 2;
+    }
+
+    void end_lanes(const Ints& end) {
+        for (int k = 0; k < kLanes; ++k) {
+            if (end[k] == 0) continue;
+            record(k, end[k]);
+            --growing_count_;
+            begin_strand(k);
+        }
+    }
+
+    void record(int k, std::int32_t end) {
+        const Index count = segments_[k] + 1;
+        tuft_.shoots[seedling_of_[k]] = {tuft_.points.size(), count, tie_[k],
+                                         static_cast<StrandEnd>(end - 1)};
+        const float* points = ends_[k] - 3;
+        tuft_.points.insert(tuft_.points.end(), points, points + std::ptrdiff_t{3} * count);
+    }
+
+    // Gives lane k the next seedling that can grow; those that cannot are their roots.
+    void begin_strand(int k) {
+        growing_[k] = 0;
+        while (next_ < seedlings_.size()) {
+            seedling_of_[k] = next_;
+            const Seedling& seedling = seedlings_[next_++];
+            plant(k, seedling);
+            const std::int32_t end = first_step(k, seedling);
+            if (end == 0) {
+                growing_[k] = -1;
+                ++growing_count_;
+                return;
+            }
+            record(k, end);
+        }
+        set(at_, k, Eigen::Vector3f::Zero());
+        set(to_, k, Eigen::Vector3f::Zero());
+    }
+
+    void plant(int k, const Seedling& seedling) {
+        set(at_, k, seedling.at);
+        set(to_, k, seedling.at);
+        grown_[k] = 0.0f;
+        length_[k] = seedling.length;
+        floor_[k] = seedling.floor;
+        cut_[k] = seedling.cut;
+        tail_[k] = seedling.tail;
+        segments_[k] = pushes_[k] = 0;
+        tie_[k] = kNoIndex;
+        const Eigen::Vector3f root_point =
+            (rules_.linear * seedling.at).eval() + rules_.translation;
+        std::copy_n(root_point.data(), 3, ends_[k] - 3);
+    }
+
+    // Chooses the first point after the root. 0, or the code of what ends the strand before.
+    std::int32_t first_step(int k, const Seedling& seedling) {
+        if (!(seedling.length > rules_.least_move)) return code(StrandEnd::length);
+        locate();
+        if (!inside_[k]) return code(StrandEnd::left_grid);
+        const HalfFloats quad = read(k);
+        const Eigen::Vector3f v(quad[0], quad[1], quad[2]);
+        if (!(std::sqrt(v.squaredNorm()) > rules_.least_speed)) return code(StrandEnd::slow);
+        const float inward = std::min(0.0f, v.dot(seedling.normal));
+        const Eigen::Vector3f lifted = v + (rules_.lift - inward) * seedling.normal;
+        const float speed = std::sqrt(lifted.squaredNorm());
+        if (!(speed > 0.0f)) return code(StrandEnd::slow);
+        const float scale =
+            std::min(rules_.segment / std::max(speed, 1.0f), seedling.length / speed);
+        set(to_, k, seedling.at + scale * lifted);
+        return 0;
+    }
+
+    // The strands of all lanes: last and next points, directions of the last segments, lengths so
+    // far and in the end, floors and random numbers, whether there is a strand, segments so far,
+    // pushes of the next point, and ties.
+    Floats3 at_, to_, way_;
+    Floats grown_{}, length_{}, floor_{}, cut_{}, tail_{};
+    Ints growing_{}, segments_{}, pushes_{}, tie_{};
+    // Of the next points: their cells, places in them, and whether they are in the grid.
+    Ints cell_{}, inside_{};
+    Floats3 place_;
+    // Segments for which there is room.
+    Ints capacity_{};
+
+    const QuadGrid& grid_;
+    const GrowthRules& rules_;
+    std::span<const Seedling> seedlings_;
+    Tuft& tuft_;
+    // The points of the strand of each lane, and where they go on after the root.
+    std::array<std::vector<float>, kLanes> buffers_;
+    float* ends_[kLanes]{};
+    std::array<std::size_t, kLanes> seedling_of_{};
+    std::size_t next_ = 0;
+    int growing_count_ = 0;
+};
+
+void grow_anywhere(LaneGrower& grower) {
+    grower.run();
+}
+
+#ifdef LISSOM_HAS_AVX2_PATH
+LISSOM_AVX2 void grow_with_avx2(LaneGrower& grower) {
+    grower.run();
+}
+#endif
+
+}  // namespace
+
+GrowthLoop best_growth_loop() {
+    return has_avx2() ? GrowthLoop::avx2 : GrowthLoop::anywhere;
+}
+
+void grow_tuft(const QuadGrid& grid, const GrowthRules& rules, std::span<const Seedling> seedlings,
+               [[maybe_unused]] GrowthLoop loop, Tuft& tuft) {
+    LaneGrower grower(grid, rules, seedlings, tuft);
+#ifdef LISSOM_HAS_AVX2_PATH
+    if (loop == GrowthLoop::avx2) {
+        grow_with_avx2(grower);
+        return;
+    }
+#endif
+    grow_anywhere(grower);
+}
+
+}  // namespace lissom
