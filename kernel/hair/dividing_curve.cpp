@@ -25,7 +25,7 @@ void require(bool holds, const char* message) {
 
 // The options with all lengths known.
 struct Rule {
-    double step, sigma, height, reach, thickness, wall_width, wall_height;
+    double step, sigma, height, reach, thickness, wall_width, wall_height, ramp;
 
     Rule(const DividingOptions& o, double d)
         : step(d),
@@ -34,7 +34,8 @@ struct Rule {
           reach(o.reach.value_or(2.5 * sigma)),
           thickness(o.thickness.value_or(0.8 * d)),
           wall_width(o.wall_width.value_or(1.2 * d)),
-          wall_height(o.wall_height.value_or(2.6 * d)) {}
+          wall_height(o.wall_height.value_or(2.6 * d)),
+          ramp(o.ramp.value_or(0.87 * d)) {}
 
     double bell(double u) const { return std::exp(-0.5 * std::pow((u - sigma) / sigma, 2)); }
     double gaussian(double u) const { return height * (bell(u) - std::exp(-0.5)); }
@@ -56,7 +57,7 @@ void require_options(const DividingOptions& o, const Rule& rule) {
     require(rule.sigma > 0.0 && std::isfinite(rule.sigma),
             "sigma of a dividing curve must be above 0");
     for (const double length :
-         {rule.height, rule.reach, rule.thickness, rule.wall_width, rule.wall_height}) {
+         {rule.height, rule.reach, rule.thickness, rule.wall_width, rule.wall_height, rule.ramp}) {
         require(length >= 0.0 && std::isfinite(length),
                 "height, reach, thickness and the wall of a dividing curve must be 0 or more");
     }
@@ -108,8 +109,8 @@ class Divider {
         if (normal.dot(place.normal) < 0.5) normal = place.normal;
         const double tilt = tilt_at(place);
         const Vec3 level = flow(place, tilt, normal);
-        if (!along) return options_.separation * level;
-        return (level + rule_.slope(u) * std::cos(tilt) * normal).normalized();
+        if (!along) return faded(options_.separation * level, place);
+        return faded((level + rule_.slope(u) * std::cos(tilt) * normal).normalized(), place);
     }
 
   private:
@@ -124,6 +125,13 @@ class Divider {
         const Vec3 turned = std::cos(tilt) * away + std::sin(tilt) * place.tangent;
         const Vec3 level = turned - normal.dot(turned) * normal;
         return level.normalized();
+    }
+
+    /// With the part across the curve growing evenly from the curve to the end of the ramp.
+    Vec3 faded(const Vec3& vector, const DividingPlace& place) const {
+        const double u = std::abs(place.across);
+        if (!(u < rule_.ramp)) return vector;
+        return vector - (1.0 - u / rule_.ramp) * vector.dot(place.right) * place.right;
     }
 
     const DistanceGrid& distances_;

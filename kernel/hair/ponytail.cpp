@@ -15,9 +15,10 @@ namespace lissom {
 namespace {
 
 constexpr double kDefaultRadius = 1.5;     // in steps
-constexpr double kDefaultRing = 1.5;       // in steps
-constexpr double kDefaultClearance = 2.5;  // in steps
-constexpr double kRingDepth = 0.5;         // of the ring to both sides of C1, in steps
+constexpr double kDefaultRing = 2.5;       // in steps
+constexpr double kDefaultClearance = 1.5;  // in steps
+constexpr double kDefaultLead = 1.5;       // in steps
+constexpr double kBehindTie = 0.5;         // the ring goes on behind C1, in steps
 constexpr double kSectionMargin = 0.6;     // beyond the radius of a cross section, in steps
 constexpr double kShortest = 1e-6;         // parts of a spine shorter than this many steps are none
 // The shape of a tail without profiles: it has swollen at this share of its length, and narrows
@@ -42,9 +43,10 @@ void require_options(const PonytailOptions& o) {
             "inner and outer of a ponytail must be 0 or more, and inner no more than outer");
     require(o.tightness >= 0.0 && o.tightness <= 1.0,
             "tightness of a ponytail must be from 0 to 1");
-    require(is_length(o.ring.value_or(0.0)) && is_length(o.clearance.value_or(0.0)) &&
-                is_length(o.stop_length),
-            "ring, clearance and stop_length of a ponytail must be lengths of 0 or more");
+    require(is_length(o.ring.value_or(0.0)) && is_length(o.lead.value_or(0.0)) &&
+                is_length(o.clearance.value_or(0.0)) && is_length(o.stop_length),
+            "ring, lead, clearance and stop_length of a ponytail must be lengths of 0 or more");
+    require(is_length(o.grip), "grip of a ponytail must be 0 or more");
     require(o.weight > 0.0 && std::isfinite(o.weight), "the weight of a curve must be above 0");
 }
 
@@ -210,6 +212,7 @@ class Tail {
           shape_(shape),
           options_(options),
           clearance_(options.clearance.value_or(kDefaultClearance * layout_.step)),
+          lead_(options.lead.value_or(kDefaultLead * layout_.step)),
           inner_(options.inner * shape.tie().radius),
           outer_(std::max(options.outer * shape.tie().radius,
                           inner_ + options.ring.value_or(kDefaultRing * layout_.step))) {
@@ -233,7 +236,7 @@ class Tail {
     std::optional<Vec3> longitudinal(const Vec3& point) const {
         if (centers_.size() < 2) return std::nullopt;
         const CurveFoot foot = foot_on_curve(centers_, point);
-        if (std::abs(foot.beyond) > kRingDepth * layout_.step) return std::nullopt;
+        if (foot.beyond < 0.0 || foot.beyond > kBehindTie * layout_.step) return std::nullopt;
         const PonytailSection &a = shape_.sections[foot.segment],
                               &b = shape_.sections[foot.segment + 1];
         const double radius = a.radius + foot.t * (b.radius - a.radius);
@@ -242,7 +245,9 @@ class Tail {
         const Vec3 direction = ((1.0 - foot.t) * a.direction + foot.t * b.direction).normalized();
         const Vec3 from = point - foot.point;
         const Vec3 outward = from - from.dot(direction) * direction;
-        const double slope = (b.radius - a.radius) / (b.center - a.center).norm();
+        double slope = (b.radius - a.radius) / (b.center - a.center).norm();
+        const double outside = std::max(0.0, outward.norm() - radius);
+        slope -= options_.grip * outside / layout_.step;
         return (direction + slope / radius * outward).normalized();
     }
 
@@ -252,7 +257,7 @@ class Tail {
         const PonytailSection& tie = shape_.tie();
         const Vec3 from = point - tie.center;
         const double height = from.dot(tie.direction);
-        if (std::abs(height) > kRingDepth * layout_.step) return std::nullopt;
+        if (height < -lead_ || height > kBehindTie * layout_.step) return std::nullopt;
         const double radius = (from - height * tie.direction).norm();
         if (radius < inner_ || radius > outer_) return std::nullopt;
         return -options_.tightness * from.normalized();
@@ -289,7 +294,7 @@ class Tail {
     const GridLayout& layout_;
     const PonytailShape& shape_;
     const PonytailOptions& options_;
-    double clearance_, inner_, outer_;
+    double clearance_, lead_, inner_, outer_;
     std::vector<Vec3> centers_;
     std::vector<double> lengths_;
 };

@@ -29,14 +29,18 @@ struct PonytailOptions {
     /// swells to 1 + fullness radii over its first half, and narrows to its end.
     double share = 0.7, fullness = 1.0;
     /// Radii in multiples of that of C1: hair is drawn to the middle of C1 between them (R1 and R2
-    /// of the thesis), in a ring at least `ring` wide; 1.5 steps.
+    /// of the thesis), in a ring at least `ring` wide, as grids are coarse, and from `lead` in
+    /// front of C1 on. 2.5 and 1.5 steps.
     double inner = 1.3, outer = 1.9;
-    std::optional<double> ring = std::nullopt;
+    std::optional<double> ring = std::nullopt, lead = std::nullopt;
     /// Magnitude of the vectors in the ring, 0 to 1; 0 gives none.
     double tightness = 0.6;
+    /// How the tail holds its hair: just outside its outline vectors turn inward by this slope a
+    /// step of the grid. 0 for not, as in the thesis.
+    double grip = 4.0;
     /// The tail's vectors are left out at points nearer to the head than this, farther than that
     /// from C1 and behind it: so a tail that falls along the neck does not catch the hair that
-    /// grows there. 0 leaves none out. 2.5 steps.
+    /// grows there. 0 leaves none out. 1.5 steps.
     std::optional<double> clearance = std::nullopt;
     /// As StreamOptions::stop_length: beyond the end of the spine.
     double stop_length = 0.04;
