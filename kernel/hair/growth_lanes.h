@@ -38,6 +38,11 @@ struct Several {
     friend auto operator*(const Several& a, const Several& b) {
         return each(a, b, [](Number x, Number y) { return x * y; });
     }
+    friend auto operator*(Number x, const Several& b) {
+        Several a;
+        for (Number& y : a.v) y = x;
+        return a * b;
+    }
     friend auto operator/(const Several& a, const Several& b) {
         return each(a, b, [](Number x, Number y) { return x / y; });
     }

@@ -55,8 +55,7 @@ LISSOM_INLINE Floats dot(const Floats3& a, const Floats3& b) {
 }
 
 LISSOM_INLINE Floats3 choose(const Ints& yes, const Floats3& a, const Floats3& b) {
-    return {choose(yes, a.x, b.x), choose(yes, a.y, b.y),
-            choose(yes, a.z, b.z)};
+    return {choose(yes, a.x, b.x), choose(yes, a.y, b.y), choose(yes, a.z, b.z)};
 }
 
 void set(Floats3& v, int k, const Eigen::Vector3f& to) {
@@ -129,6 +128,25 @@ class LaneGrower {
         inside_ = (x == to_.x) & (y == to_.y) & (z == to_.z);
     }
 
+    // The same for lane k alone, of a point in the grid.
+    void locate(int k) {
+        std::int32_t cell[3];
+        Eigen::Vector3f place;
+        const Eigen::Vector3f point = at(to_, k);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto last = static_cast<std::int32_t>(grid_.last[static_cast<std::size_t>(axis)]);
+            cell[axis] = std::min(static_cast<std::int32_t>(point[axis]), last - 1);
+            place[axis] = point[axis] - static_cast<float>(cell[axis]);
+        }
+        set(place_, k, place);
+        cell_[k] = cell[0] + grid_.nx * cell[1] + grid_.nxy * cell[2];
+    }
+
+    bool contains(const Eigen::Vector3f& point) const {
+        const Eigen::Map<const Eigen::Vector3f> last(grid_.last.data());
+        return (point.array() >= 0.0f).all() && (point.array() <= last.array()).all();
+    }
+
     const float* corner(int k) const {
         return grid_.values + 4 * static_cast<std::size_t>(cell_[k]);
     }
@@ -144,8 +162,7 @@ class LaneGrower {
         const Floats front = a + ty * (b - a), back = c + ty * (d - c);
         HalfFloats low, high;
         split(front + tz * (back - front), low, high);
-        const float tx = place_.x[k];
-        return low + HalfFloats{tx, tx, tx, tx} * (high - low);
+        return low + place_.x[k] * (high - low);
     }
 
     LISSOM_INLINE Reading read_all() const {
@@ -367,8 +384,8 @@ class LaneGrower {
     // Chooses the first point after the root. 0, or the code of what ends the strand before.
     std::int32_t first_step(int k, const Seedling& seedling) {
         if (!(seedling.length > rules_.least_move)) return code(StrandEnd::length);
-        locate();
-        if (!inside_[k]) return code(StrandEnd::left_grid);
+        if (!contains(seedling.at)) return code(StrandEnd::left_grid);
+        locate(k);
         const HalfFloats quad = read(k);
         const Eigen::Vector3f v(quad[0], quad[1], quad[2]);
         if (!(std::sqrt(v.squaredNorm()) > rules_.least_speed)) return code(StrandEnd::slow);

@@ -17,7 +17,7 @@ namespace lissom {
 
 /// Strands that are grown together before they are put in order; within such a wave neighbours are
 /// grown one after the other, so that they read the same part of the field.
-inline constexpr Index kGrowthWave = 16384;
+inline constexpr Index kGrowthWave = 4096;
 
 /// Random numbers of a strand.
 struct StrandChance {

@@ -1,59 +1,14 @@
 #include "kernel/hair/growth.h"
 
-#include "kernel/hair/curve.h"
 #include "kernel/hair/strand_edit.h"
 #include "kernel/hair/strand_measures.h"
-#include "kernel/hair/stream_curve.h"
-#include "kernel/mesh/head.h"
-#include "tests/unit/hair/hair_support.h"
+#include "tests/unit/hair/groomed.h"
 
 using namespace lissom;
 using doctest::Approx;
-
-namespace {
-
-// The generated head with hair that is swept over its top by three streams.
-struct Groomed {
-    Mesh head = make_head({.vertices = 4000});
-    Scalp scalp{head};
-    HairField field{DistanceGrid(head, fit_grid(scalp.default_box(), 12000))};
-    std::vector<Root> roots = make_roots(head, scalp, {.count = 3000});
-
-    Groomed() {
-        for (const double side : {-0.6, 0.0, 0.6}) {
-            std::vector<Vec3> points;
-            for (const double back : {0.3, 1.2, 2.2, 2.8}) {
-                const double elevation = 1.2 - 0.35 * back;
-                const double azimuth = side * (1.0 - back / 3.5) + (side < 0.0 ? -back : back);
-                points.push_back(scalp.at({azimuth, elevation}, 0.01).position);
-            }
-            std::vector<Vec3> curve = smooth_curve(points, 0.2 * field.layout().step);
-            push_out(curve, field.distances(), 0.004);
-            curve = resampled_curve(curve, field.layout().step);
-            field.set_constraints(++curves, stream_constraints(field.layout(), curve, {0.04}));
-        }
-        field.solve();
-    }
-
-    Strands grown(const GrowthOptions& options = {}, const Context& context = {}) const {
-        Strands strands;
-        grow(head, field, roots, options, strands, context);
-        return strands;
-    }
-
-    int curves = 0;
-};
-
-const Groomed& groomed() {
-    static const Groomed scene;
-    return scene;
-}
-
-std::vector<float> points_of(const Strands& strands) {
-    return {strands.points().begin(), strands.points().end()};
-}
-
-}  // namespace
+using test::Groomed;
+using test::groomed;
+using test::points_of;
 
 TEST_CASE("hair field: between grid points as at them, with the distance beside") {
     const HairField& field = groomed().field;
@@ -129,6 +84,7 @@ TEST_CASE("growth: the same strands on one and two threads, and whatever other r
     CHECK(points_of(all) == points_of(scene.grown({}, Context(two))));
     Strands few;
     grow(scene.head, scene.field, std::span(scene.roots).first(100), {}, few);
+    CHECK(few.roots().faces.size() == 100);
     CHECK(points_of(few) == points_of(prefix(all, 100)));
     // Into strands that were there before.
     grow(scene.head, scene.field, scene.roots, {}, few);
@@ -168,4 +124,95 @@ TEST_CASE("growth: no roots, no segments, and bad options") {
     CHECK(code([](auto& o) { o.most_segments = 0; }) == ErrorCode::invalid_argument);
     CHECK(code([](auto& o) { o.length_map = {1.0}; }) == ErrorCode::invalid_argument);
     CHECK(code([](auto& o) { o.placement.linear.setZero(); }) == ErrorCode::invalid_argument);
+    CHECK(code([](auto& o) { o.cuts.push_back({.normal = Vec3::Zero()}); }) ==
+          ErrorCode::invalid_argument);
+    CHECK(code([](auto& o) { o.ties.push_back({.radius = -1.0}); }) == ErrorCode::invalid_argument);
+    std::vector<Root> strange(1);
+    CHECK(test::error_of([&] { StrandGrower(scene.head, strange); }).code() ==
+          ErrorCode::invalid_argument);
+    strange = {scene.roots.front()};
+    strange[0].position.x() = test::kNaN;
+    CHECK(test::error_of([&] { StrandGrower(scene.head, strange); }).code() ==
+          ErrorCode::not_finite);
+}
+
+TEST_CASE("growth: no turn beyond a right angle, no segment without length, whatever the field") {
+    const Groomed& scene = groomed();
+    // Curves that run against each other, so that hair meets sources, sinks and vortices.
+    HairField field(DistanceGrid(scene.head, scene.field.layout()));
+    test::RandomPoints random(5);
+    std::vector<GridConstraint> constraints;
+    for (Index i = 0; i < scene.field.layout().size(); i += 97) {
+        const Vec3 v = random.in_box({Vec3::Constant(-1.0), Vec3::Constant(1.0)});
+        constraints.push_back({i, v.normalized()});
+    }
+    field.set_constraints(1, constraints);
+    field.solve();
+    for (const bool avoid : {true, false}) {
+        GrowthOptions options;
+        options.avoid = avoid;
+        options.segment = avoid ? 0.5 : 2.0;
+        options.placement = translation({30.0, 0.0, -5.0});
+        Strands strands;
+        const GrowthReport report = grow(scene.head, field, scene.roots, options, strands);
+        const StrandStatistics found = strand_statistics(strands);
+        CHECK(found.sharp == 0);
+        CHECK(found.zero_segments == 0);
+        CHECK(found.not_finite == 0);
+        CHECK(report.ended_by(StrandEnd::turned) > 0);
+        Index ended = 0;
+        for (const Index count : report.ends) ended += count;
+        CHECK(ended == strands.size());
+    }
+}
+
+TEST_CASE("growth: hair without a field is roots, and a slow field still gives the full length") {
+    const Groomed& scene = groomed();
+    HairField field(DistanceGrid(scene.head, scene.field.layout()));
+    field.solve();
+    Strands strands;
+    const GrowthReport none = grow(scene.head, field, scene.roots, {}, strands);
+    CHECK(none.ended_by(StrandEnd::slow) == strands.size());
+    CHECK(strands.point_count() == strands.size());
+
+    field.set_constraints(1, {{0, Vec3(0.0, 0.3, 0.0)}});
+    field.solve();
+    GrowthOptions options;
+    options.length = 0.03;
+    options.variation = 0.0;
+    options.avoid = false;
+    options.lift = 0.0;
+    grow(scene.head, field, std::span(scene.roots).first(50), options, strands);
+    for (Index s = 0; s < strands.size(); ++s) {
+        CHECK(length(strands.strand(s)) == Approx(0.03).epsilon(2e-3));
+    }
+}
+
+TEST_CASE("growth: strands are placed, and a grower can be used again") {
+    const Groomed& scene = groomed();
+    StrandGrower grower(scene.head, scene.roots);
+    CHECK(grower.size() == static_cast<Index>(scene.roots.size()));
+    Strands plain, placed;
+    grower.grow(scene.field, {}, plain);
+    GrowthOptions options;
+    options.placement = rotation({1, 2, 3}, 0.7, {0.1, 0, 0}) * scaling(Vec3::Constant(100.0), {});
+    grower.grow(scene.field, options, placed);
+    REQUIRE(placed.point_count() == plain.point_count());
+    for (Index i = 0; i < plain.point_count(); i += 17) {
+        const auto at = [&](const Strands& strands) -> Vec3 {
+            return Eigen::Map<const Eigen::Vector3f>(strands.points().data() + 3 * i)
+                .cast<double>();
+        };
+        CHECK((at(placed) - options.placement(at(plain))).norm() < 1e-4);
+    }
+    // Another seed and another map, and back.
+    options = {};
+    options.seed = 2;
+    options.length_map.assign(static_cast<std::size_t>(scene.head.vertex_count()), 0.5);
+    grower.grow(scene.field, options, placed);
+    CHECK(points_of(placed) == points_of(scene.grown(options)));
+    CHECK(points_of(placed) != points_of(plain));
+    grower.grow(scene.field, {}, placed);
+    CHECK(points_of(placed) == points_of(plain));
+    CHECK(placed.roots().barycentrics == plain.roots().barycentrics);
 }
