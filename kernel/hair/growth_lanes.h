@@ -8,6 +8,10 @@
 
 #include "kernel/core/lanes.h"
 
+#if defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12)
+#define LISSOM_HAS_SHUFFLES
+#endif
+
 namespace lissom {
 
 inline constexpr int kLanes = 8;
@@ -143,9 +147,19 @@ LISSOM_INLINE void split(const Floats& x, HalfFloats& low, HalfFloats& high) {
     std::memcpy(&high, reinterpret_cast<const char*>(&x) + sizeof(low), sizeof(high));
 }
 
+/// The last numbers of three, side by side; the fourth means nothing.
+LISSOM_INLINE HalfFloats last_of(const HalfFloats& a, const HalfFloats& b, const HalfFloats& c) {
+#if defined(LISSOM_HAS_SHUFFLES)
+    const HalfFloats ab = __builtin_shufflevector(a, b, 3, 7, 3, 7);
+    return __builtin_shufflevector(ab, c, 0, 1, 7, 7);
+#else
+    return HalfFloats{a[3], b[3], c[3], c[3]};
+#endif
+}
+
 /// columns[i][k] = i-th number of rows[k].
 LISSOM_INLINE void transpose(const HalfFloats rows[kLanes], Floats columns[4]) {
-#if defined(__GNUC__) && (defined(__clang__) || __GNUC__ >= 12)
+#if defined(LISSOM_HAS_SHUFFLES)
     Floats pair[4];
     for (int j = 0; j < 4; ++j) {
         pair[j] = __builtin_shufflevector(rows[j], rows[j + 4], 0, 1, 2, 3, 4, 5, 6, 7);

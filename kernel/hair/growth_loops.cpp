@@ -22,6 +22,9 @@ using lissom::choose;
 // interpolated.
 constexpr std::int32_t kPushes = 3;
 
+// A strand so little below its floor, in steps, is not pushed: it would have to look again.
+constexpr float kLeastPush = 0.02f;
+
 // Of the sharpest turn, 88 degrees: rounding of the points makes no right angle of it.
 constexpr float kLeastCosine = 0.035f;
 
@@ -72,6 +75,8 @@ Eigen::Vector3f at(const Floats3& v, int k) {
 struct Reading {
     Floats3 vector;
     Floats distance;
+    // Gradient of the distance a step.
+    Floats3 slope;
 };
 
 // The segments that strands are about to take, of those that are not pushed.
@@ -102,10 +107,12 @@ class LaneGrower {
         while (growing_count_ > 0) {
             locate();
             const Reading here = read_all();
-            const Floats missing = missing_height(here);
-            const Ints push = growing_ & inside_ & (missing > all(0.0f)) & (pushes_ < all(kPushes));
-            if (any(push)) push_lanes(push, missing);
-            Segments next = segments_of(growing_ & no(push));
+            const Floats missing = missing_height(here.distance, grown_);
+            const Ints low =
+                growing_ & inside_ & (missing > all(kLeastPush)) & (pushes_ < all(kPushes));
+            if (any(low)) push(low, missing, here.slope);
+            pushes_ = pushes_ - low;
+            Segments next = segments_of(growing_ & no(low));
             for (std::size_t i = 0; i < rules_.ties.size(); ++i) meet_tie(rules_.ties[i], i, next);
             shorten(next, next.length > length_ - grown_, (length_ - grown_) / next.length);
             for (const CutRule& cut : rules_.cuts) meet_cut(cut, next);
@@ -151,63 +158,51 @@ class LaneGrower {
         return grid_.values + 4 * static_cast<std::size_t>(cell_[k]);
     }
 
-    // Two corners, neighbours along x, at a time.
-    LISSOM_INLINE HalfFloats read(int k) const {
+    // Vector and distance where lane k is about to go, and the gradient of the distance a step. Two
+    // corners, neighbours along x, at a time.
+    LISSOM_INLINE void read(int k, HalfFloats& quad, HalfFloats& slope) const {
         const float* from = corner(k);
         const std::size_t nx = 4 * static_cast<std::size_t>(grid_.nx),
                           nxy = 4 * static_cast<std::size_t>(grid_.nxy);
         const Floats a = load(from), b = load(from + nx), c = load(from + nxy),
                      d = load(from + nxy + nx);
         const Floats ty = all(place_.y[k]), tz = all(place_.z[k]);
-        const Floats front = a + ty * (b - a), back = c + ty * (d - c);
-        HalfFloats low, high;
-        split(front + tz * (back - front), low, high);
-        return low + place_.x[k] * (high - low);
+        const Floats front_y = b - a, back_y = d - c;
+        const Floats front = a + ty * front_y, back = c + ty * back_y, along_z = back - front;
+        HalfFloats low, high, low_y, high_y, low_z, high_z;
+        split(front + tz * along_z, low, high);
+        split(front_y + tz * (back_y - front_y), low_y, high_y);
+        split(along_z, low_z, high_z);
+        const float tx = place_.x[k];
+        const HalfFloats along_x = high - low;
+        quad = low + tx * along_x;
+        slope = last_of(along_x, low_y + tx * (high_y - low_y), low_z + tx * (high_z - low_z));
     }
 
     LISSOM_INLINE Reading read_all() const {
-        HalfFloats quads[kLanes];
-        for (int k = 0; k < kLanes; ++k) quads[k] = read(k);
-        Floats columns[4];
+        HalfFloats quads[kLanes], slopes[kLanes];
+        for (int k = 0; k < kLanes; ++k) read(k, quads[k], slopes[k]);
+        Floats columns[4], gradient[4];
         transpose(quads, columns);
-        return {{columns[0], columns[1], columns[2]}, columns[3]};
+        transpose(slopes, gradient);
+        return {{columns[0], columns[1], columns[2]},
+                columns[3],
+                {gradient[0], gradient[1], gradient[2]}};
     }
 
-    // How far the next points are below their floors.
-    LISSOM_INLINE Floats missing_height(const Reading& here) const {
+    // How far a point at this distance from the head is below the floor of its strand.
+    LISSOM_INLINE Floats missing_height(const Floats& distance, const Floats& grown) const {
         if (!rules_.avoid) return all(-1.0f);
         const Floats share =
-            least(all(1.0f), (grown_ + all(rules_.segment)) * all(rules_.inverse_ramp));
-        return floor_ * share - here.distance * all(rules_.inverse_step);
+            least(all(1.0f), (grown + all(rules_.segment)) * all(rules_.inverse_ramp));
+        return floor_ * share - distance * all(rules_.inverse_step);
     }
 
-    // The gradient of the distance a step, at the next point.
-    Eigen::Vector3f outward(int k) const {
-        const float* from = corner(k) + 3;
-        const std::size_t nx = 4 * static_cast<std::size_t>(grid_.nx),
-                          nxy = 4 * static_cast<std::size_t>(grid_.nxy);
-        const float tx = place_.x[k], ty = place_.y[k], tz = place_.z[k];
-        const auto between = [](float low, float high, float t) { return low + t * (high - low); };
-        // Edges along x, by their y and z.
-        float value[4], slope[4];
-        for (unsigned edge = 0; edge < 4; ++edge) {
-            const float* low = from + (edge & 1u ? nx : 0) + (edge & 2u ? nxy : 0);
-            slope[edge] = low[4] - low[0];
-            value[edge] = low[0] + tx * slope[edge];
-        }
-        return {between(between(slope[0], slope[1], ty), between(slope[2], slope[3], ty), tz),
-                between(value[1] - value[0], value[3] - value[2], tz),
-                between(value[2] - value[0], value[3] - value[1], ty)};
-    }
-
-    void push_lanes(const Ints& push, const Floats& missing) {
-        for (int k = 0; k < kLanes; ++k) {
-            if (!push[k]) continue;
-            const Eigen::Vector3f normal = outward(k);
-            const float slope = std::sqrt(normal.squaredNorm());
-            pushes_[k] += slope > 0.0f ? 1 : kPushes;
-            if (slope > 0.0f) set(to_, k, at(to_, k) + missing[k] / slope * normal);
-        }
+    // Moves the next points outward.
+    LISSOM_INLINE void push(const Ints& asked, const Floats& by, const Floats3& slope) {
+        const Floats steepness = root(dot(slope, slope));
+        const Ints yes = asked & (steepness > all(0.0f));
+        to_ = choose(yes, sum(to_, scaled(slope, by / steepness)), to_);
     }
 
     LISSOM_INLINE Segments segments_of(const Ints& go) const {
@@ -273,6 +268,10 @@ class LaneGrower {
         way_ = choose(take, scaled(next.way, all(1.0f) / next.length), way_);
         at_ = choose(take, to_, at_);
         to_ = choose(take, sum(to_, scaled(here.vector, scale)), to_);
+        // As far as the slope here tells, which saves most pushes later.
+        const Floats distance = here.distance + scale * dot(here.slope, here.vector);
+        const Floats missing = missing_height(distance, grown);
+        push(take & inside_ & (missing > all(0.0f)), missing, here.slope);
         grown_ = choose(take, grown, grown_);
         pushes_ = choose(take, all(0), pushes_);
         if (any(end)) end_lanes(end);
@@ -386,7 +385,8 @@ class LaneGrower {
         if (!(seedling.length > rules_.least_move)) return code(StrandEnd::length);
         if (!contains(seedling.at)) return code(StrandEnd::left_grid);
         locate(k);
-        const HalfFloats quad = read(k);
+        HalfFloats quad, slope;
+        read(k, quad, slope);
         const Eigen::Vector3f v(quad[0], quad[1], quad[2]);
         if (!(std::sqrt(v.squaredNorm()) > rules_.least_speed)) return code(StrandEnd::slow);
         const float inward = std::min(0.0f, v.dot(seedling.normal));

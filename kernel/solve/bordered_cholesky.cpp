@@ -10,8 +10,9 @@
 namespace lissom {
 namespace {
 
-// Columns that a thread fills, and rows that it computes, at a time.
-constexpr Index kFillGrain = 16, kRowGrain = 72;
+// Columns that a thread fills, and rows that it computes, at a time; rows come in steps of those
+// that the kernels take together.
+constexpr Index kFillGrain = 16, kRowGrain = 72, kRowStep = 12;
 
 using Scratch = std::unique_ptr<double[]>;
 
@@ -24,6 +25,12 @@ Scratch make_scratch() {
 Index stride_for(Index size) {
     const Index slack = std::max<Index>(32, size / 8);
     return (size + slack + 15) / 16 * 16 + 8;
+}
+
+// For few new rows, so that two threads share them.
+Index row_grain(Index rows) {
+    const Index half = (rows + 1) / 2;
+    return std::min(kRowGrain, (half + kRowStep - 1) / kRowStep * kRowStep);
 }
 
 struct Factor {
@@ -112,7 +119,7 @@ void BorderedCholesky::fill_rows(Index size, const Fill& fill, const Context& co
 void BorderedCholesky::border_old_columns(Index size, const Context& context) {
     if (size_ == 0) return;
     const DenseKernels kernels = dense_kernels(best_processor());
-    context.parallel_for(size_, size, kRowGrain, [&](Index begin, Index end) {
+    context.parallel_for(size_, size, row_grain(size - size_), [&](Index begin, Index end) {
         const Scratch packed = make_scratch();
         for (Index first = 0; first < size_; first += kPanelColumns) {
             context.checkpoint();
