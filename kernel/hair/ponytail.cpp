@@ -20,6 +20,7 @@ constexpr double kDefaultClearance = 1.5;  // in steps
 constexpr double kDefaultLead = 1.5;       // in steps
 constexpr double kBehindTie = 0.5;         // the ring goes on behind C1, in steps
 constexpr double kSectionMargin = 0.6;     // beyond the radius of a cross section, in steps
+constexpr double kSpreading = 0.5;         // of the length from C1 to C2
 constexpr double kShortest = 1e-6;         // parts of a spine shorter than this many steps are none
 // The shape of a tail without profiles: it has swollen at this share of its length, and narrows
 // from that one on to this share of its radius.
@@ -46,6 +47,7 @@ void require_options(const PonytailOptions& o) {
     require(is_length(o.ring.value_or(0.0)) && is_length(o.lead.value_or(0.0)) &&
                 is_length(o.clearance.value_or(0.0)) && is_length(o.stop_length),
             "ring, lead, clearance and stop_length of a ponytail must be lengths of 0 or more");
+    require(std::isfinite(o.spread), "spread of a ponytail must be finite");
     require(is_length(o.grip), "grip of a ponytail must be 0 or more");
     require(o.weight > 0.0 && std::isfinite(o.weight), "the weight of a curve must be above 0");
 }
@@ -246,6 +248,7 @@ class Tail {
         const Vec3 from = point - foot.point;
         const Vec3 outward = from - from.dot(direction) * direction;
         double slope = (b.radius - a.radius) / (b.center - a.center).norm();
+        slope += radius * spreading(arc_length_at(lengths_, foot));
         const double outside = std::max(0.0, outward.norm() - radius);
         slope -= options_.grip * outside / layout_.step;
         return (direction + slope / radius * outward).normalized();
@@ -285,6 +288,13 @@ class Tail {
     }
 
   private:
+    // Growth of distances from the spine at an arc length behind C1, as a share a unit of length:
+    // a parabola, so that hair still closes up at the tie.
+    double spreading(double behind) const {
+        const double length = kSpreading * lengths_.back(), t = std::min(1.0, behind / length);
+        return 6.0 * options_.spread / length * t * (1.0 - t);
+    }
+
     // Whether a point of the tail, this far behind C1, is where hair grows that is not in it yet.
     bool catches_hair(const Vec3& point, double behind) const {
         return behind > clearance_ && distances_.value(point) < clearance_;

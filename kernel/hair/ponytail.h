@@ -38,6 +38,10 @@ struct PonytailOptions {
     /// How the tail holds its hair: just outside its outline vectors turn inward by this slope a
     /// step of the grid. 0 for not, as in the thesis.
     double grip = 4.0;
+    /// Hair flows on towards the spine behind the tie. From there to half the way to C2 its
+    /// distances from the spine grow by exp(spread) more than the outline does. 0 for not, as in
+    /// the thesis.
+    double spread = 1.6;
     /// The tail's vectors are left out at points nearer to the head than this, farther than that
     /// from C1 and behind it: so a tail that falls along the neck does not catch the hair that
     /// grows there. 0 leaves none out. 1.5 steps.
