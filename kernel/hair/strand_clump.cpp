@@ -95,14 +95,15 @@ class Clumps {
         const Vec3 tip =
             options_.tip_spread * random_vector(options_.seed, strands_.id(s), kTipStream) +
             guide->offset;
-        const Vec3 apart = guide->curve.frame(0.0).transpose() *
-                           (old.col(0).cast<double>() - guide->curve.point(0.0));
+        const GuideCurve::Point root = guide->curve.at(0.0);
+        const Vec3 apart = root.frame.transpose() * (old.col(0).cast<double>() - root.position);
         std::vector<double> t;
         arc_fractions(old, t);
         for (Index k = 1; k < old.cols(); ++k) {
-            const double along = t[at(k)], s_t = std::pow(along, options_.shape);
-            const Vec3 target = guide->curve.point(along) +
-                                (1.0 - s_t) * (guide->curve.frame(along) * apart) + s_t * tip;
+            const double along = t[at(k)];
+            const double s_t = options_.shape == 1.0 ? along : std::pow(along, options_.shape);
+            const GuideCurve::Point center = guide->curve.at(along);
+            const Vec3 target = center.position + (1.0 - s_t) * (center.frame * apart) + s_t * tip;
             const Vec3 p = old.col(k).cast<double>();
             made.col(k) = (p + s_t * reach * (target - p)).cast<float>();
         }

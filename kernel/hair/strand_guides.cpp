@@ -120,21 +120,17 @@ GuideCurve::GuideCurve(const StrandView& strand) {
     }
 }
 
-Vec3 GuideCurve::point(double t) const {
-    if (points_.size() == 1) return points_.front();
+GuideCurve::Point GuideCurve::at(double t) const {
+    if (points_.size() == 1) return {points_.front(), frames_.front()};
     const StrandPlace place = place_at(t_, t);
-    const Vec3& a = points_[at(place.below)];
-    return a + place.u * (points_[at(place.below) + 1] - a);
-}
-
-Mat3 GuideCurve::frame(double t) const {
-    if (points_.size() == 1) return frames_.front();
-    const StrandPlace place = place_at(t_, t);
-    const Mat3 &a = frames_[at(place.below)], &b = frames_[at(place.below) + 1];
+    const std::size_t below = static_cast<std::size_t>(place.below);
+    const Vec3& p = points_[below];
+    const Vec3 position = p + place.u * (points_[below + 1] - p);
+    const Mat3 &a = frames_[below], &b = frames_[below + 1];
     const Vec3 tangent = a.col(2) + place.u * (b.col(2) - a.col(2));
-    if (tangent.norm() < 1e-6) return a;
+    if (tangent.norm() < 1e-6) return {position, a};
     const Vec3 normal = a.col(0) + place.u * (b.col(0) - a.col(0));
-    return frame_of(normal, tangent.normalized());
+    return {position, frame_of(normal, tangent.normalized())};
 }
 
 }  // namespace lissom

@@ -45,10 +45,14 @@ class GuideCurve {
     /// `strand` must be finite.
     explicit GuideCurve(const StrandView& strand);
 
-    /// The point at arc length fraction `t`.
-    Vec3 point(double t) const;
-    /// Normal, binormal and tangent in its columns at `t`; at the root an arbitrary normal.
-    Mat3 frame(double t) const;
+    /// A point of the curve, with the normal, the binormal and the tangent there in the columns of
+    /// its frame; at the root the normal is arbitrary.
+    struct Point {
+        Vec3 position;
+        Mat3 frame;
+    };
+    /// At arc length fraction `t`.
+    Point at(double t) const;
 
   private:
     std::vector<double> t_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <random>
@@ -60,15 +61,27 @@ inline Context threads(int count) {
 }
 
 /// Generalised winding number: the solid angles of all triangles (Van Oosterom and Strackee 1983).
-inline double winding_number(const Mesh& mesh, const Vec3& p) {
-    double sum = 0.0;
-    for (const auto& [i, j, k] : triangulate_faces(mesh.topology(), mesh.positions()).triangles) {
-        const Vec3 a = mesh.position(i) - p, b = mesh.position(j) - p, c = mesh.position(k) - p;
-        const double u = a.norm(), v = b.norm(), w = c.norm();
-        sum +=
-            std::atan2(a.dot(b.cross(c)), u * v * w + a.dot(b) * w + b.dot(c) * u + c.dot(a) * v);
+class WindingNumber {
+  public:
+    explicit WindingNumber(const Mesh& mesh) {
+        for (const auto& [i, j, k] :
+             triangulate_faces(mesh.topology(), mesh.positions()).triangles) {
+            triangles_.push_back({mesh.position(i), mesh.position(j), mesh.position(k)});
+        }
     }
-    return sum / (2.0 * kPi);
-}
+    double operator()(const Vec3& p) const {
+        double sum = 0.0;
+        for (const std::array<Vec3, 3>& triangle : triangles_) {
+            const Vec3 a = triangle[0] - p, b = triangle[1] - p, c = triangle[2] - p;
+            const double u = a.norm(), v = b.norm(), w = c.norm();
+            sum += std::atan2(a.dot(b.cross(c)),
+                              u * v * w + a.dot(b) * w + b.dot(c) * u + c.dot(a) * v);
+        }
+        return sum / (2.0 * kPi);
+    }
+
+  private:
+    std::vector<std::array<Vec3, 3>> triangles_;
+};
 
 }  // namespace lissom::test

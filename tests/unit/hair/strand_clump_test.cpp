@@ -112,9 +112,9 @@ TEST_CASE("the frame of a guide is orthonormal and turns as little as it can") {
         circle.emplace_back(std::cos(0.02 * kPi * k), std::sin(0.02 * kPi * k), 0.0);
     }
     const GuideCurve guide(strands_of({circle}).strand(0));
-    const double along = guide.frame(0.0).col(0).z();
+    const double along = guide.at(0.0).frame.col(0).z();
     for (double t = 0.0; t <= 1.0; t += 0.05) {
-        const Mat3 frame = guide.frame(t);
+        const Mat3 frame = guide.at(t).frame;
         CHECK((frame.transpose() * frame - Mat3::Identity()).norm() < 1e-9);
         CHECK(frame.determinant() == doctest::Approx(1.0));
         CHECK(frame.col(0).z() == doctest::Approx(along).epsilon(1e-6));

@@ -115,12 +115,12 @@ TEST_CASE("the hairline is smooth between its points and the same on both sides"
 }
 
 TEST_CASE("head: a manifold at every resolution, of about as many vertices as asked for") {
-    for (Index vertices = 3000; vertices <= 5000; vertices += 100) {
+    for (Index vertices = 3000; vertices <= 5000; vertices += 250) {
         const Mesh head = make_head({.vertices = vertices});
         CHECK(head.topology().is_closed());
         CHECK(std::abs(head.vertex_count() - vertices) < 0.12 * vertices);
     }
-    for (const Index vertices : {9800, 11600, 40000}) {
+    for (const Index vertices : {9800, 11600}) {
         CHECK(make_head({.vertices = vertices}).topology().is_closed());
     }
 }
