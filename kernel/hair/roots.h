@@ -27,6 +27,8 @@ struct RootOptions {
     /// Relative density for every vertex of the head, finite and not negative; even where absent.
     /// Multiplied by the thinning at the hairline. Only ratios count.
     std::vector<double> density = {};
+
+    bool operator==(const RootOptions&) const = default;
 };
 
 inline constexpr Index kMaximumRoots = 10'000'000;

@@ -95,6 +95,10 @@ class Scalp {
     /// head across.
     Box default_box() const;
 
+    /// The default volume of a hairstyle in metres of the frame: around the head with room for
+    /// volume on all sides, and below it for hair to the shoulders.
+    static Box default_volume() { return {{-0.2, -0.42, -0.24}, {0.2, 0.22, 0.22}}; }
+
   private:
     void choose_region(const Mesh& head, const ScalpOptions& options);
     void set_given_region(const Mesh& head, const Region& region, double softness);

@@ -1,0 +1,27 @@
+/// What holds at grid points that several style curves constrain; private to kernel/hair.
+#pragma once
+
+#include <vector>
+
+#include "kernel/solve/grid_constraints.h"
+
+namespace lissom {
+
+/// The constraints of one curve.
+struct CurveClaim {
+    std::vector<GridConstraint> constraints;
+    /// Claims of a higher rank leave those of a lower one nothing to say.
+    int rank = 0;
+};
+
+/// Greatest angle between directions that agree, radians.
+inline constexpr double kAgreement = kPi / 3.0;
+
+/// Gives all claims to a point the same value and weight, so that each point stands for one vector
+/// whoever claims it and in whatever order edits come. Of the claims of the highest rank the last
+/// one counts, and with it those that agree with it: their directions differ by at most
+/// `kAgreement`, or one of them is zero. The value is their mean by the square of their weights,
+/// the weight that of the last. `claims` are in the order of the curves.
+void settle_conflicts(std::vector<CurveClaim>& claims);
+
+}  // namespace lissom

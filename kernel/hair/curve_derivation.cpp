@@ -1,0 +1,94 @@
+#include "kernel/hair/curve_derivation.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "kernel/hair/curve.h"
+
+namespace lissom {
+namespace {
+
+// A dividing curve may be drawn this far from the head.
+constexpr double kFarthestParting = 0.05;
+
+void require_length(double length, const char* message) {
+    if (length >= 0.0 && std::isfinite(length)) return;
+    throw Error(ErrorCode::invalid_argument, message);
+}
+
+class Derivation {
+  public:
+    Derivation(const Scalp& scalp, const DistanceGrid& distances)
+        : scalp_(scalp), distances_(distances), step_(distances.layout().step) {}
+
+    DerivedCurve operator()(const StreamCurve& stream) const {
+        require_length(stream.clearance, "the clearance of a stream curve must be 0 or more");
+        DerivedCurve result;
+        std::vector<Vec3> fine = smooth_curve(stream.points, 0.5 * step_);
+        push_out(fine, distances_, stream.clearance);
+        result.course = resampled_curve(fine, step_);
+        result.constraints = stream_constraints(distances_.layout(), result.course, stream.options);
+        return result;
+    }
+
+    DerivedCurve operator()(const DividingCurve& dividing) const {
+        require_length(dividing.gap, "the gap of a dividing curve must be 0 or more");
+        DerivedCurve result;
+        std::vector<Vec3> fine = smooth_curve(dividing.points, 0.5 * step_);
+        for (Vec3& p : fine) p = on_head(p).position;
+        std::vector<Vec3> normals;
+        for (const Vec3& p : resampled_curve(fine, step_)) {
+            const OnHead found = on_head(p);
+            result.course.push_back(found.position);
+            normals.push_back(found.normal);
+        }
+        result.constraints =
+            dividing_constraints(distances_, result.course, normals, dividing.options);
+        result.line.emplace(result.course, normals);
+        result.gap = dividing.gap;
+        return result;
+    }
+
+    DerivedCurve operator()(const Ponytail& ponytail) const {
+        DerivedCurve result;
+        const PonytailShape shape =
+            ponytail_shape(smooth_curve(ponytail.spine, 0.5 * step_), step_, ponytail.options);
+        result.course = shape.spine;
+        result.constraints = ponytail_constraints(distances_, shape, ponytail.options);
+        const PonytailSection& first = shape.tie();
+        const double behind = curve_length(std::span(shape.spine).subspan(shape.first));
+        result.tie = {first.center, first.direction, first.radius,
+                      ponytail.tail_length.value_or(behind), ponytail.ragged};
+        return result;
+    }
+
+  private:
+    struct OnHead {
+        Vec3 position, normal;
+    };
+
+    OnHead on_head(const Vec3& point) const {
+        const SurfacePoint found = scalp_.tree().nearest(scalp_.from_metres(point));
+        const Vec3 on = scalp_.to_metres(found.position);
+        const double away = (on - point).norm();
+        if (away > kFarthestParting) {
+            throw Error(ErrorCode::out_of_range, "the dividing curve is " + std::to_string(away) +
+                                                     " m from the head; draw it on the scalp");
+        }
+        const Vec3 normal = scalp_.normal_at(found.triangle, found.barycentric);
+        return {on, scalp_.frame().axes.transpose() * normal};
+    }
+
+    const Scalp& scalp_;
+    const DistanceGrid& distances_;
+    double step_;
+};
+
+}  // namespace
+
+DerivedCurve derive(const StyleCurve& curve, const Scalp& scalp, const DistanceGrid& distances) {
+    return std::visit(Derivation(scalp, distances), curve.shape);
+}
+
+}  // namespace lissom

@@ -1,0 +1,28 @@
+/// What follows from a style curve on a head; private to kernel/hair. Metres of the scalp's frame.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kernel/hair/distance_grid.h"
+#include "kernel/hair/growth.h"
+#include "kernel/hair/scalp.h"
+#include "kernel/hair/style_curve.h"
+
+namespace lissom {
+
+struct DerivedCurve {
+    /// The curve as it acts, in segments of about a step of the grid.
+    std::vector<Vec3> course;
+    std::vector<GridConstraint> constraints;
+    /// Of a dividing curve: roots nearer to the line than half the gap are on bare skin.
+    std::optional<DividingLine> line;
+    double gap = 0.0;
+    /// Of a ponytail.
+    std::optional<HairTie> tie;
+};
+
+/// Errors: as Hairstyle::set.
+DerivedCurve derive(const StyleCurve& curve, const Scalp& scalp, const DistanceGrid& distances);
+
+}  // namespace lissom

@@ -1,0 +1,122 @@
+/// Hairstyle: style curves on a head, the direction field that they determine, and the hair that
+/// follows it (thesis, chapter 4).
+///
+///     Hairstyle style(head, std::make_shared<const Scalp>(head));
+///     style.add({.shape = StreamCurve{.points = points}});
+///     const Strands hair = style.grow();
+///
+/// Points, lengths and directions are in metres of the scalp's frame (Scalp::to_metres): x to the
+/// head's left, y up, z to the front. So a style that was made for one head fits another.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/hair/growth.h"
+#include "kernel/hair/hair_field.h"
+#include "kernel/hair/roots.h"
+#include "kernel/hair/scalp.h"
+#include "kernel/hair/strands.h"
+#include "kernel/hair/style_curve.h"
+
+namespace lissom {
+
+struct HairstyleOptions {
+    /// Points of the grid that the field lives on, at most. The thesis takes 25,000 for smooth
+    /// styles and 50,000 for complex ones (section 4.6).
+    Index resolution = 50000;
+    /// Where hair may be; strands end at its faces. Absent: Scalp::default_volume.
+    std::optional<Box> volume = std::nullopt;
+    GridFieldOptions field = HairField::default_options();
+};
+
+/// Names a curve of a hairstyle, for as long as that lives.
+struct CurveId {
+    ConstraintOwner value = 0;
+    bool operator==(const CurveId&) const = default;
+};
+
+/// What to grow.
+struct HairOptions {
+    RootOptions roots = {};
+    /// The style sets `placement` and `ties`.
+    GrowthOptions growth = {};
+};
+
+/// Where curves say different things of a grid point, dividing curves count before the others;
+/// among equals the curve that is later in the order counts, together with those that agree with it
+/// within 60 degrees (curve_conflicts.h).
+class Hairstyle {
+  public:
+    /// Takes the present shape of `head`, which may change or die afterwards; `scalp` must have
+    /// been made for it.
+    /// Errors: invalid_argument for a volume or resolution out of range; topology_mismatch;
+    /// mesh_empty; memory_limit; cancelled.
+    Hairstyle(const Mesh& head, std::shared_ptr<const Scalp> scalp,
+              const HairstyleOptions& options = {}, const Context& context = {});
+    ~Hairstyle();
+    Hairstyle(Hairstyle&&) noexcept;
+    Hairstyle& operator=(Hairstyle&&) noexcept;
+
+    const Scalp& scalp() const;
+    const std::shared_ptr<const Scalp>& shared_scalp() const;
+    const HairstyleOptions& options() const;
+    /// The head in metres of the frame.
+    const Mesh& head() const;
+    const GridLayout& layout() const;
+
+    /// Adds a curve behind all others. Errors: as set.
+    CurveId add(StyleCurve curve);
+    /// Replaces a curve. After an error nothing has changed. Errors: handle_removed for an id;
+    /// not_finite; invalid_argument where fewer than two points differ, or for an option out of
+    /// range; out_of_range for a curve outside the volume, or a dividing curve off the head;
+    /// memory_limit.
+    void set(CurveId id, StyleCurve curve);
+    /// Errors of the following: handle_removed for an id.
+    void set_points(CurveId id, std::vector<Vec3> points);
+    void enable(CurveId id, bool on);
+    void remove(CurveId id);
+    /// Gives a curve the place `place` in the order, from 0. Errors: also out_of_range.
+    void reorder(CurveId id, Index place);
+    /// In their order.
+    std::span<const CurveId> curves() const;
+    bool has(CurveId id) const;
+    const StyleCurve& curve(CurveId id) const;
+    /// The curve as it acts: smooth, outside the head, in segments of about a grid step.
+    const std::vector<Vec3>& course(CurveId id) const;
+
+    /// Brings the field up to date with the curves; does nothing where none has changed. Without
+    /// curves it is zero. After an error the field is that of the last solve.
+    /// Errors: as HairField::solve.
+    void solve(const Context& context = {});
+    bool solved() const;
+    /// The field of the last solve.
+    const HairField& field() const;
+
+    /// Turns the field along the head where it points into it, by constraints at all grid points
+    /// near the head that no curve constrains (section 4.6). To be done once, when the curves are
+    /// as wanted: the constraints stay as they are until it is called again. Solves.
+    void avoid_scalp(const Context& context = {});
+    /// Takes back what `avoid_scalp` added.
+    void forget_scalp();
+    bool avoids_scalp() const;
+
+    /// Grows hair into `strands`, whose memory is used again; solves first where needed. Groups are
+    /// named after the ponytails through whose tie strands pass. The first n strands of a larger
+    /// count are those of count n.
+    /// Errors: unconstrained without an enabled curve; as make_roots, grow and solve.
+    GrowthReport grow(const HairOptions& options, Strands& strands, const Context& context = {});
+    Strands grow(const HairOptions& options = {}, const Context& context = {});
+
+    /// Bytes of grids, head and factors, about.
+    std::size_t memory_bytes() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,338 @@
+// A hairstyle as a whole: curves that come, go and move, the field, roots and hair.
+#include "kernel/hair/hairstyle.h"
+
+#include <doctest/doctest.h>
+
+#include <memory>
+
+#include "kernel/hair/strand_measures.h"
+#include "kernel/mesh/head.h"
+#include "kernel/solve/grid_field.h"
+#include "tests/unit/hair/hair_support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+const Mesh& small_head() {
+    static const Mesh head = make_head({.vertices = 3000});
+    return head;
+}
+
+std::shared_ptr<const Scalp> small_scalp() {
+    static const auto scalp = std::make_shared<const Scalp>(small_head());
+    return scalp;
+}
+
+Hairstyle small_style(const GridFieldOptions& field = HairField::default_options()) {
+    HairstyleOptions options;
+    options.resolution = 6000;
+    options.field = field;
+    return Hairstyle(small_head(), small_scalp(), options);
+}
+
+Vec3 over(const Hairstyle& style, double azimuth, double elevation, double lift) {
+    const double degree = kPi / 180.0;
+    return style.scalp().to_metres(
+        style.scalp().at({azimuth * degree, elevation * degree}, lift).position);
+}
+
+std::vector<Vec3> side(const Hairstyle& style, double sign) {
+    return {over(style, 20 * sign, 50, 0.01), over(style, 70 * sign, 25, 0.02),
+            over(style, 85 * sign, -15, 0.02)};
+}
+
+StyleCurve stream(std::vector<Vec3> points) {
+    return {StreamCurve{std::move(points)}};
+}
+
+StyleCurve parting(const Hairstyle& style) {
+    return {DividingCurve{{over(style, 0, 45, 0), over(style, 0, 65, 0), over(style, 0, 85, 0)}}};
+}
+
+StyleCurve tail(const Hairstyle& style) {
+    const Vec3 tie = over(style, 180, 25, 0.02);
+    return {Ponytail{{tie, tie + Vec3(0, -0.01, -0.04), tie + Vec3(0, -0.12, -0.06)}}};
+}
+
+std::vector<float> field_of(Hairstyle& style) {
+    style.solve();
+    const auto values = style.field().values();
+    return {values.begin(), values.end()};
+}
+
+double greatest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        greatest = std::max(greatest, std::abs(static_cast<double>(a[i]) - b[i]));
+    }
+    return greatest;
+}
+
+}  // namespace
+
+TEST_CASE("hairstyle: curves keep their identity and order") {
+    Hairstyle style = small_style();
+    const CurveId a = style.add(stream(side(style, 1)));
+    const CurveId b = style.add(parting(style));
+    const CurveId c = style.add(tail(style));
+    CHECK(kind_name(style.curve(a)) == "stream");
+    CHECK(kind_name(style.curve(b)) == "dividing");
+    CHECK(kind_name(style.curve(c)) == "ponytail");
+    style.reorder(c, 0);
+    CHECK(std::vector<CurveId>(style.curves().begin(), style.curves().end()) ==
+          std::vector<CurveId>{c, a, b});
+    style.reorder(c, 2);
+    CHECK(style.curves()[2] == c);
+    style.remove(a);
+    CHECK_FALSE(style.has(a));
+    CHECK(style.curves().size() == 2);
+    CHECK(error_of([&] { style.curve(a); }).code() == ErrorCode::handle_removed);
+    CHECK(error_of([&] { style.remove(a); }).code() == ErrorCode::handle_removed);
+    CHECK(error_of([&] { style.reorder(b, 2); }).code() == ErrorCode::out_of_range);
+    // Ids are not given twice.
+    CHECK_FALSE(style.add(stream(side(style, 1))) == a);
+}
+
+TEST_CASE("hairstyle: whatever the way of edits, the field is that of the curves that are there") {
+    Hairstyle direct = small_style(), edited = small_style();
+    direct.add(stream(side(direct, 1)));
+    direct.add(stream(side(direct, -1)));
+    direct.add(parting(direct));
+
+    const CurveId moved = edited.add(tail(edited));
+    edited.solve();
+    edited.set(moved, stream(side(edited, 1)));
+    const CurveId gone =
+        edited.add(stream({over(edited, 180, 40, 0.01), over(edited, 180, -20, 0.02)}));
+    edited.solve();
+    const CurveId right = edited.add(stream(side(edited, 1)));
+    edited.solve();
+    edited.set_points(right, side(edited, -1));
+    const CurveId line = edited.add(parting(edited));
+    edited.enable(line, false);
+    edited.solve();
+    edited.remove(gone);
+    edited.enable(line, true);
+    CHECK(greatest_difference(field_of(direct), field_of(edited)) < 1e-5);
+}
+
+TEST_CASE("hairstyle: a curve that is off has no effect") {
+    Hairstyle one = small_style(), two = small_style();
+    one.add(stream(side(one, 1)));
+    two.add(stream(side(two, 1)));
+    two.enable(two.add(tail(two)), false);
+    CHECK(greatest_difference(field_of(one), field_of(two)) < 1e-6);
+    StyleCurve off = tail(two);
+    off.enabled = false;
+    two.add(off);
+    CHECK(greatest_difference(field_of(one), field_of(two)) < 1e-6);
+}
+
+TEST_CASE(
+    "hairstyle: of curves that contradict each other the later counts, and order can change") {
+    Hairstyle style = small_style();
+    const std::vector<Vec3> forth = side(style, 1), back(forth.rbegin(), forth.rend());
+    StyleCurve up = stream(back), down = stream(forth);
+    std::get<StreamCurve>(up.shape).options.stop_length = 0.0;
+    std::get<StreamCurve>(down.shape).options.stop_length = 0.0;
+    const CurveId first = style.add(down);
+    style.add(up);
+    const Vec3 middle = style.course(first)[style.course(first).size() / 2];
+    style.solve();
+    CHECK(style.field().sample(middle).direction.y() > 0.5);
+    style.reorder(first, 1);
+    style.solve();
+    CHECK(style.field().sample(middle).direction.y() < -0.5);
+}
+
+TEST_CASE("hairstyle: both solvers give the same field") {
+    GridFieldOptions exact = HairField::default_options(), reference = exact;
+    exact.refinements = reference.refinements = 2;
+    reference.solver = GridSolver::cholesky;
+    Hairstyle a = small_style(exact), b = small_style(reference);
+    for (Hairstyle* style : {&a, &b}) {
+        style->add(stream(side(*style, 1)));
+        style->add(tail(*style));
+        style->solve();
+        style->add(parting(*style));
+    }
+    CHECK(greatest_difference(field_of(a), field_of(b)) < 1e-5);
+}
+
+TEST_CASE("hairstyle: a mesh that is moved, turned and scaled has its hair moved with it") {
+    const Affine map = rotation(Vec3(1, 2, 3), 0.8, Vec3(0.1, 0, 0)) *
+                       scaling(Vec3::Constant(3.0), Vec3(0.2, 0.1, 0));
+    const Mesh other = moved(small_head(), map);
+    ScalpOptions hints;
+    hints.hints.up = map.linear * Vec3::UnitY();
+    hints.hints.front = map.linear * Vec3::UnitZ();
+    hints.unit = 1.0;
+    HairstyleOptions options;
+    options.resolution = 6000;
+    Hairstyle here(small_head(), small_scalp(), options);
+    Hairstyle there(other, std::make_shared<const Scalp>(other, hints), options);
+    for (Hairstyle* style : {&here, &there}) style->add(stream(side(*style, 1)));
+    HairOptions hair;
+    hair.roots.count = 300;
+    const Strands a = here.grow(hair), b = there.grow(hair);
+    REQUIRE(a.size() == b.size());
+    int alike = 0;
+    for (Index s = 0; s < a.size(); ++s) {
+        const Vec3 tip = a.strand(s).rightCols<1>().cast<double>(),
+                   moved_tip = b.strand(s).rightCols<1>().cast<double>();
+        if ((map(tip) - moved_tip).norm() < 0.01 * 3.0) ++alike;
+    }
+    CHECK(alike >= 0.98 * a.size());
+}
+
+TEST_CASE("hairstyle: the first strands of many are the same, but for their number") {
+    Hairstyle style = small_style();
+    style.add(stream(side(style, 1)));
+    style.add(parting(style));
+    HairOptions few, many;
+    few.roots.count = 200;
+    many.roots.count = 1000;
+    const Strands a = style.grow(few);
+    Strands b = style.grow(many);
+    REQUIRE(a.size() == 200);
+    REQUIRE(b.size() == 1000);
+    for (Index s = 0; s < a.size(); ++s) {
+        REQUIRE(a.point_count(s) == b.point_count(s));
+        CHECK(a.strand(s) == b.strand(s));
+    }
+}
+
+TEST_CASE("hairstyle: no hair on the gap of a parting, and as many strands as asked") {
+    Hairstyle style = small_style();
+    style.add(stream(side(style, 1)));
+    StyleCurve line = parting(style);
+    std::get<DividingCurve>(line.shape).gap = 0.02;
+    const CurveId id = style.add(line);
+    HairOptions options;
+    options.roots.count = 2000;
+    options.growth.length = 0.01;
+    const Strands hair = style.grow(options);
+    CHECK(hair.size() == 2000);
+    const std::vector<Vec3> course = style.course(id);
+    double nearest = 1.0;
+    for (Index s = 0; s < hair.size(); ++s) {
+        const Vec3 root = style.scalp().to_metres(hair.root(s).cast<double>());
+        for (const Vec3& p : course) nearest = std::min(nearest, (root - p).norm());
+    }
+    CHECK(nearest > 0.0095);
+    // Without the curve hair grows there again.
+    style.enable(id, false);
+    const Strands closed = style.grow(options);
+    int in_gap = 0;
+    for (Index s = 0; s < closed.size(); ++s) {
+        const Vec3 root = style.scalp().to_metres(closed.root(s).cast<double>());
+        for (const Vec3& p : course) in_gap += (root - p).norm() < 0.009;
+    }
+    CHECK(in_gap > 5);
+}
+
+TEST_CASE("hairstyle: strands know their roots, texture and tie") {
+    Hairstyle style = small_style();
+    StyleCurve pony = tail(style);
+    pony.name = "pony";
+    style.add(pony);
+    for (const double azimuth : {40.0, 90.0, 130.0, -40.0, -90.0, -130.0}) {
+        StyleCurve lead = stream({over(style, azimuth, 45, 0.01), over(style, 180, 40, 0.012),
+                                  over(style, 180, 26, 0.02)});
+        std::get<StreamCurve>(lead.shape).options.stop_length = 0.0;
+        style.add(lead);
+    }
+    HairOptions options;
+    options.roots.count = 500;
+    const Strands hair = style.grow(options);
+    REQUIRE(hair.group_names() == std::vector<std::string>{"pony"});
+    int caught = 0;
+    for (Index s = 0; s < hair.size(); ++s) caught += hair.group(s) == 0;
+    CHECK(caught > 50);
+    REQUIRE(hair.roots().uvs.size() == 500);
+    REQUIRE(hair.roots().faces.size() == 500);
+    float least = 1.0f, most = 0.0f;
+    for (const auto& uv : hair.roots().uvs) {
+        CHECK(uv.minCoeff() >= 0.0f);
+        CHECK(uv.maxCoeff() <= 1.0f);
+        least = std::min(least, uv.x());
+        most = std::max(most, uv.x());
+    }
+    CHECK(most - least > 0.5f);
+}
+
+TEST_CASE("hairstyle: growing into strands again gives the same as anew") {
+    Hairstyle style = small_style();
+    const CurveId id = style.add(stream(side(style, 1)));
+    HairOptions options;
+    options.roots.count = 300;
+    Strands again;
+    style.grow(options, again);
+    style.set_points(id, side(style, -1));
+    style.grow(options, again);
+    CHECK(hash(again) == hash(style.grow(options)));
+}
+
+TEST_CASE("hairstyle: the scalp step turns the field along the head, and can be taken back") {
+    Hairstyle style = small_style();
+    // From the top straight down through the head.
+    style.add(stream({Vec3(0, 0.16, 0), Vec3(0, 0.13, 0)}));
+    const std::vector<float> before = field_of(style);
+    style.avoid_scalp();
+    CHECK(style.avoids_scalp());
+    double deepest = 0.0;
+    for (const double azimuth : {-120.0, -60.0, 0.0, 60.0, 120.0}) {
+        const Vec3 p = over(style, azimuth, 40, 0.005);
+        const Vec3 normal = p.normalized();
+        deepest = std::min(deepest, style.field().sample(p).direction.dot(normal));
+    }
+    CHECK(deepest > -0.35);
+    style.forget_scalp();
+    CHECK_FALSE(style.avoids_scalp());
+    CHECK(greatest_difference(before, field_of(style)) < 1e-5);
+}
+
+TEST_CASE("hairstyle: refused curves leave everything as it was") {
+    Hairstyle style = small_style();
+    const CurveId id = style.add(stream(side(style, 1)));
+    const std::vector<float> before = field_of(style);
+    const auto add = [&](StyleCurve curve) { return error_of([&] { style.add(curve); }).code(); };
+    CHECK(add(stream({})) == ErrorCode::invalid_argument);
+    CHECK(add(stream({Vec3(0, 0.1, 0)})) == ErrorCode::invalid_argument);
+    CHECK(add(stream({Vec3(0, 0.1, 0), Vec3(0, kNaN, 0)})) == ErrorCode::not_finite);
+    CHECK(add(stream({Vec3(5, 5, 5), Vec3(6, 5, 5)})) == ErrorCode::out_of_range);
+    CHECK(add({DividingCurve{{Vec3(0, 0.3, 0), Vec3(0, 0.35, 0)}}}) == ErrorCode::out_of_range);
+    CHECK(add({Ponytail{{Vec3(0, 0.1, -0.1)}}}) == ErrorCode::invalid_argument);
+    StyleCurve negative = stream(side(style, 1));
+    std::get<StreamCurve>(negative.shape).clearance = -1.0;
+    CHECK(add(negative) == ErrorCode::invalid_argument);
+    const std::vector<Vec3> outside = {Vec3(5, 5, 5), Vec3(6, 5, 5)};
+    CHECK(error_of([&] { style.set_points(id, outside); }).code() == ErrorCode::out_of_range);
+    CHECK(style.curves().size() == 1);
+    CHECK(style.solved());
+    CHECK(field_of(style) == before);
+}
+
+TEST_CASE("hairstyle: what cannot be made or grown is refused") {
+    Hairstyle style = small_style();
+    CHECK(error_of([&] { style.grow(); }).code() == ErrorCode::unconstrained);
+    style.enable(style.add(stream(side(style, 1))), false);
+    CHECK(error_of([&] { style.grow(); }).code() == ErrorCode::unconstrained);
+    const Mesh other = make_head({.vertices = 4000});
+    CHECK(error_of([&] { Hairstyle(other, small_scalp()); }).code() ==
+          ErrorCode::topology_mismatch);
+    HairstyleOptions flat;
+    flat.volume = Box{Vec3(0, 0, 0), Vec3(1, 0, 1)};
+    CHECK(error_of([&] { Hairstyle(small_head(), small_scalp(), flat); }).code() ==
+          ErrorCode::invalid_argument);
+    HairstyleOptions coarse;
+    coarse.resolution = 10;
+    CHECK(error_of([&] { Hairstyle(small_head(), small_scalp(), coarse); }).code() ==
+          ErrorCode::invalid_argument);
+    style.enable(style.curves()[0], true);
+    HairOptions none;
+    none.roots.count = 0;
+    CHECK(style.grow(none).empty());
+}
