@@ -1,0 +1,398 @@
+#include "kernel/io/style_file.h"
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "kernel/io/file.h"
+#include "kernel/io/text_writer.h"
+
+namespace lissom {
+namespace {
+
+// Keeps the order of keys.
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "lissom hairstyle";
+constexpr int kVersion = 1;
+constexpr double kDegree = kPi / 180.0;
+
+[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+    throw Error(ErrorCode::file_syntax, where + ": " + what);
+}
+
+Json json_of(const Vec3& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+// ---- One description of what each object holds serves for writing and reading.
+
+// Appends what it is shown to an object.
+class Writer {
+  public:
+    explicit Writer(Json& object) : object_(object) {}
+
+    void text(const char* key, std::string& value) {
+        if (!value.empty()) object_[key] = value;
+    }
+    void flag(const char* key, bool& value, bool usual) {
+        if (value != usual) object_[key] = value;
+    }
+    void number(const char* key, double& value) { object_[key] = value; }
+    void number(const char* key, std::optional<double>& value) {
+        if (value) object_[key] = *value;
+    }
+    void integer(const char* key, Index& value) { object_[key] = value; }
+    template <typename Enum>
+    void choice(const char* key, Enum& value, std::initializer_list<const char*> names) {
+        object_[key] = *(names.begin() + static_cast<int>(value));
+    }
+    void angles(const char* key, DividingOptions::Tilt& tilt) {
+        object_[key] = {tilt.start / kDegree, tilt.end / kDegree};
+    }
+    void point(const char* key, Vec3& value) { object_[key] = json_of(value); }
+    void points(const char* key, std::vector<Vec3>& list) {
+        if (list.empty()) return;
+        Json& array = object_[key] = Json::array();
+        for (const Vec3& p : list) array.push_back(json_of(p));
+    }
+
+  private:
+    Json& object_;
+};
+
+// Takes what it is asked for from an object, and leaves what is absent as it is.
+class Reader {
+  public:
+    Reader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {
+        if (!object.is_object()) refuse(where_, "an object {...} is expected");
+    }
+
+    void text(const char* key, std::string& value) {
+        if (const Json* found = find(key)) {
+            if (!found->is_string()) wrong(key, "a text");
+            value = found->get<std::string>();
+        }
+    }
+    void flag(const char* key, bool& value, bool) {
+        if (const Json* found = find(key)) {
+            if (!found->is_boolean()) wrong(key, "true or false");
+            value = found->get<bool>();
+        }
+    }
+    void number(const char* key, double& value) {
+        if (const Json* found = find(key)) value = finite(*found, key);
+    }
+    void number(const char* key, std::optional<double>& value) {
+        if (const Json* found = find(key)) value = finite(*found, key);
+    }
+    void integer(const char* key, Index& value) {
+        const Json* found = find(key);
+        if (!found) return;
+        const double given = finite(*found, key);
+        if (given != std::floor(given) || std::abs(given) > 2e9) wrong(key, "a whole number");
+        value = static_cast<Index>(given);
+    }
+    template <typename Enum>
+    void choice(const char* key, Enum& value, std::initializer_list<const char*> names) {
+        const Json* found = find(key);
+        if (!found) return;
+        std::string expected;
+        int place = 0;
+        for (const char* name : names) {
+            if (found->is_string() && found->get<std::string>() == name) {
+                value = static_cast<Enum>(place);
+                return;
+            }
+            expected += std::string(place > 0 ? " or \"" : "\"") + name + "\"";
+            ++place;
+        }
+        wrong(key, expected.c_str());
+    }
+    void angles(const char* key, DividingOptions::Tilt& tilt) {
+        const Json* found = find(key);
+        if (!found) return;
+        if (!found->is_array() || found->size() != 2) wrong(key, "two angles [start, end]");
+        tilt = {finite((*found)[0], key) * kDegree, finite((*found)[1], key) * kDegree};
+    }
+    void point(const char* key, Vec3& value) {
+        if (const Json* found = find(key)) value = coordinates(*found, key);
+    }
+    void points(const char* key, std::vector<Vec3>& list) {
+        const Json* found = find(key);
+        if (!found) return;
+        if (!found->is_array()) wrong(key, "a list of points [[x, y, z], ...]");
+        list.clear();
+        for (const Json& one : *found) list.push_back(coordinates(one, key));
+    }
+
+    // To be called when all is read: other keys are mistakes.
+    void finish() const {
+        std::string all;
+        for (const std::string& key : known_) all += (all.empty() ? "" : ", ") + key;
+        for (const auto& item : object_.items()) {
+            if (known_.contains(item.key())) continue;
+            refuse(where_, "unknown key \"" + item.key() + "\"; there are: " + all);
+        }
+    }
+
+  private:
+    const Json* find(const char* key) {
+        known_.insert(key);
+        const auto found = object_.find(key);
+        return found == object_.end() ? nullptr : &*found;
+    }
+    [[noreturn]] void wrong(const char* key, const char* expected) const {
+        refuse(where_, "\"" + std::string(key) + "\" must be " + expected);
+    }
+    double finite(const Json& json, const char* key) const {
+        if (!json.is_number() || !std::isfinite(json.get<double>())) wrong(key, "a number");
+        return json.get<double>();
+    }
+    Vec3 coordinates(const Json& json, const char* key) const {
+        if (!json.is_array() || json.size() != 3) wrong(key, "made of points [x, y, z]");
+        return {finite(json[0], key), finite(json[1], key), finite(json[2], key)};
+    }
+
+    const Json& object_;
+    std::string where_;
+    std::set<std::string> known_{"kind", "format", "version", "curves", "volume"};
+};
+
+template <typename Archive>
+void describe(Archive& a, StreamCurve& c) {
+    a.points("points", c.points);
+    a.number("stop", c.options.stop_length);
+    a.number("clearance", c.clearance);
+    a.number("weight", c.options.weight);
+}
+
+template <typename Archive>
+void describe(Archive& a, DividingCurve& c) {
+    a.points("points", c.points);
+    a.angles("left", c.options.left);
+    a.angles("right", c.options.right);
+    a.number("sigma", c.options.sigma);
+    a.number("height", c.options.height);
+    a.number("reach", c.options.reach);
+    a.number("thickness", c.options.thickness);
+    a.number("separation", c.options.separation);
+    a.number("wall_width", c.options.wall_width);
+    a.number("wall_height", c.options.wall_height);
+    a.number("ramp", c.options.ramp);
+    a.number("gap", c.gap);
+    a.number("weight", c.options.weight);
+}
+
+template <typename Archive>
+void describe(Archive& a, Ponytail& c) {
+    a.points("spine", c.spine);
+    a.number("radius", c.options.radius);
+    a.points("section", c.options.section);
+    a.points("profile_a", c.options.profiles[0]);
+    a.points("profile_b", c.options.profiles[1]);
+    a.number("share", c.options.share);
+    a.number("fullness", c.options.fullness);
+    a.number("inner", c.options.inner);
+    a.number("outer", c.options.outer);
+    a.number("ring", c.options.ring);
+    a.number("lead", c.options.lead);
+    a.number("grip", c.options.grip);
+    a.number("tightness", c.options.tightness);
+    a.number("clearance", c.options.clearance);
+    a.number("stop", c.options.stop_length);
+    a.number("tail_length", c.tail_length);
+    a.number("ragged", c.ragged);
+    a.number("weight", c.options.weight);
+}
+
+template <typename Archive>
+void describe(Archive& a, StyleCurve& curve) {
+    a.text("name", curve.name);
+    a.flag("enabled", curve.enabled, true);
+    std::visit([&](auto& shape) { describe(a, shape); }, curve.shape);
+}
+
+template <typename Archive>
+void describe(Archive& a, StyleContent& content) {
+    a.text("head", content.head);
+    a.integer("resolution", content.options.resolution);
+    a.choice("solver", content.options.field.solver, {"dual", "cholesky"});
+    a.choice("boundary", content.options.field.boundary, {"zero_flux", "thesis"});
+    a.number("tension", content.options.field.tension);
+    a.flag("avoid_scalp", content.avoids_scalp, false);
+}
+
+template <typename Archive>
+void describe(Archive& a, Box& volume) {
+    a.point("min", volume.min);
+    a.point("max", volume.max);
+}
+
+// ---- Text
+
+bool is_flat(const Json& array) {
+    for (const Json& one : array) {
+        if (one.is_structured()) return false;
+    }
+    return true;
+}
+
+// Lists of plain values stand in one line.
+void append_json(std::string& text, const Json& json, const std::string& indent) {
+    if (!json.is_structured()) {
+        text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+        return;
+    }
+    const bool array = json.is_array(), flat = array && is_flat(json);
+    const std::string inner = indent + "  ";
+    text += array ? '[' : '{';
+    bool first = true;
+    for (const auto& item : json.items()) {
+        text += first ? "" : flat ? ", " : ",";
+        if (!flat) text += "\n" + inner;
+        if (!array)
+            text += Json(item.key()).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
+        append_json(text, item.value(), inner);
+        first = false;
+    }
+    if (!flat && !first) text += "\n" + indent;
+    text += array ? ']' : '}';
+}
+
+// ---- From JSON
+
+StyleCurve curve_from(const Json& json, const std::string& where) {
+    if (!json.is_object()) refuse(where, "an object {...} is expected");
+    const std::string kind =
+        json.value("kind", Json()).is_string() ? json["kind"].get<std::string>() : std::string();
+    StyleCurve curve;
+    if (kind == "stream") {
+        curve.shape = StreamCurve{};
+    } else if (kind == "dividing") {
+        curve.shape = DividingCurve{};
+    } else if (kind == "ponytail") {
+        curve.shape = Ponytail{};
+    } else {
+        refuse(where, "\"kind\" must be \"stream\", \"dividing\" or \"ponytail\"");
+    }
+    Reader reader(json, where);
+    describe(reader, curve);
+    reader.finish();
+    return curve;
+}
+
+void require_version(const Json& json) {
+    if (json.value("format", Json()) != kFormat) {
+        refuse("style", "\"format\" must be \"" + std::string(kFormat) + "\"");
+    }
+    const Json version = json.value("version", Json());
+    if (!version.is_number_integer() || version.get<double>() < 1) {
+        refuse("style", "\"version\" must be a whole number of 1 or more");
+    }
+    if (version.get<double>() > kVersion) {
+        throw Error(ErrorCode::unsupported,
+                    "the style is of version " + version.dump() +
+                        ", which is newer than this program; save it as version " +
+                        std::to_string(kVersion));
+    }
+}
+
+StyleContent content_from(const Json& json) {
+    if (!json.is_object()) refuse("style", "an object {...} is expected");
+    require_version(json);
+    StyleContent content;
+    Reader reader(json, "style");
+    describe(reader, content);
+    reader.finish();
+    if (const auto volume = json.find("volume"); volume != json.end()) {
+        Reader box(*volume, "volume");
+        describe(box, content.options.volume.emplace());
+        box.finish();
+    }
+    const Json curves = json.value("curves", Json::array());
+    if (!curves.is_array()) refuse("style", "\"curves\" must be a list");
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        content.curves.push_back(curve_from(curves[i], "curve " + std::to_string(i + 1)));
+    }
+    return content;
+}
+
+}  // namespace
+
+StyleContent content_of(const Hairstyle& style, std::string head) {
+    StyleContent content{std::move(head), style.options(), {}, style.avoids_scalp()};
+    for (const CurveId id : style.curves()) content.curves.push_back(style.curve(id));
+    return content;
+}
+
+Hairstyle make_style(const StyleContent& content, const Mesh& head,
+                     std::shared_ptr<const Scalp> scalp, const Context& context) {
+    Hairstyle style(head, std::move(scalp), content.options, context);
+    for (std::size_t i = 0; i < content.curves.size(); ++i) {
+        try {
+            style.add(content.curves[i]);
+        } catch (const Error& error) {
+            throw Error(error.code(), "curve " + std::to_string(i + 1) + ": " + error.what());
+        }
+    }
+    if (content.avoids_scalp) style.avoid_scalp(context);
+    return style;
+}
+
+std::string encode_style(const StyleContent& content) {
+    // Described as what can be changed.
+    StyleContent copy = content;
+    Json json = {{"format", kFormat}, {"version", kVersion}};
+    Writer writer(json);
+    describe(writer, copy);
+    if (copy.options.volume) {
+        Writer volume(json["volume"] = Json::object());
+        describe(volume, *copy.options.volume);
+    }
+    Json& curves = json["curves"] = Json::array();
+    for (StyleCurve& curve : copy.curves) {
+        Json one = {{"kind", kind_name(curve)}};
+        Writer described(one);
+        describe(described, curve);
+        curves.push_back(std::move(one));
+    }
+    std::string text;
+    append_json(text, json, "");
+    return text + "\n";
+}
+
+StyleContent decode_style(std::string_view bytes) {
+    // Deep nesting would exhaust the stack of the parser.
+    constexpr int kDeepest = 16;
+    const auto callback = [](int depth, Json::parse_event_t, Json&) {
+        if (depth > kDeepest) refuse("style", "nested too deeply");
+        return true;
+    };
+    try {
+        return content_from(Json::parse(bytes.begin(), bytes.end(), callback));
+    } catch (const Json::exception& error) {
+        // "[json.exception.parse_error.101] parse error at line 3, column 1: ..."
+        const std::string text = error.what();
+        const std::size_t end = text.find("] ");
+        refuse("style", end == std::string::npos ? text : text.substr(end + 2));
+    }
+}
+
+void save_style(const StyleContent& content, const std::filesystem::path& path,
+                const Context& context) {
+    write_file_atomically(path, encode_style(content), context);
+}
+
+StyleContent load_style(const std::filesystem::path& path, const Context& context) {
+    const FileContent file = read_file(path, context);
+    try {
+        return decode_style(file.bytes);
+    } catch (const Error& error) {
+        throw Error(error.code(), display_name(path) + ": " + error.what());
+    }
+}
+
+}  // namespace lissom

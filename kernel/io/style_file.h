@@ -1,0 +1,62 @@
+/// Style files: a hairstyle's curves and options as JSON that people can read and edit. Points and
+/// lengths are in metres of an average head from the center of its scalp's frame, angles in
+/// degrees, so that a style fits any head.
+///
+///     {
+///       "format": "lissom hairstyle",
+///       "version": 1,
+///       "head": "head.obj",
+///       "resolution": 50000,
+///       "curves": [
+///         {
+///           "kind": "stream",
+///           "name": "side",
+///           "points": [[0.03, 0.1, 0.08], [0.08, 0.06, 0.03], [0.09, -0.03, 0]],
+///           "stop": 0.04
+///         }
+///       ]
+///     }
+///
+/// Whatever is left out has the default of its C++ option; a key that is not known is an error.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "kernel/hair/hairstyle.h"
+
+namespace lissom {
+
+/// What a style file holds.
+struct StyleContent {
+    /// The path of the head's mesh as the file has it; empty where it names none.
+    std::string head;
+    HairstyleOptions options;
+    std::vector<StyleCurve> curves;
+    /// Whether the scalp step is to be taken when the curves are there (Hairstyle::avoid_scalp).
+    bool avoids_scalp = false;
+};
+
+/// The content of a hairstyle.
+StyleContent content_of(const Hairstyle& style, std::string head = {});
+
+/// A hairstyle of this content on a head. Errors: as Hairstyle's constructor and add, naming the
+/// curve.
+Hairstyle make_style(const StyleContent& content, const Mesh& head,
+                     std::shared_ptr<const Scalp> scalp, const Context& context = {});
+
+/// Writes a style, whole or not at all. Errors: file_write_failed; file_is_directory; cancelled.
+void save_style(const StyleContent& content, const std::filesystem::path& path,
+                const Context& context = {});
+
+/// Errors: file_not_found, file_is_directory, file_empty, file_unreadable; file_syntax, saying what
+/// is wrong where; unsupported for a newer version; memory_limit; cancelled.
+StyleContent load_style(const std::filesystem::path& path, const Context& context = {});
+
+/// As `save_style` and `load_style`, to and from memory.
+std::string encode_style(const StyleContent& content);
+StyleContent decode_style(std::string_view bytes);
+
+}  // namespace lissom
