@@ -30,6 +30,13 @@ std::vector<Function> deform_functions();
 
 std::vector<Function> shape_functions();
 
+Type scalp_type();
+std::vector<Function> scalp_functions();
+Type curve_type();
+Type hairstyle_type();
+std::vector<Function> hairstyle_functions();
+std::vector<Record> hairstyle_records();
+
 Type strands_type();
 std::vector<Function> strand_functions();
 std::vector<Record> strand_records();

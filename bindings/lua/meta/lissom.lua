@@ -142,6 +142,13 @@
 ---@field group string Heading that it stands under, or an empty string.
 ---@field help string What it does, or an empty string.
 
+---Sizes of a hairstyle.
+---@class lissom.HairstyleStats
+---@field curves integer Number of curves.
+---@field constraints integer Constrained grid points of the last solve.
+---@field grid_points integer Points of the grid.
+---@field step number Distance of neighbouring grid points, in metres of an average head.
+
 ---Measures of strands.
 ---@class lissom.StrandStats
 ---@field strands integer Number of strands.
@@ -888,6 +895,354 @@ function Handle:remove() end
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Handle:close() end
 
+---Where hair grows on a head, and the frame in which styles fit any head. It is that of the head's shape when it was made.
+---@class lissom.Scalp
+local Scalp = {}
+
+---@class lissom.Scalp.AtOptions
+---@field azimuth number 0 in front, 90 at the head's left, 180 behind. In degrees.
+---@field elevation number 0 is level, 90 up. In degrees.
+---@field lift? number How far above the head. In metres. Default: 0.
+
+---A point over the head, in a direction from the center of its frame.
+---@param options lissom.Scalp.AtOptions
+---@return number[] point # {x, y, z}, in mesh units.
+---@return number[] normal # Of the head, outward, of length 1.
+function Scalp:at(options) end
+
+---Where hair grows.
+---@return lissom.Region region # Vertices of the head.
+function Scalp:region() end
+
+---The mesh of the head.
+---@return lissom.Mesh head # The mesh.
+function Scalp:head() end
+
+---Whether the region was guessed from an average hairline.
+---@return boolean guessed # False where a region was given or named.
+function Scalp:guessed() end
+
+---The center of the frame, about the middle between the ears.
+---@return number[] center # {x, y, z}, in mesh units.
+function Scalp:center() end
+
+---Which way is up.
+---@return number[] direction # {x, y, z}, of length 1.
+function Scalp:up() end
+
+---Which way the head looks.
+---@return number[] direction # {x, y, z}, of length 1.
+function Scalp:front() end
+
+---The head's left.
+---@return number[] direction # {x, y, z}, of length 1.
+function Scalp:left() end
+
+---How long a unit of the mesh is.
+---@return number unit # Metres in one unit of the mesh.
+function Scalp:unit() end
+
+---How large the head is: styles are made in metres of an average head.
+---@return number scale # Mesh units in one metre of a style.
+function Scalp:scale() end
+
+---A point given in metres of an average head: x to the head's left, y up, z to the front of the center.
+---@param point lissom.Vector Three numbers or {x, y, z}. In metres.
+---@return number[] point # {x, y, z}, in mesh units.
+---@overload fun(self: lissom.Scalp, x: number, y: number, z: number): number[]
+function Scalp:from_metres(point) end
+
+---A point of the mesh in metres of an average head, from the center.
+---@param point lissom.Vector Three numbers or {x, y, z}. In mesh units.
+---@return number[] point # {x, y, z}, in metres.
+---@overload fun(self: lissom.Scalp, x: number, y: number, z: number): number[]
+function Scalp:to_metres(point) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Scalp:close() end
+
+---Style curves on a head, and the hair that follows them. It is made for the shape that the head had then. Lengths among its options are in metres of an average head, so that a style fits any head; points are in mesh units.
+---@class lissom.Hairstyle
+local Hairstyle = {}
+
+---@class lissom.Hairstyle.AtOptions
+---@field azimuth number 0 in front, 90 at the head's left, 180 behind. In degrees.
+---@field elevation number 0 is level, 90 up. In degrees.
+---@field lift? number How far above the head. In metres. Default: 0.
+
+---A point over the head, in a direction from the center of its frame.
+---@param options lissom.Hairstyle.AtOptions
+---@return number[] point # {x, y, z}, in mesh units.
+---@return number[] normal # Of the head, outward, of length 1.
+function Hairstyle:at(options) end
+
+---Its curves in their order.
+---@return lissom.Curve[] curves # A list.
+function Hairstyle:curves() end
+
+---The scalp that it was made for.
+---@return lissom.Scalp scalp # The scalp.
+function Hairstyle:scalp() end
+
+---The mesh of the head.
+---@return lissom.Mesh head # The mesh.
+function Hairstyle:head() end
+
+---@class lissom.Hairstyle.SaveOptions
+---@field head? string Path of the head's mesh as the file shall have it, best beside it. Default: none.
+
+---Writes curves and options as JSON that people can read and edit, in metres of an average head. See `lissom.load_style`.
+---@param path string The file.
+---@param options? lissom.Hairstyle.SaveOptions
+---@return lissom.Hairstyle style # The hairstyle itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Hairstyle:save(path, options) end
+
+---Sizes of the grid and of the system.
+---@return lissom.HairstyleStats stats # Numbers.
+function Hairstyle:stats() end
+
+---@class lissom.Hairstyle.StreamOptions
+---@field points lissom.Vector[] From the root to the tip; the curve runs smoothly through them. In mesh units.
+---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
+---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004.
+---@field name? string For people, and for groups of strands.
+---@field enabled? boolean Curves that are not have no effect. Default: true.
+---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+
+---Adds a stream curve: hair flows along it.
+---@param options lissom.Hairstyle.StreamOptions
+---@return lissom.Curve curve # The curve, behind all others.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Hairstyle:stream(options) end
+
+---@class lissom.Hairstyle.DividingOptions
+---@field points lissom.Vector[] On the scalp, or near it. In mesh units.
+---@field tilt? number[] {at its first point, at its last}: by how much hair on both sides is turned towards the curve's end, in degrees. Default: {0, 0}.
+---@field left? number[] The same for one side, as seen along the curve from outside. Default: tilt.
+---@field right? number[] The same for the other. Default: tilt.
+---@field sigma? number Distance from the line to the crest of the hair. In metres. Default: a grid step.
+---@field height? number h of the thesis: the crest is 0.39 times as high. In metres. Default: half a grid step.
+---@field reach? number How far from the line hair is shaped. In metres. Default: 2.5 sigma.
+---@field separation? number Magnitude of the vectors that keep both sides apart. Default: 0.3.
+---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024.
+---@field name? string For people, and for groups of strands.
+---@field enabled? boolean Curves that are not have no effect. Default: true.
+---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+
+---Adds a dividing curve: hair parts along it. In a grid of more points the same lengths in metres mean the same style; the defaults follow the grid.
+---@param options lissom.Hairstyle.DividingOptions
+---@return lissom.Curve curve # The curve, behind all others.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Hairstyle:dividing(options) end
+
+---@class lissom.Hairstyle.PonytailOptions
+---@field spine lissom.Vector[] From the tie to the tip of the tail. In mesh units.
+---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
+---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
+---@field section? lissom.Vector[] A closed curve around the spine: the tie is as wide, and stands there.
+---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, from their beginning to their end.
+---@field share? number Without profiles: how much of the spine has cross sections. Default: 0.7.
+---@field fullness? number Without profiles: the tail swells to 1 + fullness radii. Default: 1.
+---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
+---@field outer? number And up to this many (R2). Default: 1.9.
+---@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps.
+---@field lead? number It begins so far in front of the tie. In metres. Default: 1.5 grid steps.
+---@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4.
+---@field tightness? number Magnitude of the vectors that do so. Default: 0.6.
+---@field tail_length? number Of the hair behind the tie. In metres. Default: as long as the spine.
+---@field ragged? number Share of that by which tips differ. Default: 0.45.
+---@field name? string For people, and for groups of strands.
+---@field enabled? boolean Curves that are not have no effect. Default: true.
+---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+
+---Adds a ponytail: hair is drawn into a tie and goes on along a spine.
+---@param options lissom.Hairstyle.PonytailOptions
+---@return lissom.Curve curve # The curve, behind all others.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Hairstyle:ponytail(options) end
+
+---Brings the field up to date with the curves. `grow` and `field` do so by themselves.
+---@return lissom.Hairstyle style # The hairstyle itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Hairstyle:solve() end
+
+---The field at a point: which way hair grows there.
+---@param point lissom.Vector Three numbers or {x, y, z}. In mesh units.
+---@return number[] direction # {x, y, z}; of length 1 near curves.
+---@return number distance # To the head, in mesh units; negative inside of it.
+---@overload fun(self: lissom.Hairstyle, x: number, y: number, z: number): number[]
+function Hairstyle:field(point) end
+
+---Turns the field along the head wherever it points into it (section 4.6 of the thesis). For the end of a design: it stays as it is until it is done again. Hair that grows with `avoid` stays outside anyway.
+---@return lissom.Hairstyle style # The hairstyle itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Hairstyle:avoid_scalp() end
+
+---Takes back what avoid_scalp did.
+---@return lissom.Hairstyle style # The hairstyle itself.
+function Hairstyle:forget_scalp() end
+
+---@class lissom.Hairstyle.GrowOptions.Cut
+---@field point lissom.Vector A point of the plane. In mesh units.
+---@field normal? lissom.Vector Points to where no hair is left. Default: down.
+---@field ragged? number Strands meet the plane moved by this at most. In metres. Default: 0.006.
+
+---@class lissom.Hairstyle.GrowOptions
+---@field count? integer How many strands; the first n of more are the same. Default: 100000.
+---@field seed? integer Another seed gives other roots and other chance. Default: 1.
+---@field length? number Of a strand. In metres. Default: 0.25.
+---@field variation? number Share by which strands are longer or shorter at most. Default: 0.1.
+---@field roots? "poisson"|"angles" Evenly spread, or on the thesis's grid of polar angles. Default: "poisson".
+---@field density? number[]|string|fun(vertex: integer, x: number, y: number, z: number): number Relative density of hair. Default: 1 everywhere.
+---@field lengths? number[]|string|fun(vertex: integer, x: number, y: number, z: number): number Factors of the length. Default: 1 everywhere.
+---@field cut? lissom.Hairstyle.GrowOptions.Cut Cuts hair off along a plane, but for tails.
+---@field avoid? boolean Keeps strands outside the head while they grow. Default: true.
+---@field clearance? number The lowest strands lie this high. In metres. Default: 0.002.
+---@field layer? number The highest lie higher by this. In metres. Default: 0.012.
+---@field ramp? number Length over which strands rise to their height. In metres. Default: 0.03.
+---@field lift? number Share of the normal of the head in the first segment. Default: 0.15.
+---@field segment? number Length of a segment, in steps of the grid. Default: 0.5.
+---@field most_segments? integer A strand has no more segments. Default: 400.
+---@field into? lissom.Strands Strands whose place the new ones take. Default: new strands.
+
+---Grows hair that follows the field from its roots on the scalp. Lengths are those of a style, in metres of an average head. Strands that pass through the tie of a ponytail are in the group of its name.
+---@param options? lissom.Hairstyle.GrowOptions
+---@return lissom.Strands hair # The strands.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Hairstyle:grow(options) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Hairstyle:close() end
+
+---A style curve: says how hair flows near it. It lives in its hairstyle.
+---@class lissom.Curve
+local Curve = {}
+
+---What kind of curve it is.
+---@return string kind # "stream", "dividing" or "ponytail".
+function Curve:kind() end
+
+---Its name.
+---@return string name # Empty where it has none.
+function Curve:name() end
+
+---Whether it has an effect.
+---@return boolean enabled # True where it has.
+function Curve:enabled() end
+
+---The points that it was drawn with, of a ponytail those of the spine.
+---@return number[][] points # {x, y, z} each, in mesh units.
+function Curve:points() end
+
+---The curve as it acts: smooth, outside the head, in segments of about a step of the grid.
+---@return number[][] points # {x, y, z} each, in mesh units.
+function Curve:course() end
+
+---The hairstyle that it belongs to.
+---@return lissom.Hairstyle style # The hairstyle.
+function Curve:hairstyle() end
+
+---Draws the curve anew.
+---@param points lissom.Vector[] The new points, of a ponytail those of the spine. In mesh units.
+---@return lissom.Curve curve # The curve itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Curve:set_points(points) end
+
+---@class lissom.Curve.SetOptions
+---@field points? lissom.Vector[] Of a stream or dividing curve.
+---@field spine? lissom.Vector[] Of a ponytail.
+---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
+---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004.
+---@field tilt? number[] {at its first point, at its last}: by how much hair on both sides is turned towards the curve's end, in degrees. Default: {0, 0}.
+---@field left? number[] The same for one side, as seen along the curve from outside. Default: tilt.
+---@field right? number[] The same for the other. Default: tilt.
+---@field sigma? number Distance from the line to the crest of the hair. In metres. Default: a grid step.
+---@field height? number h of the thesis: the crest is 0.39 times as high. In metres. Default: half a grid step.
+---@field reach? number How far from the line hair is shaped. In metres. Default: 2.5 sigma.
+---@field separation? number Magnitude of the vectors that keep both sides apart. Default: 0.3.
+---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024.
+---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
+---@field section? lissom.Vector[] A closed curve around the spine: the tie is as wide, and stands there.
+---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, from their beginning to their end.
+---@field share? number Without profiles: how much of the spine has cross sections. Default: 0.7.
+---@field fullness? number Without profiles: the tail swells to 1 + fullness radii. Default: 1.
+---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
+---@field outer? number And up to this many (R2). Default: 1.9.
+---@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps.
+---@field lead? number It begins so far in front of the tie. In metres. Default: 1.5 grid steps.
+---@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4.
+---@field tightness? number Magnitude of the vectors that do so. Default: 0.6.
+---@field tail_length? number Of the hair behind the tie. In metres. Default: as long as the spine.
+---@field ragged? number Share of that by which tips differ. Default: 0.45.
+---@field name? string For people, and for groups of strands.
+---@field enabled? boolean Curves that are not have no effect. Default: true.
+---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+
+---Changes some of the options that it was made with.
+---@param options? lissom.Curve.SetOptions
+---@return lissom.Curve curve # The curve itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Curve:set(options) end
+
+---Lets it act, or not.
+---@param on? boolean Whether it does. Default: true.
+---@return lissom.Curve curve # The curve itself.
+function Curve:enable(on) end
+
+---Gives it another place in the order: where curves say different things of a point, the later one counts, but dividing curves before all others.
+---@param place integer Its place among the curves of the style.
+---@return lissom.Curve curve # The curve itself.
+function Curve:reorder(place) end
+
+---Takes it out of the style.
+function Curve:remove() end
+
+---Ends the curve where a hint stroke crosses it.
+---@param hint lissom.Vector[] A polyline that passes near the curve. In mesh units.
+---@return lissom.Curve curve # The curve itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Curve:cut(hint) end
+
+---Goes on along a hint stroke that begins near the curve: from there to the end the curve is replaced.
+---@param hint lissom.Vector[] A polyline that begins near the curve. In mesh units.
+---@return lissom.Curve curve # The curve itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Curve:concatenate(hint) end
+
+---Replaces the part of the curve between the ends of a hint stroke that begins and ends near it.
+---@param hint lissom.Vector[] A polyline whose ends are near the curve. In mesh units.
+---@return lissom.Curve curve # The curve itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Curve:insert(hint) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Curve:close() end
+
 ---Hair: polylines from root to tip, in metres. Strands count from 1. Operators never move roots, and what they do to a strand does not depend on how many there are.
 ---@class lissom.Strands
 ---@operator len: integer
@@ -1089,7 +1444,7 @@ function Params:schema() end
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Params:close() end
 
----Modeling by few handles: meshes, regions, paths and deformation.
+---Modeling by few handles: meshes, regions, paths, deformation and hair.
 ---@class lissom
 ---@field version string Version of the library.
 local lissom = {}
@@ -1237,6 +1592,56 @@ function lissom.shapes.head(options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function lissom.deform(mesh, options) end
+
+---@class lissom.ScalpOptions
+---@field region? lissom.Region Where hair grows. Default: the region "scalp", or what is above an average hairline.
+---@field up? "x"|"y"|"z"|lissom.Vector Which way is up. Default: guessed.
+---@field front? "x"|"y"|"z"|lissom.Vector Which way the head looks. Default: guessed.
+---@field unit? number How long a unit of the mesh is. In metres. Default: the usual unit that makes this the width of a head.
+---@field softness? number Width of the band over which hair thins out at the hairline. In metres. Default: 0.011.
+
+---Finds the scalp of a bald head, bust or body, and which way it looks.
+---@param head lissom.Mesh The head.
+---@param options? lissom.ScalpOptions
+---@return lissom.Scalp scalp # The scalp.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.scalp(head, options) end
+
+---@class lissom.Load_styleOptions
+---@field scalp? lissom.Scalp Where hair grows. Default: guessed.
+
+---Reads a style that `save` wrote.
+---@param path string The JSON file.
+---@param head? lissom.Mesh The head that it goes on. Default: the one that the file names, beside it.
+---@param options? lissom.Load_styleOptions
+---@return lissom.Hairstyle style # The hairstyle.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.load_style(path, head, options) end
+
+---@class lissom.HairstyleOptions.Volume
+---@field min lissom.Vector A corner.
+---@field max lissom.Vector The opposite corner.
+
+---@class lissom.HairstyleOptions
+---@field scalp? lissom.Scalp Where hair grows. Default: guessed.
+---@field resolution? integer Grid points of the field. 25,000 do for smooth styles, 50,000 for ponytails. Default: 50000.
+---@field volume? lissom.HairstyleOptions.Volume A box in metres of an average head, around the center of its frame: x to its left, y up, z to the front. Hair ends at its faces. Default: around the head, down to the chest.
+---@field solver? "dual"|"cholesky" dual is fast; cholesky is the thesis's way, a reference. Default: "dual".
+---@field boundary? "zero_flux"|"thesis" How the field behaves at the box. Default: "zero_flux".
+---@field tension? number Keeps the field from growing far from the curves. Default: 0.03.
+
+---Starts a hairstyle without curves on a head.
+---@param head lissom.Mesh The head; its shape is copied.
+---@param options? lissom.HairstyleOptions
+---@return lissom.Hairstyle style # The hairstyle.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.hairstyle(head, options) end
 
 ---@class lissom.Load_strandsOptions
 ---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: what the file says, else y.

@@ -1,0 +1,154 @@
+local lissom = require "lissom"
+local expect = require "expect"
+
+local head = lissom.shapes.head{ vertices = 3000 }
+local scalp = lissom.scalp(head)
+expect.equal(#scalp:region(), #head:region("scalp"))
+expect.equal(scalp:guessed(), false)
+expect.truthy(scalp:head() == head)
+
+-- Points over the head, in mesh units; lifts in metres.
+local on, normal = scalp:at{ azimuth = 90, elevation = 30 }
+local above = scalp:at{ azimuth = 90, elevation = 30, lift = 0.02 }
+local rise = 0
+for k = 1, 3 do rise = rise + (above[k] - on[k]) * normal[k] end
+expect.near(rise, 0.02, 1e-3)
+expect.near_list(scalp:from_metres(scalp:to_metres(on)), on, 1e-12)
+expect.error("azimuth", function() scalp:at{ elevation = 30 } end)
+
+local style = lissom.hairstyle(head, { scalp = scalp, resolution = 6000 })
+expect.truthy(style:head() == head)
+expect.equal(#style:curves(), 0)
+expect.error("resolution", function() lissom.hairstyle(head, { resolution = 6000000000 }) end)
+expect.error("tenshun", function() lissom.hairstyle(head, { tenshun = 1 }) end)
+
+local function at(azimuth, elevation, lift)
+    return (style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 })
+end
+
+-- No curve, no hair.
+local nothing, message, code = style:grow{ count = 10 }
+expect.failure("unconstrained", nothing, message, code)
+
+-- Curves keep their identity.
+local side = { at(20, 50, 0.01), at(70, 25, 0.02), at(85, -15, 0.02) }
+local stream = style:stream{ points = side, name = "side" }
+local parting = style:dividing{ points = { at(0, 45), at(0, 65), at(0, 85) }, tilt = { 10, 30 }, gap = 0.01 }
+local tie = at(180, 25, 0.02)
+local pony = style:ponytail{
+    spine = { tie, { tie[1], tie[2], tie[3] - 0.04 }, { tie[1], tie[2] - 0.15, tie[3] - 0.06 } },
+    name = "pony",
+    enabled = false,
+}
+expect.equal(#style:curves(), 3)
+expect.truthy(style:curves()[2] == parting)
+expect.equal(stream:kind() .. parting:kind() .. pony:kind(), "streamdividingponytail")
+expect.equal(stream:name(), "side")
+expect.equal(pony:enabled(), false)
+expect.equal(tostring(stream), "lissom.Curve: stream 'side', 3 points")
+expect.truthy(stream:hairstyle() == style)
+expect.near_list(stream:points()[1], at(20, 50, 0.01), 1e-9)
+expect.truthy(#stream:course() > 5)
+expect.equal(pony:reorder(1), pony)
+expect.truthy(style:curves()[1] == pony)
+
+-- Wrong curves are refused by name, and change nothing.
+expect.error("tightness", function() style:stream{ points = stream:points(), tightness = 1 } end)
+expect.error("tightness", function() stream:set{ tightness = 1 } end)
+expect.error("differ", function() style:stream{ points = { at(0, 90) } } end)
+expect.error("two angles", function() parting:set{ tilt = { 1 } } end)
+expect.error("profiles", function() pony:set{ profiles = { 1, 2 } } end)
+expect.error("outside", function() style:stream{ points = { { 9, 9, 9 }, { 9, 8, 9 } } } end)
+expect.error("from the head", function() style:dividing{ points = { { 0, 0.2, 0.2 }, { 0, 0.2, 0.1 } } } end)
+expect.equal(#style:curves(), 3)
+
+-- The field follows the curves.
+local function along(curve)
+    local course = curve:course()
+    local k = math.floor(#course / 2)
+    local v = style:field(course[k])
+    local t, length = {}, 0
+    for d = 1, 3 do
+        t[d] = course[k + 1][d] - course[k][d]
+        length = length + t[d] ^ 2
+    end
+    return (v[1] * t[1] + v[2] * t[2] + v[3] * t[3]) / math.sqrt(length)
+end
+expect.truthy(along(stream) > 0.9)
+local _, distance = style:field(on)
+expect.near(distance, 0, 0.004)
+stream:set_points{ at(20, 50, 0.01), at(60, 45, 0.02), at(100, 35, 0.02) }
+expect.truthy(along(stream) > 0.9)
+expect.truthy(style:stats().constraints > 50)
+
+-- Hair: as many strands as asked; the first of more are the same.
+local hair = style:grow{ count = 600, length = 0.1, seed = 3 }
+expect.equal(#hair, 600)
+expect.equal(hair:stats().not_finite, 0)
+expect.equal(hair:stats().zero_segments, 0)
+expect.equal(hair:hash(), style:grow{ count = 900, length = 0.1, seed = 3 }:select{ first = 600 }:hash())
+expect.truthy(hair:hash() ~= style:grow{ count = 600, length = 0.1, seed = 4 }:hash())
+expect.truthy(rawequal(style:grow{ count = 100, into = hair }, hair))
+expect.equal(#hair, 100)
+expect.equal(#style:grow{ count = 0 }, 0)
+
+-- Where and how long, by functions, lists and attributes.
+local function roots_above(options, height)
+    local share = style:grow(options):select{ where = function(_, _, y) return y > height end }
+    return #share / options.count
+end
+local function upper(_, _, y) return y > 0.08 and 1 or 0 end
+expect.near(roots_above({ count = 500, density = upper }, 0.07), 1, 0.01)
+local short = {}
+for v = 1, #head do short[v] = 0.5 end
+local half = style:grow{ count = 300, length = 0.1, lengths = short }:stats().mean_length
+expect.near(half / style:grow{ count = 300, length = 0.1 }:stats().mean_length, 0.5, 0.05)
+local function text() return "x" end
+expect.error("must give a number", function() style:grow{ count = 10, density = text } end)
+expect.error("no attribute", function() style:grow{ count = 10, density = "nothing" } end)
+local cut = style:grow{ count = 500, length = 0.3, cut = { point = scalp:from_metres(0, 0, 0), ragged = 0 } }
+expect.truthy(cut:bounds().min[2] < 0.001)
+
+-- Ponytails name their group.
+pony:enable()
+for _, azimuth in ipairs{ 50, 90, 130, -50, -90, -130 } do
+    style:stream{ points = { at(azimuth, 45, 0.01), at(180, 40, 0.012), at(180, 26, 0.02) }, stop = false }
+end
+local tail = style:grow{ count = 400, length = 0.4 }
+expect.equal(table.concat(tail:groups()), "pony")
+expect.truthy(#tail:select{ group = "pony" } > 40)
+
+-- Hints.
+local before = #stream:course()
+local points = stream:points()
+stream:cut{ { points[2][1], points[2][2] + 0.02, points[2][3] }, points[2] }
+expect.truthy(#stream:course() < before)
+local cut_length = #stream:course()
+local tip = stream:points()[#stream:points()]
+stream:concatenate{ tip, { tip[1] + 0.01, tip[2] - 0.06, tip[3] } }
+expect.truthy(#stream:course() > cut_length)
+expect.error("curve", function() stream:insert{ { 0, -0.3, 0.1 }, { 0, -0.35, 0.1 } } end)
+
+-- A style and its file.
+local file = os.tmpname() .. ".json"
+style:save(file, { head = "head.obj" })
+local copy = lissom.load_style(file, head)
+expect.equal(#copy:curves(), #style:curves())
+expect.equal(copy:grow{ count = 200 }:hash(), style:grow{ count = 200 }:hash())
+local missing, _, why = lissom.load_style(file)
+expect.equal(missing, nil)
+expect.equal(why, "file_not_found")
+local broken = assert(io.open(file, "w"))
+broken:write('{ "format": "lissom hairstyle", "version": 1, "curvs": [] }')
+broken:close()
+local _, said = lissom.load_style(file, head)
+expect.truthy(said:find("curvs"))
+os.remove(file)
+
+-- Removed curves and closed styles refuse to work.
+parting:remove()
+expect.equal(tostring(parting), "lissom.Curve (removed)")
+expect.error("removed", function() parting:points() end)
+style:close()
+expect.error("closed", function() style:grow{} end)
+expect.error("closed", function() stream:points() end)
