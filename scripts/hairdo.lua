@@ -1,0 +1,193 @@
+--- What scripts of hairstyles share: their parameters, heads, the finish of hair, and pictures of it.
+local lissom = require "lissom"
+
+local hairdo = {}
+
+-- Parameters of a hairstyle; `more` are those of its own.
+function hairdo.params(options)
+    local list = {
+        head = { type = "file", default = "", help = "a bald head, instead of the generated one" },
+        count = { type = "integer", default = 100000, min = 0, max = 2000000, help = "strands" },
+        resolution = { type = "integer", default = 50000, min = 1000, max = 2000000, help = "grid points" },
+        detail = { type = "boolean", default = true, help = "clumps, noise and tapered tips" },
+        pictures = { type = "boolean", default = true, help = "writes pictures" },
+        size = { type = "integer", default = 800, min = 64, max = 4096, unit = "pixels",
+            help = "width and height of each picture" },
+        out = { type = "string", default = "out", help = "folder that the files go to" },
+        name = { type = "string", default = options.name, help = "name of the files" },
+    }
+    for key, value in pairs(options.more or {}) do list[key] = value end
+    return lissom.params(list)
+end
+
+function hairdo.head(params)
+    if params.head == "" then return lissom.shapes.head{} end
+    return assert(lissom.load(params.head))
+end
+
+-- A style with the resolution of the parameters; `volume` as in lissom.hairstyle.
+function hairdo.style(head, params, volume)
+    return assert(lissom.hairstyle(head, { resolution = params.resolution, volume = volume }))
+end
+
+-- The volume of a style, {min=, max=} in metres, that holds the scalp and lists of points, with room around
+-- them. The smaller the volume is, the finer is the grid of the field.
+function hairdo.volume(scalp, ...)
+    local positions = scalp:head():positions()
+    local low, high = { 1e9, 1e9, 1e9 }, { -1e9, -1e9, -1e9 }
+    local function extend(point, room)
+        local p = scalp:to_metres(point)
+        for k = 1, 3 do
+            low[k] = math.min(low[k], p[k] - room)
+            high[k] = math.max(high[k], p[k] + room)
+        end
+    end
+    for _, v in ipairs(scalp:region():vertices()) do
+        extend({ positions[3 * v - 2], positions[3 * v - 1], positions[3 * v] }, 0.03)
+    end
+    for _, points in ipairs{ ... } do
+        for _, point in ipairs(points) do extend(point, 0.04) end
+    end
+    return { min = low, max = high }
+end
+
+-- Points of a spine nearer to the head than `distance` are moved away from it.
+local function pushed_out(scalp, p, distance)
+    local q = scalp:to_metres(scalp:head():nearest(scalp:from_metres(p)).position)
+    local away = { p[1] - q[1], p[2] - q[2], p[3] - q[3] }
+    local d = math.sqrt(away[1] ^ 2 + away[2] ^ 2 + away[3] ^ 2)
+    if d >= distance or d == 0 then return p end
+    for k = 1, 3 do away[k] = q[k] + away[k] * distance / d end
+    return away
+end
+
+-- The spine of a tail: from a tie over the head it goes out and bends down as it goes on. `tail` has the
+-- direction of the tie (`azimuth`, `elevation`), how far it is above the head (`lift`), the `length` of the tail,
+-- its `radius`, and the length over which it bends (`droop`); lengths are in metres.
+function hairdo.tail_spine(scalp, tail)
+    local at, normal = scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation, lift = tail.lift }
+    local from, to = scalp:to_metres(at), {}
+    for k = 1, 3 do to[k] = at[k] + normal[k] * scalp:scale() end
+    to = scalp:to_metres(to)
+    local d = { to[1] - from[1], to[2] - from[2] + 0.15, to[3] - from[3] }
+    local points, step = { at }, 0.004
+    local p, bend = from, step / math.max(tail.droop, 0.001)
+    for i = 1, math.floor(tail.length / step) do
+        local length = math.sqrt(d[1] ^ 2 + d[2] ^ 2 + d[3] ^ 2)
+        for k = 1, 3 do d[k] = d[k] / length end
+        p = { p[1] + step * d[1], p[2] + step * d[2], p[3] + step * d[3] }
+        if i % 4 == 0 then
+            points[#points + 1] = scalp:from_metres(pushed_out(scalp, p, tail.radius or 0.016))
+        end
+        d = { d[1] - bend * d[1], d[2] - bend * (1 + d[2]), d[3] - bend * d[3] }
+    end
+    return points
+end
+
+-- Streams from all around a tie into it, close over the head: `count` of them. `low` is their height over the
+-- head, `reach` how far from the tie they begin; in metres. A function `skip(azimuth, elevation)` leaves out
+-- those that begin where it is true.
+function hairdo.gather(style, tail, options)
+    local scalp, a, e = style:scalp(), math.rad(tail.azimuth), math.rad(tail.elevation)
+    local out = { math.cos(e) * math.sin(a), math.sin(e), math.cos(e) * math.cos(a) }
+    local side = { math.cos(a), 0, -math.sin(a) }
+    local up = { out[2] * side[3] - out[3] * side[2], out[3] * side[1] - out[1] * side[3],
+        out[1] * side[2] - out[2] * side[1] }
+    local tie = scalp:to_metres((scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation,
+        lift = tail.lift }))
+    local radius = math.sqrt(tie[1] ^ 2 + tie[2] ^ 2 + tie[3] ^ 2)
+    for i = 1, options.count do
+        local turn, points = 2 * math.pi * (i - 1) / options.count, {}
+        local skipped = false
+        for _, f in ipairs{ 1, 0.75, 0.5, 0.3 } do
+            local angle = f * options.reach / radius
+            local d = {}
+            for k = 1, 3 do
+                d[k] = math.cos(angle) * out[k]
+                    + math.sin(angle) * (math.cos(turn) * side[k] + math.sin(turn) * up[k])
+            end
+            local azimuth, elevation = math.deg(math.atan(d[1], d[3])), math.deg(math.asin(d[2]))
+            skipped = skipped or f == 1 and options.skip and options.skip(azimuth, elevation)
+            points[#points + 1] = style:at{ azimuth = azimuth, elevation = elevation,
+                lift = options.low + (1 - f) ^ 2 * tail.lift * 0.8 }
+        end
+        -- Into the rim of the tie, where the stream comes from.
+        local last, inward = scalp:to_metres(points[#points]), {}
+        local along = 0
+        for k = 1, 3 do along = along + (last[k] - tie[k]) * out[k] end
+        for k = 1, 3 do inward[k] = last[k] - tie[k] - along * out[k] end
+        local length = math.sqrt(inward[1] ^ 2 + inward[2] ^ 2 + inward[3] ^ 2)
+        for k = 1, 3 do inward[k] = tie[k] + 0.5 * tail.radius * inward[k] / length end
+        points[#points + 1] = scalp:from_metres(inward)
+        if not skipped then style:stream{ points = points, stop = false, name = "gather " .. i } end
+    end
+end
+
+-- The ring of a tie, for pictures: a mesh around the first cross section of a tail.
+function hairdo.ring(scalp, tail)
+    local center, normal = scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation, lift = tail.lift }
+    local size = scalp:scale()
+    local ring = lissom.shapes.torus{ radius = tail.radius * 0.95 * size, tube_radius = 0.0045 * size }
+    -- From +y to the normal.
+    local axis = { normal[3], 0, -normal[1] }
+    local angle = math.deg(math.acos(math.max(-1, math.min(1, normal[2]))))
+    if angle > 1e-6 then ring:transform{ rotate = { axis = axis, angle = angle, about = { 0, 0, 0 } } } end
+    return ring:transform{ translate = center }
+end
+
+-- A camera in front of the head, at a side ("front", "left", "back", "right", "three-quarter"), that shows the
+-- head from the chin up, and all of the hair.
+function hairdo.camera(style, hair, side)
+    local scalp = style:scalp()
+    local low, high = scalp:from_metres(-0.11, -0.15, -0.1), scalp:from_metres(0.11, 0.13, 0.12)
+    local box, unit = hair:bounds(), scalp:unit()
+    local target, radius = {}, 0
+    for k = 1, 3 do
+        local a = math.min(low[k], high[k], box.min[k] / unit)
+        local b = math.max(low[k], high[k], box.max[k] / unit)
+        target[k] = (a + b) / 2
+        radius = radius + ((b - a) / 2) ^ 2
+    end
+    radius = math.sqrt(radius)
+    local turn = ({ front = 0, left = 90, back = 180, right = -90 })[side] or 35
+    local rise = side == "three-quarter" and 12 or 4
+    local fov = 24
+    local distance = 0.92 * radius / math.sin(math.rad(fov / 2))
+    local front, left, up = scalp:front(), scalp:left(), scalp:up()
+    local eye = {}
+    for k = 1, 3 do
+        local level = math.cos(math.rad(turn)) * front[k] + math.sin(math.rad(turn)) * left[k]
+        eye[k] = target[k] + distance * (math.cos(math.rad(rise)) * level + math.sin(math.rad(rise)) * up[k])
+    end
+    return lissom.camera{ eye = eye, target = target, up = up, fov = fov }
+end
+
+-- Local detail, files and pictures of grown hair. `rings` are meshes to draw with the head.
+function hairdo.finish(style, hair, params, rings)
+    if params.detail then hairdo.detail(hair) end
+    local path = params.out .. "/" .. params.name
+    style:save(path .. ".json")
+    assert(hair:save(path .. ".usda"))
+    if not params.pictures then return end
+    local meshes, colors = { style:head() }, { "clay" }
+    for _, ring in ipairs(rings or {}) do
+        meshes[#meshes + 1], colors[#colors + 1] = ring, "#2a1c28"
+    end
+    for _, side in ipairs{ "front", "left", "back", "three-quarter" } do
+        assert(lissom.render{
+            meshes = meshes, color = colors, strands = hair, camera = hairdo.camera(style, hair, side),
+            size = { params.size, params.size }, background = "#c8ccd2", file = path .. "_" .. side .. ".png",
+        })
+    end
+end
+
+-- Locks, waves and single hairs; thin tips.
+function hairdo.detail(hair)
+    hair:smooth{ iterations = 3 }
+    hair:clump{ clumps = 2500, strength = 0.3 }
+    hair:noise{ amplitude = 0.0016, across = 0.02, along = 0.11 }
+    hair:noise{ amplitude = 0.0003, across = 0.0005, along = 0.03, seed = 2 }
+    return hair:taper{ tip = 0.4, start = 0.6 }
+end
+
+return hairdo

@@ -1,0 +1,97 @@
+--- A ponytail on any bald head, by a few parameters in metres.
+--
+--     lissom run scripts/presets/ponytail.lua --height 50 --length 0.34 --tightness 0.8
+--
+--     local ponytail = require "presets.ponytail"
+--     local style, hair = ponytail.grow(head, { height = 30, length = 0.15 })
+--
+-- `ponytail.schema` describes the parameters as lissom.params takes them; `ponytail.style` makes the curves
+-- only.
+local hairdo = require "hairdo"
+local lissom = require "lissom"
+
+local ponytail = {}
+
+ponytail.schema = {
+    height = { type = "number", default = 25, min = -15, max = 50, unit = "degrees",
+        help = "elevation of the tie; 0 is level with the middle of the head" },
+    side = { type = "number", default = 0, min = -1, max = 1,
+        help = "0 behind, 1 at the left, -1 at the right" },
+    tightness = { type = "number", default = 0.7, min = 0, max = 1,
+        help = "how closely hair lies to the head" },
+    length = { type = "number", default = 0.3, min = 0.05, max = 0.6, unit = "metres",
+        help = "behind the tie" },
+    fullness = { type = "number", default = 1.1, min = 0, max = 2, help = "how much the tail swells" },
+    lift = { type = "number", default = 0.02, min = 0.015, max = 0.03, unit = "metres",
+        help = "how far the tie stands off the head" },
+    droop = { type = "number", default = -1, min = -1, max = 0.3, unit = "metres",
+        help = "length over which the tail bends down; below 0: by the height" },
+    gather = { type = "integer", default = 10, min = 3, max = 24, help = "streams that lead into the tie" },
+    seed = { type = "integer", default = 1, min = 0, help = "chance" },
+}
+
+-- Values of all parameters: those given, else the defaults. An unknown name is an error.
+local function complete(values)
+    local all = {}
+    for name, one in pairs(ponytail.schema) do all[name] = one.default end
+    for name, value in pairs(values or {}) do
+        if all[name] == nil then error("the ponytail has no parameter '" .. name .. "'", 3) end
+        all[name] = value
+    end
+    return all
+end
+
+-- A tail that falls along the neck would catch the hair that grows there, so low ones go out less.
+local function droop_at(height)
+    local knots = { { -90, 0.02 }, { 0, 0.02 }, { 30, 0.065 }, { 50, 0.13 }, { 90, 0.13 } }
+    for i = 2, #knots do
+        local a, b = knots[i - 1], knots[i]
+        if height <= b[1] then return a[2] + (b[2] - a[2]) * (height - a[1]) / (b[1] - a[1]) end
+    end
+    return knots[#knots][2]
+end
+
+-- The curves of a ponytail on a head, and its tail as in hairdo.ring. `options` are those of lissom.hairstyle.
+function ponytail.style(head, values, options)
+    values = complete(values)
+    local all = {}
+    for key, value in pairs(options or {}) do all[key] = value end
+    all.scalp = all.scalp or assert(lissom.scalp(head))
+    local tie = { azimuth = 180 - 75 * values.side, elevation = values.height, lift = values.lift,
+        length = values.length, droop = values.droop >= 0 and values.droop or droop_at(values.height),
+        radius = 0.016 + 0.010 * (1 - values.tightness) }
+    local spine = hairdo.tail_spine(all.scalp, tie)
+    all.volume = all.volume or hairdo.volume(all.scalp, spine)
+    local style = assert(lissom.hairstyle(head, all))
+    hairdo.gather(style, tie,
+        { count = values.gather, reach = 0.08, low = 0.002 + 0.012 * (1 - values.tightness) })
+    style:ponytail{
+        spine = spine,
+        radius = tie.radius,
+        fullness = values.fullness,
+        tail_length = values.length,
+        name = "ponytail",
+    }
+    return style, tie
+end
+
+-- The style, its hair and its tail; `growth` are options of style:grow.
+function ponytail.grow(head, values, options, growth)
+    values = complete(values)
+    local style, tie = ponytail.style(head, values, options)
+    local all = { length = 0.6, layer = 0.003 + 0.014 * (1 - values.tightness), seed = values.seed }
+    for key, value in pairs(growth or {}) do all[key] = value end
+    return style, style:grow(all), tie
+end
+
+-- Run as a script, it makes one and its pictures.
+if ... ~= "presets.ponytail" then
+    local params = hairdo.params{ name = "ponytail", more = ponytail.schema }
+    local values = {}
+    for name in pairs(ponytail.schema) do values[name] = params[name] end
+    local style, hair, tie = ponytail.grow(hairdo.head(params), values, { resolution = params.resolution },
+        { count = params.count })
+    hairdo.finish(style, hair, params, { hairdo.ring(style:scalp(), tie) })
+end
+
+return ponytail
