@@ -167,7 +167,7 @@ function hairdo.finish(style, hair, params, rings)
     if params.detail then hairdo.detail(hair) end
     local path = params.out .. "/" .. params.name
     style:save(path .. ".json")
-    assert(hair:save(path .. ".usda"))
+    assert(hair:save(path .. ".hair"))
     if not params.pictures then return end
     local meshes, colors = { style:head() }, { "clay" }
     for _, ring in ipairs(rings or {}) do
