@@ -14,6 +14,9 @@ namespace {
 
 // Nearer to the curve's plane than this, in steps, a point belongs to no side.
 constexpr double kOnPlane = 1e-3;
+// Points as far from the curve as the reach, as on a parting in the middle of a grid, are beyond it
+// on both sides, whatever the rounding.
+constexpr double kTie = 1e-9;
 // Beyond the curve's ends points still take constraints up to this, in steps.
 constexpr double kBeyond = 0.5;
 // Sine of the least angle between the curve and the scalp's normal.
@@ -98,10 +101,10 @@ class Divider {
             line_.place(distances_.layout().point(cell[0], cell[1], cell[2]));
         const double u = std::abs(place.across);
         if (u < kOnPlane * rule_.step || std::abs(place.beyond) > kBeyond * rule_.step) return {};
-        // The other side of the head may lie as near to the curve's plane.
-        if (std::abs(place.height) > rule_.highest() + rule_.width()) return std::nullopt;
+        // The other side of the head, or a curve that is not on it.
+        if (std::abs(place.height - v) > u + rule_.step) return std::nullopt;
         const double g = rule_.gaussian(u);
-        const bool along = u < rule_.reach && std::abs(v - g) < rule_.thickness;
+        const bool along = u < (1.0 - kTie) * rule_.reach && std::abs(v - g) < rule_.thickness;
         const bool above = u < rule_.wall_width && v > 0.0 && v < g + rule_.wall_height;
         if (!along && !(above && options_.separation > 0.0)) return std::nullopt;
 

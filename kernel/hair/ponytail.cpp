@@ -248,7 +248,8 @@ class Tail {
         const Vec3 from = point - foot.point;
         const Vec3 outward = from - from.dot(direction) * direction;
         double slope = (b.radius - a.radius) / (b.center - a.center).norm();
-        slope += radius * spreading(arc_length_at(lengths_, foot));
+        const double inside = 1.0 - outward.squaredNorm() / (radius * radius);
+        slope += std::max(0.0, inside) * radius * spreading(arc_length_at(lengths_, foot));
         const double outside = std::max(0.0, outward.norm() - radius);
         slope -= options_.grip * outside / layout_.step;
         return (direction + slope / radius * outward).normalized();

@@ -41,7 +41,7 @@ struct PonytailOptions {
     /// Hair flows on towards the spine behind the tie. From there to half the way to C2 its
     /// distances from the spine grow by exp(spread) more than the outline does. 0 for not, as in
     /// the thesis.
-    double spread = 1.6;
+    double spread = 2.0;
     /// The tail's vectors are left out at points nearer to the head than this, farther than that
     /// from C1 and behind it: so a tail that falls along the neck does not catch the hair that
     /// grows there. 0 leaves none out. 1.5 steps.
