@@ -26,6 +26,8 @@ class DualSystem {
     DualSystem(const GridGreen& green, Index dense_limit, double tolerance);
 
     const ConstraintRows& rows() const { return rows_; }
+    /// Whether the rows of the last update are too many for the dense factor.
+    bool iterates() const { return iterative_ != nullptr; }
     /// Bytes for `rows` rows.
     static std::size_t bytes(std::size_t rows, Index dense_limit);
 

@@ -22,17 +22,27 @@ constexpr double kLeastTolerance = 1e-12, kGreatestTolerance = 1e-2;
 // double precision gives.
 constexpr double kInnerTolerance = 0.1, kLeastInnerTolerance = 1e-13;
 constexpr Index kCopyGrain = 1 << 14;
+// Of the dense limit: an edit costs the square of the constraints where it is dense, and the points
+// of the grid at each iteration where it is not.
+constexpr double kDenseShare = 8.0, kLeastDenseLimit = 3000.0, kGreatestDenseLimit = 6000.0;
 
 void require_valid(const GridFieldOptions& options) {
     const auto refuse = [](const char* what) { throw Error(ErrorCode::invalid_argument, what); };
     if (!std::isfinite(options.tension) || options.tension < 0.0) {
         refuse("the tension of a grid field must be a number from 0 on");
     }
-    if (options.dense_limit < 0) refuse("the dense limit of a grid field must not be negative");
+    if (options.dense_limit.value_or(0) < 0)
+        refuse("the dense limit of a grid field must not be negative");
     if (options.refinements < 0) refuse("the refinements of a grid field must not be negative");
     if (!(options.tolerance >= kLeastTolerance && options.tolerance <= kGreatestTolerance)) {
         refuse("the tolerance of a grid field must lie between 1e-12 and 1e-2");
     }
+}
+
+Index dense_limit(const GridSize& size, const GridFieldOptions& options) {
+    if (options.dense_limit) return *options.dense_limit;
+    const double limit = kDenseShare * std::sqrt(static_cast<double>(size.count()));
+    return static_cast<Index>(std::clamp(limit, kLeastDenseLimit, kGreatestDenseLimit));
 }
 
 // Whether the field is stored, and not only its multipliers.
@@ -78,7 +88,7 @@ struct GridField::State {
             context.charge(GridGreen::working_bytes(size), "the tables of a grid");
         green = std::make_unique<GridGreen>(size, options.tension, context);
         dual = std::make_unique<DualSystem>(
-            *green, options.dense_limit,
+            *green, dense_limit(size, options),
             std::max(kLeastInnerTolerance, kInnerTolerance * options.tolerance));
     }
 
@@ -109,7 +119,7 @@ struct GridField::State {
 
 // The multipliers of the last solution where the same points are still there, and else zero.
 std::vector<Vec3> GridField::State::start_for(const ConstraintRows& next) const {
-    if (next.size() <= static_cast<std::size_t>(options.dense_limit) || rows.size() == 0) return {};
+    if (!dual->iterates() || rows.size() == 0) return {};
     std::vector<std::pair<Index, std::size_t>> places;
     for (std::size_t i = 0; i < rows.size(); ++i) places.push_back({size.index(rows.point[i]), i});
     std::sort(places.begin(), places.end());
@@ -235,7 +245,7 @@ std::size_t GridField::predicted_bytes(const GridSize& size, std::size_t constra
     std::size_t working = 0;
     if (options.solver == GridSolver::dual) {
         working = std::max(GridGreen::working_bytes(size),
-                           DualSystem::bytes(constraints, options.dense_limit));
+                           DualSystem::bytes(constraints, dense_limit(size, options)));
         if (options.boundary == GridBoundary::thesis) working += (kCorrectionFields + 1) * field;
     }
     return standing_bytes(size, options) + working;

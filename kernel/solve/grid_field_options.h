@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "kernel/core/geometry.h"
 
@@ -30,9 +31,10 @@ struct GridFieldOptions {
     /// tau >= 0: adds (tau / 6) |t_i - t_j|^2 for each edge of the grid to the energy (4.1). The
     /// biharmonic field overshoots away from the constraints; 0.03 takes most of that away.
     double tension = 0.0;
-    /// Constraints from which on the dual solver iterates: its dense factor takes 8 bytes for the
-    /// square of their number.
-    Index dense_limit = 3000;
+    /// Constraints from which on the dual solver iterates: its dense factor takes about 10 bytes
+    /// for the square of their number. By default 3000, and on large grids, where an iteration
+    /// costs most, up to 6000: 8 times the root of the number of points.
+    std::optional<Index> dense_limit = std::nullopt;
     /// Iterations, of the dual solver beyond `dense_limit` and for the thesis's boundary, end at
     /// this share of the greatest given component; 1e-12 to 1e-2.
     double tolerance = 1e-6;

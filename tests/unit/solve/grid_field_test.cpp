@@ -70,7 +70,7 @@ TEST_CASE("grid field: every solver and boundary gives the minimiser of the ener
                     options.tolerance = 1e-12;
                     CAPTURE(size.nx);
                     CAPTURE(tension);
-                    CAPTURE(options.dense_limit);
+                    CAPTURE(options.dense_limit.value_or(kNoIndex));
                     CHECK(greatest_difference(solved_field(size, constraints, options), oracle) <
                           1e-9);
                 }
