@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "kernel/hair/strands.h"
 #include "kernel/mesh/mesh.h"
 #include "viewer/color.h"
+#include "viewer/strand_style.h"
 
 namespace lissom {
 
@@ -55,6 +57,14 @@ struct DrawnMesh {
     Affine transform = {};
 };
 
+/// Strands in the picture. They must live until the picture is drawn.
+struct DrawnStrands {
+    const Strands* strands = nullptr;
+    StrandStyle style = {};
+    /// From the mesh that they grow on to the world of the camera.
+    Affine transform = {};
+};
+
 /// A line through points, of constant width in pixels.
 struct DrawnLine {
     std::vector<Vec3> points;
@@ -80,6 +90,7 @@ struct Drawing {
     std::vector<DrawnMesh> meshes = {};
     std::vector<DrawnLine> lines = {};
     std::vector<DrawnPoint> points = {};
+    std::vector<DrawnStrands> strands = {};
     /// The scale for the values of all meshes.
     ValueRange range = {};
 };

@@ -97,6 +97,23 @@ Texture make_texture(int width, int height, GLenum format, bool linear) {
     return texture;
 }
 
+Texture make_volume(const std::array<Index, 3>& counts, std::span<const std::uint8_t> texels) {
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    Texture texture(id);
+    glBindTexture(GL_TEXTURE_3D, id);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+        glTexParameteri(GL_TEXTURE_3D, wrap, GL_CLAMP_TO_EDGE);
+    }
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, counts[0], counts[1], counts[2], 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, texels.data());
+    return texture;
+}
+
 Framebuffer Framebuffer::texture(Extent extent, GLenum color_format, bool with_depth) {
     Framebuffer result;
     result.extent_ = extent;
@@ -198,6 +215,12 @@ void Program::set(const char* uniform, const Mat4& value) const {
 void Program::set_texture(const char* uniform, int unit, GLuint texture) const {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_2D, texture);
+    set(uniform, unit);
+}
+
+void Program::set_volume(const char* uniform, int unit, GLuint texture) const {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_3D, texture);
     set(uniform, unit);
 }
 

@@ -3,6 +3,8 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,6 +55,8 @@ Buffer make_vertex_buffer(std::span<const std::byte> bytes);
 VertexArray make_vertex_array();
 /// A texture without mipmaps that is read clamped, at its texels or (`linear`) between them.
 Texture make_texture(int width, int height, GLenum format, bool linear = false);
+/// A volume of four bytes a texel, x fastest, that is read clamped, between its texels.
+Texture make_volume(const std::array<Index, 3>& counts, std::span<const std::uint8_t> texels);
 
 /// Size in pixels.
 struct Extent {
@@ -104,6 +108,7 @@ class Program {
     void set(const char* uniform, const Mat4& value) const;
     /// Binds `texture` to the unit numbered `unit` and tells the sampler.
     void set_texture(const char* uniform, int unit, GLuint texture) const;
+    void set_volume(const char* uniform, int unit, GLuint texture) const;
 
   private:
     GLint location(const char* uniform) const {

@@ -5,6 +5,7 @@
 
 #include "viewer/drawing.h"
 #include "viewer/gl_objects.h"
+#include "viewer/strand_shadow.h"
 #include "viewer/surface_arrays.h"
 
 namespace lissom {
@@ -26,12 +27,27 @@ struct GpuSurface {
     void draw() const;
 };
 
+/// What strands do to the light on surfaces, and to the colour of a scalp.
+struct GpuHairShade {
+    /// Key light and light from all around that is left, and how much hair grows; see
+    /// StrandShadow::on_meshes. One texel of no hair where there are no strands.
+    gl::Texture volume;
+    /// From view space to the volume's texture coordinates: scale, then offset.
+    Vec3 scale = Vec3::Zero();
+    Vec3 offset = Vec3::Zero();
+    /// In view units: between grid points; 0 where there are no strands.
+    double step = 0.0;
+    /// Linear.
+    Vec3 scalp_color = Vec3::Zero();
+};
+
 struct GpuDrawing {
     std::vector<GpuSurface> surfaces;
     /// One instance a segment.
     GpuArray lines;
     /// One instance a point.
     GpuArray points;
+    GpuHairShade hair;
 
     void draw_lines() const;
     void draw_points() const;
@@ -40,5 +56,8 @@ struct GpuDrawing {
 /// Uploads `drawing`, moved so that `origin` is at zero.
 /// Errors: those of build_surface; memory_limit; cancelled.
 GpuDrawing upload(const Drawing& drawing, const Vec3& origin, const Context& context);
+
+/// The shade of hair; without strands where `shadow` is null.
+GpuHairShade upload_shade(const StrandShadow* shadow);
 
 }  // namespace lissom

@@ -29,6 +29,22 @@ Color ink_on(const std::optional<Color>& background) {
     return background && lightness(*background) < 0.5 ? kLightInk : kDarkInk;
 }
 
+// Points that tell where strands are: of so many at most, evenly chosen.
+constexpr Index kFramedStrands = 5000;
+
+void add_framed(const DrawnStrands& drawn, std::vector<Vec3>& points) {
+    const Strands& strands = *drawn.strands;
+    const Index stride = std::max(strands.size() / kFramedStrands, Index{1});
+    for (Index s = 0; s < strands.size(); s += stride) {
+        const StrandView strand = strands.strand(s);
+        for (Eigen::Index i = 0; i < strand.cols(); ++i) {
+            const Vec3 p = strand.col(i).cast<double>();
+            const Vec3 point = drawn.transform(p / drawn.style.unit);
+            if (point.allFinite()) points.push_back(point);
+        }
+    }
+}
+
 // Everything that a standard view frames.
 std::vector<Vec3> framed_points(const Drawing& drawing) {
     std::vector<Vec3> points;
@@ -39,6 +55,7 @@ std::vector<Vec3> framed_points(const Drawing& drawing) {
         points.insert(points.end(), line.points.begin(), line.points.end());
     }
     for (const DrawnPoint& point : drawing.points) points.push_back(point.position);
+    for (const DrawnStrands& drawn : drawing.strands) add_framed(drawn, points);
     return points;
 }
 
@@ -71,12 +88,25 @@ class Cells {
     int columns_ = 1, rows_ = 1;
 };
 
+// The strands that a mesh's cell shows, or all.
+std::vector<DrawnStrands> strands_of(const Picture& picture, std::optional<std::size_t> mesh) {
+    std::vector<DrawnStrands> result;
+    for (const PictureStrands& strands : picture.strands) {
+        if (!mesh || !strands.mesh || *strands.mesh == *mesh) result.push_back(strands.drawn);
+    }
+    return result;
+}
+
 // What every cell shows; only the first where all is in one space.
 std::vector<Drawing> drawings_of(const Picture& picture, const ValueRange& range) {
-    if (picture.columns == 0) return {{picture.meshes, picture.lines, picture.points, range}};
+    const std::vector<DrawnStrands> strands = strands_of(picture, std::nullopt);
+    if (picture.columns == 0) {
+        return {{picture.meshes, picture.lines, picture.points, strands, range}};
+    }
     std::vector<Drawing> drawings;
-    for (const DrawnMesh& drawn : picture.meshes) {
-        drawings.push_back({{drawn}, picture.lines, picture.points, range});
+    for (std::size_t i = 0; i < picture.meshes.size(); ++i) {
+        drawings.push_back(
+            {{picture.meshes[i]}, picture.lines, picture.points, strands_of(picture, i), range});
     }
     return drawings;
 }
@@ -119,7 +149,8 @@ Camera camera_for(const Picture& picture, const Drawing& drawing, double aspect)
     if (picture.camera) return *picture.camera;
     FramingOptions framing = picture.framing;
     framing.aspect = aspect;
-    const Drawing everything{picture.meshes, picture.lines, picture.points, {}};
+    const Drawing everything{
+        picture.meshes, picture.lines, picture.points, strands_of(picture, std::nullopt), {}};
     const bool alone = picture.fit_each && picture.columns > 0;
     return frame_points(picture.view, framed_points(alone ? drawing : everything), framing);
 }

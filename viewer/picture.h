@@ -11,11 +11,19 @@
 
 namespace lissom {
 
+struct PictureStrands {
+    DrawnStrands drawn;
+    /// Place among the meshes of the picture of the one that they grow on.
+    std::optional<std::size_t> mesh = std::nullopt;
+};
+
 struct Picture {
     std::vector<DrawnMesh> meshes = {};
     /// Drawn with every mesh, in the world of the camera.
     std::vector<DrawnLine> lines = {};
     std::vector<DrawnPoint> points = {};
+    /// In cells, those that name a mesh are drawn with that mesh, others with every mesh.
+    std::vector<PictureStrands> strands = {};
 
     /// Where it is seen from; without one, a standard view that frames everything.
     std::optional<Camera> camera = std::nullopt;

@@ -145,6 +145,12 @@ void PictureDrawer::draw_surfaces(const Tile& tile) const {
     program.set_texture("u_openness_depth", 1, openness_.color());
     program.set("u_openness_scale", Vec2(per_pixel / options_.supersample));
     program.set("u_openness_offset", Vec2(per_pixel.cwiseProduct(Vec2(tile.x, tile.y))));
+    const GpuHairShade& hair = drawing_.hair;
+    program.set_volume("u_hair", 2, hair.volume.id());
+    program.set("u_hair_scale", hair.scale);
+    program.set("u_hair_offset", hair.offset);
+    program.set("u_hair_step", static_cast<float>(hair.step));
+    program.set("u_scalp_color", hair.scalp_color);
     for (const GpuSurface& surface : drawing_.surfaces) {
         program.set("u_wire_width", static_cast<float>(surface.wire_width * options_.supersample));
         program.set("u_wire_color", linear(surface.wire_color));

@@ -1,4 +1,6 @@
 // lissom.render.
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -6,9 +8,11 @@
 #include "bindings/lua/buffer.h"
 #include "bindings/lua/mesh_object.h"
 #include "bindings/lua/path_object.h"
+#include "bindings/lua/strands_object.h"
 #include "viewer/camera_object.h"
 #include "viewer/paint.h"
 #include "viewer/png_file.h"
+#include "viewer/strand_place.h"
 #include "viewer/viewer_library.h"
 
 namespace lissom::lua {
@@ -66,12 +70,83 @@ MeshStyle read_style(const Call& call) {
 
 void add_meshes(const Call& call, Picture& picture) {
     const MeshStyle style = read_style(call);
+    if (!call.has("mesh") && !call.has("meshes")) return;
     if (call.has("mesh")) {
         picture.meshes.push_back({&call.object<MeshObject>("mesh")->mesh, style});
         return;
     }
     for (std::size_t i = 0; i < call.object_count("meshes"); ++i) {
         picture.meshes.push_back({&call.object_at<MeshObject>("meshes", i)->mesh, style});
+    }
+}
+
+// ---- Strands
+
+HairLobe read_lobe(const Call& call, HairLobe lobe, const char* strength, const char* exponent,
+                   const char* shift) {
+    if (call.has(strength)) lobe.strength = call.number(strength);
+    if (call.has(exponent)) lobe.exponent = call.number(exponent);
+    if (call.has(shift)) lobe.shift = call.number(shift) * kDegree;
+    return lobe;
+}
+
+StrandStyle read_hair(const Call& call) {
+    StrandStyle style;
+    if (!call.has("hair")) return style;
+    if (call.has("hair.color")) style.color = parse_color(call.string("hair.color"));
+    if (call.has("hair.level")) style.level = call.number("hair.level");
+    if (call.has("hair.count")) style.count = call.integer("hair.count");
+    style.primary = read_lobe(call, style.primary, "hair.primary", "hair.primary_exponent",
+                              "hair.primary_shift");
+    style.secondary = read_lobe(call, style.secondary, "hair.secondary", "hair.secondary_exponent",
+                                "hair.secondary_shift");
+    if (call.has("hair.shift_jitter")) {
+        style.shift_jitter = call.number("hair.shift_jitter") * kDegree;
+    }
+    const struct {
+        const char* name;
+        double& value;
+    } numbers[] = {{"hair.strand_tone", style.strand_tone}, {"hair.clump_tone", style.clump_tone},
+                   {"hair.clump_size", style.clump_size},   {"hair.root_tone", style.root_tone},
+                   {"hair.tip_tone", style.tip_tone},       {"hair.shadow", style.shadow},
+                   {"hair.scalp_tint", style.scalp_tint}};
+    for (const auto& number : numbers) {
+        if (call.has(number.name)) number.value = call.number(number.name);
+    }
+    return style;
+}
+
+// Several strands and several meshes: one for each. Else the strands grow on the only mesh, or the
+// only strands on the first.
+PictureStrands placed_strands(const Call& call, const Strands& strands, std::size_t number,
+                              const StrandStyle& style, const Picture& picture) {
+    PictureStrands result{{&strands, style, {}}, std::nullopt};
+    const std::vector<DrawnMesh>& meshes = picture.meshes;
+    if (meshes.empty()) return result;
+    const std::size_t mesh = meshes.size() == 1 ? 0 : number;
+    if (meshes.size() == 1 || call.kind("strands") == Kind::objects) result.mesh = mesh;
+    result.drawn.transform = meshes[mesh].transform;
+    if (call.has("hair.unit")) {
+        result.drawn.style.unit = call.number("hair.unit");
+    } else if (const auto unit = unit_of_roots(strands, *meshes[mesh].mesh)) {
+        result.drawn.style.unit = *unit;
+    }
+    return result;
+}
+
+void add_strands(const Call& call, Picture& picture) {
+    if (!call.has("strands")) return;
+    const StrandStyle style = read_hair(call);
+    if (call.kind("strands") == Kind::object) {
+        const Strands& strands = call.object<StrandsObject>("strands")->strands;
+        picture.strands.push_back(placed_strands(call, strands, 0, style, picture));
+        return;
+    }
+    const std::size_t count = call.object_count("strands");
+    if (picture.meshes.size() > 1) require_count(count, picture.meshes.size(), "strands");
+    for (std::size_t i = 0; i < count; ++i) {
+        const Strands& strands = call.object_at<StrandsObject>("strands", i)->strands;
+        picture.strands.push_back(placed_strands(call, strands, i, style, picture));
     }
 }
 
@@ -197,6 +272,7 @@ Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& si
     add_meshes(call, picture);
     color_meshes(call, picture);
     move_meshes(call, picture);
+    add_strands(call, picture);
     paint_regions(call, picture);
     paint_handles(call, picture);
     paint_scalars(call, picture);
@@ -208,8 +284,15 @@ Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& si
 
 // Options that exclude each other, or would do nothing without another.
 void check_options(const Call& call) {
-    if (call.has("mesh") == call.has("meshes")) {
+    if (call.has("mesh") && call.has("meshes")) {
         call.reject("mesh", "give either 'mesh', one, or 'meshes', a list");
+    }
+    if (!call.has("mesh") && !call.has("meshes") && !call.has("strands")) {
+        call.reject("mesh", "give 'mesh', one, 'meshes', a list, or 'strands'");
+    }
+    if (call.has("hair") && !call.has("strands")) call.reject("hair", "it needs 'strands'");
+    if (call.has("hair.level") && call.has("hair.count")) {
+        call.reject("hair.count", "give either 'level', a share, or 'count', a number");
     }
     for (const char* option : {"view", "up", "parallel", "margin"}) {
         if (call.has(option) && call.has("camera")) {
@@ -255,10 +338,79 @@ int render(Call& call) {
 
 // ---- Description
 
+// A number of few digits.
+std::string text_of(double value) {
+    std::array<char, 32> text{};
+    const int length = std::snprintf(text.data(), text.size(), "%.4g", value);
+    return {text.data(), static_cast<std::size_t>(length)};
+}
+
+std::vector<Parameter> lobe_options(const std::string& name, const char* help) {
+    return {number(name, help).at_least(0.0),
+            number(name + "_exponent", "How sharp it is.").at_least(0.0),
+            number(name + "_shift", "How far it leans towards the tip; negative: to the root.")
+                .between(-180.0, 180.0)
+                .in("degrees")};
+}
+
+// `text`: the defaults, in the order of the options.
+void append_lobe(std::vector<Parameter>& to, std::vector<Parameter> lobe, const HairLobe& usual) {
+    to.push_back(lobe[0].optional(text_of(usual.strength)));
+    to.push_back(lobe[1].optional(text_of(usual.exponent)));
+    to.push_back(lobe[2].optional(text_of(usual.shift / kDegree)));
+}
+
+std::vector<Parameter> hair_options() {
+    const StrandStyle s;
+    std::vector<Parameter> result{
+        string("color", "Colour of all strands, instead of their own.")
+            .optional("the strands' own, else a brown"),
+        number("level",
+               "Part of the strands to draw, the first of them; the fewer, the wider each, so that "
+               "they cover as much.")
+            .above(0.0)
+            .between(0.0, 1.0)
+            .optional("1"),
+        integer("count", "The same as a number of strands.").at_least(1).optional("all"),
+        number("unit", "Length of the mesh's unit; strands are in metres.")
+            .above(0.0)
+            .in("metres")
+            .optional("what the places of the roots on the mesh tell, else 1")};
+    append_lobe(result, lobe_options("primary", "Strength of the white reflection."), s.primary);
+    append_lobe(result, lobe_options("secondary", "Strength of the coloured reflection."),
+                s.secondary);
+    const auto share = [&](const char* name, const char* help, double usual) {
+        result.push_back(number(name, help).between(0.0, 1.0).optional(text_of(usual)));
+    };
+    result.push_back(number("shift_jitter", "How much reflections lean at random, by strand.")
+                         .between(0.0, 180.0)
+                         .in("degrees")
+                         .optional(text_of(s.shift_jitter / kDegree)));
+    share("strand_tone", "How much brighter or darker strands are at random.", s.strand_tone);
+    share("clump_tone", "The same for clumps of strands with neighbouring roots.", s.clump_tone);
+    result.push_back(number("clump_size", "Distance of the middles of these clumps at the roots.")
+                         .above(0.0)
+                         .in("metres")
+                         .optional(text_of(s.clump_size)));
+    result.push_back(number("root_tone", "Factor of the colour at the root.")
+                         .between(0.0, 10.0)
+                         .optional(text_of(s.root_tone)));
+    result.push_back(number("tip_tone", "Factor of the colour at the tip.")
+                         .between(0.0, 10.0)
+                         .optional(text_of(s.tip_tone)));
+    result.push_back(number("shadow", "How much strands shade each other and the meshes; 0: none.")
+                         .between(0.0, 100.0)
+                         .optional(text_of(s.shadow)));
+    share("scalp_tint", "How far the scalp takes the hair's colour where roots are dense.",
+          s.scalp_tint);
+    return result;
+}
+
 std::vector<Parameter> content_options() {
     const MeshStyle style;
     return {
-        object("mesh", "lissom.Mesh", "The mesh to draw.").optional(),
+        object("mesh", "lissom.Mesh", "The mesh to draw; may be left out where strands are drawn.")
+            .optional(),
         objects("meshes", "lissom.Mesh", "Several meshes to draw, instead of `mesh`.").optional(),
         points("offsets", "Moves each mesh by a vector, in the picture only.").optional(),
         integer("columns",
@@ -283,6 +435,13 @@ std::vector<Parameter> content_options() {
             .optional("50"),
         boolean("wire", "Draws the edges of the faces.").defaults(style.wire),
         number("wire_width", "Their width.").above(0.0).in("pixels").optional("1"),
+        either("strands",
+               {object("strands", "lissom.Strands", "Hair on the mesh, or alone."),
+                objects("list", "lissom.Strands",
+                        "Several on the only mesh, or one for each of several.")},
+               "Hair to draw, in metres.")
+            .optional(),
+        options("hair", hair_options(), "How the strands are drawn.").optional(),
         either("region",
                {object("region", "lissom.Region", "A region of a mesh."),
                 string("name", "A region by its name, on every mesh that has it.")},
@@ -342,7 +501,7 @@ std::vector<Function> render_functions() {
     return {
         {.name = "render",
          .body = render,
-         .summary = "Draws meshes into a picture file. Needs no window and no display.",
+         .summary = "Draws meshes and hair into a picture file. Needs no window and no display.",
          .options = options,
          .results = {{"string", "file",
                       "The file that was written; nil, message, code where it could "

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/hair/strand_measures.h"
 #include "viewer/picture_drawer.h"
+#include "viewer/strand_layer.h"
 
 namespace lissom {
 namespace {
@@ -29,7 +31,8 @@ bool is_power_of_two(int n) {
 
 // Calls `visit` with every point of the drawing in the camera's world.
 template <typename Visit>
-void for_each_point(const Drawing& drawing, const Visit& visit) {
+void for_each_point(const Drawing& drawing, const std::vector<Vec3>& strand_corners,
+                    const Visit& visit) {
     for (const DrawnMesh& drawn : drawing.meshes) {
         for (const Vec3& p : drawn.mesh->positions()) visit(drawn.transform(p));
     }
@@ -37,6 +40,21 @@ void for_each_point(const Drawing& drawing, const Visit& visit) {
         for (const Vec3& p : line.points) visit(p);
     }
     for (const DrawnPoint& point : drawing.points) visit(point.position);
+    for (const Vec3& p : strand_corners) visit(p);
+}
+
+// The corners of boxes around the strands: they hold all of their points that are finite.
+std::vector<Vec3> corners_of(const std::vector<DrawnStrands>& strands) {
+    std::vector<Vec3> corners;
+    for (const DrawnStrands& drawn : strands) {
+        const Box box = bounds(*drawn.strands);
+        for (int i = 0; !box.empty() && i < 8; ++i) {
+            const Vec3 corner(i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
+                              i & 4 ? box.max.z() : box.min.z());
+            corners.push_back(drawn.transform(corner / drawn.style.unit));
+        }
+    }
+    return corners;
 }
 
 // Where a drawing is and how large.
@@ -46,10 +64,10 @@ struct Placement {
     double size = 0.0;
 };
 
-Placement place(const Drawing& drawing) {
+Placement place(const Drawing& drawing, const std::vector<Vec3>& strand_corners) {
     Placement placement;
     double count = 0.0, square = 0.0;
-    for_each_point(drawing, [&](const Vec3& p) {
+    for_each_point(drawing, strand_corners, [&](const Vec3& p) {
         require(p.allFinite(), "a transform, line or point of the drawing is NaN or infinite",
                 ErrorCode::not_finite);
         placement.center += p;
@@ -57,15 +75,17 @@ Placement place(const Drawing& drawing) {
     });
     if (count == 0.0) return placement;
     placement.center /= count;
-    for_each_point(drawing, [&](const Vec3& p) { square += (p - placement.center).squaredNorm(); });
+    for_each_point(drawing, strand_corners,
+                   [&](const Vec3& p) { square += (p - placement.center).squaredNorm(); });
     placement.size = std::sqrt(square / count);
     return placement;
 }
 
 // Nearest and farthest depth.
-std::pair<double, double> depths(const Drawing& drawing, const Camera& camera) {
+std::pair<double, double> depths(const Drawing& drawing, const std::vector<Vec3>& strand_corners,
+                                 const Camera& camera) {
     double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
-    for_each_point(drawing, [&](const Vec3& p) {
+    for_each_point(drawing, strand_corners, [&](const Vec3& p) {
         const double depth = camera.forward().dot(p - camera.eye());
         nearest = std::min(nearest, depth);
         farthest = std::max(farthest, depth);
@@ -83,11 +103,11 @@ Camera before_everything(const Camera& camera, double nearest, double farthest) 
     return Camera(options);
 }
 
-ViewParameters view_parameters(const Drawing& drawing, const Camera& given, double aspect,
-                               const Vec3& origin) {
-    const auto [given_nearest, given_farthest] = depths(drawing, given);
+ViewParameters view_parameters(const Drawing& drawing, const std::vector<Vec3>& strand_corners,
+                               const Camera& given, double aspect, const Vec3& origin) {
+    const auto [given_nearest, given_farthest] = depths(drawing, strand_corners, given);
     const Camera camera = before_everything(given, given_nearest, given_farthest);
-    const auto [nearest, farthest] = depths(drawing, camera);
+    const auto [nearest, farthest] = depths(drawing, strand_corners, camera);
     const DepthRange range = fit_depth_range(nearest, farthest);
     const double half_height = camera.half_height(1.0);
     return {view_matrix(camera, origin), projection_matrix(camera, aspect, range),
@@ -121,6 +141,21 @@ struct Renderer::State {
         tools = std::make_unique<PictureTools>();
     }
 
+    // The picture without strands, which `shadow` stands for.
+    Image draw_meshes(const Drawing& drawing, const Vec3& origin, const ViewParameters& view,
+                      const RenderOptions& options, double occlusion_radius,
+                      const StrandShadow* shadow, const Context& context) const {
+        Progress progress(context, "render");
+        const PlatformScope scope(*platform);
+        progress.step(0.3);
+        GpuDrawing uploaded = upload(drawing, origin, context);
+        uploaded.hair = upload_shade(shadow);
+        progress.step(0.2);
+        const PictureDrawer drawer(*tools, uploaded, view, options, occlusion_radius);
+        progress.step(0.5);
+        return drawer.draw(progress);
+    }
+
     ~State() {
         try {
             const PlatformScope scope(*platform);
@@ -146,21 +181,32 @@ Image Renderer::render(const Drawing& drawing, const Camera& camera, const Rende
                        const Context& context) {
     require_valid(options);
     Progress progress(context, "render");
-    const Placement placement = place(drawing);
+    const std::vector<Vec3> strand_corners = corners_of(drawing.strands);
+    const Placement placement = place(drawing, strand_corners);
     const double aspect = static_cast<double>(options.width) / options.height;
-    const ViewParameters view = view_parameters(drawing, camera, aspect, placement.center);
+    const ViewParameters view =
+        view_parameters(drawing, strand_corners, camera, aspect, placement.center);
     const double depth = camera.forward().dot(placement.center - camera.eye());
     const double seen = 2.0 * camera.half_height(std::max(depth, view.near));
     const double radius = std::min(kOcclusionOfSize * placement.size, kOcclusionOfView * seen);
 
     const MemoryCharge charge = context.charge(picture_bytes(options), "the picture");
-    const PlatformScope scope(*state_->platform);
+    if (drawing.strands.empty()) {
+        progress.step(1.0);
+        return state_->draw_meshes(drawing, placement.center, view, options, radius, nullptr,
+                                   context);
+    }
     progress.step(0.3);
-    const GpuDrawing uploaded = upload(drawing, placement.center, context);
-    progress.step(0.2);
-    const PictureDrawer drawer(*state_->tools, uploaded, view, options, radius);
-    progress.step(0.5);
-    return drawer.draw(progress);
+    const StrandScene scene{view_strands(drawing, view.view, placement.center),
+                            view_triangles(drawing, view.view, placement.center), view};
+    const StrandShadow shadow(scene.strands, scene.triangles, context);
+    progress.step(0.3);
+    RenderOptions on_nothing = options;
+    on_nothing.background = std::nullopt;
+    const Image meshes =
+        state_->draw_meshes(drawing, placement.center, view, on_nothing, radius, &shadow, context);
+    progress.step(0.4);
+    return lay_over(meshes, draw_strands(scene, shadow, options, context), options.background);
 }
 
 void Renderer::require_valid(const RenderOptions& options) const {

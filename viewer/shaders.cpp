@@ -187,6 +187,11 @@ uniform vec2 u_openness_scale;         // from pixels of the target to texels
 uniform vec2 u_openness_offset;
 uniform float u_wire_width;            // pixels of the target; 0 is none
 uniform vec3 u_wire_color;
+uniform sampler3D u_hair;              // light that strands leave: key, around; hair that grows
+uniform vec3 u_hair_scale;             // from view space to its coordinates
+uniform vec3 u_hair_offset;
+uniform float u_hair_step;             // view units between its texels; 0 without strands
+uniform vec3 u_scalp_color;
 out vec4 o_color;
 
 const vec3 kFillDirection = normalize(vec3(0.80, 0.05, 0.55));
@@ -228,15 +233,29 @@ float highlight(vec3 normal, vec3 to_viewer, vec3 direction, float exponent) {
     return max(dot(normal, direction), 0.0) * (exponent + 8.0) / 25.0 * pow(cosine, exponent);
 }
 
+// Key light and light from all around that strands leave, and how much hair grows. Far outside the
+// volume there is no hair.
+vec3 hair_at(vec3 position, vec3 normal) {
+    if (u_hair_step == 0.0) return vec3(1.0, 1.0, 0.0);
+    vec3 above = (position + 0.75 * u_hair_step * normal) * u_hair_scale + u_hair_offset;
+    vec3 outside = max(max(-above, above - 1.0), vec3(0.0)) / (u_hair_scale * u_hair_step);
+    float fade = clamp(1.0 - length(outside) / 12.0, 0.0, 1.0);
+    vec3 here = texture(u_hair, position * u_hair_scale + u_hair_offset).rgb;
+    return mix(vec3(1.0, 1.0, 0.0), vec3(texture(u_hair, above).rg, here.b), fade);
+}
+
 // `plain`: how far the light is evened out, so that colours that stand for numbers can be read.
-vec3 lit(vec3 color, vec3 normal, vec3 to_viewer, float open, float plain) {
+vec3 lit(vec3 color, vec3 normal, vec3 to_viewer, float open, float plain, vec3 hair) {
     float facing = max(dot(normal, to_viewer), 0.0);
     float grazing = pow(1.0 - facing, 3.0);
+    vec3 key = kKeyLight * hair.x;
+    float key_open = mix(0.45, 1.0, open);
+    open *= hair.y;
     vec3 around = mix(kGroundLight, kSkyLight, 0.5 + 0.5 * normal.y) * open;
-    vec3 direct = kKeyLight * soft_cosine(normal, kKeyDirection, 0.15) * mix(0.45, 1.0, open) +
+    vec3 direct = key * soft_cosine(normal, kKeyDirection, 0.15) * key_open +
                   kFillLight * soft_cosine(normal, kFillDirection, 0.3) * open;
     vec3 rim = kRimLight * max(dot(normal, kRimDirection), 0.0) * open;
-    vec3 shine = kKeyLight * highlight(normal, to_viewer, kKeyDirection, 24.0) * 0.045 * open;
+    vec3 shine = key * highlight(normal, to_viewer, kKeyDirection, 24.0) * 0.045 * open * (1.0 - hair.z);
     vec3 light = (around + direct + rim) * (1.0 - 0.30 * grazing);
     return color * mix(light, vec3(0.92), plain) + shine * (1.0 - plain);
 }
@@ -266,7 +285,9 @@ void main() {
     bool has_value = (v_flags & 8u) != 0u;
     vec3 color = has_value ? texture(u_colormap, vec2(v_value, 0.5)).rgb : v_color;
     if (!gl_FrontFacing) color *= kBackTint;
-    color = lit(color, normal, to_viewer, openness(-v_position.z), has_value ? 0.5 : 0.0);
+    vec3 hair = hair_at(v_position, normal);
+    color = mix(color, u_scalp_color, hair.z);
+    color = lit(color, normal, to_viewer, openness(-v_position.z), has_value ? 0.5 : 0.0, hair);
     if (u_wire_width > 0.0) color = mix(color, u_wire_color, 0.8 * edge_cover());
     o_color = vec4(min(color, vec3(1.0)), 1.0);
 }

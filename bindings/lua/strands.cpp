@@ -284,6 +284,77 @@ int resample_strands(Call& call) {
         call, [&](Strands& strands) { strands = resample(strands, options, call.context()); });
 }
 
+// ---- Widths and colours
+
+// What a list has one value for: each strand, or each point.
+StrandDomain domain_of(std::size_t count, const Strands& strands, const char* what) {
+    if (count == static_cast<std::size_t>(strands.size())) return StrandDomain::strand;
+    if (count == static_cast<std::size_t>(strands.point_count())) return StrandDomain::point;
+    throw Error(ErrorCode::invalid_argument,
+                std::to_string(count) + " " + what + " were given for " +
+                    std::to_string(strands.size()) + " strands of " +
+                    std::to_string(strands.point_count()) +
+                    " points; give one for each strand or one for each point");
+}
+
+std::vector<float> factors_of(std::span<const double> numbers, const char* what) {
+    std::vector<float> result;
+    for (const double number : numbers) {
+        if (number < 0.0) {
+            throw Error(ErrorCode::out_of_range, std::string(what) + " must not be negative");
+        }
+        result.push_back(static_cast<float>(number));
+    }
+    return result;
+}
+
+int set_widths(Call& call) {
+    if (call.has("width") && call.has("widths")) {
+        call.reject("widths", "give either 'width', one, or 'widths', a list");
+    }
+    if (!call.has("width") && !call.has("widths") && !call.has("profile")) {
+        call.reject("width", "give 'width', 'widths' or 'profile'");
+    }
+    return change_strands(call, [&](Strands& strands) {
+        StrandWidths widths = strands.widths();
+        if (call.has("width")) {
+            widths.common = static_cast<float>(call.number("width"));
+            widths.domain = StrandDomain::all;
+            widths.values.clear();
+        }
+        if (call.has("widths")) {
+            widths.values = factors_of(call.numbers("widths"), "widths");
+            widths.domain = domain_of(widths.values.size(), strands, "widths");
+        }
+        if (call.has("profile")) {
+            widths.profile = factors_of(call.numbers("profile"), "factors of a profile");
+        }
+        strands.set_widths(std::move(widths));
+    });
+}
+
+Eigen::Vector3f linear_color(const Vec3& color) {
+    if ((color.array() < 0.0).any()) {
+        throw Error(ErrorCode::out_of_range, "parts of a colour must not be negative");
+    }
+    return color.cast<float>();
+}
+
+int set_colors(Call& call) {
+    return change_strands(call, [&](Strands& strands) {
+        StrandValues<Eigen::Vector3f> colors{Eigen::Vector3f::Zero()};
+        if (call.has("color")) {
+            colors.common = linear_color(call.vector("color"));
+        } else {
+            for (const Vec3& color : call.points("colors")) {
+                colors.values.push_back(linear_color(color));
+            }
+            colors.domain = domain_of(colors.values.size(), strands, "colours");
+        }
+        strands.set_colors(std::move(colors));
+    });
+}
+
 // ---- Operators
 
 std::uint64_t seed(const Call& call) {
@@ -496,7 +567,31 @@ std::vector<Function> edit_methods() {
          .one_option = true,
          .results = kSelf,
          .errors = {ErrorCode::invalid_argument, ErrorCode::memory_limit, ErrorCode::cancelled},
-         .example = kPair + "assert(hair:resample{ count = 10 }:points():count() == 20)"}};
+         .example = kPair + "assert(hair:resample{ count = 10 }:points():count() == 20)"},
+        {.name = "set_widths",
+         .body = set_widths,
+         .summary = "Sets how thick strands are; what is not given stays. Pictures and files have "
+                    "the widths, times the profile.",
+         .options =
+             {meters("width", "Diameter of all strands.").at_least(0).optional(),
+              numbers("widths", "Diameters in metres, one a strand or one a point.").optional(),
+              numbers("profile",
+                      "Factors at equal steps from the root to the tip, linear "
+                      "between; empty for none.")
+                  .optional()},
+         .results = kSelf,
+         .errors = {ErrorCode::invalid_argument, ErrorCode::out_of_range},
+         .example = kPair + "hair:set_widths{ width = 90e-6, profile = { 1, 1, 0.4 } }"},
+        {.name = "set_colors",
+         .body = set_colors,
+         .summary = "Sets the colours of strands as linear red, green and blue, each 0 to 1; "
+                    "pictures and files have them.",
+         .options = {vector("color", "The colour of all strands.").optional(),
+                     points("colors", "Colours, one a strand or one a point.").optional()},
+         .one_option = true,
+         .results = kSelf,
+         .errors = {ErrorCode::invalid_argument, ErrorCode::out_of_range},
+         .example = kPair + "hair:set_colors{ color = { 0.26, 0.15, 0.075 } }"}};
 }
 
 const std::vector<ErrorCode> kOperatorErrors = {ErrorCode::invalid_argument, ErrorCode::not_finite,

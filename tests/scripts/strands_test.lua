@@ -70,6 +70,24 @@ local turned = lissom.load_strands(path(".hair"), { up = "z", unit = 0.01 })
 expect.near_list({ turned:strand(1):get(2) }, { 1, 1, 0 }, 1e-6)
 os.remove(path(".hair"))
 
+-- Widths and colours go into the files that have them; what is not given stays.
+local dyed = before:copy()
+expect.truthy(rawequal(dyed:set_widths{ width = 9e-5, profile = { 1, 0.5 } }, dyed))
+dyed:set_colors{ color = { 0.3, 0.2, 0.1 } }
+assert(dyed:save(path(".hair")))
+expect.truthy(lissom.load_strands(path(".hair")):hash() ~= before:hash())
+os.remove(path(".hair"))
+expect.equal(dyed:copy():set_widths{ width = 9e-5 }:hash(), dyed:hash())
+expect.truthy(dyed:copy():set_widths{ profile = {} }:hash() ~= dyed:hash())
+local each = {}
+for s = 1, #dyed do each[s] = { s / #dyed, 0, 0 } end
+expect.truthy(dyed:copy():set_colors{ colors = each }:hash() ~= dyed:hash())
+expect.error("200 strands", function() dyed:set_colors{ colors = { { 1, 0, 0 } } } end)
+expect.error("negative", function() dyed:set_colors{ color = { 1, -1, 0 } } end)
+expect.error("negative", function() dyed:set_widths{ profile = { 1, -1 } } end)
+expect.error("'profile'", function() dyed:set_widths{} end)
+expect.error("either", function() dyed:set_widths{ width = 1, widths = { 1 } } end)
+
 -- The world's faults and misuse.
 expect.failure("file_not_found", lissom.load_strands(path(".hair")))
 expect.failure("unknown_format", before:save(path(".abc")))

@@ -90,8 +90,28 @@ function lissom.camera(options) end
 ---@return lissom.Camera camera # The camera.
 function lissom.frame(mesh, options) end
 
+---@class lissom.RenderOptions.Hair
+---@field color? string Colour of all strands, instead of their own. Default: the strands' own, else a brown.
+---@field level? number Part of the strands to draw, the first of them; the fewer, the wider each, so that they cover as much. Default: 1.
+---@field count? integer The same as a number of strands. Default: all.
+---@field unit? number Length of the mesh's unit; strands are in metres. In metres. Default: what the places of the roots on the mesh tell, else 1.
+---@field primary? number Strength of the white reflection. Default: 0.24.
+---@field primary_exponent? number How sharp it is. Default: 70.
+---@field primary_shift? number How far it leans towards the tip; negative: to the root. In degrees. Default: 5.73.
+---@field secondary? number Strength of the coloured reflection. Default: 0.5.
+---@field secondary_exponent? number How sharp it is. Default: 14.
+---@field secondary_shift? number How far it leans towards the tip; negative: to the root. In degrees. Default: -8.594.
+---@field shift_jitter? number How much reflections lean at random, by strand. In degrees. Default: 2.865.
+---@field strand_tone? number How much brighter or darker strands are at random. Default: 0.12.
+---@field clump_tone? number The same for clumps of strands with neighbouring roots. Default: 0.18.
+---@field clump_size? number Distance of the middles of these clumps at the roots. In metres. Default: 0.005.
+---@field root_tone? number Factor of the colour at the root. Default: 0.72.
+---@field tip_tone? number Factor of the colour at the tip. Default: 1.18.
+---@field shadow? number How much strands shade each other and the meshes; 0: none. Default: 1.
+---@field scalp_tint? number How far the scalp takes the hair's colour where roots are dense. Default: 0.7.
+
 ---@class lissom.RenderOptions
----@field mesh? lissom.Mesh The mesh to draw.
+---@field mesh? lissom.Mesh The mesh to draw; may be left out where strands are drawn.
 ---@field meshes? lissom.Mesh[] Several meshes to draw, instead of `mesh`.
 ---@field offsets? lissom.Vector[] Moves each mesh by a vector, in the picture only.
 ---@field columns? integer 0: all meshes in one space. Else each in a cell of its own, this many a row, all seen by the same camera. Default: 0.
@@ -103,6 +123,8 @@ function lissom.frame(mesh, options) end
 ---@field crease? number Smooth shading keeps edges sharp where faces meet at more than this angle. In degrees. Default: 50.
 ---@field wire? boolean Draws the edges of the faces. Default: false.
 ---@field wire_width? number Their width. In pixels. Default: 1.
+---@field strands? lissom.Strands|lissom.Strands[] Hair to draw, in metres.
+---@field hair? lissom.RenderOptions.Hair How the strands are drawn.
 ---@field region? lissom.Region|string The region of interest, drawn in blue.
 ---@field handles? string[]|lissom.Region[] Handles, drawn in purple; single vertices as balls.
 ---@field boundaries? boolean Draws the open boundaries, each in a colour of its own. Default: false.
@@ -125,7 +147,7 @@ function lissom.frame(mesh, options) end
 ---@field parallel? boolean Without perspective. Default: false.
 ---@field margin? number Share of the picture left free on every side. Default: 0.06.
 
----Draws meshes into a picture file. Needs no window and no display.
+---Draws meshes and hair into a picture file. Needs no window and no display.
 ---@param options lissom.RenderOptions
 ---@return string file # The file that was written; nil, message, code where it could not be, or where nothing can draw here.
 ---@return string? message # What is wrong, where the first result is nil.

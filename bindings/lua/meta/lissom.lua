@@ -1347,6 +1347,25 @@ function Strands:transform(options) end
 ---@return lissom.Elements? elements # The elements concerned.
 function Strands:resample(options) end
 
+---@class lissom.Strands.Set_widthsOptions
+---@field width? number Diameter of all strands. In metres.
+---@field widths? number[] Diameters in metres, one a strand or one a point.
+---@field profile? number[] Factors at equal steps from the root to the tip, linear between; empty for none.
+
+---Sets how thick strands are; what is not given stays. Pictures and files have the widths, times the profile.
+---@param options? lissom.Strands.Set_widthsOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:set_widths(options) end
+
+---@class lissom.Strands.Set_colorsOptions
+---@field color? lissom.Vector The colour of all strands.
+---@field colors? lissom.Vector[] Colours, one a strand or one a point.
+
+---Sets the colours of strands as linear red, green and blue, each 0 to 1; pictures and files have them.
+---@param options lissom.Strands.Set_colorsOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:set_colors(options) end
+
 ---@class lissom.Strands.ClumpOptions
 ---@field clumps? integer Number of guides: the strands of the lowest ids. Default: 2500.
 ---@field strength? number Part of the way to the guide that tips move. Default: 0.3.

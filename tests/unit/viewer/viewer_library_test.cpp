@@ -69,6 +69,53 @@ TEST_CASE("scripts draw pictures, one after the other") {
     CHECK(folder.names() == std::vector<std::string>{"picture.png"});
 }
 
+TEST_CASE("scripts draw hair, and every option of it changes the picture") {
+    const PictureFolder folder;
+    if (!test::can_draw()) return;
+    test::LuaState lua(with_viewer());
+    CHECK(lua.run(R"(
+        local points, counts = {}, {}
+        for i = 1, 400 do
+            local x, z = (i * 0.618) % 1 - 0.5, (i * 0.755) % 1 - 0.5
+            for k = 0, 8 do
+                points[#points + 1] = { 0.1 * x + 0.002 * k * k * x, 0.05 + 0.01 * k, 0.1 * z }
+            end
+            counts[i] = 9
+        end
+        hair = lissom.strands{ points = points, counts = counts }:set_widths{ width = 0.001 }
+        block = lissom.shapes.box{ size = 0.1 })") == "");
+    const auto picture = [&](const std::string& options) {
+        CHECK(lua.run("assert(lissom.render{ strands = hair, size = { 96, 72 }, file = '" +
+                      folder.path("hair.png") + "', " + options + " })") == "");
+        return folder.read("hair.png");
+    };
+    const std::string plain = picture("mesh = block");
+    CHECK(picture("mesh = block") == plain);
+    CHECK(picture("view = 'front'") != plain);
+    CHECK(picture("mesh = block, hair = {}") == plain);
+    for (const char* option :
+         {"color = '#202020'", "level = 0.5", "count = 100", "unit = 1.1", "primary = 0",
+          "primary_exponent = 10", "primary_shift = 30", "secondary = 0", "secondary_exponent = 3",
+          "secondary_shift = 30", "shift_jitter = 40", "strand_tone = 0.5", "clump_tone = 0.5",
+          "clump_size = 0.05", "root_tone = 0.2", "tip_tone = 2", "shadow = 0", "scalp_tint = 0"}) {
+        CAPTURE(option);
+        CHECK(picture("mesh = block, hair = { " + std::string(option) + " }") != plain);
+    }
+    CHECK(picture("meshes = { block, block }, offsets = { { -1, 0, 0 }, { 1, 0, 0 } }, "
+                  "strands = { hair, hair }, columns = 2") != plain);
+    const auto fails = [&](const std::string& options) {
+        return lua.run("lissom.render{ file = 'x.png', " + options + " }");
+    };
+    CHECK(fails("mesh = block, strands = hair, hair = { colour = 'red' }").find("color") !=
+          std::string::npos);
+    CHECK(fails("mesh = block, hair = {}").find("'strands'") != std::string::npos);
+    CHECK(fails("strands = hair, hair = { level = 0.5, count = 3 }").find("either") !=
+          std::string::npos);
+    CHECK(fails("").find("'strands'") != std::string::npos);
+    CHECK(fails("meshes = { block, block }, strands = { hair, hair, hair }").find("3 strands") !=
+          std::string::npos);
+}
+
 TEST_CASE("every option of a picture changes it") {
     const PictureFolder folder;
     if (!test::can_draw()) return;
