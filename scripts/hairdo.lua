@@ -62,8 +62,8 @@ local function pushed_out(scalp, p, distance)
 end
 
 -- The spine of a tail: from a tie over the head it goes out and bends down as it goes on. `tail` has the
--- direction of the tie (`azimuth`, `elevation`), how far it is above the head (`lift`), the `length` of the tail,
--- its `radius`, and the length over which it bends (`droop`); lengths are in metres.
+-- direction of the tie (`azimuth`, `elevation`), how far it is above the head (`lift`), the `length` of the
+-- tail, its `radius`, and the length over which it bends (`droop`); lengths are in metres.
 function hairdo.tail_spine(scalp, tail)
     local at, normal = scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation, lift = tail.lift }
     local from, to = scalp:to_metres(at), {}
@@ -135,7 +135,7 @@ function hairdo.ring(scalp, tail)
     return ring:transform{ translate = center }
 end
 
--- A camera in front of the head, at a side ("front", "left", "back", "right", "three-quarter"), that shows the
+-- A camera at a side of the head ("front", "left", "back", "right", "three-quarter") that shows the
 -- head from the chin up, and all of the hair.
 function hairdo.camera(style, hair, side)
     local scalp = style:scalp()

@@ -38,17 +38,17 @@ for _, side in ipairs{ 1, -1 } do
     -- Seen along the curve from outside, the hair above it is at the left on the head's left side.
     local above, below = { 80, 50 }, { 15, 10 }
     style:dividing{ points = route(places), left = side > 0 and above or below,
-        right = side > 0 and below or above, height = 0, name = side > 0 and "left side" or "right side" }
+        right = side > 0 and below or above, height = 0, gap = 0,
+        name = side > 0 and "left side" or "right side" }
 end
-style:dividing{ points = route{ { 142, 20 }, { 180, 15 }, { -142, 20 } }, height = 0, name = "back" }
+style:dividing{ points = route{ { 142, 20 }, { 180, 15 }, { -142, 20 } }, height = 0, gap = 0, name = "back" }
 
+local tail = { azimuth = 180, elevation = 26, lift = 0.02, length = 0.27, droop = 0.012, radius = 0.018 }
 style:ponytail{
-    spine = hairdo.tail_spine(style:scalp(),
-        { azimuth = 180, elevation = 26, lift = 0.016, length = 0.27, droop = 0.03, radius = 0.014 }),
-    radius = 0.014,
+    spine = hairdo.tail_spine(style:scalp(), tail),
+    radius = tail.radius,
     tightness = 1,
-    outer = 3,
-    tail_length = 0.27,
+    tail_length = tail.length,
     name = "tail",
 }
 local gather = { { 35, 60 }, { 75, 62 }, { 115, 45 } }
@@ -63,4 +63,4 @@ local hair = style:grow{
     length = 0.46,
     cut = { point = style:scalp():from_metres(0, -0.36, 0), ragged = 0.012 },
 }
-hairdo.finish(style, hair, params)
+hairdo.finish(style, hair, params, { hairdo.ring(style:scalp(), tail) })

@@ -12,17 +12,18 @@ local head = hairdo.head(params)
 local style = hairdo.style(head, params)
 local route = strokes.route(style)
 
-for _, side in ipairs{ 1, -1 } do
+local rings = {}
+for i, side in ipairs{ 1, -1 } do
+    local tail = { azimuth = 118 * side, elevation = 14, lift = 0.02, length = 0.25, droop = 0.04,
+        radius = 0.017 }
     style:ponytail{
-        spine = hairdo.tail_spine(style:scalp(),
-            { azimuth = 118 * side, elevation = 14, lift = 0.02, length = 0.25, droop = 0.045 }),
-        radius = 0.016,
-        share = 0.7,
-        fullness = 0.9,
-        outer = 3,
-        tail_length = 0.25,
+        spine = hairdo.tail_spine(style:scalp(), tail),
+        radius = tail.radius,
+        fullness = 0.7,
+        tail_length = tail.length,
         name = side > 0 and "left tail" or "right tail",
     }
+    rings[i] = hairdo.ring(style:scalp(), tail)
 end
 strokes.both_sides({
     { { 6, 39, 4 }, { 32, 52, 8 }, { 72, 44, 9 }, { 98, 28, 10 }, { 113, 16, 18 } },
@@ -30,4 +31,4 @@ strokes.both_sides({
 }, function(places) style:stream{ points = route(places), stop = false } end)
 
 local hair = style:grow{ count = params.count, length = 0.5, layer = 0.008 }
-hairdo.finish(style, hair, params)
+hairdo.finish(style, hair, params, rings)

@@ -51,7 +51,8 @@ local function droop_at(height)
     return knots[#knots][2]
 end
 
--- The curves of a ponytail on a head, and its tail as in hairdo.ring. `options` are those of lissom.hairstyle.
+-- The curves of a ponytail on a head, and its tail as in hairdo.ring. `options` are those of
+-- lissom.hairstyle.
 function ponytail.style(head, values, options)
     values = complete(values)
     local all = {}
