@@ -15,7 +15,7 @@ namespace lissom {
 namespace {
 
 // Strands that are grown by one thread into one list.
-constexpr Index kTuft = 256;
+constexpr Index kTuft = 128;
 static_assert(kGrowthWave % kTuft == 0);
 
 constexpr std::size_t kMostPoints = std::numeric_limits<Index>::max();

@@ -5,7 +5,6 @@
 
 using namespace lissom;
 using doctest::Approx;
-using test::points_of;
 
 namespace {
 
@@ -20,7 +19,8 @@ struct Meadow {
         field.solve();
         for (int i = 0; i < 100; ++i) {
             Root root = test::groomed().roots.front();
-            root.position = Vec3(0.001 * (i % 10) - 0.0045, 0.0, 0.001 * (i / 10) - 0.0045) +
+            const Index row = i / 10, column = i % 10;
+            root.position = Vec3(0.001 * column - 0.0045, 0.0, 0.001 * row - 0.0045) +
                             field.layout().box().center();
             root.normal = up;
             roots.push_back(root);
