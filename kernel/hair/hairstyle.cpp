@@ -67,6 +67,7 @@ struct Hairstyle::State {
     void constraints_changed();
     void solve(const Context& context);
     bool bare(const Root& root) const;
+    bool over_scalp(const Vec3& point) const;
     bool has_gaps() const;
     void prepare_roots(const RootOptions& wanted, const Context& context);
     std::vector<HairTie> ties(std::vector<std::string>& names) const;
@@ -243,12 +244,18 @@ bool Hairstyle::solved() const {
     return state_->field.grid().solved();
 }
 
+bool Hairstyle::State::over_scalp(const Vec3& point) const {
+    return scalp.region().contains(scalp.tree().nearest(scalp.from_metres(point)).vertex);
+}
+
 void Hairstyle::avoid_scalp(const Context& context) {
     std::vector<GridConstraint> before = std::exchange(state_->scalp_step, {});
     try {
         state_->constraints_changed();
         solve(context);
-        state_->scalp_step = lissom::scalp_step(state_->field);
+        ScalpStepOptions options;
+        options.where = [this](const Vec3& point) { return state_->over_scalp(point); };
+        state_->scalp_step = scalp_step(state_->field, options);
         state_->constraints_changed();
         solve(context);
     } catch (...) {
