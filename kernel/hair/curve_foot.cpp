@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace lissom {
+namespace {
+
+// Squared sine of the angle below which segments are parallel.
+constexpr double kParallel = 1e-12;
+
+}  // namespace
 
 CurveFoot foot_on_curve(std::span<const Vec3> curve, const Vec3& point) {
     CurveFoot best;
@@ -20,6 +26,24 @@ CurveFoot foot_on_curve(std::span<const Vec3> curve, const Vec3& point) {
         if (i + 2 == curve.size() && along > 1.0) best.beyond = (along - 1.0) * length;
     }
     return best;
+}
+
+// Ericson 2005, Real-Time Collision Detection, 5.1.9.
+Vec2 nearest_shares(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec3 u = b - a, v = d - c, w = a - c;
+    const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
+    const double uw = u.dot(w), vw = v.dot(w), area = uu * vv - uv * uv;
+    double s = area > kParallel * uu * vv ? std::clamp((uv * vw - uw * vv) / area, 0.0, 1.0) : 0.0;
+    const double t = (uv * s + vw) / vv;
+    if ((t < 0.0 || t > 1.0) && uu > 0.0) {
+        s = std::clamp((std::clamp(t, 0.0, 1.0) * uv - uw) / uu, 0.0, 1.0);
+    }
+    return {s, std::clamp(t, 0.0, 1.0)};
+}
+
+double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec2 share = nearest_shares(a, b, c, d);
+    return (a + share.x() * (b - a) - c - share.y() * (d - c)).norm();
 }
 
 std::vector<double> arc_lengths(std::span<const Vec3> curve) {

@@ -1,4 +1,4 @@
-/// The point of a polyline that is nearest to a point.
+/// Nearest points of polylines, and places on them by arc length.
 #pragma once
 
 #include <span>
@@ -22,6 +22,11 @@ struct CurveFoot {
 /// The first of several nearest points. The curve has at least two points, and no two successive
 /// ones are equal.
 CurveFoot foot_on_curve(std::span<const Vec3> curve, const Vec3& point);
+
+/// Shares, 0 to 1, of the segments a b and c d at which they are nearest to each other, and that
+/// distance. c and d differ.
+Vec2 nearest_shares(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// Arc length from the first point up to each point.
 std::vector<double> arc_lengths(std::span<const Vec3> curve);

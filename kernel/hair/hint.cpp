@@ -54,17 +54,6 @@ Meeting meeting_at(const Path& curve, const Vec3& point) {
     return {arc_length_at(curve.lengths, foot), foot.distance};
 }
 
-// Shares of the segments a b and c d at which they are nearest to each other (Ericson 2005).
-Vec2 nearest_shares(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const Vec3 u = b - a, v = d - c, w = a - c;
-    const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
-    const double uw = u.dot(w), vw = v.dot(w), area = uu * vv - uv * uv;
-    double s = area > kTiny * uu * vv ? std::clamp((uv * vw - uw * vv) / area, 0.0, 1.0) : 0.0;
-    const double t = (uv * s + vw) / vv;
-    if (t < 0.0 || t > 1.0) s = std::clamp((std::clamp(t, 0.0, 1.0) * uv - uw) / uu, 0.0, 1.0);
-    return {s, std::clamp(t, 0.0, 1.0)};
-}
-
 // Where a hint crosses a curve or comes nearest to it; of several places the first.
 Meeting crossing(const Path& curve, const Path& hint) {
     Meeting best{0.0, std::numeric_limits<double>::infinity()};
@@ -73,7 +62,7 @@ Meeting crossing(const Path& curve, const Path& hint) {
         for (std::size_t j = 0; j + 1 < hint.points.size(); ++j) {
             const Vec3 &c = hint.points[j], &d = hint.points[j + 1];
             const Vec2 share = nearest_shares(a, b, c, d);
-            const double distance = (a + share.x() * (b - a) - c - share.y() * (d - c)).norm();
+            const double distance = segment_distance(a, b, c, d);
             if (!(distance < best.distance)) continue;
             const double segment = curve.lengths[i + 1] - curve.lengths[i];
             best = {curve.lengths[i] + share.x() * segment, distance};
