@@ -298,7 +298,10 @@ class Tiles {
         const int y0 = std::max(tile_at(top - first, rows), 0);
         const int y1 = std::min(tile_at(bottom - first, rows), rows - 1);
         for (int y = y0; y <= y1; ++y) {
-            for (int x = x0; x <= x1; ++x) visit(static_cast<std::size_t>(y * columns_ + x));
+            for (int x = x0; x <= x1; ++x) {
+                visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
+                      static_cast<std::size_t>(x));
+            }
         }
     }
 

@@ -101,7 +101,7 @@ bool SampleTile::hides(float left, float top, float right, float bottom, float d
     if (columns.last < columns.first || rows.last < rows.first) return true;
     for (int y = (rows.first - top_) / kBlock; y <= (rows.last - top_) / kBlock; ++y) {
         for (int x = (columns.first - left_) / kBlock; x <= (columns.last - left_) / kBlock; ++x) {
-            if (depth <= blocks_[static_cast<std::size_t>(y * block_columns_ + x)]) return false;
+            if (depth <= blocks_[block(x * kBlock, y * kBlock)]) return false;
         }
     }
     return true;
