@@ -57,7 +57,8 @@ struct DrawnMesh {
     Affine transform = {};
 };
 
-/// Strands in the picture. They must live until the picture is drawn.
+/// Strands in the picture. They must live until the picture is drawn. They hide lines and points,
+/// also those before them.
 struct DrawnStrands {
     const Strands* strands = nullptr;
     StrandStyle style = {};

@@ -290,6 +290,9 @@ void check_options(const Call& call) {
     if (!call.has("mesh") && !call.has("meshes") && !call.has("strands")) {
         call.reject("mesh", "give 'mesh', one, 'meshes', a list, or 'strands'");
     }
+    if (!call.has("mesh") && !call.has("meshes") && call.integer("columns") > 0) {
+        call.reject("columns", "it needs 'mesh' or 'meshes'");
+    }
     if (call.has("hair") && !call.has("strands")) call.reject("hair", "it needs 'strands'");
     if (call.has("hair.level") && call.has("hair.count")) {
         call.reject("hair.count", "give either 'level', a share, or 'count', a number");
@@ -439,7 +442,7 @@ std::vector<Parameter> content_options() {
                {object("strands", "lissom.Strands", "Hair on the mesh, or alone."),
                 objects("list", "lissom.Strands",
                         "Several on the only mesh, or one for each of several.")},
-               "Hair to draw, in metres.")
+               "Hair to draw, in metres. It hides paths and points.")
             .optional(),
         options("hair", hair_options(), "How the strands are drawn.").optional(),
         either("region",
@@ -474,22 +477,24 @@ std::vector<Parameter> content_options() {
 
 std::vector<Parameter> picture_options() {
     const RenderOptions options;
-    return {string("file", "The picture to write; its name ends with .png."),
-            integers("size", "{width, height} in pixels.").optional("{1280, 960}"),
-            object("camera", "lissom.Camera", "Where the picture is seen from, instead of `view`.")
-                .optional(),
-            string("background", "A colour as for `color`, or \"transparent\".").defaults("white"),
-            integer("samples",
-                    "Samples a pixel along edges: 1, 2, 4, ... as far as the driver has them.")
-                .defaults(options.samples)
-                .at_least(1),
-            integer("supersample",
-                    "Pixels drawn along each side of one in the picture; 2 is for print.")
-                .defaults(options.supersample)
-                .between(1, 4),
-            number("occlusion", "How much folds and contacts darken; 0 draws faster.")
-                .defaults(options.occlusion)
-                .between(0.0, 1.0)};
+    return {
+        string("file", "The picture to write; its name ends with .png."),
+        integers("size", "{width, height} in pixels.").optional("{1280, 960}"),
+        object("camera", "lissom.Camera", "Where the picture is seen from, instead of `view`.")
+            .optional(),
+        string("background", "A colour as for `color`, or \"transparent\".").defaults("white"),
+        integer(
+            "samples",
+            "Samples a pixel along edges of meshes: 1, 2, 4, ... as far as the driver has them.")
+            .defaults(options.samples)
+            .at_least(1),
+        integer("supersample",
+                "Pixels drawn along each side of one in the picture; 2 is for print.")
+            .defaults(options.supersample)
+            .between(1, 4),
+        number("occlusion", "How much folds and contacts darken; 0 draws faster.")
+            .defaults(options.occlusion)
+            .between(0.0, 1.0)};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// Renderer: draws meshes, lines and points into pictures with OpenGL, into a framebuffer of its
-/// own: no window, no display.
+/// own: no window, no display; strands over them without OpenGL.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,8 @@ struct RenderOptions {
     int height = 960;
     /// Nothing: transparent.
     std::optional<Color> background = kWhite;
-    /// Samples a pixel along edges: 1, 2, 4, ... as far as the driver has them.
+    /// Samples a pixel along edges of meshes: 1, 2, 4, ... as far as the driver has them. Strands
+    /// always have 16.
     int samples = 4;
     /// Pixels that are drawn along each side of one in the picture, 1 to 4; 2 is for print.
     int supersample = 1;
@@ -38,8 +39,9 @@ class Renderer {
 
     /// The picture of `drawing` as `camera` sees it. The same input gives the same pixels on the
     /// same driver. May be called on any thread, by one at a time. Errors: invalid_argument and
-    /// out_of_range for options; not_finite for a transform, line or point; those of build_surface;
-    /// memory_limit; no_display where the context is in use on another thread; cancelled.
+    /// out_of_range for options; not_finite for a transform, line or point; those of build_surface
+    /// and view_strands; memory_limit; no_display where the context is in use on another thread;
+    /// cancelled.
     Image render(const Drawing& drawing, const Camera& camera, const RenderOptions& options = {},
                  const Context& context = {});
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "kernel/hair/strand_measures.h"
@@ -15,7 +16,7 @@ using Eigen::Array3f;
 using Eigen::Vector3f;
 
 // Pixels along a side of a tile; of all factors of supersampling a multiple.
-constexpr int kTile = 60;
+constexpr int kTile = 36;
 // Samples of the picture that are held at one time, and points of strands.
 constexpr std::size_t kMostSamples = 24'000'000;
 constexpr Index kBatchPoints = 400'000;
@@ -285,17 +286,22 @@ class Tiles {
     template <typename Visit>
     void for_each_in(float left, float top, float right, float bottom, const Visit& visit) const {
         const int rows = static_cast<int>(tiles_.size()) / columns_;
-        const auto clamped = [](float x, int count) {
-            return static_cast<int>(
-                std::clamp(std::floor(x / kTile), -1.0f, static_cast<float>(count)));
+        // The tile of a place, or the nearest before or behind them all.
+        const auto tile_at = [](float place, int count) {
+            const float at = place * (1.0f / kTile) + 1.0f;
+            return static_cast<int>(std::min(std::max(at, 0.0f), static_cast<float>(count + 1))) -
+                   1;
         };
-        const float first = static_cast<float>(top_);
-        const int x0 = std::max(clamped(left, columns_), 0),
-                  x1 = std::min(clamped(right, columns_), columns_ - 1);
-        const int y0 = std::max(clamped(top - first, rows), 0),
-                  y1 = std::min(clamped(bottom - first, rows), rows - 1);
+        const auto first = static_cast<float>(top_);
+        const int x0 = std::max(tile_at(left, columns_), 0);
+        const int x1 = std::min(tile_at(right, columns_), columns_ - 1);
+        const int y0 = std::max(tile_at(top - first, rows), 0);
+        const int y1 = std::min(tile_at(bottom - first, rows), rows - 1);
         for (int y = y0; y <= y1; ++y) {
-            for (int x = x0; x <= x1; ++x) visit(static_cast<std::size_t>(y * columns_ + x));
+            for (int x = x0; x <= x1; ++x) {
+                visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
+                      static_cast<std::size_t>(x));
+            }
         }
     }
 
@@ -375,17 +381,35 @@ void sort_strand(const ViewStrands& drawn, Index strand, std::uint32_t base, con
     }
 }
 
-// Draws the strands [first, last) into the tiles.
-void draw_batch(const ViewStrands& drawn, Index first, Index last, std::uint32_t base,
+// The strands that are drawn, those whose middle is nearest first: what hides most comes early.
+std::vector<Index> nearest_first(const ViewStrands& drawn) {
+    std::vector<float> depths;
+    for (Index s = 0; s < drawn.count; ++s) {
+        const Index middle = drawn.strands->point_count(s) / 2;
+        const float depth = -drawn.position(drawn.strands->first_point(s) + middle).z();
+        depths.push_back(std::isfinite(depth) ? depth : std::numeric_limits<float>::max());
+    }
+    std::vector<Index> order(depths.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        return depths[static_cast<std::size_t>(a)] < depths[static_cast<std::size_t>(b)];
+    });
+    return order;
+}
+
+// Draws some strands into the tiles.
+void draw_batch(const ViewStrands& drawn, std::span<const Index> batch, std::uint32_t base,
                 const Screen& screen, Tiles& tiles, const Context& context) {
     std::vector<SortedSegments> chunks(kBatchChunks);
-    const Index grain = (last - first + kBatchChunks - 1) / kBatchChunks;
-    context.parallel_for(first, last, grain, [&](Index begin, Index end) {
-        SortedSegments& sorted = chunks[static_cast<std::size_t>((begin - first) / grain)];
+    const auto size = static_cast<Index>(batch.size());
+    const Index grain = (size + kBatchChunks - 1) / kBatchChunks;
+    context.parallel_for(0, size, grain, [&](Index begin, Index end) {
+        SortedSegments& sorted = chunks[static_cast<std::size_t>(begin / grain)];
         sorted.of_tile.resize(tiles.size());
         std::vector<float> widths;
-        for (Index s = begin; s < end; ++s) {
-            sort_strand(drawn, s, base, screen, tiles, widths, sorted);
+        for (Index i = begin; i < end; ++i) {
+            sort_strand(drawn, batch[static_cast<std::size_t>(i)], base, screen, tiles, widths,
+                        sorted);
         }
     });
     context.parallel_for(0, static_cast<Index>(tiles.size()), 1, [&](Index tile, Index) {
@@ -401,13 +425,19 @@ void draw_batch(const ViewStrands& drawn, Index first, Index last, std::uint32_t
     });
 }
 
-// The end of a batch of strands that begins with `first`.
-Index batch_end(const ViewStrands& drawn, Index first) {
-    const std::span<const Index> offsets = drawn.strands->offsets();
-    Index last = first + 1;
-    const auto at = [&](Index s) { return offsets[static_cast<std::size_t>(s)]; };
-    while (last < drawn.count && at(last) - at(first) < kBatchPoints) ++last;
-    return last;
+// Draws all strands, so many at a time that what the first ones hide need not be drawn.
+void draw_all(const ViewStrands& drawn, std::span<const Index> order, std::uint32_t base,
+              const Screen& screen, Tiles& tiles, const Context& context) {
+    std::size_t first = 0;
+    while (first < order.size()) {
+        std::size_t last = first;
+        Index points = 0;
+        while (last < order.size() && points < kBatchPoints) {
+            points += drawn.strands->point_count(order[last++]);
+        }
+        draw_batch(drawn, order.subspan(first, last - first), base, screen, tiles, context);
+        first = last;
+    }
 }
 
 // ---- Meshes
@@ -630,6 +660,8 @@ StrandLayer draw_strands(const StrandScene& scene, const StrandShadow& shadow,
             .pixels[static_cast<std::size_t>(y / fine) * static_cast<std::size_t>(layer.width) +
                     static_cast<std::size_t>(x / fine)];
     };
+    std::vector<std::vector<Index>> orders;
+    for (const ViewStrands& drawn : scene.strands) orders.push_back(nearest_first(drawn));
     for (int top = 0; top < height; top += band) {
         Tiles tiles(width, top, std::min(band, height - top));
         draw_meshes(scene.triangles, screen, tiles, context);
@@ -637,11 +669,7 @@ StrandLayer draw_strands(const StrandScene& scene, const StrandShadow& shadow,
             pixel_at(x, y).all_meshes += weight * static_cast<float>(covered_by_meshes(tile, x, y));
         });
         for (std::size_t i = 0; i < scene.strands.size(); ++i) {
-            const ViewStrands& drawn = scene.strands[i];
-            for (Index first = 0; first < drawn.count; first = batch_end(drawn, first)) {
-                draw_batch(drawn, first, batch_end(drawn, first), numbers.base(i), screen, tiles,
-                           context);
-            }
+            draw_all(scene.strands[i], orders[i], numbers.base(i), screen, tiles, context);
         }
         for_each_pixel(tiles, context, [&](const SampleTile& tile, int x, int y) {
             add(pixel_at(x, y), pixel_of(tile, x, y, shader), weight);

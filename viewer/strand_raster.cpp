@@ -63,11 +63,12 @@ struct PixelRange {
 };
 
 PixelRange pixels_between(float a, float b, float reach, int low, int count) {
-    const float first = std::max(std::floor(std::min(a, b) - reach), static_cast<float>(low));
-    const float last =
-        std::min(std::floor(std::max(a, b) + reach), static_cast<float>(low + count - 1));
-    if (!(first <= last)) return {0, -1};
-    return {static_cast<int>(first), static_cast<int>(last)};
+    const auto least = static_cast<float>(low), end = static_cast<float>(low + count);
+    const float first = std::min(a, b) - reach, last = std::max(a, b) + reach;
+    if (!(first < end) || !(last >= least)) return {0, -1};
+    // Numbers from 0 on are cut off as they are rounded down, but much faster.
+    return {low + static_cast<int>(std::max(first - least, 0.0f)),
+            std::min(low + static_cast<int>(std::min(last, end) - least), low + count - 1)};
 }
 
 }  // namespace
@@ -95,15 +96,12 @@ void SampleTile::find_farthest() {
 }
 
 bool SampleTile::hides(float left, float top, float right, float bottom, float depth) const {
-    const auto column = [&](float x) {
-        return std::clamp(static_cast<int>(std::floor(x)) - left_, 0, width_ - 1) / kBlock;
-    };
-    const auto row = [&](float y) {
-        return std::clamp(static_cast<int>(std::floor(y)) - top_, 0, height_ - 1) / kBlock;
-    };
-    for (int y = row(top); y <= row(bottom); ++y) {
-        for (int x = column(left); x <= column(right); ++x) {
-            if (depth <= blocks_[static_cast<std::size_t>(y * block_columns_ + x)]) return false;
+    const PixelRange columns = pixels_between(left, right, 0.0f, left_, width_);
+    const PixelRange rows = pixels_between(top, bottom, 0.0f, top_, height_);
+    if (columns.last < columns.first || rows.last < rows.first) return true;
+    for (int y = (rows.first - top_) / kBlock; y <= (rows.last - top_) / kBlock; ++y) {
+        for (int x = (columns.first - left_) / kBlock; x <= (columns.last - left_) / kBlock; ++x) {
+            if (depth <= blocks_[block(x * kBlock, y * kBlock)]) return false;
         }
     }
     return true;
@@ -149,8 +147,9 @@ void SampleTile::draw_along(const ScreenPoint& begin, const ScreenPoint& end, st
     const float slope = a == b ? 0.0f : (b_across - a_across) / (b - a);
     const PixelRange rows =
         pixels_between(a, b, radius, steep ? top_ : left_, steep ? height_ : width_);
+    const float low = std::min(a, b), high = std::max(a, b);
     const auto across_at = [&](float along) {
-        return a_across + slope * (std::clamp(along, std::min(a, b), std::max(a, b)) - a);
+        return a_across + slope * (std::min(std::max(along, low), high) - a);
     };
     for (int row = rows.first; row <= rows.last; ++row) {
         const float from = static_cast<float>(row) - radius;
@@ -167,28 +166,26 @@ void SampleTile::draw_along(const ScreenPoint& begin, const ScreenPoint& end, st
 // Puts the samples of a pixel that are no farther from the segment than its radius there.
 void SampleTile::cover(int x, int y, const ScreenPoint& begin, const ScreenPoint& end,
                        std::uint32_t id) {
+    using Samples = Eigen::Array<float, kSamples, 1>;
     const Pattern& samples = pattern(x, y);
-    const float left = static_cast<float>(x) - begin.x, top = static_cast<float>(y) - begin.y;
     const float dx = end.x - begin.x, dy = end.y - begin.y;
     const float square = dx * dx + dy * dy;
     const float inverse = square > 1e-12f ? 1.0f / square : 0.0f;
-    const float widening = end.radius - begin.radius;
-    std::array<float, kSamples> share{};
-    std::array<float, kSamples> beyond{};
-    for (std::size_t k = 0; k < kSamples; ++k) {
-        const float px = left + samples.x[k], py = top + samples.y[k];
-        float t = (px * dx + py * dy) * inverse;
-        t = t > 0.0f ? t : 0.0f;
-        t = t < 1.0f ? t : 1.0f;
-        const float ex = px - t * dx, ey = py - t * dy;
-        const float radius = begin.radius + t * widening;
-        share[k] = t;
-        beyond[k] = ex * ex + ey * ey - radius * radius;
-    }
+    const Samples px =
+        Eigen::Map<const Samples>(samples.x.data()) + (static_cast<float>(x) - begin.x);
+    const Samples py =
+        Eigen::Map<const Samples>(samples.y.data()) + (static_cast<float>(y) - begin.y);
+    const Samples share = ((px * dx + py * dy) * inverse).max(0.0f).min(1.0f);
+    const Samples radius = begin.radius + share * (end.radius - begin.radius);
+    const Samples beyond =
+        (px - share * dx).square() + (py - share * dy).square() - radius.square();
     const std::size_t pixel = place(x, y);
-    for (std::size_t k = 0; k < kSamples; ++k) {
-        if (beyond[k] >= 0.0f) continue;
-        put(pixel, static_cast<int>(k), begin.depth + share[k] * (end.depth - begin.depth), id);
+    for (Eigen::Index first = 0; first < kSamples; first += 4) {
+        if (!(beyond.segment<4>(first).minCoeff() < 0.0f)) continue;
+        for (Eigen::Index k = first; k < first + 4; ++k) {
+            if (!(beyond[k] < 0.0f)) continue;
+            put(pixel, static_cast<int>(k), begin.depth + share[k] * (end.depth - begin.depth), id);
+        }
     }
 }
 

@@ -65,7 +65,8 @@ class SampleTile {
                static_cast<std::size_t>(x - left_);
     }
     std::size_t block(int x, int y) const {
-        return static_cast<std::size_t>(y / kBlock * block_columns_ + x / kBlock);
+        return static_cast<std::size_t>(y / kBlock) * static_cast<std::size_t>(block_columns_) +
+               static_cast<std::size_t>(x / kBlock);
     }
     template <bool steep>
     void draw_along(const ScreenPoint& begin, const ScreenPoint& end, std::uint32_t id);

@@ -159,9 +159,10 @@ void splat_triangle(const ViewGrid& grid, std::vector<float>& values,
     const Vector3f base = triangle[0] - kMeshSunk * grid.step / twice_area * normal;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < 2 * (n - i) - 1; ++j) {
+            const int pair = j / 2;
             const float third = (j & 1) ? 2.0f / 3.0f : 1.0f / 3.0f;
             const float a = (static_cast<float>(i) + third) / static_cast<float>(n);
-            const float b = (static_cast<float>(j / 2) + third) / static_cast<float>(n);
+            const float b = (static_cast<float>(pair) + third) / static_cast<float>(n);
             splat(grid, values, base + a * u + b * v, amount);
         }
     }

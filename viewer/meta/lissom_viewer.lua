@@ -123,7 +123,7 @@ function lissom.frame(mesh, options) end
 ---@field crease? number Smooth shading keeps edges sharp where faces meet at more than this angle. In degrees. Default: 50.
 ---@field wire? boolean Draws the edges of the faces. Default: false.
 ---@field wire_width? number Their width. In pixels. Default: 1.
----@field strands? lissom.Strands|lissom.Strands[] Hair to draw, in metres.
+---@field strands? lissom.Strands|lissom.Strands[] Hair to draw, in metres. It hides paths and points.
 ---@field hair? lissom.RenderOptions.Hair How the strands are drawn.
 ---@field region? lissom.Region|string The region of interest, drawn in blue.
 ---@field handles? string[]|lissom.Region[] Handles, drawn in purple; single vertices as balls.
@@ -139,7 +139,7 @@ function lissom.frame(mesh, options) end
 ---@field size? integer[] {width, height} in pixels. Default: {1280, 960}.
 ---@field camera? lissom.Camera Where the picture is seen from, instead of `view`.
 ---@field background? string A colour as for `color`, or "transparent". Default: "white".
----@field samples? integer Samples a pixel along edges: 1, 2, 4, ... as far as the driver has them. Default: 4.
+---@field samples? integer Samples a pixel along edges of meshes: 1, 2, 4, ... as far as the driver has them. Default: 4.
 ---@field supersample? integer Pixels drawn along each side of one in the picture; 2 is for print. Default: 1.
 ---@field occlusion? number How much folds and contacts darken; 0 draws faster. Default: 1.
 ---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from. With y upwards, front looks along -z and right along -x; three-quarter stands to the right of the front, and above. Default: three-quarter.

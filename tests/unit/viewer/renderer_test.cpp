@@ -49,6 +49,35 @@ TEST_CASE("with perspective a sphere covers its silhouette cone") {
     CHECK(test::covered(image) == doctest::Approx(kPi * radius * radius).epsilon(0.003));
 }
 
+TEST_CASE("strands change what is near them, and shade the rest") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    std::vector<float> points;
+    std::vector<Index> offsets = {0};
+    for (int s = 0; s < 400; ++s) {
+        const float x = 0.5f + 0.001f * static_cast<float>(s);
+        for (const float p : {x, -0.6f, 0.08f, x, 0.6f, 0.08f}) points.push_back(p);
+        offsets.push_back(offsets.back() + 2);
+    }
+    const Strands strands(points, offsets);
+    Drawing drawing = drawing_of(square);
+    const Image bare = renderer->render(drawing, front_camera(2.4), small_options());
+    StrandStyle clear;
+    clear.shadow = 0.0;
+    clear.scalp_tint = 0.0;
+    drawing.strands.push_back({&strands, clear, {}});
+    const Image haired = renderer->render(drawing, front_camera(2.4), small_options());
+    CHECK(test::difference(test::crop(bare, 0, 0, 60, 96), test::crop(haired, 0, 0, 60, 96)) <= 1);
+    CHECK(test::difference(bare, haired) > 5);
+    // Shadow falls away from the light, to the lower right: on the right half, not on the left.
+    drawing.strands[0].style.shadow = 10.0;
+    const Image shaded = renderer->render(drawing, front_camera(2.4), small_options());
+    CHECK(test::difference(test::crop(shaded, 0, 0, 40, 96), test::crop(haired, 0, 0, 40, 96)) <=
+          2);
+    CHECK(test::brightness(shaded.color(86, 50)) < test::brightness(haired.color(86, 50)) - 0.01);
+}
+
 TEST_CASE("the same input gives the same pixels, in any order") {
     const auto renderer = test::make_renderer();
     if (!renderer) return;
