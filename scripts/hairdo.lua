@@ -166,7 +166,7 @@ end
 function hairdo.finish(style, hair, params, rings)
     if params.detail then hairdo.detail(hair) end
     local path = params.out .. "/" .. params.name
-    style:save(path .. ".json")
+    assert(style:save(path .. ".json"))
     assert(hair:save(path .. ".hair"))
     if not params.pictures then return end
     local meshes, colors = { style:head() }, { "clay" }

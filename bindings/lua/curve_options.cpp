@@ -9,7 +9,7 @@ namespace lissom::lua {
 const std::string kStyle = R"(local head = lissom.shapes.head{ vertices = 3000 }
 local style = lissom.hairstyle(head, { resolution = 5000 })
 local points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
-                 style:at{ azimuth = 70, elevation = 10, lift = 0.02 } }
+                 (style:at{ azimuth = 70, elevation = 10, lift = 0.02 }) }
 local curve = style:stream{ points = points, name = "side" }
 )";
 
@@ -138,10 +138,16 @@ std::vector<Parameter> own_ponytail_fields() {
         metres("lead", "It begins so far in front of the tie.")
             .at_least(0)
             .optional("1.5 grid steps"),
-        number("grip", "How strongly the tail holds its hair together: by how much vectors just "
-                       "outside turn inward, a grid step. 0 as in the thesis.")
+        number("grip",
+               "How strongly the tail holds its hair together: by how much vectors just "
+               "outside turn inward, a grid step. 0 as in the thesis.")
             .at_least(0)
             .optional("4"),
+        number("spread",
+               "How strongly hair spreads again behind the tie and fills the tail. 0 as in "
+               "the thesis.")
+            .at_least(0)
+            .optional("2"),
         number("tightness", "Magnitude of the vectors that do so.").between(0, 1).optional("0.6"),
         metres("tail_length", "Of the hair behind the tie.")
             .at_least(0)
@@ -248,6 +254,7 @@ void CurveReader::read(const Scalp& scalp, Ponytail& curve) const {
     take_length(call_, "ring", options.ring);
     take_length(call_, "lead", options.lead);
     take_length(call_, "grip", options.grip);
+    take_length(call_, "spread", options.spread);
     take_length(call_, "tightness", options.tightness);
     take_length(call_, "tail_length", curve.tail_length);
     take_length(call_, "ragged", curve.ragged);

@@ -488,7 +488,9 @@ std::vector<Function> plain_methods() {
     return {
         {.name = "at",
          .body = style_at,
-         .summary = "A point over the head, in a direction from the center of its frame.",
+         .summary =
+             "A point over the head, in a direction from the center of its frame. At the end "
+             "of a list of points write (style:at{...}), which is the point alone.",
          .options = direction_fields(),
          .results = direction_results(),
          .errors = {ErrorCode::out_of_range, ErrorCode::handle_removed},

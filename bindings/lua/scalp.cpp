@@ -88,7 +88,9 @@ std::vector<Function> scalp_methods() {
     return {
         {.name = "at",
          .body = scalp_at,
-         .summary = "A point over the head, in a direction from the center of its frame.",
+         .summary =
+             "A point over the head, in a direction from the center of its frame. At the end "
+             "of a list of points write (scalp:at{...}), which is the point alone.",
          .options = direction_fields(),
          .results = direction_results(),
          .errors = {ErrorCode::out_of_range},

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "bindings/lua/buffer.h"
+#include "bindings/lua/hair_object.h"
 #include "bindings/lua/library.h"
 #include "bindings/lua/mesh_object.h"
 #include "bindings/lua/strands_object.h"
@@ -13,6 +14,7 @@
 #include "kernel/hair/strand_noise.h"
 #include "kernel/hair/strand_operators.h"
 #include "kernel/hair/strand_resample.h"
+#include "kernel/hair/strand_selection.h"
 #include "kernel/hair/strand_trim.h"
 #include "kernel/io/strand_file.h"
 
@@ -246,14 +248,31 @@ int select_named(Call& call) {
     return 1;
 }
 
+// Strands near a style curve, whose course becomes metres of the head as those of strands.
+Strands select_near(const Call& call, const Strands& strands) {
+    const auto curve = call.object<CurveObject>("near.curve");
+    const Hairstyle& style = curve->owner->style();
+    const Scalp& scalp = style.scalp();
+    std::vector<Vec3> course = style.course(curve->id);
+    for (Vec3& p : course) p = scalp.unit() * scalp.from_metres(p);
+    const double radius = call.number("near.radius") * scalp.unit() * scalp.scale();
+    return select(strands, strands_near_curve(strands, course, radius, call.context()));
+}
+
 int select_strands(Call& call) {
     std::span<const Index> list;
     if (call.has("where")) list = ask_function(call);
     if (call.has("strands")) list = call.ids("strands");
     if (call.has("group")) return select_named(call);
     return new_strands(call, [&] {
-        if (call.has("first")) return prefix(own(call), call.integer("first"));
-        return select(own(call), list);
+        const Strands& all = own(call);
+        if (call.has("first")) return prefix(all, call.integer("first"));
+        if (call.has("region")) {
+            return select(all,
+                          strands_rooted_in(all, call.object<RegionObject>("region")->current()));
+        }
+        if (call.has("near")) return select_near(call, all);
+        return select(all, list);
     });
 }
 
@@ -526,19 +545,29 @@ std::vector<Function> edit_methods() {
         {.name = "select",
          .body = select_strands,
          .summary = "Some of the strands as new ones, with all that is known of them.",
-         .options = {ids("strands", "Their numbers, in the order wanted.").optional(),
-                     string("group", "Those of a group.").optional(),
-                     integer("first", "So many from the beginning: a level of detail.")
-                         .at_least(0)
-                         .optional(),
-                     function("where",
-                              "fun(strand: integer, x: number, y: number, z: number): boolean",
-                              "Those for which the function, asked with the root, returns true.")
-                         .optional()},
+         .options =
+             {ids("strands", "Their numbers, in the order wanted.").optional(),
+              string("group", "Those of a group.").optional(),
+              object("region", "lissom.Region",
+                     "Those rooted on a face of a region of the head that they grew on.")
+                  .optional(),
+              options(
+                  "near",
+                  {object("curve", "lissom.Curve", "A curve of a hairstyle."),
+                   number("radius", "In metres of an average head.").at_least(0).defaults(0.02)},
+                  "Those that come near a style curve.")
+                  .optional(),
+              integer("first", "So many from the beginning: a level of detail.")
+                  .at_least(0)
+                  .optional(),
+              function("where", "fun(strand: integer, x: number, y: number, z: number): boolean",
+                       "Those for which the function, asked with the root, returns true.")
+                  .optional()},
          .one_option = true,
          .results = {{"lissom.Strands", "strands",
                       "The new strands; nil, message, code where no group has the name."}},
-         .errors = {ErrorCode::out_of_range},
+         .errors = {ErrorCode::out_of_range, ErrorCode::invalid_argument,
+                    ErrorCode::topology_mismatch, ErrorCode::handle_removed},
          .example = kPair + "assert(#hair:select{ first = 1 } == 1)"},
         {.name = "copy",
          .body = copy_strands,

@@ -7,9 +7,18 @@
 namespace lissom {
 namespace {
 
-void require_step(double step) {
-    if (step > 0.0 && std::isfinite(step)) return;
-    throw Error(ErrorCode::invalid_argument, "the step along a curve must be above 0");
+// More segments than this are a mistake, and would take memory and time without end.
+constexpr double kMostSegments = 1e6;
+
+void require_step(std::span<const Vec3> points, double step) {
+    if (!(step > 0.0) || !std::isfinite(step)) {
+        throw Error(ErrorCode::invalid_argument, "the step along a curve must be above 0");
+    }
+    if (curve_length(points) <= kMostSegments * step) return;
+    throw Error(
+        ErrorCode::out_of_range,
+        "the curve is more than a million steps long; its points are far outside the volume "
+        "of the hairstyle");
 }
 
 std::vector<Vec3> without_repeats(std::span<const Vec3> points) {
@@ -57,7 +66,7 @@ double curve_length(std::span<const Vec3> points) {
 
 std::vector<Vec3> smooth_curve(std::span<const Vec3> points, double step) {
     require_curve(points);
-    require_step(step);
+    require_step(points, step);
     const std::vector<Vec3> p = without_repeats(points);
     const std::size_t last = p.size() - 1;
     std::vector<Vec3> result{p.front()};
@@ -77,7 +86,7 @@ std::vector<Vec3> smooth_curve(std::span<const Vec3> points, double step) {
 
 std::vector<Vec3> resampled_curve(std::span<const Vec3> points, double step) {
     require_curve(points);
-    require_step(step);
+    require_step(points, step);
     const double length = curve_length(points);
     const double count = std::max(1.0, std::round(length / step));
     std::vector<Vec3> result{points.front()};

@@ -280,7 +280,8 @@ class Tail {
         }
         const Vec3 tangent = (spine.back() - spine[spine.size() - 2]).normalized();
         const double extra = std::ceil(options_.stop_length / layout_.step);
-        for (double k = 1.0; k <= extra; k += 1.0) {
+        const double last = std::min(extra, steps_across(layout_));
+        for (double k = 1.0; k <= last; k += 1.0) {
             const Vec3 middle = spine.back() + (k - 0.5) * layout_.step * tangent;
             if (catches_hair(middle, at)) continue;
             splat.add(middle, (1.0 - k / extra) * tangent);

@@ -14,6 +14,10 @@ constexpr double kLeastWeight = 1e-9;
 
 }  // namespace
 
+double steps_across(const GridLayout& layout) {
+    return static_cast<double>(layout.counts[0]) + layout.counts[1] + layout.counts[2];
+}
+
 bool VectorSplat::add(const Vec3& point, const Vec3& vector) {
     const Vec3 at = (point - layout_.origin) / layout_.step;
     const Vec3 floor = at.array().floor();
@@ -66,6 +70,9 @@ std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
                                                std::span<const Vec3> points,
                                                const StreamOptions& options) {
     require_curve(points);
+    if (!(options.stop_length >= 0.0) || !std::isfinite(options.stop_length)) {
+        throw Error(ErrorCode::invalid_argument, "stop_length of a curve must be 0 or more");
+    }
     VectorSplat splat(layout);
     bool inside = false;
     Vec3 tangent = Vec3::Zero();
@@ -80,7 +87,9 @@ std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
                     "draw the curve nearer to the head");
     }
     const double extra = std::ceil(options.stop_length / layout.step);
-    for (double k = 1.0; k <= extra; k += 1.0) {
+    // Farther from a point of the grid there is no other.
+    const double last = std::min(extra, steps_across(layout));
+    for (double k = 1.0; k <= last; k += 1.0) {
         const Vec3 at = points.back() + (k - 0.5) * layout.step * tangent;
         splat.add(at, (1.0 - k / extra) * tangent);
     }

@@ -22,10 +22,14 @@ struct StreamOptions {
 /// tip: the corners of the cell that the middle of a segment lies in take its direction, of unit
 /// length; corners of several segments their mean, by the trilinear weights of the corners. Along
 /// the vanishing extension lengths fall evenly from 1 to 0. Corners outside the grid are left out.
-/// Errors: as require_curve; out_of_range where the whole curve lies outside the grid.
+/// Errors: as require_curve; invalid_argument for options out of range; out_of_range where the
+/// whole curve lies outside the grid.
 std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
                                                std::span<const Vec3> points,
                                                const StreamOptions& options = {});
+
+/// A straight line of this many steps that begins in the grid ends outside.
+double steps_across(const GridLayout& layout);
 
 /// Collects vectors that are to stand at grid points: each point takes the mean of what it was
 /// given, by weight.

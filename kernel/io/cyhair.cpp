@@ -129,6 +129,8 @@ void set_values(const Header& header, ByteSource& source, Strands& strands) {
     }
     strands.set_transparency(std::move(transparency));
     StrandValues<Eigen::Vector3f> colors{Eigen::Vector3f(header.color.data())};
+    // Black stands where nobody gave a colour.
+    if (!header.has(kColors) && colors.common.isZero(0.0f)) return;
     if (header.has(kColors)) {
         colors.domain = StrandDomain::point;
         const std::vector<float> numbers = read_values(header, 3, source, offsets);

@@ -200,6 +200,7 @@ void describe(Archive& a, Ponytail& c) {
     a.number("ring", c.options.ring);
     a.number("lead", c.options.lead);
     a.number("grip", c.options.grip);
+    a.number("spread", c.options.spread);
     a.number("tightness", c.options.tightness);
     a.number("clearance", c.options.clearance);
     a.number("stop", c.options.stop_length);

@@ -117,6 +117,10 @@ end
 local tail = style:grow{ count = 400, length = 0.4 }
 expect.equal(table.concat(tail:groups()), "pony")
 expect.truthy(#tail:select{ group = "pony" } > 40)
+expect.equal(#tail:select{ region = scalp:region() }, #tail)
+expect.equal(#tail:select{ region = head:region("bottom") }, 0)
+local near = #tail:select{ near = { curve = pony, radius = 0.01 } }
+expect.truthy(near > 20 and near < 400)
 
 -- Hints.
 local before = #stream:course()

@@ -904,7 +904,7 @@ local Scalp = {}
 ---@field elevation number 0 is level, 90 up. In degrees.
 ---@field lift? number How far above the head. In metres. Default: 0.
 
----A point over the head, in a direction from the center of its frame.
+---A point over the head, in a direction from the center of its frame. At the end of a list of points write (scalp:at{...}), which is the point alone.
 ---@param options lissom.Scalp.AtOptions
 ---@return number[] point # {x, y, z}, in mesh units.
 ---@return number[] normal # Of the head, outward, of length 1.
@@ -970,7 +970,7 @@ local Hairstyle = {}
 ---@field elevation number 0 is level, 90 up. In degrees.
 ---@field lift? number How far above the head. In metres. Default: 0.
 
----A point over the head, in a direction from the center of its frame.
+---A point over the head, in a direction from the center of its frame. At the end of a list of points write (style:at{...}), which is the point alone.
 ---@param options lissom.Hairstyle.AtOptions
 ---@return number[] point # {x, y, z}, in mesh units.
 ---@return number[] normal # Of the head, outward, of length 1.
@@ -1055,6 +1055,7 @@ function Hairstyle:dividing(options) end
 ---@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps.
 ---@field lead? number It begins so far in front of the tie. In metres. Default: 1.5 grid steps.
 ---@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4.
+---@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2.
 ---@field tightness? number Magnitude of the vectors that do so. Default: 0.6.
 ---@field tail_length? number Of the hair behind the tie. In metres. Default: as long as the spine.
 ---@field ragged? number Share of that by which tips differ. Default: 0.45.
@@ -1188,6 +1189,7 @@ function Curve:set_points(points) end
 ---@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps.
 ---@field lead? number It begins so far in front of the tie. In metres. Default: 1.5 grid steps.
 ---@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4.
+---@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2.
 ---@field tightness? number Magnitude of the vectors that do so. Default: 0.6.
 ---@field tail_length? number Of the hair behind the tie. In metres. Default: as long as the spine.
 ---@field ragged? number Share of that by which tips differ. Default: 0.45.
@@ -1296,9 +1298,15 @@ function Strands:stats(options) end
 ---@return lissom.StrandFinding[] report # What was found, changed or left out.
 function Strands:save(path, options) end
 
+---@class lissom.Strands.SelectOptions.Near
+---@field curve lissom.Curve A curve of a hairstyle.
+---@field radius? number In metres of an average head. Default: 0.02.
+
 ---@class lissom.Strands.SelectOptions
 ---@field strands? integer[] Their numbers, in the order wanted.
 ---@field group? string Those of a group.
+---@field region? lissom.Region Those rooted on a face of a region of the head that they grew on.
+---@field near? lissom.Strands.SelectOptions.Near Those that come near a style curve.
 ---@field first? integer So many from the beginning: a level of detail.
 ---@field where? fun(strand: integer, x: number, y: number, z: number): boolean Those for which the function, asked with the root, returns true.
 

@@ -43,13 +43,22 @@ const char* const kValues[] = {"nil",
                                "edit",
                                "handle",
                                "params",
-                               "strands"};
+                               "strands",
+                               "scalp",
+                               "style",
+                               "curve"};
 
 // Objects of each type to call methods on.
 const char* const kSetup = R"(
 box, grid, closed = lissom.shapes.box(), lissom.shapes.grid(), lissom.shapes.box()
 closed:close()
 params = lissom.params{ length = { type = "number", default = 1 } }
+head = lissom.shapes.sphere{ segments = 8 }
+scalp = lissom.scalp(head, { up = "y", front = "z", region = head:region{ all = true } })
+style = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 })
+-- The style has no curve, or each call of grow would make much hair.
+curve = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 }):stream{
+    points = { { 0, 1, 0 }, { 0, 1.2, 0 } } }
 function fresh()
     box = lissom.shapes.box()
     edit = lissom.deform(box)
@@ -58,7 +67,8 @@ function fresh()
     objects = { ["lissom.Mesh"] = box, ["lissom.Region"] = box:region("top"),
         ["lissom.Path"] = grid:boundaries()[1], ["lissom.Buffer"] = box:positions(),
         ["lissom.Deformation"] = edit, ["lissom.Handle"] = handle, ["lissom.Params"] = params,
-        ["lissom.Strands"] = strands }
+        ["lissom.Strands"] = strands, ["lissom.Scalp"] = scalp, ["lissom.Hairstyle"] = style,
+        ["lissom.Curve"] = curve }
 end
 )";
 
@@ -233,7 +243,7 @@ TEST_CASE("arguments by position") {
 
 TEST_CASE("work that comes later is an unknown name") {
     LuaState lua;
-    for (const char* name : {"merge", "paste", "scalp", "hairstyle", "scene", "tool", "replay"}) {
+    for (const char* name : {"merge", "paste", "scene", "tool", "replay"}) {
         CHECK(lua.run("return lissom." + std::string(name)).find("no function") !=
               std::string::npos);
     }
