@@ -3,6 +3,9 @@ local lissom = require "lissom"
 
 local hairdo = {}
 
+-- With two arguments in every Lua.
+local atan2 = rawget(math, "atan2") or math.atan
+
 -- Parameters of a hairstyle; `more` are those of its own.
 function hairdo.params(options)
     local list = {
@@ -106,7 +109,7 @@ function hairdo.gather(style, tail, options)
                 d[k] = math.cos(angle) * out[k]
                     + math.sin(angle) * (math.cos(turn) * side[k] + math.sin(turn) * up[k])
             end
-            local azimuth, elevation = math.deg(math.atan(d[1], d[3])), math.deg(math.asin(d[2]))
+            local azimuth, elevation = math.deg(atan2(d[1], d[3])), math.deg(math.asin(d[2]))
             skipped = skipped or f == 1 and options.skip and options.skip(azimuth, elevation)
             points[#points + 1] = style:at{ azimuth = azimuth, elevation = elevation,
                 lift = options.low + (1 - f) ^ 2 * tail.lift * 0.8 }

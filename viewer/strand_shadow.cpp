@@ -24,6 +24,9 @@ constexpr Index kChunks = 4;
 // Light is scattered on by strands more than they take away: of the area that they cover, the part
 // that counts as lost.
 constexpr float kLostShare = 0.40f;
+// However dense hair is, light fades over steps of the grid by no more than exp(-kMostDepth) each:
+// what fades within one step shows the grid as bands, as on tied tails.
+constexpr float kMostDepth = 0.8f;
 // A mesh lets this little through: exp(-kMeshDepth). It counts so many steps below its surface,
 // which so does not shade itself.
 constexpr float kMeshDepth = 5.0f;
@@ -141,6 +144,8 @@ std::vector<float> extinction_of(const ViewGrid& grid, std::span<const ViewStran
             for (std::size_t i = 0; i < part.size(); ++i) sum[i] += part[i];
         }
     }
+    const float most = kMostDepth / grid.step;
+    for (float& extinction : sum) extinction = most * (1.0f - std::exp(-extinction / most));
     return sum;
 }
 

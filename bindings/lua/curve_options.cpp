@@ -107,9 +107,19 @@ std::vector<Parameter> own_dividing_fields() {
                 .at_least(0)
                 .optional("half a grid step"),
             metres("reach", "How far from the line hair is shaped.").above(0).optional("2.5 sigma"),
+            metres("thickness", "How far above and below its line hair is shaped.")
+                .above(0)
+                .optional("0.8 grid steps"),
             number("separation", "Magnitude of the vectors that keep both sides apart.")
                 .between(0, 1)
                 .optional("0.3"),
+            metres("wall_width", "How far from the line these stand.")
+                .above(0)
+                .optional("1.2 grid steps"),
+            metres("wall_height", "How high.").at_least(0).optional("2.6 grid steps"),
+            metres("ramp", "Nearer to the line, vectors away from it fade; 0 as in the thesis.")
+                .at_least(0)
+                .optional("0.87 grid steps"),
             metres("gap", "Width of the bare skin along the line.").at_least(0).optional("0.0024")};
 }
 
@@ -135,6 +145,9 @@ std::vector<Parameter> own_ponytail_fields() {
             .optional("1.3"),
         number("outer", "And up to this many (R2).").above(0).optional("1.9"),
         metres("ring", "It is at least so wide.").at_least(0).optional("2.5 grid steps"),
+        metres("free", "Nearer to the head than this the tail leaves hair alone.")
+            .at_least(0)
+            .optional("1.5 grid steps"),
         metres("lead", "It begins so far in front of the tie.")
             .at_least(0)
             .optional("1.5 grid steps"),
@@ -233,7 +246,11 @@ void CurveReader::read(const Scalp& scalp, DividingCurve& curve) const {
     take_length(call_, "sigma", options.sigma);
     take_length(call_, "height", options.height);
     take_length(call_, "reach", options.reach);
+    take_length(call_, "thickness", options.thickness);
     take_length(call_, "separation", options.separation);
+    take_length(call_, "wall_width", options.wall_width);
+    take_length(call_, "wall_height", options.wall_height);
+    take_length(call_, "ramp", options.ramp);
     take_length(call_, "gap", curve.gap);
     take_length(call_, "weight", options.weight);
 }
@@ -252,6 +269,7 @@ void CurveReader::read(const Scalp& scalp, Ponytail& curve) const {
     take_length(call_, "inner", options.inner);
     take_length(call_, "outer", options.outer);
     take_length(call_, "ring", options.ring);
+    take_length(call_, "free", options.clearance);
     take_length(call_, "lead", options.lead);
     take_length(call_, "grip", options.grip);
     take_length(call_, "spread", options.spread);

@@ -156,7 +156,15 @@ int solve_style(Call& call) {
 }
 
 int avoid_scalp(Call& call) {
-    return change_style(call, [&](Hairstyle& style) { style.avoid_scalp(call.context()); });
+    const double magnitude = call.number("magnitude");
+    const bool has_band = call.has("band");
+    const double band = has_band ? call.number("band") : 0.0;
+    return change_style(call, [&](Hairstyle& style) {
+        ScalpStepOptions all;
+        all.magnitude = magnitude;
+        if (has_band) all.band = band;
+        style.avoid_scalp(all, call.context());
+    });
 }
 
 int forget_scalp(Call& call) {
@@ -239,6 +247,7 @@ void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
     growth.length = call.number("length");
     growth.variation = call.number("variation");
     growth.segment = call.number("segment");
+    growth.least_speed = call.number("least_speed");
     growth.lift = call.number("lift");
     growth.avoid = call.boolean("avoid");
     growth.clearance = call.number("clearance");
@@ -403,6 +412,16 @@ std::vector<Function> field_methods() {
          .summary = "Turns the field along the head wherever it points into it (section 4.6 "
                     "of the thesis). For the end of a design: it stays as it is until it is "
                     "done again. Hair that grows with `avoid` stays outside anyway.",
+         .options = {number("magnitude",
+                            "Length of the vectors that do so: small, so that they "
+                            "change little elsewhere.")
+                         .defaults(ScalpStepOptions{}.magnitude)
+                         .above(0)
+                         .between(0, 1),
+                     number("band", "Grid points nearer to the head than this, on either side.")
+                         .in("metres")
+                         .above(0)
+                         .optional("a grid step")},
          .results = kSelf,
          .errors = kSolveErrors,
          .example = kStyle + "style:avoid_scalp()"},
@@ -461,6 +480,9 @@ std::vector<Parameter> growth_fields() {
         number("segment", "Length of a segment, in steps of the grid.")
             .defaults(defaults.segment)
             .above(0),
+        number("least_speed", "A strand ends where the field is shorter than this.")
+            .defaults(defaults.least_speed)
+            .between(0, 0.99),
         integer("most_segments", "A strand has no more segments.")
             .defaults(static_cast<int>(defaults.most_segments))
             .at_least(1),

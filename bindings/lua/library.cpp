@@ -34,8 +34,9 @@ Type whole_mesh_type() {
 }  // namespace
 
 Library kernel_library() {
-    Library library{.name = "lissom",
-                    .summary = "Modeling by few handles: meshes, regions, paths, deformation and hair."};
+    Library library{
+        .name = "lissom",
+        .summary = "Modeling by few handles: meshes, regions, paths, deformation and hair."};
     library.constants = {{"version", LISSOM_VERSION, "Version of the library."}};
     add(library.functions, mesh_file_functions());
     add(library.functions, mesh_functions());
@@ -46,9 +47,9 @@ Library kernel_library() {
     add(library.functions, strand_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
-    library.types = {whole_mesh_type(),  region_type(), path_type(),    buffer_type(),
-                     deformation_type(), handle_type(), scalp_type(), hairstyle_type(),
-                     curve_type(), strands_type(), parameters_type()};
+    library.types = {whole_mesh_type(),  region_type(),  path_type(),      buffer_type(),
+                     deformation_type(), handle_type(),  scalp_type(),     hairstyle_type(),
+                     curve_type(),       strands_type(), parameters_type()};
     library.records = kernel_records();
     add(library.records, hairstyle_records());
     add(library.records, strand_records());

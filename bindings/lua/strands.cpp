@@ -139,6 +139,33 @@ int one_strand(Call& call) {
     return push_points(call, s, s + 1);
 }
 
+// What is known of a strand, but for its points.
+int strand_root(Call& call) {
+    const Index s = call.id("strand");
+    if (!call.attempt_quick([&] { require_strand(own(call), s); })) return call.fail();
+    const Strands& strands = own(call);
+    const StrandRoots& roots = strands.roots();
+    const auto i = static_cast<std::size_t>(s);
+    lua_createtable(call.lua(), 0, 6);
+    call.set_field("id", call.push(static_cast<double>(strands.id(s))));
+    call.set_field("position", call.push_vector(strands.root(s).cast<double>()));
+    if (!roots.faces.empty() && roots.faces[i] != kNoIndex) {
+        call.set_field("face", call.push_id(roots.faces[i]));
+    }
+    if (!roots.barycentrics.empty()) {
+        call.set_field("bary", call.push_vector(roots.barycentrics[i].cast<double>()));
+    }
+    if (!roots.uvs.empty()) {
+        const double uv[2] = {roots.uvs[i].x(), roots.uvs[i].y()};
+        call.set_field("uv", call.push_numbers(uv));
+    }
+    if (strands.group(s) != kNoIndex) {
+        const auto group = static_cast<std::size_t>(strands.group(s));
+        call.set_field("group", call.push(std::string_view(strands.group_names()[group])));
+    }
+    return 1;
+}
+
 int all_points(Call& call) {
     return push_points(call, 0, own(call).size());
 }
@@ -180,12 +207,30 @@ int strands_hash(Call& call) {
     return call.push(std::string_view(text));
 }
 
+// Metres of a head, as those of its strands, to the signed distance in the same.
+std::function<double(const Vec3&)> distance_to_head(const Hairstyle& style) {
+    const Scalp& scalp = style.scalp();
+    const double metre = scalp.scale() * scalp.unit();
+    return [&style, &scalp, metre](const Vec3& point) {
+        return metre * style.field().distances().value(scalp.to_metres(point / scalp.unit()));
+    };
+}
+
 int stats(Call& call) {
     const double sharp = call.number("sharp_turn") * kDegree;
+    const bool on_head = call.has("style"), has_depth = call.has("depth");
     StrandStatistics found;
     const bool done = call.attempt([&] {
         StrandStatisticsOptions options;
         options.sharp_turn = sharp;
+        if (on_head) {
+            const Hairstyle& style = call.object<HairstyleObject>("style")->style();
+            options.distance = distance_to_head(style);
+            // Half a step of the grid, in metres of the head.
+            options.depth =
+                0.5 * style.layout().step * style.scalp().scale() * style.scalp().unit();
+        }
+        if (has_depth) options.depth = call.number("depth");
         found = strand_statistics(own(call), options, call.context());
     });
     if (!done) return call.fail();
@@ -208,6 +253,10 @@ int stats(Call& call) {
     call.set_field("greatest_turn", call.push(found.greatest_turn / kDegree));
     if (found.greatest_turn_strand != kNoIndex) {
         call.set_field("greatest_turn_strand", call.push_id(found.greatest_turn_strand));
+    }
+    if (on_head) {
+        call.set_field("penetrating", call.push(found.penetrating));
+        call.set_field("deepest", call.push(found.deepest));
     }
     return 1;
 }
@@ -476,6 +525,13 @@ std::vector<Function> content_methods() {
          .results = {{"lissom.Buffer", "points", "The points."}},
          .errors = {ErrorCode::out_of_range},
          .example = kPair + "assert(hair:strand(1):count() == 3)"},
+        {.name = "root",
+         .body = strand_root,
+         .summary = "Where a strand is rooted, and what else is known of it.",
+         .arguments = {id("strand", "Its number.")},
+         .results = {{"lissom.StrandRoot", "root", "Fields that are not known are absent."}},
+         .errors = {ErrorCode::out_of_range},
+         .example = kPair + "assert(hair:root(2).position[1] > 0)"},
         {.name = "points",
          .body = all_points,
          .summary = "The points of all strands, one strand after the other: a copy.",
@@ -508,7 +564,14 @@ std::vector<Function> content_methods() {
          .options = {number("sharp_turn", "A turn between two segments above this is sharp.")
                          .defaults(90.0)
                          .between(0, 180)
-                         .in("degrees")},
+                         .in("degrees"),
+                     object(
+                         "style", "lissom.Hairstyle",
+                         "Measures too how many strands are inside its head, on which they grew.")
+                         .optional("not measured"),
+                     number("depth", "How deep they must be to count.")
+                         .in("metres")
+                         .optional("half a step of the style's grid")},
          .results = {{"lissom.StrandStats", "stats", "What was measured."}},
          .errors = {ErrorCode::cancelled},
          .example = kPair + "assert(math.abs(hair:stats().most_length - 0.2) < 1e-6)"},
@@ -818,7 +881,17 @@ std::vector<Record> strand_records() {
               {"integer", "sharp", "Strands with a sharp turn."},
               {"integer", "zero_length", "Strands without length."},
               {"integer", "zero_segments", "Strands with a segment without length."},
-              {"integer", "not_finite", "Strands with a coordinate that is NaN or infinite."}}},
+              {"integer", "not_finite", "Strands with a coordinate that is NaN or infinite."},
+              {"integer|nil", "penetrating", "With `style`: strands with a point inside the head."},
+              {"number|nil", "deepest", "With `style`: how deep the deepest is, in metres."}}},
+            {"lissom.StrandRoot",
+             "The root of a strand.",
+             {{"integer", "id", "Stays with the strand when some are selected."},
+              {"number[]", "position", "Its first point, in metres."},
+              {"integer|nil", "face", "The face of the head that it lies on."},
+              {"number[]|nil", "bary", "Weights of the first three corners of that face."},
+              {"number[]|nil", "uv", "Texture coordinates there."},
+              {"string|nil", "group", "The name of its group."}}},
             {"lissom.StrandFinding",
              "What was found in strands that were saved.",
              {{"string", "kind", "strands_too_short, points_repeated, content_dropped, ..."},

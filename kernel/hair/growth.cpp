@@ -251,7 +251,7 @@ void Harvest::take(const GrowthRoots& roots, Index first, std::span<const Tuft> 
             [&](const Tuft& tuft, const Tuft::Shoot& shoot, Index root) {
                 const auto to =
                     3 * static_cast<std::size_t>(offsets_[static_cast<std::size_t>(root)]);
-                std::copy_n(tuft.points.data() + shoot.first,
+                std::copy_n(tuft.lists[shoot.list].data() + shoot.first,
                             3 * static_cast<std::size_t>(shoot.count), points_.data() + to);
             });
     });

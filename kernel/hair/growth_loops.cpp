@@ -97,9 +97,9 @@ class LaneGrower {
     LaneGrower(const QuadGrid& grid, const GrowthRules& rules, std::span<const Seedling> seedlings,
                Tuft& tuft)
         : grid_(grid), rules_(rules), seedlings_(seedlings), tuft_(tuft) {
-        tuft_.points.clear();
+        tuft_.lists.resize(kLanes);
         tuft_.shoots.assign(seedlings.size(), {});
-        for (int k = 0; k < kLanes; ++k) enlarge(k);
+        for (int k = 0; k < kLanes; ++k) make_room(k);
     }
 
     LISSOM_INLINE void run() {
@@ -114,7 +114,8 @@ class LaneGrower {
             pushes_ = pushes_ - low;
             Segments next = segments_of(growing_ & no(low));
             for (std::size_t i = 0; i < rules_.ties.size(); ++i) meet_tie(rules_.ties[i], i, next);
-            shorten(next, next.length > length_ - grown_, (length_ - grown_) / next.length);
+            const Ints too_long = next.length > length_ - grown_;
+            if (any(too_long)) shorten(next, too_long, (length_ - grown_) / next.length);
             for (const CutRule& cut : rules_.cuts) meet_cut(cut, next);
             go_on(next, here);
         }
@@ -249,6 +250,7 @@ class LaneGrower {
         const Floats before = dot(normal, at_) - plane, after = dot(normal, to_) - plane;
         const Ints can_be = all(std::int32_t{rules_.spare_tied ? 0 : -1}) | (tie_ < all(0));
         const Ints passes = no(before > all(0.0f)) & (after > all(0.0f)) & can_be & next.go;
+        if (!any(passes)) return;
         shorten(next, passes, before / (before - after));
         next.cut = next.cut | passes;
     }
@@ -258,20 +260,22 @@ class LaneGrower {
         const Floats speed = root(dot(here.vector, here.vector));
         const Floats grown = grown_ + next.length, left = length_ - grown;
         const Ints moves = next.length > all(rules_.least_move);
-        const Ints turns =
-            (dot(next.way, way_) < all(kLeastCosine) * next.length) & (segments_ > all(0));
+        const Ints turns = (dot(next.way, way_) < all(kLeastCosine) * next.length * way_length_) &
+                           (segments_ > all(0));
         const Ints take = next.go & moves & no(turns);
         const Ints end = next.go & ends_of(next, moves, turns, left, speed);
 
         const Floats scale = least(all(rules_.segment) / most(speed, all(1.0f)), left / speed);
         put_points(take);
-        way_ = choose(take, scaled(next.way, all(1.0f) / next.length), way_);
+        way_ = choose(take, next.way, way_);
+        way_length_ = choose(take, next.length, way_length_);
         at_ = choose(take, to_, at_);
         to_ = choose(take, sum(to_, scaled(here.vector, scale)), to_);
         // As far as the slope here tells, which saves most pushes later.
         const Floats distance = here.distance + scale * dot(here.slope, here.vector);
         const Floats missing = missing_height(distance, grown);
-        push(take & inside_ & (missing > all(0.0f)), missing, here.slope);
+        const Ints low = take & inside_ & (missing > all(0.0f));
+        if (any(low)) push(low, missing, here.slope);
         grown_ = choose(take, grown, grown_);
         pushes_ = choose(take, all(0), pushes_);
         if (any(end)) end_lanes(end);
@@ -316,17 +320,27 @@ class LaneGrower {
         if (any(full)) enlarge_lanes(full);
     }
 
+    std::vector<float>& list(int k) { return tuft_.lists[static_cast<std::size_t>(k)]; }
+
     void enlarge_lanes(const Ints& full) {
         for (int k = 0; k < kLanes; ++k) {
-            if (full[k]) enlarge(k);
+            if (!full[k]) continue;
+            list(k).resize(2 * list(k).size());
+            place_strand(k);
         }
     }
 
-    void enlarge(int k) {
-        std::vector<float>& buffer = buffers_[static_cast<std::size_t>(k)];
-        buffer.resize(std::max(3 * kFirstBuffer, 2 * buffer.size()));
-        ends_[k] = buffer.data() + 3;
-        capacity_[k] = static_cast<std::int32_t>(buffer.size() / 3) - 2;
+    // Room for the beginning of a strand behind those that are done.
+    void make_room(int k) {
+        const std::size_t needed = starts_[static_cast<std::size_t>(k)] + 3 * kFirstBuffer;
+        if (list(k).size() < needed) list(k).resize(2 * needed);
+        place_strand(k);
+    }
+
+    void place_strand(int k) {
+        const std::size_t start = starts_[static_cast<std::size_t>(k)];
+        ends_[k] = list(k).data() + start + 3;
+        capacity_[k] = static_cast<std::int32_t>((list(k).size() - start) / 3) - 2;
     }
 
     void end_lanes(const Ints& end) {
@@ -340,10 +354,11 @@ class LaneGrower {
 
     void record(int k, std::int32_t end) {
         const Index count = segments_[k] + 1;
-        tuft_.shoots[seedling_of_[k]] = {tuft_.points.size(), count, tie_[k],
+        const auto lane = static_cast<std::size_t>(k);
+        tuft_.shoots[seedling_of_[k]] = {lane, starts_[lane], count, tie_[k],
                                          static_cast<StrandEnd>(end - 1)};
-        const float* points = ends_[k] - 3;
-        tuft_.points.insert(tuft_.points.end(), points, points + std::ptrdiff_t{3} * count);
+        starts_[lane] += 3 * static_cast<std::size_t>(count);
+        make_room(k);
     }
 
     // Gives lane k the next seedling that can grow; those that cannot are their roots.
@@ -361,6 +376,8 @@ class LaneGrower {
             }
             record(k, end);
         }
+        // The lane runs on, and its points are overwritten.
+        segments_[k] = 0;
         set(at_, k, Eigen::Vector3f::Zero());
         set(to_, k, Eigen::Vector3f::Zero());
     }
@@ -399,11 +416,11 @@ class LaneGrower {
         return 0;
     }
 
-    // The strands of all lanes: last and next points, directions of the last segments, lengths so
-    // far and in the end, floors and random numbers, whether there is a strand, segments so far,
+    // The strands of all lanes: last and next points, the last segments and their lengths, lengths
+    // so far and in the end, floors and random numbers, whether there is a strand, segments so far,
     // pushes of the next point, and ties.
     Floats3 at_, to_, way_;
-    Floats grown_{}, length_{}, floor_{}, cut_{}, tail_{};
+    Floats way_length_{}, grown_{}, length_{}, floor_{}, cut_{}, tail_{};
     Ints growing_{}, segments_{}, pushes_{}, tie_{};
     // Of the next points: their cells, places in them, and whether they are in the grid.
     Ints cell_{}, inside_{};
@@ -415,8 +432,8 @@ class LaneGrower {
     const GrowthRules& rules_;
     std::span<const Seedling> seedlings_;
     Tuft& tuft_;
-    // The points of the strand of each lane, and where they go on after the root.
-    std::array<std::vector<float>, kLanes> buffers_;
+    // Where the strand of each lane begins in its list, and where it goes on after the root.
+    std::array<std::size_t, kLanes> starts_{};
     float* ends_[kLanes]{};
     std::array<std::size_t, kLanes> seedling_of_{};
     std::size_t next_ = 0;

@@ -55,13 +55,14 @@ struct GrowthRules {
 /// Strands that were grown together; shoots[i] is that of seedling i.
 struct Tuft {
     struct Shoot {
-        /// Where its points begin in `points`, and how many it has.
-        std::size_t first;
+        /// Which of the lists its points are in, where they begin, and how many it has.
+        std::size_t list, first;
         Index count;
         Index tie;
         StrandEnd end;
     };
-    std::vector<float> points;
+    /// Those that grew in one lane are in one list, with room behind them that is kept.
+    std::vector<std::vector<float>> lists;
     std::vector<Shoot> shoots;
 };
 

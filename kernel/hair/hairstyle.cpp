@@ -7,7 +7,6 @@
 #include "kernel/hair/curve_conflicts.h"
 #include "kernel/hair/curve_derivation.h"
 #include "kernel/hair/root_uvs.h"
-#include "kernel/hair/scalp_step.h"
 #include "kernel/hair/style_roots.h"
 
 namespace lissom {
@@ -248,14 +247,16 @@ bool Hairstyle::State::over_scalp(const Vec3& point) const {
     return scalp.region().contains(scalp.tree().nearest(scalp.from_metres(point)).vertex);
 }
 
-void Hairstyle::avoid_scalp(const Context& context) {
+void Hairstyle::avoid_scalp(const ScalpStepOptions& options, const Context& context) {
     std::vector<GridConstraint> before = std::exchange(state_->scalp_step, {});
     try {
         state_->constraints_changed();
         solve(context);
-        ScalpStepOptions options;
-        options.where = [this](const Vec3& point) { return state_->over_scalp(point); };
-        state_->scalp_step = scalp_step(state_->field, options);
+        ScalpStepOptions all = options;
+        all.where = [&](const Vec3& point) {
+            return state_->over_scalp(point) && (!options.where || options.where(point));
+        };
+        state_->scalp_step = scalp_step(state_->field, all);
         state_->constraints_changed();
         solve(context);
     } catch (...) {

@@ -19,6 +19,7 @@
 #include "kernel/hair/hair_field.h"
 #include "kernel/hair/roots.h"
 #include "kernel/hair/scalp.h"
+#include "kernel/hair/scalp_step.h"
 #include "kernel/hair/strands.h"
 #include "kernel/hair/style_curve.h"
 
@@ -98,8 +99,10 @@ class Hairstyle {
 
     /// Turns the field along the head where it points into it, by constraints at all grid points
     /// near the head that no curve constrains (section 4.6). To be done once, when the curves are
-    /// as wanted: the constraints stay as they are until it is called again. Solves.
-    void avoid_scalp(const Context& context = {});
+    /// as wanted: the constraints stay as they are until it is called again. Solves. Points over
+    /// the scalp alone count, besides what `options` say. Errors: as scalp_step and solve; then
+    /// nothing has changed.
+    void avoid_scalp(const ScalpStepOptions& options = {}, const Context& context = {});
     /// Takes back what `avoid_scalp` added.
     void forget_scalp();
     bool avoids_scalp() const;

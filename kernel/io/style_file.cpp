@@ -339,7 +339,7 @@ Hairstyle make_style(const StyleContent& content, const Mesh& head,
             throw Error(error.code(), "curve " + std::to_string(i + 1) + ": " + error.what());
         }
     }
-    if (content.avoids_scalp) style.avoid_scalp(context);
+    if (content.avoids_scalp) style.avoid_scalp({}, context);
     return style;
 }
 

@@ -164,6 +164,17 @@
 ---@field zero_length integer Strands without length.
 ---@field zero_segments integer Strands with a segment without length.
 ---@field not_finite integer Strands with a coordinate that is NaN or infinite.
+---@field penetrating integer|nil With `style`: strands with a point inside the head.
+---@field deepest number|nil With `style`: how deep the deepest is, in metres.
+
+---The root of a strand.
+---@class lissom.StrandRoot
+---@field id integer Stays with the strand when some are selected.
+---@field position number[] Its first point, in metres.
+---@field face integer|nil The face of the head that it lies on.
+---@field bary number[]|nil Weights of the first three corners of that face.
+---@field uv number[]|nil Texture coordinates there.
+---@field group string|nil The name of its group.
 
 ---What was found in strands that were saved.
 ---@class lissom.StrandFinding
@@ -1028,7 +1039,11 @@ function Hairstyle:stream(options) end
 ---@field sigma? number Distance from the line to the crest of the hair. In metres. Default: a grid step.
 ---@field height? number h of the thesis: the crest is 0.39 times as high. In metres. Default: half a grid step.
 ---@field reach? number How far from the line hair is shaped. In metres. Default: 2.5 sigma.
+---@field thickness? number How far above and below its line hair is shaped. In metres. Default: 0.8 grid steps.
 ---@field separation? number Magnitude of the vectors that keep both sides apart. Default: 0.3.
+---@field wall_width? number How far from the line these stand. In metres. Default: 1.2 grid steps.
+---@field wall_height? number How high. In metres. Default: 2.6 grid steps.
+---@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps.
 ---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
@@ -1053,6 +1068,7 @@ function Hairstyle:dividing(options) end
 ---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
 ---@field outer? number And up to this many (R2). Default: 1.9.
 ---@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps.
+---@field free? number Nearer to the head than this the tail leaves hair alone. In metres. Default: 1.5 grid steps.
 ---@field lead? number It begins so far in front of the tie. In metres. Default: 1.5 grid steps.
 ---@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4.
 ---@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2.
@@ -1085,12 +1101,17 @@ function Hairstyle:solve() end
 ---@overload fun(self: lissom.Hairstyle, x: number, y: number, z: number): number[]
 function Hairstyle:field(point) end
 
+---@class lissom.Hairstyle.Avoid_scalpOptions
+---@field magnitude? number Length of the vectors that do so: small, so that they change little elsewhere. Default: 0.3.
+---@field band? number Grid points nearer to the head than this, on either side. In metres. Default: a grid step.
+
 ---Turns the field along the head wherever it points into it (section 4.6 of the thesis). For the end of a design: it stays as it is until it is done again. Hair that grows with `avoid` stays outside anyway.
+---@param options? lissom.Hairstyle.Avoid_scalpOptions
 ---@return lissom.Hairstyle style # The hairstyle itself.
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
-function Hairstyle:avoid_scalp() end
+function Hairstyle:avoid_scalp(options) end
 
 ---Takes back what avoid_scalp did.
 ---@return lissom.Hairstyle style # The hairstyle itself.
@@ -1116,6 +1137,7 @@ function Hairstyle:forget_scalp() end
 ---@field ramp? number Length over which strands rise to their height. In metres. Default: 0.03.
 ---@field lift? number Share of the normal of the head in the first segment. Default: 0.15.
 ---@field segment? number Length of a segment, in steps of the grid. Default: 0.5.
+---@field least_speed? number A strand ends where the field is shorter than this. Default: 0.05.
 ---@field most_segments? integer A strand has no more segments. Default: 400.
 ---@field into? lissom.Strands Strands whose place the new ones take. Default: new strands.
 
@@ -1177,7 +1199,11 @@ function Curve:set_points(points) end
 ---@field sigma? number Distance from the line to the crest of the hair. In metres. Default: a grid step.
 ---@field height? number h of the thesis: the crest is 0.39 times as high. In metres. Default: half a grid step.
 ---@field reach? number How far from the line hair is shaped. In metres. Default: 2.5 sigma.
+---@field thickness? number How far above and below its line hair is shaped. In metres. Default: 0.8 grid steps.
 ---@field separation? number Magnitude of the vectors that keep both sides apart. Default: 0.3.
+---@field wall_width? number How far from the line these stand. In metres. Default: 1.2 grid steps.
+---@field wall_height? number How high. In metres. Default: 2.6 grid steps.
+---@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps.
 ---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024.
 ---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
 ---@field section? lissom.Vector[] A closed curve around the spine: the tie is as wide, and stands there.
@@ -1187,6 +1213,7 @@ function Curve:set_points(points) end
 ---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
 ---@field outer? number And up to this many (R2). Default: 1.9.
 ---@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps.
+---@field free? number Nearer to the head than this the tail leaves hair alone. In metres. Default: 1.5 grid steps.
 ---@field lead? number It begins so far in front of the tie. In metres. Default: 1.5 grid steps.
 ---@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4.
 ---@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2.
@@ -1255,6 +1282,11 @@ local Strands = {}
 ---@return lissom.Buffer points # The points.
 function Strands:strand(strand) end
 
+---Where a strand is rooted, and what else is known of it.
+---@param strand integer Its number.
+---@return lissom.StrandRoot root # Fields that are not known are absent.
+function Strands:root(strand) end
+
 ---The points of all strands, one strand after the other: a copy.
 ---@return lissom.Buffer points # A row of x, y, z a point.
 function Strands:points() end
@@ -1277,6 +1309,8 @@ function Strands:hash() end
 
 ---@class lissom.Strands.StatsOptions
 ---@field sharp_turn? number A turn between two segments above this is sharp. In degrees. Default: 90.
+---@field style? lissom.Hairstyle Measures too how many strands are inside its head, on which they grew. Default: not measured.
+---@field depth? number How deep they must be to count. In metres. Default: half a step of the style's grid.
 
 ---Counts, lengths and turns, and how many strands are damaged.
 ---@param options? lissom.Strands.StatsOptions

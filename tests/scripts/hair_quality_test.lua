@@ -1,0 +1,86 @@
+-- Hair stays outside of heads, on its side of a parting, and goes through the tie of a ponytail, on any head.
+local lissom = require "lissom"
+local expect = require "expect"
+local ponytail = require "presets.ponytail"
+local strokes = require "strokes"
+
+local count = 2000
+
+local function heads()
+    local list = { generated = lissom.shapes.head{} }
+    local data = os.getenv("LISSOM_TEST_DATA") or ""
+    for _, name in ipairs{ "ict_head.obj", "makehuman_head.obj", "LeePerrySmith.glb" } do
+        list[name] = lissom.load(data .. "/heads/" .. name)
+        if not list[name] then print("skipped: no " .. name) end
+    end
+    return list
+end
+
+-- Nothing inside the head, no damage, no sharp turn.
+local function expect_sound(style, hair)
+    local stats = hair:stats{ style = style }
+    expect.truthy(stats.penetrating <= 0.001 * #hair)
+    expect.equal(stats.not_finite, 0)
+    expect.equal(stats.zero_segments, 0)
+    expect.equal(stats.sharp, 0)
+end
+
+local settings = {
+    {},
+    { height = 50, length = 0.34, tightness = 0.8, fullness = 0.9, droop = 0.11 },
+    { height = -12, length = 0.26, tightness = 0.4, droop = 0.02 },
+    { height = 6, side = 0.75, length = 0.28, tightness = 0.5, droop = 0.035 },
+    { height = 30, length = 0.15, tightness = 0.6, fullness = 0.9, droop = 0.065 },
+}
+
+local function parted(head)
+    local style = lissom.hairstyle(head)
+    local route, by = strokes.route(style), strokes.by
+    style:dividing{ points = route{ { 0, 37 }, { 0, 55 }, { 0, 76 } } }
+    strokes.both_sides({
+        { { 20, 46, 14 }, { 52, 34, 18 }, { 71, 8, 18 }, by(4, -50, -4), by(-4, -60, -4) },
+        { { 30, 72, 14 }, { 70, 50, 18 }, { 92, 5, 22 }, by(5, -50, 0), by(-4, -60, 0) },
+        { { 130, 68, 12 }, { 126, 32, 20 }, { 126, -5, 22 }, by(2, -50, 0), by(-2, -60, 0) },
+    }, function(places) style:stream{ points = route(places) } end)
+    return style
+end
+
+-- Of strands rooted within 2 cm of the line in the middle of the head: the share that crosses it within 3 cm.
+local function crossing_share(style, hair)
+    local scalp = style:scalp()
+    local unit, near, crossed = scalp:unit(), 0, 0
+    for i = 1, #hair do
+        local strand = hair:strand(i)
+        local function place(k)
+            local x, y, z = strand:get(k)
+            return scalp:to_metres(x / unit, y / unit, z / unit)
+        end
+        local root = place(1)
+        if math.abs(root[1]) < 0.02 and root[2] > 0.07 and root[3] > 0.02 then
+            near = near + 1
+            for k = 2, strand:count() do
+                local p = place(k)
+                local d = (p[1] - root[1]) ^ 2 + (p[2] - root[2]) ^ 2 + (p[3] - root[3]) ^ 2
+                if d > 0.03 ^ 2 then break end
+                if p[1] * root[1] < 0 then
+                    crossed = crossed + 1
+                    break
+                end
+            end
+        end
+    end
+    expect.truthy(near > 50)
+    return crossed / near
+end
+
+for _, head in pairs(heads()) do
+    for _, setting in ipairs(settings) do
+        local style, hair = ponytail.grow(head, setting, {}, { count = count })
+        expect.truthy(#hair:select{ group = "ponytail" } > 0.98 * #hair)
+        expect_sound(style, hair)
+    end
+    local style = parted(head)
+    local hair = style:grow{ count = count, length = 0.2 }
+    expect.truthy(crossing_share(style, hair) < 0.005)
+    expect_sound(style, hair)
+end
