@@ -78,7 +78,7 @@ struct Hairstyle::State {
     Mesh head;
     HairField field;
 
-    /// In their order.
+    // In their order.
     std::vector<PlacedCurve> curves;
     std::vector<CurveId> order;
     ConstraintOwner last_id = kScalpOwner;

@@ -139,13 +139,12 @@ ScalpPoint Scalp::at(const ScalpDirection& direction, double lift) const {
 }
 
 Box Scalp::default_box() const {
-    // In metres of the frame: room of some 10 cm around the head, and down to the chest.
-    const Vec3 low(-0.2, -0.42, -0.24), high(0.2, 0.22, 0.22);
+    const Box metres = default_volume();
     Box box;
     for (int corner = 0; corner < 8; ++corner) {
-        Vec3 p = low;
+        Vec3 p = metres.min;
         for (int axis = 0; axis < 3; ++axis) {
-            if ((corner >> axis) & 1) p[axis] = high[axis];
+            if ((corner >> axis) & 1) p[axis] = metres.max[axis];
         }
         box.extend(from_metres(p));
     }

@@ -90,7 +90,7 @@ class Scalp {
     /// Unit normal at a point of the surface, interpolated from those of the vertices.
     Vec3 normal_at(const Triangle& triangle, const Vec3& barycentric) const;
 
-    /// The default volume of a hairstyle, a box along the axes of the mesh: around the head with
+    /// `default_volume` in the mesh, in a box along the axes of the mesh: around the head with
     /// room for volume on all sides, and below it for hair to the shoulders. In the middle of the
     /// head across.
     Box default_box() const;

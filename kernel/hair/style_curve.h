@@ -29,7 +29,7 @@ struct DividingCurve {
     std::vector<Vec3> points;
     DividingOptions options = {};
     /// Width of the bare skin along the line, on which no hair is rooted.
-    double gap = 0.0024;
+    double gap = kPartingGap;
 };
 
 /// Hair gathers in a tie and goes on along a spine.
