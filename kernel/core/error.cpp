@@ -13,7 +13,7 @@ struct CodeEntry {
     std::string_view explanation;
 };
 
-constexpr std::array<CodeEntry, 36> kCodes{{
+constexpr std::array<CodeEntry, 40> kCodes{{
     {ErrorCode::cancelled, "cancelled",
      "The operation was asked to stop and stopped; nothing was changed. Start it again."},
     {ErrorCode::invalid_argument, "invalid_argument",
@@ -102,6 +102,18 @@ constexpr std::array<CodeEntry, 36> kCodes{{
      "A connected part of the region has too few constraints to have one shape: nothing holds it. "
      "Add "
      "a handle there, or leave some of its vertices out of the region."},
+    {ErrorCode::not_a_boundary, "not_a_boundary",
+     "A path that has to be a whole open boundary of its mesh is not one. Take it from the mesh's "
+     "boundaries, or cut the mesh along it first."},
+    {ErrorCode::boundary_conflict, "boundary_conflict",
+     "Boundaries or cuts get in each other's way: two joins share one, a loop crosses itself or "
+     "has no length, or a cut runs into an open boundary. The message names the vertices."},
+    {ErrorCode::key_conflict, "key_conflict",
+     "Key correspondences contradict each other: a key lies off its boundary, two keys fall on one "
+     "place, or their cyclic order differs between the two boundaries. Correct the keys named."},
+    {ErrorCode::skin_mismatch, "skin_mismatch",
+     "Two meshes are moved by different joints, so that their skin weights cannot be joined. Give "
+     "both the same joints, or remove the attributes \"joints\" and \"weights\" of one."},
     {ErrorCode::not_positive_definite, "not_positive_definite",
      "The linear system has no unique solution. A part of the mesh lacks a constraint, or its "
      "triangles are too degenerate."},
