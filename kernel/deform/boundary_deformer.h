@@ -1,0 +1,84 @@
+/// Deformation by a boundary condition: every held vertex is given a position, a rotation and a
+/// scale of its own, and the rest of the surface follows (thesis sections 2.4 and 3.3.1). The core
+/// of merging, where one loop of vertices moves a whole mesh.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/deform/deformer.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+/// Where a held vertex goes, and how the surface at it turns and grows: its deformation gradient is
+/// `scale` times `rotation`.
+struct BoundaryValue {
+    Vec3 position = Vec3::Zero();
+    Mat3 rotation = Mat3::Identity();
+    double scale = 1.0;
+};
+
+/// How much details grow away from the held vertices: exp of the harmonic interpolation of log
+/// scale, or |M| / sqrt 3 of the deformation gradients of the first system (Eq 2.11), which
+/// averaged rotations make too small.
+enum class SizeField { harmonic, gradient };
+
+struct BoundaryDeformOptions {
+    SizeField size = SizeField::harmonic;
+    SecondSystem second = SecondSystem::blend;
+    LaplacianWeights weights = LaplacianWeights::cotangent;
+    /// As in DeformOptions.
+    int coherence = 1;
+    double coherence_weight = 1.0;
+    double degenerate_threshold = 2e4;
+    double displacement = 0.2;
+    bool scale_free = true;
+
+    /// Thesis to the letter: |M| / sqrt 3, second system (2.11), coherence 2, literal weights on
+    /// the surface brought to unit size.
+    static BoundaryDeformOptions thesis();
+};
+
+/// A deformed region.
+struct BoundaryDeformation {
+    /// Positions of the region's vertices, in its order; those of held ones as given, to the bit.
+    std::vector<Vec3> positions;
+    /// How the surface turned and grew at them: scale times rotation.
+    std::vector<Mat3> transforms;
+};
+
+/// Deforms one region of one mesh. Vertices outside it stay. Factors are kept: new values cost no
+/// factorisation. The surface is centred on what is held and brought to unit size, so that the
+/// result follows any similarity of the mesh or of the values. Accepts polygon meshes of any genus.
+class BoundaryDeformer {
+  public:
+    /// Takes the present shape of `mesh` as rest shape; it may change or die afterwards.
+    /// Errors: region_empty without held vertices; topology_mismatch; handle_outside_region for
+    /// held vertices outside the region; unconstrained naming a connected part that nothing holds;
+    /// zero_area; not_positive_definite; memory_limit; cancelled.
+    BoundaryDeformer(const Mesh& mesh, const Region& region, const Region& held,
+                     const BoundaryDeformOptions& options = {}, const Context& context = {});
+    ~BoundaryDeformer();
+    BoundaryDeformer(BoundaryDeformer&&) noexcept;
+    BoundaryDeformer& operator=(BoundaryDeformer&&) noexcept;
+
+    const Region& region() const;
+    const Region& held() const;
+    /// Vertices that move freely, and sizes and times of the preparation.
+    const DeformStats& stats() const;
+
+    /// Solves both systems for one value a held vertex, in the order of `held().vertices()`.
+    /// Errors: invalid_argument where their number differs, or for a scale that is not above 0;
+    /// not_finite; cancelled.
+    BoundaryDeformation solve(std::span<const BoundaryValue> values, const Context& context = {});
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lissom

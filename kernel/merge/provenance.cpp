@@ -1,0 +1,75 @@
+#include "kernel/merge/provenance.h"
+
+#include <vector>
+
+namespace lissom {
+namespace {
+
+ElementMap shifted_behind(const ElementMap& first, const ElementMap& second, Index shift) {
+    ElementMap result;
+    for (Index i = 0; i < first.size(); ++i) result.add_blend(first[i]);
+    std::vector<ElementMap::Source> sources;
+    for (Index i = 0; i < second.size(); ++i) {
+        sources.assign(second[i].begin(), second[i].end());
+        for (ElementMap::Source& s : sources) s.element += shift;
+        result.add_blend(sources);
+    }
+    return result;
+}
+
+}  // namespace
+
+MeshMap identity_map(const Topology& topology) {
+    return {ElementMap::identity(topology.vertex_count()),
+            ElementMap::identity(topology.corner_count()),
+            ElementMap::identity(topology.face_count())};
+}
+
+MeshMap flipped_map(const Topology& topology) {
+    MeshMap map = identity_map(topology);
+    std::vector<Index> corners;
+    for (Index f = 0; f < topology.face_count(); ++f) {
+        const auto n = static_cast<Index>(topology.face(f).size());
+        for (Index k = 0; k < n; ++k) corners.push_back(topology.first_corner(f) + (n - k) % n);
+    }
+    map.corners = ElementMap::copies(corners);
+    return map;
+}
+
+ElementMap composed(const ElementMap& outer, const ElementMap& inner) {
+    ElementMap result;
+    std::vector<ElementMap::Source> sources;
+    for (Index i = 0; i < outer.size(); ++i) {
+        sources.clear();
+        for (const ElementMap::Source& between : outer[i]) {
+            for (const ElementMap::Source& s : inner[between.element]) {
+                sources.push_back({s.element, between.weight * s.weight});
+            }
+        }
+        result.add_blend(sources);
+    }
+    return result;
+}
+
+MeshMap composed(const MeshMap& outer, const MeshMap& inner) {
+    return {composed(outer.vertices, inner.vertices), composed(outer.corners, inner.corners),
+            composed(outer.faces, inner.faces)};
+}
+
+MeshMap appended_map(const MeshMap& first, const MeshMap& second, const Topology& first_origin) {
+    return {shifted_behind(first.vertices, second.vertices, first_origin.vertex_count()),
+            shifted_behind(first.corners, second.corners, first_origin.corner_count()),
+            shifted_behind(first.faces, second.faces, first_origin.face_count())};
+}
+
+std::vector<Index> kept_vertices(const ElementMap& map, Index old_count) {
+    std::vector<Index> kept(static_cast<std::size_t>(old_count), kNoIndex);
+    for (Index i = 0; i < map.size(); ++i) {
+        if (map[i].size() == 1 && kept[map[i].front().element] == kNoIndex) {
+            kept[map[i].front().element] = i;
+        }
+    }
+    return kept;
+}
+
+}  // namespace lissom

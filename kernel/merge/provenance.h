@@ -1,0 +1,23 @@
+/// Provenance: from which elements of its inputs each element of a merged mesh comes; private to
+/// kernel/merge.
+#pragma once
+
+#include "kernel/mesh/derive.h"
+
+namespace lissom {
+
+/// Every element of a mesh from itself.
+MeshMap identity_map(const Topology& topology);
+/// The map of a mesh whose faces were reversed, each from its first vertex (flip).
+MeshMap flipped_map(const Topology& topology);
+/// Where the elements of a mesh come from that was made in two steps: `outer` leads to the mesh in
+/// between and `inner` from there to the first.
+ElementMap composed(const ElementMap& outer, const ElementMap& inner);
+MeshMap composed(const MeshMap& outer, const MeshMap& inner);
+/// The map of two meshes appended: elements of the second follow those of the first, as do the
+/// elements they come from, `first_counts` of them in the first.
+MeshMap appended_map(const MeshMap& first, const MeshMap& second, const Topology& first_origin);
+/// For each old vertex the new one that is nothing but it, or kNoIndex.
+std::vector<Index> kept_vertices(const ElementMap& map, Index old_count);
+
+}  // namespace lissom

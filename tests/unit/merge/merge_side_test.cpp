@@ -1,0 +1,104 @@
+#include "kernel/merge/merge_side.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "kernel/core/error.h"
+#include "kernel/merge/provenance.h"
+#include "kernel/mesh/measures.h"
+#include "kernel/mesh/transform.h"
+#include "tests/unit/merge/loop_shapes.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+ErrorCode code_of(const Mesh& mesh, const std::vector<Path>& paths) {
+    try {
+        make_side(mesh, paths, "source");
+    } catch (const Error& error) {
+        return error.code();
+    }
+    return ErrorCode::internal;
+}
+
+// Positions of a side follow from its map and the mesh that was given.
+void check_map(const MergeSide& side, const Mesh& given) {
+    REQUIRE(side.map.vertices.size() == side.mesh.vertex_count());
+    REQUIRE(side.map.corners.size() == side.mesh.topology().corner_count());
+    REQUIRE(side.map.faces.size() == side.mesh.face_count());
+    const std::vector<Vec3> expected = blend_positions(given, side.map.vertices);
+    for (Index v = 0; v < side.mesh.vertex_count(); ++v) {
+        CHECK((side.mesh.position(v) - expected[v]).norm() < 1e-12);
+    }
+    // A corner comes from corners at the vertices that its vertex comes from.
+    const auto& from = given.topology().faces().vertices;
+    for (Index c = 0; c < side.mesh.topology().corner_count(); ++c) {
+        Vec3 at = Vec3::Zero();
+        for (const auto& [corner, weight] : side.map.corners[c]) {
+            at += weight * given.position(from[corner]);
+        }
+        CHECK((at - side.mesh.position(side.mesh.topology().faces().vertices[c])).norm() < 1e-12);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("what is not an open boundary is refused, and so is one given twice") {
+    const Mesh mesh = round_tube(20, 4);
+    const std::vector<Path> both = boundaries(mesh);
+    CHECK(make_side(mesh, both, "source").loops.size() == 2);
+    CHECK(make_side(mesh, {both[0].reversed()}, "source").loops[0] ==
+          make_side(mesh, {both[0]}, "source").loops[0]);
+    CHECK(code_of(mesh, {both[0], both[0].reversed()}) == ErrorCode::boundary_conflict);
+    CHECK(code_of(mesh, {Path(mesh.shared_topology(), {20, 21, 22}, true)}) ==
+          ErrorCode::not_a_boundary);
+    CHECK(code_of(mesh, {Path(mesh.shared_topology(), {0, 1, 2}, false)}) ==
+          ErrorCode::not_a_boundary);
+    CHECK(code_of(mesh, {Path({Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()}, true)}) ==
+          ErrorCode::not_a_boundary);
+    const Mesh other = round_tube(20, 4);
+    CHECK(code_of(other, {both[0]}) == ErrorCode::topology_mismatch);
+}
+
+TEST_CASE("a boundary that crosses itself is refused") {
+    const Mesh mesh = tube(40, 3, [](double angle, double height) {
+        return Vec3(std::sin(angle), std::sin(2.0 * angle + 0.05), 3.0 * height);
+    });
+    CHECK(code_of(mesh, {boundaries(mesh)[0]}) == ErrorCode::boundary_conflict);
+}
+
+TEST_CASE("a mesh that is inside out is turned over") {
+    const Mesh outward = round_tube(24, 6);
+    Mesh inward = outward;
+    flip(inward);
+    MergeSide side = make_side(inward, {boundaries(inward)[0]}, "source");
+    orient(side, {});
+    CHECK(side.flipped);
+    CHECK(volume(side.mesh) == doctest::Approx(volume(outward)));
+    check_map(side, inward);
+    const auto& loops = side.mesh.topology().boundary_loops();
+    CHECK(std::is_permutation(side.loops[0].begin(), side.loops[0].end(), loops[0].begin(),
+                              loops[0].end()));
+    MergeSide same = make_side(outward, {boundaries(outward)[0]}, "source");
+    orient(same, {});
+    CHECK(!same.flipped);
+}
+
+TEST_CASE("refinement at a loop: one level there, whole faces elsewhere, the same surface") {
+    const Mesh mesh = round_tube(12, 9);
+    const std::vector<Path> both = boundaries(mesh);
+    MergeSide side = make_side(mesh, both, "source");
+    refine_loop(side, 0, {});
+    check_map(side, mesh);
+    CHECK(side.loops[0].size() == 24);
+    CHECK(side.loops[1].size() == 12);
+    CHECK(area(side.mesh) == doctest::Approx(area(mesh)));
+    CHECK(euler_characteristic(side.mesh.topology()) == 0);
+    CHECK(side.mesh.face_count() < 2 * mesh.face_count());
+    CHECK(kept_vertices(side.map.vertices, mesh.vertex_count())[17] == 17);
+    const Region top(mesh.shared_topology(), both[1].vertices());
+    CHECK(side.carried(top).size() == 12);
+}
