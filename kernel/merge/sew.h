@@ -7,6 +7,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/merge/loop_pair.h"
+#include "kernel/merge/seam_quality.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
 
@@ -14,6 +15,44 @@ namespace lissom {
 
 /// The side of a seam that a face comes from.
 enum class SeamSide : char { target, source };
+
+/// How two meshes meet at a seam.
+enum class SeamKind {
+    /// The seam runs along the target's loop: vertices of either loop are inserted into the faces
+    /// of the other side.
+    conform,
+    /// As `conform`; the caller bends the surface around the seam afterwards.
+    fair,
+    /// One band of target faces along the loop is replaced by triangles of least area between the
+    /// rest of the target and the source's loop, which becomes the seam (the thesis's).
+    band,
+};
+
+struct SewOptions {
+    SeamKind kind = SeamKind::conform;
+    /// Times that the umbrella operator moves the seam and, half as far, the vertices next to it; 0
+    /// leaves every position of the target as it is, to the bit.
+    Index smooth = 3;
+    /// Neighbours of different loops that are closer than this many mean seam edges become one
+    /// vertex, that of the target; 0 to 1. Not used by `band`.
+    double snap = 0.5;
+    /// Flips edges within two rings of the seam that make slivers.
+    bool flip = true;
+};
+
+/// What was done to sew two meshes.
+struct SewReport {
+    /// Vertices of the source's loops that were inserted into faces of the target, and the other
+    /// way round, over all joins.
+    Index inserted_into_target = 0, inserted_into_source = 0;
+    /// Pairs of vertices that became one because they were close.
+    Index snapped = 0;
+    Index flipped = 0;
+    /// Faces of the target that `band` removed, and those it made.
+    Index band_removed = 0, band_added = 0;
+    /// The seam before and after smoothing.
+    SeamQuality before, after;
+};
 
 /// One mesh made of two.
 struct Sewn {
@@ -25,6 +64,32 @@ struct Sewn {
     /// The vertices of each seam, in the order of the target's loop; consecutive ones share an
     /// edge.
     std::vector<std::vector<Index>> seams;
+    SewReport report;
 };
+
+/// Sews `source` to `target` along all `joins`. Both may be polygon meshes of any genus; boundaries
+/// that no join names stay open. Vertices of the source's loops are put at their places on the
+/// target's, where the caller has brought them.
+///
+/// The result has the surviving vertices of the target in their order, then those of the source,
+/// and the same of faces; faces that get seam vertices become triangles in their place. Away from
+/// the seam (two rings where edges flip or the seam is smoothed) everything is kept to the bit:
+/// - attributes of vertices on the seam are blended half and half from both sides, or are those of
+///   the side that has any. Those of corners are interpolated in their own face, so that each side
+///   keeps its values along the seam. Texture coordinates and tangents of vertices become those of
+///   corners before;
+/// - what a side does not have at all is NaN there, as `append` does; files are written with white
+///   or without the value;
+/// - a seam vertex is in the regions that it lies in on either side;
+/// - "normal" attributes are made anew on the seam, and turn with vertices that were smoothed;
+/// - "joints" and "weights": see seam_skin.h. What "morph" attributes add is blended as it is: the
+///   caller has turned the source's with the source.
+///
+/// Errors: invalid_argument for options out of range, for no joins, or where a join's counts
+/// differ; out_of_range; not_a_boundary; boundary_conflict (two joins on one boundary, places that
+/// do not follow each other around a loop); nonmanifold_edge where both sides join two seam
+/// vertices by an inner edge that cannot be flipped; skin_mismatch; cancelled.
+Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
+         const SewOptions& options = {}, const Context& context = {});
 
 }  // namespace lissom
