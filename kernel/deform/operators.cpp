@@ -7,8 +7,6 @@
 namespace lissom {
 namespace {
 
-constexpr double kSmallestAngle = 0.5 * kPi / 180.0;
-
 // Angles, cotangents and area of one triangle, clamped.
 struct TriangleShape {
     double cotangent[3], angle[3];
@@ -16,7 +14,7 @@ struct TriangleShape {
     double edge_squared[3];  // opposite each corner
     Vec3 normal = Vec3::Zero();
 
-    TriangleShape(const Vec3& a, const Vec3& b, const Vec3& c) {
+    TriangleShape(const Vec3& a, const Vec3& b, const Vec3& c, double smallest_angle) {
         const Vec3 e[3] = {c - b, a - c, b - a};
         const Vec3 cross = e[2].cross(-e[1]);
         const double twice_area = cross.norm();
@@ -26,11 +24,11 @@ struct TriangleShape {
             edge_squared[k] = e[k].squaredNorm();
             longest = std::max(longest, edge_squared[k]);
         }
-        area = 0.5 * std::max(twice_area, std::sin(kSmallestAngle) * longest);
+        area = 0.5 * std::max(twice_area, std::sin(smallest_angle) * longest);
         for (int k = 0; k < 3; ++k) {
             const double dot = -e[(k + 1) % 3].dot(e[(k + 2) % 3]);
             angle[k] =
-                std::clamp(std::atan2(twice_area, dot), kSmallestAngle, kPi - kSmallestAngle);
+                std::clamp(std::atan2(twice_area, dot), smallest_angle, kPi - smallest_angle);
             cotangent[k] = std::cos(angle[k]) / std::sin(angle[k]);
         }
     }
@@ -49,7 +47,7 @@ struct TriangleShape {
 }  // namespace
 
 RingGeometry ring_geometry(const Rings& rings, const WeightedTriangles& triangles,
-                           std::span<const Vec3> positions) {
+                           std::span<const Vec3> positions, double smallest_angle) {
     RingGeometry geometry;
     geometry.cotangent.assign(rings.neighbor.size(), 0.0);
     geometry.area.assign(static_cast<std::size_t>(rings.size()), 0.0);
@@ -57,7 +55,8 @@ RingGeometry ring_geometry(const Rings& rings, const WeightedTriangles& triangle
     for (std::size_t n = 0; n < triangles.size(); ++n) {
         const Triangle& t = triangles.triangle[n];
         const double weight = triangles.weight[n];
-        const TriangleShape shape(positions[t[0]], positions[t[1]], positions[t[2]]);
+        const TriangleShape shape(positions[t[0]], positions[t[1]], positions[t[2]],
+                                  smallest_angle);
         for (int k = 0; k < 3; ++k) {
             const Index i = t[(k + 1) % 3], j = t[(k + 2) % 3];
             geometry.cotangent[rings.entry(i, j)] += 0.5 * weight * shape.cotangent[k];

@@ -11,8 +11,12 @@
 
 namespace lissom {
 
-/// Geometry of the one-rings. Angles count as at least half a degree, so that slivers and collapsed
-/// edges stay finite, and areas follow.
+/// Least angle that the corner of a triangle counts as, so that slivers and collapsed edges stay
+/// finite.
+inline constexpr double kSmallestAngle = 0.5 * kPi / 180.0;
+
+/// Geometry of the one-rings. Angles count as at least the smallest one asked for, and areas
+/// follow.
 struct RingGeometry {
     /// (cot a + cot b) / 2 of the edge, for every entry of the rings. May be negative.
     std::vector<double> cotangent;
@@ -23,7 +27,7 @@ struct RingGeometry {
 };
 
 RingGeometry ring_geometry(const Rings& rings, const WeightedTriangles& triangles,
-                           std::span<const Vec3> positions);
+                           std::span<const Vec3> positions, double smallest_angle = kSmallestAngle);
 
 /// Rows of a Laplacian: D(x)_i = self[i] x_i + sum over the ring of neighbor[entry] x_j, with the
 /// weight of the row's squared residual in an energy.

@@ -1,0 +1,78 @@
+/// The band of a surface that seam fairing and transitions bend, and the system that bends it;
+/// private to kernel/merge.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/deform/operators.h"
+#include "kernel/deform/patch.h"
+#include "kernel/mesh/region.h"
+#include "kernel/solve/sparse_system.h"
+
+namespace lissom {
+
+/// A band takes the shape whose Laplacian coordinates are nearest to wanted ones, in the least
+/// squares weighted by area: min over x of sum A_i |L x - d_i|^2, with the pointwise cotangent
+/// Laplacian L. All vertices outside the band stay. Its size and work follow the band, not the
+/// mesh.
+///
+/// Local vertices are those of the band and of two rings around it. A row is a local vertex that
+/// the energy has a term for: the band and one ring around it.
+class BandSystem {
+  public:
+    /// The vertices of `band` move; each connected part of it needs a neighbour outside.
+    BandSystem(const Region& band, std::span<const Vec3> positions);
+
+    Index vertex_count() const { return patch_.real_count; }
+    Index mesh_vertex(Index i) const { return patch_.mesh_vertex[i]; }
+    /// Local number of each vertex of the band, in the region's order.
+    const std::vector<Index>& moving() const { return patch_.of_region; }
+    bool moves(Index i) const { return patch_.in_region[i] != 0; }
+    bool is_row(Index i) const { return row_[i] != 0; }
+    bool on_boundary(Index i) const { return patch_.on_boundary[i] != 0; }
+    std::span<const Index> ring(Index i) const { return rings_.ring(i); }
+    /// (cot a + cot b) / 2 of the edge to each vertex of the ring.
+    std::span<const double> cotangents(Index i) const {
+        return {geometry_.cotangent.data() + rings_.begin[i],
+                static_cast<std::size_t>(rings_.count(i))};
+    }
+
+    /// Position relative to a vertex of the band. After a change, `measure` brings the operators up
+    /// to date.
+    const Vec3& position(Index i) const { return x_[i]; }
+    void set_position(Index i, const Vec3& x) { x_[i] = x; }
+
+    /// Takes the operators from the present shape.
+    void measure();
+    /// Laplacian coordinates, unit normal and signed mean curvature (the part of the coordinates
+    /// along the normal) of a row in the shape last measured.
+    Vec3 coordinates(Index i) const { return laplacian_.apply(rings_, x_, i); }
+    const Vec3& normal(Index i) const { return geometry_.normal[i]; }
+    double curvature(Index i) const { return coordinates(i).dot(normal(i)); }
+
+    /// Moves the band to the wanted coordinates, one for each local vertex, of which those of rows
+    /// count, and measures it.
+    /// Errors: not_positive_definite; memory_limit; cancelled: the shape is then as before.
+    void bend(std::span<const Vec3> wanted, const Context& context);
+
+    /// Gives the mesh the positions of the band; all others stay to the bit. "normal" attributes
+    /// turn with the surface.
+    void write(Mesh& mesh) const;
+
+  private:
+    SymmetricMatrix normal_matrix() const;
+
+    Patch patch_;
+    Rings rings_;
+    std::vector<char> row_;
+    // Unknown of each local vertex, or kNoIndex.
+    std::vector<Index> unknown_;
+    std::vector<Vec3> x_;
+    RingGeometry geometry_;
+    Laplacian laplacian_;
+    SparseSystem system_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,56 @@
+#include "kernel/merge/fair_seam.h"
+
+#include "kernel/core/error.h"
+#include "kernel/merge/band_system.h"
+#include "kernel/merge/seam_core.h"
+
+namespace lissom {
+namespace {
+
+void check(const SeamFairing& options) {
+    if (options.rings < 1 || options.core < 1 || options.core > options.rings) {
+        throw Error(ErrorCode::invalid_argument,
+                    "a seam is faired over 1 ring or more, with a core of 1 ring at least and all "
+                    "of them at most");
+    }
+    if (options.umbrella < 0 || options.passes < 1) {
+        throw Error(ErrorCode::invalid_argument,
+                    "fairing a seam needs 0 umbrella steps or more and 1 pass or more");
+    }
+}
+
+// The coordinates that the band has now, in the core those that continue what is around it.
+std::vector<Vec3> faired_coordinates(const BandSystem& band, const SeamCore& core,
+                                     const Context& context) {
+    std::vector<Vec3> wanted(static_cast<std::size_t>(band.vertex_count()), Vec3::Zero());
+    for (Index i = 0; i < band.vertex_count(); ++i) {
+        if (band.is_row(i)) wanted[i] = band.coordinates(i);
+    }
+    const SeamCore::Field field = core.relaxed(band, context);
+    for (const Index i : core.vertices()) wanted[i] = field.curvature[i] * field.normal[i];
+    return wanted;
+}
+
+}  // namespace
+
+std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> seams,
+                             const SeamFairing& options, const Context& context) {
+    check(options);
+    for (const std::vector<Index>& seam : seams) require_vertices(mesh.topology(), seam);
+    const std::vector<Index> rings = seam_rings(mesh.topology(), seams, options.rings);
+    const Region region = seam_band(mesh.shared_topology(), rings);
+    if (region.empty()) return {};
+
+    Progress progress(context, "fair the seam");
+    BandSystem band(region, mesh.positions());
+    const SeamCore core(band, rings, options.core);
+    for (Index i = 0; i < options.umbrella; ++i) core.umbrella(band);
+    for (Index pass = 0; pass < options.passes; ++pass) {
+        progress.update(static_cast<double>(pass) / options.passes);
+        band.bend(faired_coordinates(band, core, context), context);
+    }
+    band.write(mesh);
+    return region.vertices();
+}
+
+}  // namespace lissom

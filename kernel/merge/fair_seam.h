@@ -1,0 +1,37 @@
+/// Fairing of seams: the surface bends smoothly across them and keeps its details.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+struct SeamFairing {
+    /// Vertices within this many edges of a seam may move; at least 1.
+    Index rings = 4;
+    /// Of those the core, whose shape is made anew: the seam itself and this many rings less one;
+    /// at least 1, at most `rings`. Details between the core and the end of the band are kept.
+    Index core = 2;
+    /// Umbrella steps within the tangent planes of the core, which spread its vertices before the
+    /// surface is bent; 0 or more.
+    Index umbrella = 1;
+    /// Times that the surface is bent, each from the shape before; at least 1.
+    Index passes = 2;
+};
+
+/// Bends `mesh` in place around `seams`, each a closed loop of vertices joined by edges, as Sewn
+/// has them. The band takes the shape whose Laplacian coordinates are, in the least squares
+/// weighted by area, nearest to those it had; in the core to a mean curvature and normals that
+/// continue those around it. Seams whose bands meet are solved together. Vertices on open
+/// boundaries stay, and where a component has nothing else outside the band, those farthest from
+/// its seams. Every other vertex stays to the bit; "normal" attributes turn with the surface.
+/// Returns the vertices of the band, ascending.
+/// Errors: invalid_argument for options out of range; out_of_range naming the vertices;
+/// not_positive_definite; memory_limit; cancelled. The mesh is then unchanged.
+std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> seams,
+                             const SeamFairing& options = {}, const Context& context = {});
+
+}  // namespace lissom

@@ -1,0 +1,58 @@
+/// The rings of vertices next to a seam, where the shape is that of neither side; private to
+/// kernel/merge.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/merge/band_system.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+/// Number of edges from each vertex to the nearest of `seams`: 0 on them; kNoIndex beyond `limit`.
+std::vector<Index> seam_rings(const Topology& topology, std::span<const std::vector<Index>> seams,
+                              Index limit);
+
+/// The vertices with a ring number that may move. Those on open boundaries stay; where all of a
+/// component has numbers, those farthest from its seams stay too, for nothing else would hold it.
+Region seam_band(const std::shared_ptr<const Topology>& topology, std::span<const Index> rings);
+
+/// The core of a band: moving vertices within some rings of the seam.
+class SeamCore {
+  public:
+    /// `rings` of the mesh's vertices; those below `width` are core.
+    SeamCore(const BandSystem& band, std::span<const Index> rings, Index width);
+
+    const std::vector<Index>& vertices() const { return vertices_; }
+    bool contains(Index local) const { return in_[local] != 0; }
+
+    /// One umbrella step within the tangent planes of the shape last measured: the core moves
+    /// towards the mean of its neighbours, all at once, half the way on the seam and less in each
+    /// ring away from it. Along the normal it would sink, and take with it the curvature that is
+    /// to be kept around it.
+    void umbrella(BandSystem& band) const;
+
+    /// Mean curvature and normal of every row in the shape last measured; those of the core are
+    /// filled harmonically from around it.
+    struct Field {
+        std::vector<double> curvature;
+        std::vector<Vec3> normal;
+    };
+    Field relaxed(const BandSystem& band, const Context& context) const;
+
+  private:
+    std::vector<Vec4> fill(const BandSystem& band, std::vector<Vec4> values,
+                           const Context& context) const;
+
+    std::vector<Index> vertices_;
+    std::vector<char> in_;
+    // Unknown of each local vertex in `fill`, or kNoIndex.
+    std::vector<Index> unknown_;
+    // How much of the way an umbrella step goes, for each core vertex.
+    std::vector<double> strength_;
+};
+
+}  // namespace lissom
