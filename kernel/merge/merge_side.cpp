@@ -138,4 +138,10 @@ void orient(MergeSide& side, const Context& context) {
     for (std::vector<Index>& loop : side.loops) std::reverse(loop.begin(), loop.end());
 }
 
+void trim_jagged(MergeSide& side, double greatest_turn, const Context& context) {
+    (void)side;
+    (void)greatest_turn;
+    (void)context;
+}
+
 }  // namespace lissom

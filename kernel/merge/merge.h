@@ -1,0 +1,146 @@
+/// Merge: parts of different models become one mesh wherever they lie and whatever their size
+/// (thesis section 3.3). The source is deformed so that its boundaries come to lie on those of the
+/// target, which stays, and both are sewn together.
+///
+///     Merge merge(head, {&torso}, {{boundaries(head)[0], 0, boundaries(torso)[0], keys}});
+///     MergeResult result = merge.solve();
+///     merge.set_keys(0, other_keys);
+///     result = merge.solve();  // no factorisation
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/deform/boundary_deformer.h"
+#include "kernel/merge/correspondence.h"
+#include "kernel/merge/sew.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/path.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+/// Whether the source comes to the target from wherever it lies, turned and scaled as fits (3.3.1),
+/// or stays where it was put and only bends to meet the target (3.3.2).
+enum class Configuration { free, fixed };
+
+/// Two boundaries to be joined.
+struct Join {
+    /// An open boundary of the source, and one of a target.
+    Path source, target;
+    /// Which of the targets.
+    Index target_mesh = 0;
+    /// Points that meet. Without any, what fits best is taken; see JoinReport::guessed.
+    std::vector<KeyPair> keys = {};
+};
+
+struct MergeOptions {
+    Configuration configuration = Configuration::free;
+    /// Features of the source that keep their shape. In the free configuration each moves as a
+    /// whole, by a similarity of its own (the extension of thesis section 3.5); in the fixed one it
+    /// stays where it is.
+    std::vector<Region> fixed = {};
+    /// In the fixed configuration: how far from its boundaries the source deforms, along its edges
+    /// and in its unit; what is farther stays. Absent: all of it where features are fixed, else
+    /// three radii of the largest boundary.
+    std::optional<double> reach = std::nullopt;
+    /// In the fixed configuration: the surface at the boundary turns as the target's does there, or
+    /// keeps its directions (the thesis's way, which leaves a crease).
+    bool turn_frames = true;
+    SeamKind seam = SeamKind::conform;
+    /// Umbrella steps at the seam.
+    int smooth = 3;
+    /// Widths of the transition region (3.3.3) on each side, in the units of source and target; 0
+    /// is none.
+    double source_transition = 0.0, target_transition = 0.0;
+    /// w_T of 3.3.3, of the thesis's transition.
+    double transition_weight = 0.1;
+    /// Trims boundaries whose mean turn exceeds `greatest_turn` radians, because the seam shows
+    /// every tooth of them.
+    bool trim = true;
+    double greatest_turn = 20.0 * kPi / 180.0;
+    /// Splits the faces at a boundary of the source once where its edges are more than 1.5 times as
+    /// long as those it meets (section 2.5).
+    bool refine = true;
+    /// The thesis to the letter: raw frames, scales from tangent lengths, its operators; |M| / sqrt
+    /// 3 and (2.11); its transition. Seam and trimming are as chosen.
+    bool thesis = false;
+};
+
+/// What was found and done at one join.
+struct JoinReport {
+    /// Vertices of the two loops as they were joined.
+    Index source_size = 0, target_size = 0;
+    /// How much the source grew at it.
+    double scale = 1.0;
+    /// True where no keys were given; then how much worse the second best place is than the one
+    /// taken: below 1.5 the result is a guess that asks for one key.
+    bool guessed = false;
+    double certainty = 0.0;
+    /// Mean turn of the loops, in radians, as given; and whether they were trimmed.
+    double source_turn = 0.0, target_turn = 0.0;
+    bool source_trimmed = false, target_trimmed = false;
+    /// Whether faces of the source were split for it.
+    bool refined = false;
+};
+
+/// What a merge found and did.
+struct MergeReport {
+    std::vector<JoinReport> joins;
+    /// Inputs that were inside out and have been turned over: the source, and targets by number.
+    bool source_flipped = false;
+    std::vector<Index> targets_flipped;
+    /// Things the user should look at, in plain words.
+    std::vector<std::string> warnings;
+    DeformStats deform;
+    SewReport seam;
+    /// Wall-clock seconds of preparation and of the last solve.
+    double prepare_seconds = 0.0, solve_seconds = 0.0;
+};
+
+struct MergeResult {
+    Mesh mesh;
+    MergeReport report;
+    /// Where elements come from: those of target 0, of target 1, ..., of the source, in this order,
+    /// each numbered as in its own mesh behind the ones before it.
+    MeshMap provenance;
+    /// The side that each face comes from.
+    std::vector<SeamSide> side_of_face;
+    /// Vertices of each seam in order.
+    std::vector<std::vector<Index>> seams;
+};
+
+/// A merge that can be solved again after its keys have moved, without factoring again. Accepts
+/// polygon meshes of any genus, with any number of boundaries; those not joined stay open.
+class Merge {
+  public:
+    /// Checks and prepares. Meshes may change or die afterwards.
+    /// Errors: invalid_argument without targets or joins, or for options out of range;
+    /// topology_mismatch; not_a_boundary for a path that is not an open boundary of its mesh;
+    /// boundary_conflict where two joins share one, where one crosses itself, has fewer than three
+    /// vertices or no length, or where source and target are one mesh; handle_overlap where a fixed
+    /// feature covers vertices of a boundary; unconstrained; zero_area; memory_limit; cancelled.
+    Merge(const Mesh& source, std::span<const Mesh* const> targets, std::vector<Join> joins,
+          const MergeOptions& options = {}, const Context& context = {});
+    ~Merge();
+    Merge(Merge&&) noexcept;
+    Merge& operator=(Merge&&) noexcept;
+
+    /// Replaces the keys of one join, vertices and points being those of the meshes as given.
+    /// Errors: out_of_range.
+    void set_keys(Index join, std::vector<KeyPair> keys);
+
+    /// Finds the correspondence, deforms the source, and sews.
+    /// Errors: key_conflict; as `sew`; cancelled.
+    MergeResult solve(const Context& context = {});
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lissom
