@@ -36,21 +36,25 @@ Type whole_mesh_type() {
 Library kernel_library() {
     Library library{
         .name = "lissom",
-        .summary = "Modeling by few handles: meshes, regions, paths, deformation and hair."};
+        .summary =
+            "Modeling by few handles: meshes, regions, paths, deformation, merging and hair."};
     library.constants = {{"version", LISSOM_VERSION, "Version of the library."}};
     add(library.functions, mesh_file_functions());
     add(library.functions, mesh_functions());
     add(library.functions, shape_functions());
     add(library.functions, deform_functions());
+    add(library.functions, merge_functions());
     add(library.functions, scalp_functions());
     add(library.functions, hairstyle_functions());
     add(library.functions, strand_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
-    library.types = {whole_mesh_type(),  region_type(),  path_type(),      buffer_type(),
-                     deformation_type(), handle_type(),  scalp_type(),     hairstyle_type(),
-                     curve_type(),       strands_type(), parameters_type()};
+    library.types = {whole_mesh_type(),  region_type(),    path_type(),    buffer_type(),
+                     deformation_type(), handle_type(),    merging_type(), provenance_type(),
+                     scalp_type(),       hairstyle_type(), curve_type(),   strands_type(),
+                     parameters_type()};
     library.records = kernel_records();
+    add(library.records, merge_records());
     add(library.records, hairstyle_records());
     add(library.records, strand_records());
     return library;

@@ -28,6 +28,11 @@ std::vector<Function> deform_engine_methods();
 Type handle_type();
 std::vector<Function> deform_functions();
 
+Type merging_type();
+Type provenance_type();
+std::vector<Function> merge_functions();
+std::vector<Record> merge_records();
+
 std::vector<Function> shape_functions();
 
 Type scalp_type();

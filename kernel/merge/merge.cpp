@@ -542,6 +542,14 @@ void Merge::set_keys(Index join, std::vector<KeyPair> keys) {
     state_->joins[join].keys = std::move(keys);
 }
 
+std::size_t Merge::memory_bytes() const {
+    std::size_t bytes = state_->source.mesh.memory_bytes() + state_->target.memory_bytes();
+    for (const auto* deformer : {state_->deformer.get(), state_->featured.get()}) {
+        if (deformer) bytes += deformer->stats().factor_bytes;
+    }
+    return bytes;
+}
+
 MergeResult Merge::solve(const Context& context) {
     State& state = *state_;
     Progress progress(context, "merge");

@@ -138,6 +138,9 @@ class Merge {
     /// Errors: key_conflict; as `sew`; cancelled.
     MergeResult solve(const Context& context = {});
 
+    /// Bytes held: both inputs and the factors.
+    std::size_t memory_bytes() const;
+
   private:
     struct State;
     std::unique_ptr<State> state_;
