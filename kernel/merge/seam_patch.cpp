@@ -104,6 +104,12 @@ void SeamPatch::replace(Index face, std::vector<SeamCorner> corners) {
     enter(face);
 }
 
+void SeamPatch::remove(const std::set<Index>& origins) {
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+        if (origins.contains(faces_[i].origin)) replace(static_cast<Index>(i), {});
+    }
+}
+
 void SeamPatch::triangulate(Index face) {
     const SeamFace old = faces_[face];
     if (old.corners.size() == 3) return;

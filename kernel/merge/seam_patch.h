@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <unordered_map>
 #include <unordered_set>
@@ -20,7 +21,8 @@ struct SeamCorner {
     double t = 0.0;
 };
 
-/// A face of the patch, which is or was cut out of the face `origin` of the mesh.
+/// A face of the patch, which is or was cut out of the face `origin` of the mesh. Without corners
+/// where it was removed.
 struct SeamFace {
     std::vector<SeamCorner> corners;
     Index origin = kNoIndex;
@@ -51,6 +53,12 @@ class SeamPatch {
     /// fractions of it. Its face becomes a fan of triangles.
     void split_edge(Index from, Index to, std::span<const Index> vertices,
                     std::span<const double> fractions);
+    /// Takes away the faces that stand for those of the mesh in `origins`.
+    void remove(const std::set<Index>& origins);
+    /// Adds a face and returns its number.
+    Index add(SeamFace face);
+    /// The face on the left of a directed edge, or kNoIndex.
+    Index left_of(Index from, Index to) const;
     /// Puts vertex `into` of the target in the place of vertex `v` of the source.
     void merge_vertex(Index v, Index into);
     /// Ends the splitting: `seams` are closed loops of vertices whose edges now have a face on each
@@ -86,15 +94,12 @@ class SeamPatch {
     std::unordered_map<std::uint64_t, Index>& edges_of(const SeamFace& face) {
         return edges_[is_source(face) ? 1 : 0];
     }
-    /// The face on the left of a directed edge, or kNoIndex.
     Index left_of(Index from, Index to, std::size_t side) const;
-    Index left_of(Index from, Index to) const;
     bool has_edge(Index a, Index b) const;
     bool is_complete(Index v) const;
 
     void enter(Index face);
     void leave(Index face);
-    Index add(SeamFace face);
     void replace(Index face, std::vector<SeamCorner> corners);
     void triangulate(Index face);
 
