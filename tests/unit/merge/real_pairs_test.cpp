@@ -37,8 +37,7 @@ TEST_CASE("pairs of real models") {
                 1e3 * result.report.prepare_seconds, 1e3 * result.report.solve_seconds);
             for (const auto& w : result.report.warnings) std::printf("   %s\n", w.c_str());
             const char* out = std::getenv("LISSOM_OUT");
-            if (out)
-                save_mesh(result.mesh,
+            if (out) save_mesh(source->mesh, std::string(out) + "/" + pair.name + "_s.obj"), save_mesh(target->mesh, std::string(out) + "/" + pair.name + "_t.obj"), save_mesh(result.mesh,
                           std::string(out) + "/" + pair.name + std::to_string((int)kind) + ".obj");
         }
     }
