@@ -42,6 +42,25 @@ struct CutPlane {
     std::optional<Vec3> near{};
 };
 
+/// A closed line to cut along.
+struct CutPath {
+    /// Through vertices, or free points near the surface; the cut follows the shortest ways along
+    /// edges between them, smoothed.
+    Path path;
+    /// A point on or near the part to keep, instead of the part on the left of the path.
+    std::optional<Vec3> seed{};
+    /// The line is smoothed over two edges around, but over no more than this fraction of its
+    /// length; above 0, at most 0.1.
+    double smoothing = 0.04;
+};
+
+/// A region to cut out along its outlines, all of them at once.
+struct CutRegion {
+    Region region;
+    /// As CutPath::smoothing.
+    double smoothing = 0.04;
+};
+
 /// Why the result of a cut may not be what was wanted.
 enum class CutConcern {
     /// A line ends at an open boundary, which now belongs to both parts in pieces.
@@ -100,6 +119,24 @@ struct Cut {
 /// plane that does not cross the mesh; not_finite; boundary_conflict where the line does not
 /// separate the mesh, because both sides are connected elsewhere; nonmanifold_edge; cancelled.
 Cut cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options = {},
+        const Context& context = {});
+
+/// Cuts along a closed path: on a smooth line near it rather than along its edges. It passes the
+/// picked points within about an edge. The part on the left of the path, seen from outside, is
+/// kept. Components that are not cut go to the side of the nearest point of the path.
+/// Errors: mesh_empty; topology_mismatch; invalid_argument for an open path, one that visits a
+/// vertex twice, or options out of range; boundary_conflict where the smooth line meets an open
+/// boundary or does not separate the mesh; nonmanifold_edge; cancelled.
+Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options = {},
+        const Context& context = {});
+
+/// Cuts along the outlines of a region and keeps the region. Outlines that are open boundaries of
+/// the mesh are no cuts. Components that are not cut go with most of their vertices.
+/// Errors: mesh_empty; topology_mismatch; region_empty where the region holds no face;
+/// invalid_argument for options out of range or a region without an outline to cut;
+/// boundary_conflict naming vertices where an outline or its smooth line runs into an open boundary
+/// or another outline; nonmanifold_edge; cancelled.
+Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options = {},
         const Context& context = {});
 
 }  // namespace lissom
