@@ -1,4 +1,5 @@
 // lissom.Mesh: making one, its elements and its measures.
+#include <array>
 #include <cstdio>
 
 #include "bindings/lua/buffer.h"
@@ -6,6 +7,7 @@
 #include "bindings/lua/mesh_object.h"
 #include "bindings/lua/weld_option.h"
 #include "kernel/mesh/measures.h"
+#include "kernel/mesh/self_intersections.h"
 
 namespace lissom::lua {
 namespace {
@@ -132,6 +134,19 @@ int mesh_check(Call& call) {
     call.set_field("triangles", call.push(topology.is_triangle_mesh()));
     call.set_field("isolated_vertices", call.push_ids(isolated));
     call.set_field("zero_area_faces", call.push_ids(without_area));
+    return 1;
+}
+
+int mesh_self_intersections(Call& call) {
+    auto& pairs = call.hold<std::vector<FacePair>>();
+    if (!call.attempt([&] { pairs = self_intersections(own_mesh(call), {}, call.context()); })) {
+        return call.fail();
+    }
+    lua_createtable(call.lua(), static_cast<int>(pairs.size()), 0);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        call.push_ids(std::array{pairs[i].first, pairs[i].second});
+        lua_rawseti(call.lua(), -2, static_cast<lua_Integer>(i) + 1);
+    }
     return 1;
 }
 
@@ -296,6 +311,14 @@ Type mesh_type() {
          .summary = "Counts, and the ids of elements that may cause trouble.",
          .results = {{"lissom.Check", "report", "What was found."}},
          .example = "assert(#lissom.shapes.box():check().zero_area_faces == 0)"},
+        {.name = "self_intersections",
+         .body = mesh_self_intersections,
+         .summary =
+             "The pairs of faces that meet other than at a vertex or an edge that both have, in "
+             "ascending order. Faces that touch or lie on one another count; vertices at one place "
+             "count as one.",
+         .results = {{"integer[][]", "pairs", "Two faces each, the lower number first."}},
+         .example = "assert(#lissom.shapes.torus():self_intersections() == 0)"},
         {.name = "hash",
          .body = mesh_hash,
          .summary =

@@ -12,6 +12,7 @@
 #include "kernel/io/gltf_uri.h"
 #include "kernel/mesh/asset.h"
 #include "kernel/mesh/report.h"
+#include "kernel/mesh/skinned_asset.h"
 
 namespace lissom {
 
@@ -24,7 +25,7 @@ struct KeptAccessor {
 /// The document without buffers, buffer views and accessors. Primitives have only what is not
 /// surface: material, extras and extensions. Accessors that skins and animations name by number are
 /// those of `accessors`.
-class GltfAsset : public Asset {
+class GltfAsset : public Asset, public SkinnedAsset {
   public:
     Json json = Json::object();
     std::vector<KeptAccessor> accessors;
@@ -37,6 +38,7 @@ class GltfAsset : public Asset {
     std::shared_ptr<const Asset> joined(const Asset& other, LabelRenames& renames) const override;
     std::size_t memory_bytes() const override;
     bool is_of_libraries() const override { return from_libraries; }
+    std::vector<std::string> joints_of(std::string_view object) const override;
 };
 
 /// Keeps what is left of a document once its surface was read; `document` is used up.

@@ -8,6 +8,8 @@
 namespace lissom {
 namespace {
 
+// Areas that differ by less than this part are equal, so that rounding does not decide.
+constexpr double kSame = 1.0 - 1e-10;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 // A path through the grid of pairs (point of the first loop, point of the second): for each of its
@@ -48,7 +50,7 @@ class BandSearch {
     void divide(const GridPath& low, const GridPath& high) {
         if (high.start - low.start < 2) return;
         const GridPath middle = shortest((low.start + high.start) / 2, &low, &high);
-        if (middle.area < best_.area) best_ = middle;
+        if (middle.area < best_.area * kSame) best_ = middle;
         divide(low, middle);
         divide(middle, high);
     }
@@ -75,8 +77,8 @@ class BandSearch {
                 const double down =
                     i > 0 ? last[c] + area(p(row - 1), p(row), q(c)) : (c == 0 ? 0.0 : kFar);
                 const double right = c > from ? cost[c - 1] + area(q(c - 1), q(c), p(row)) : kFar;
-                cost[c] = std::min(down, right);
-                along_row[i * width + c] = right < down;
+                cost[c] = right < down * kSame ? right : down;
+                along_row[i * width + c] = right < down * kSame;
             }
         }
         return traced(start, cost[m_], along_row);

@@ -13,6 +13,8 @@ constexpr int kPasses = 10;
 // A flip must make the smallest angle greater by this part, so that equal shapes do not flip back
 // and forth and rounding does not decide.
 constexpr double kGain = 1e-6;
+// Angles (radians) that differ by less are equal.
+constexpr double kSameAngle = 1e-9;
 
 double angle_between(const Vec3& u, const Vec3& v) {
     return std::atan2(u.cross(v).norm(), u.dot(v));
@@ -118,7 +120,7 @@ bool SeamPatch::improves(const Diagonal& quad, double allowed_dihedral) const {
     const Vec3 a = position(ia), b = position(ib), c = position(ic), d = position(id);
     const double old_angle = std::min(smallest_angle(a, c, d), smallest_angle(c, a, b));
     const double new_angle = std::min(smallest_angle(a, b, d), smallest_angle(b, c, d));
-    if (!(new_angle > old_angle * (1.0 + kGain))) return false;
+    if (!(new_angle > old_angle * (1.0 + kGain) + kSameAngle)) return false;
     const Vec3 old_left = normal(a, c, d), old_right = normal(c, a, b);
     const Vec3 new_left = normal(a, b, d), new_right = normal(b, c, d);
     const double before =
@@ -129,7 +131,7 @@ bool SeamPatch::improves(const Diagonal& quad, double allowed_dihedral) const {
         std::max({dihedral(new_left, new_right), dihedral_across(ic, id, new_right),
                   dihedral_across(id, ia, new_left), dihedral_across(ia, ib, new_left),
                   dihedral_across(ib, ic, new_right)});
-    return after <= std::max(before, allowed_dihedral);
+    return after <= std::max(before, allowed_dihedral) + kSameAngle;
 }
 
 Index SeamPatch::flip_all_once(double allowed_dihedral) {

@@ -1,6 +1,7 @@
 #include "kernel/merge/seam_loop.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -204,9 +205,12 @@ Index snap(std::vector<SeamVertex>& seam, std::span<const Vec3> target_points, d
                 .norm();
         mean += length[k] / static_cast<double>(n);
     }
+    if (!(mean > 0.0)) return 0;
+    // In steps, so that rounding does not decide between equal lengths.
+    for (double& l : length) l = std::floor(l / mean * 1e9 + 0.5) * 1e-9;
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < n; ++k) {
-        if (length[k] < limit * mean) order.push_back(k);
+        if (length[k] < limit) order.push_back(k);
     }
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return length[a] < length[b]; });

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kernel/merge/seam_loop.h"
+#include "kernel/merge/seam_skin.h"
 #include "kernel/merge/seam_work.h"
 
 namespace lissom {
@@ -35,6 +36,7 @@ Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins
          const SewOptions& options, const Context& context) {
     require_options(options);
     require_joins(target.topology(), source.topology(), joins);
+    require_same_joints(target, source, joins);
     Progress progress(context, "sew");
     const Mesh both = unconnected(target, source, context);
     const std::vector<Index> loops = loop_vertices(joins, target.vertex_count());
@@ -56,7 +58,9 @@ Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins
     }
     work.patch.close(work.seams);
     if (options.flip) work.report.flipped = work.patch.flip_edges(kAllowedDihedral);
-    return finish(work, options, context);
+    Sewn sewn = finish(work, options, context);
+    if (const auto skinned = skinned_side(target, source)) extend_skin(sewn, *skinned, context);
+    return sewn;
 }
 
 }  // namespace lissom

@@ -82,8 +82,11 @@ struct Sewn {
 ///   or without the value;
 /// - a seam vertex is in the regions that it lies in on either side;
 /// - "normal" attributes are made anew on the seam, and turn with vertices that were smoothed;
-/// - "joints" and "weights": see seam_skin.h. What "morph" attributes add is blended as it is: the
-///   caller has turned the source's with the source.
+/// - "joints" and "weights" are blended by joint where both sides have the same joints: the names
+///   that the assets tell at the loops must agree, or the meshes must have the same asset or none.
+///   Where one side alone has a skin, the other gets the weights of the seam, continued by a
+///   harmonic function, and in an asset the object of that skin. What "morph" attributes add is
+///   blended as it is: the caller has turned the source's with the source.
 ///
 /// Errors: invalid_argument for options out of range, for no joins, or where a join's counts
 /// differ; out_of_range; not_a_boundary; boundary_conflict (two joins on one boundary, places that

@@ -235,6 +235,10 @@ function Mesh:is_manifold() end
 ---@return lissom.Check report # What was found.
 function Mesh:check() end
 
+---The pairs of faces that meet other than at a vertex or an edge that both have, in ascending order. Faces that touch or lie on one another count; vertices at one place count as one.
+---@return integer[][] pairs # Two faces each, the lower number first.
+function Mesh:self_intersections() end
+
 ---Hash of positions, faces, attributes, labels and regions, to the bit: the same on every machine.
 ---@return string hash # 16 hexadecimal digits.
 function Mesh:hash() end
