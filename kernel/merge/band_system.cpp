@@ -14,16 +14,15 @@ constexpr double kLeastSeamAngle = 2.0 * kPi / 180.0;
 
 }  // namespace
 
-BandSystem::BandSystem(const Region& band, std::span<const Vec3> positions)
-    : patch_(build_patch(band, positions, kRowRings, near_order(band, kRowRings))),
+BandSystem::BandSystem(const Region& region, const Region& band, std::span<const Vec3> positions)
+    : patch_(build_patch(region, positions, kRowRings, near_order(region, kRowRings))),
       rings_(build_rings(patch_.real_count, patch_.triangles)),
       row_(static_cast<std::size_t>(patch_.real_count), 0),
       unknown_(static_cast<std::size_t>(patch_.real_count), kNoIndex),
       x_(patch_.rest.begin(), patch_.rest.begin() + patch_.real_count) {
-    Index count = 0;
     for (Index i = 0; i < patch_.real_count; ++i) {
-        if (!moves(i)) continue;
-        unknown_[i] = count++;
+        if (band.contains(mesh_vertex(i))) unknown_[i] = unknown_count_++;
+        if (!patch_.in_region[i]) continue;
         row_[i] = 1;
         for (const Index j : rings_.ring(i)) row_[j] = 1;
     }
@@ -35,10 +34,18 @@ void BandSystem::measure() {
     laplacian_ = make_laplacian(rings_, geometry_, LaplacianWeights::cotangent, true);
 }
 
+std::vector<double> BandSystem::curvatures() const {
+    std::vector<double> result(x_.size(), 0.0);
+    for (Index i = 0; i < vertex_count(); ++i) {
+        if (is_row(i)) result[i] = curvature(i);
+    }
+    return result;
+}
+
 // L^T A L between unknowns, column by column.
 SymmetricMatrix BandSystem::normal_matrix() const {
     SymmetricMatrix matrix;
-    RowAccumulator<double> column(static_cast<Index>(patch_.of_region.size()));
+    RowAccumulator<double> column(unknown_count_);
     const auto add_row = [&](Index row, double scale) {
         const auto add = [&](Index j, double value) {
             if (unknown_[j] != kNoIndex) column.add(unknown_[j], scale * value);
@@ -94,7 +101,9 @@ void BandSystem::bend(std::span<const Vec3> wanted, const Context& context) {
 void BandSystem::write(Mesh& mesh) const {
     const DirectionCarrier directions(mesh);
     std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
-    for (const Index i : moving()) positions[mesh_vertex(i)] = x_[i] + patch_.origin;
+    for (Index i = 0; i < vertex_count(); ++i) {
+        if (moves(i)) positions[mesh_vertex(i)] = x_[i] + patch_.origin;
+    }
     mesh.set_positions(std::move(positions));
     directions.follow(mesh);
 }

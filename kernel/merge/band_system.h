@@ -18,18 +18,17 @@ namespace lissom {
 /// Laplacian L. All vertices outside the band stay. Its size and work follow the band, not the
 /// mesh.
 ///
-/// Local vertices are those of the band and of two rings around it. A row is a local vertex that
-/// the energy has a term for: the band and one ring around it.
+/// Local vertices are those of a region and of two rings around it. Rows are those of the region
+/// and of one ring around it: what the operators are known at, and the energy has terms for.
 class BandSystem {
   public:
-    /// The vertices of `band` move; each connected part of it needs a neighbour outside.
-    BandSystem(const Region& band, std::span<const Vec3> positions);
+    /// The vertices of `band`, which must be some of `region`, move; each connected part of them
+    /// needs a neighbour that does not.
+    BandSystem(const Region& region, const Region& band, std::span<const Vec3> positions);
 
     Index vertex_count() const { return patch_.real_count; }
     Index mesh_vertex(Index i) const { return patch_.mesh_vertex[i]; }
-    /// Local number of each vertex of the band, in the region's order.
-    const std::vector<Index>& moving() const { return patch_.of_region; }
-    bool moves(Index i) const { return patch_.in_region[i] != 0; }
+    bool moves(Index i) const { return unknown_[i] != kNoIndex; }
     bool is_row(Index i) const { return row_[i] != 0; }
     bool on_boundary(Index i) const { return patch_.on_boundary[i] != 0; }
     std::span<const Index> ring(Index i) const { return rings_.ring(i); }
@@ -51,6 +50,8 @@ class BandSystem {
     Vec3 coordinates(Index i) const { return laplacian_.apply(rings_, x_, i); }
     const Vec3& normal(Index i) const { return geometry_.normal[i]; }
     double curvature(Index i) const { return coordinates(i).dot(normal(i)); }
+    /// The curvature of every row, 0 for other local vertices.
+    std::vector<double> curvatures() const;
 
     /// Moves the band to the wanted coordinates, one for each local vertex, of which those of rows
     /// count, and measures it.
@@ -67,11 +68,12 @@ class BandSystem {
     Patch patch_;
     Rings rings_;
     std::vector<char> row_;
-    // Unknown of each local vertex, or kNoIndex.
+    // Unknown of each local vertex, or kNoIndex; numbered in their order.
     std::vector<Index> unknown_;
     std::vector<Vec3> x_;
     RingGeometry geometry_;
     Laplacian laplacian_;
+    Index unknown_count_ = 0;
     SparseSystem system_;
 };
 

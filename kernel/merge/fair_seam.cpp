@@ -19,18 +19,6 @@ void check(const SeamFairing& options) {
     }
 }
 
-// The coordinates that the band has now, in the core those that continue what is around it.
-std::vector<Vec3> faired_coordinates(const BandSystem& band, const SeamCore& core,
-                                     const Context& context) {
-    std::vector<Vec3> wanted(static_cast<std::size_t>(band.vertex_count()), Vec3::Zero());
-    for (Index i = 0; i < band.vertex_count(); ++i) {
-        if (band.is_row(i)) wanted[i] = band.coordinates(i);
-    }
-    const SeamCore::Field field = core.relaxed(band, context);
-    for (const Index i : core.vertices()) wanted[i] = field.curvature[i] * field.normal[i];
-    return wanted;
-}
-
 }  // namespace
 
 std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> seams,
@@ -42,12 +30,12 @@ std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> sea
     if (region.empty()) return {};
 
     Progress progress(context, "fair the seam");
-    BandSystem band(region, mesh.positions());
+    BandSystem band(region, region, mesh.positions());
     const SeamCore core(band, rings, options.core);
     for (Index i = 0; i < options.umbrella; ++i) core.umbrella(band);
     for (Index pass = 0; pass < options.passes; ++pass) {
         progress.update(static_cast<double>(pass) / options.passes);
-        band.bend(faired_coordinates(band, core, context), context);
+        band.bend(core.relaxed(band, band.curvatures(), context), context);
     }
     band.write(mesh);
     return region.vertices();

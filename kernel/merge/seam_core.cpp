@@ -64,13 +64,12 @@ Region seam_band(const std::shared_ptr<const Topology>& topology, std::span<cons
 }
 
 SeamCore::SeamCore(const BandSystem& band, std::span<const Index> rings, Index width)
-    : in_(static_cast<std::size_t>(band.vertex_count()), 0),
-      unknown_(static_cast<std::size_t>(band.vertex_count()), kNoIndex) {
+    : unknown_(static_cast<std::size_t>(band.vertex_count()), kNoIndex) {
     for (Index i = 0; i < band.vertex_count(); ++i) {
         const Index ring = rings[band.mesh_vertex(i)];
-        if (!band.moves(i) || ring == kNoIndex || ring >= width) continue;
+        if (!band.is_row(i) || band.on_boundary(i) || ring == kNoIndex || ring >= width) continue;
+        if (!band.moves(i) && ring > 0) continue;
         unknown_[i] = static_cast<Index>(vertices_.size());
-        in_[i] = 1;
         vertices_.push_back(i);
         strength_.push_back(kUmbrellaStrength * (width - ring) / width);
     }
@@ -87,23 +86,36 @@ void SeamCore::umbrella(BandSystem& band) const {
         const Vec3 way = mean - band.position(i), along = band.normal(i).dot(way) * band.normal(i);
         next.push_back(band.position(i) + strength_[k] * (way - along));
     }
-    for (std::size_t k = 0; k < vertices_.size(); ++k) band.set_position(vertices_[k], next[k]);
+    for (std::size_t k = 0; k < vertices_.size(); ++k) {
+        if (band.moves(vertices_[k])) band.set_position(vertices_[k], next[k]);
+    }
     band.measure();
 }
 
-SeamCore::Field SeamCore::relaxed(const BandSystem& band, const Context& context) const {
-    const auto n = static_cast<std::size_t>(band.vertex_count());
-    std::vector<Vec4> values(n, Vec4::Zero());
+std::vector<Vec3> SeamCore::relaxed(const BandSystem& band, std::span<const double> curvature,
+                                    const Context& context) const {
+    std::vector<Vec4> values(curvature.size(), Vec4::Zero());
+    std::vector<Vec3> wanted(curvature.size(), Vec3::Zero());
     for (Index i = 0; i < band.vertex_count(); ++i) {
-        if (band.is_row(i)) values[i] << band.curvature(i), band.normal(i);
+        if (!band.is_row(i)) continue;
+        values[i] << curvature[i], band.normal(i);
+        wanted[i] = band.coordinates(i) + (curvature[i] - band.curvature(i)) * band.normal(i);
     }
     values = fill(band, std::move(values), context);
-    Field field{std::vector<double>(n), std::vector<Vec3>(n)};
-    for (std::size_t i = 0; i < n; ++i) {
-        field.curvature[i] = values[i][0];
-        field.normal[i] = values[i].tail<3>().normalized();
+    for (const Index i : vertices_) {
+        wanted[i] = values[i][0] * values[i].tail<3>().normalized();
     }
-    return field;
+    return wanted;
+}
+
+std::vector<double> SeamCore::filled(const BandSystem& band, std::span<const double> curvature,
+                                     const Context& context) const {
+    std::vector<Vec4> values(curvature.size(), Vec4::Zero());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i][0] = curvature[i];
+    values = fill(band, std::move(values), context);
+    std::vector<double> result;
+    for (const Vec4& value : values) result.push_back(value[0]);
+    return result;
 }
 
 std::vector<Vec4> SeamCore::fill(const BandSystem& band, std::vector<Vec4> values,

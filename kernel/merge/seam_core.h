@@ -20,14 +20,12 @@ std::vector<Index> seam_rings(const Topology& topology, std::span<const std::vec
 /// component has numbers, those farthest from its seams stay too, for nothing else would hold it.
 Region seam_band(const std::shared_ptr<const Topology>& topology, std::span<const Index> rings);
 
-/// The core of a band: moving vertices within some rings of the seam.
+/// The core of a band: the rows on a seam, and those within some rings of it that move. Rows on
+/// open boundaries are none of it.
 class SeamCore {
   public:
     /// `rings` of the mesh's vertices; those below `width` are core.
     SeamCore(const BandSystem& band, std::span<const Index> rings, Index width);
-
-    const std::vector<Index>& vertices() const { return vertices_; }
-    bool contains(Index local) const { return in_[local] != 0; }
 
     /// One umbrella step within the tangent planes of the shape last measured: the core moves
     /// towards the mean of its neighbours, all at once, half the way on the seam and less in each
@@ -35,23 +33,24 @@ class SeamCore {
     /// to be kept around it.
     void umbrella(BandSystem& band) const;
 
-    /// Mean curvature and normal of every row in the shape last measured; those of the core are
-    /// filled harmonically from around it.
-    struct Field {
-        std::vector<double> curvature;
-        std::vector<Vec3> normal;
-    };
-    Field relaxed(const BandSystem& band, const Context& context) const;
+    /// Laplacian coordinates for `band` to bend to, one for each local vertex: those of the shape
+    /// last measured, with the mean curvature given for every row. In the core the curvature and
+    /// the normals are filled harmonically from around it, and there is nothing along the surface.
+    std::vector<Vec3> relaxed(const BandSystem& band, std::span<const double> curvature,
+                              const Context& context) const;
+    /// The given curvatures with those of the core filled.
+    std::vector<double> filled(const BandSystem& band, std::span<const double> curvature,
+                               const Context& context) const;
 
   private:
     std::vector<Vec4> fill(const BandSystem& band, std::vector<Vec4> values,
                            const Context& context) const;
+    bool contains(Index local) const { return unknown_[local] != kNoIndex; }
 
     std::vector<Index> vertices_;
-    std::vector<char> in_;
-    // Unknown of each local vertex in `fill`, or kNoIndex.
+    // Unknown of each local vertex in `fill`, or kNoIndex where it is not of the core.
     std::vector<Index> unknown_;
-    // How much of the way an umbrella step goes, for each core vertex.
+    // How much of the way an umbrella step goes, for each vertex of the core.
     std::vector<double> strength_;
 };
 
