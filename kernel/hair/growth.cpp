@@ -18,6 +18,9 @@ namespace {
 constexpr Index kTuft = 128;
 static_assert(kGrowthWave % kTuft == 0);
 
+// Strands that are copied by one thread at a time.
+constexpr Index kCopied = 256;
+
 constexpr std::size_t kMostPoints = std::numeric_limits<Index>::max();
 
 // The least segment, as a share of the usual one, and in roundings of the greatest coordinate: so
@@ -191,7 +194,7 @@ class Harvest {
     GrowthReport report;
 
   private:
-    void number_points(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts);
+    Index number_points(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts);
     void make_room(Index done);
 
     Strands& strands_;
@@ -199,6 +202,8 @@ class Harvest {
     Index count_;
     std::vector<float> points_;
     std::vector<Index> offsets_;
+    // The points of the strands of the wave, in the order of the roots.
+    std::vector<const float*> grown_;
     MemoryCharge charge_;
 };
 
@@ -211,14 +216,19 @@ void for_each_shoot(const GrowthRoots& roots, Index first, std::span<const Tuft>
     }
 }
 
-void Harvest::number_points(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
+Index Harvest::number_points(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
     Index last = first;
-    for_each_shoot(roots, first, tufts, [&](const Tuft&, const Tuft::Shoot& shoot, Index root) {
-        offsets_[static_cast<std::size_t>(root) + 1] = shoot.count;
-        ++report.ends[static_cast<std::size_t>(shoot.end)];
-        if (!report.ties.empty()) report.ties[static_cast<std::size_t>(root)] = shoot.tie;
-        ++last;
-    });
+    grown_.resize(kGrowthWave);
+    for_each_shoot(roots, first, tufts,
+                   [&](const Tuft& tuft, const Tuft::Shoot& shoot, Index root) {
+                       grown_[static_cast<std::size_t>(root - first)] =
+                           tuft.lists[shoot.list].data() + shoot.first;
+                       offsets_[static_cast<std::size_t>(root) + 1] = shoot.count;
+                       ++report.ends[static_cast<std::size_t>(shoot.end)];
+                       if (!report.ties.empty())
+                           report.ties[static_cast<std::size_t>(root)] = shoot.tie;
+                       ++last;
+                   });
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
         const std::size_t end =
             static_cast<std::size_t>(offsets_[i]) + static_cast<std::size_t>(offsets_[i + 1]);
@@ -228,6 +238,7 @@ void Harvest::number_points(const GrowthRoots& roots, Index first, std::span<con
         offsets_[i + 1] = static_cast<Index>(end);
     }
     make_room(last);
+    return last;
 }
 
 // Room for the first `done` strands, and for the others to come.
@@ -242,18 +253,13 @@ void Harvest::make_room(Index done) {
 }
 
 void Harvest::take(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
-    number_points(roots, first, tufts);
-    context_.parallel_for(0, static_cast<Index>(tufts.size()), 1, [&](Index begin, Index end) {
-        const auto some =
-            tufts.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
-        for_each_shoot(
-            roots, first + begin * kTuft, some,
-            [&](const Tuft& tuft, const Tuft::Shoot& shoot, Index root) {
-                const auto to =
-                    3 * static_cast<std::size_t>(offsets_[static_cast<std::size_t>(root)]);
-                std::copy_n(tuft.lists[shoot.list].data() + shoot.first,
-                            3 * static_cast<std::size_t>(shoot.count), points_.data() + to);
-            });
+    const Index last = number_points(roots, first, tufts);
+    context_.parallel_for(first, last, kCopied, [&](Index begin, Index end) {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            const auto to = 3 * static_cast<std::size_t>(offsets_[i]);
+            std::copy_n(grown_[i - static_cast<std::size_t>(first)],
+                        3 * static_cast<std::size_t>(offsets_[i + 1]) - to, points_.data() + to);
+        }
     });
 }
 

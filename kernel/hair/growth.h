@@ -95,7 +95,7 @@ struct GrowthReport {
 
 /// Grows strands from the same roots again and again, for instance while a curve is dragged: what
 /// depends on the roots alone is computed once, what depends on the seed or the length map when
-/// they change. Eight strands grow side by side, neighbours one after the other; the results are
+/// they change. Strands grow side by side, neighbours one after the other; the results are
 /// the same to the bit on any number of threads and with any vector instructions. For use by one
 /// thread at a time.
 class StrandGrower {

@@ -1,5 +1,8 @@
-/// Eight numbers side by side, as vector instructions take them; private to kernel/hair. Code that
-/// uses them is compiled twice, as kernel/core/lanes.h says.
+/// Numbers side by side, one a lane, as vector instructions take them; private to kernel/hair. Code
+/// that uses them is compiled several times, in files that say before with which instructions:
+/// LISSOM_LANES_AVX2, LISSOM_LANES_AVX512 or none. It stands between LISSOM_LANES_BEGIN and
+/// LISSOM_LANES_END, in namespace lissom::LISSOM_LANES, and behind the headers of others, as those
+/// must run on any processor.
 #pragma once
 
 #include <cmath>
@@ -8,19 +11,66 @@
 
 #include "kernel/core/lanes.h"
 
+#if defined(LISSOM_LANES_AVX512)
+#include <immintrin.h>
+#define LISSOM_LANES lanes_avx512
+#elif defined(LISSOM_LANES_AVX2)
+#include <immintrin.h>
+#define LISSOM_LANES lanes_avx2
+#else
+#define LISSOM_LANES lanes_anywhere
+#endif
+
+// All functions between are compiled for one processor: were they only inlined into a function for
+// it, gcc would have cut their vectors into pieces before.
+#define LISSOM_PRAGMA(x) _Pragma(#x)
+#if defined(LISSOM_LANES_AVX512) && defined(__clang__)
+#define LISSOM_LANES_BEGIN \
+    LISSOM_PRAGMA(         \
+        clang attribute push(__attribute__((target("avx2,avx512f"))), apply_to = function))
+#elif defined(LISSOM_LANES_AVX2) && defined(__clang__)
+#define LISSOM_LANES_BEGIN \
+    LISSOM_PRAGMA(clang attribute push(__attribute__((target("avx2"))), apply_to = function))
+#elif defined(LISSOM_LANES_AVX512)
+#define LISSOM_LANES_BEGIN          \
+    LISSOM_PRAGMA(GCC push_options) \
+    LISSOM_PRAGMA(GCC target("avx2,avx512f,prefer-vector-width=512"))
+#elif defined(LISSOM_LANES_AVX2)
+#define LISSOM_LANES_BEGIN          \
+    LISSOM_PRAGMA(GCC push_options) \
+    LISSOM_PRAGMA(GCC target("avx2"))
+#else
+#define LISSOM_LANES_BEGIN
+#endif
+#if !defined(LISSOM_LANES_AVX512) && !defined(LISSOM_LANES_AVX2)
+#define LISSOM_LANES_END
+#elif defined(__clang__)
+#define LISSOM_LANES_END LISSOM_PRAGMA(clang attribute pop)
+#else
+#define LISSOM_LANES_END LISSOM_PRAGMA(GCC pop_options)
+#endif
+
 #if defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12)
 #define LISSOM_HAS_SHUFFLES
 #endif
 
-namespace lissom {
+LISSOM_LANES_BEGIN
+namespace lissom::LISSOM_LANES {
 
+#if defined(LISSOM_LANES_AVX512)
+inline constexpr int kLanes = 16;
+#elif defined(LISSOM_LANES_AVX2)
 inline constexpr int kLanes = 8;
+#else
+inline constexpr int kLanes = 4;
+#endif
 
 #if defined(__GNUC__)
-using Floats = float __attribute__((vector_size(32)));
+using Floats = float __attribute__((vector_size(4 * kLanes)));
 /// Also answers to comparisons, lane by lane: -1 for yes and 0 for no.
-using Ints = std::int32_t __attribute__((vector_size(32)));
-using HalfFloats = float __attribute__((vector_size(16)));
+using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
+/// Not one a lane.
+using EightFloats = float __attribute__((vector_size(32)));
 #else
 template <typename Number, int kCount>
 struct Several {
@@ -47,6 +97,11 @@ struct Several {
         for (Number& y : a.v) y = x;
         return a * b;
     }
+    friend auto operator-(Number x, const Several& b) {
+        Several a;
+        for (Number& y : a.v) y = x;
+        return a - b;
+    }
     friend auto operator/(const Several& a, const Several& b) {
         return each(a, b, [](Number x, Number y) { return x / y; });
     }
@@ -66,19 +121,19 @@ struct Several {
 };
 using Floats = Several<float, kLanes>;
 using Ints = Several<std::int32_t, kLanes>;
-using HalfFloats = Several<float, kLanes / 2>;
+using EightFloats = Several<float, 8>;
 #endif
 
 LISSOM_INLINE Floats all(float x) {
-    return Floats{x, x, x, x, x, x, x, x};
+    return x - Floats{};
 }
 
 LISSOM_INLINE Ints all(std::int32_t x) {
-    return Ints{x, x, x, x, x, x, x, x};
+    return x - Ints{};
 }
 
-LISSOM_INLINE Floats load(const float* from) {
-    Floats result;
+LISSOM_INLINE EightFloats load(const float* from) {
+    EightFloats result;
     std::memcpy(&result, from, sizeof(result));
     return result;
 }
@@ -110,15 +165,41 @@ LISSOM_INLINE Ints no(const Ints& yes) {
 }
 
 LISSOM_INLINE bool any(const Ints& yes) {
+#if defined(LISSOM_LANES_AVX512)
+    const auto bits = reinterpret_cast<__m512i>(yes);
+    return _mm512_test_epi32_mask(bits, bits) != 0;
+#elif defined(LISSOM_LANES_AVX2)
+    const auto bits = reinterpret_cast<__m256i>(yes);
+    return _mm256_testz_si256(bits, bits) == 0;
+#else
     std::uint64_t pairs[kLanes / 2];
     std::memcpy(pairs, &yes, sizeof(pairs));
-    return (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
+    return (pairs[0] | pairs[1]) != 0;
+#endif
+}
+
+/// Bit k says whether lane k is not 0.
+LISSOM_INLINE unsigned bits_of(const Ints& yes) {
+#if defined(LISSOM_LANES_AVX512)
+    const auto numbers = reinterpret_cast<__m512i>(yes);
+    return _mm512_test_epi32_mask(numbers, numbers);
+#elif defined(LISSOM_LANES_AVX2)
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(no(no(yes)))));
+#else
+    unsigned bits = 0;
+    for (int k = 0; k < kLanes; ++k) bits |= (yes[k] != 0 ? 1u : 0u) << k;
+    return bits;
+#endif
 }
 
 LISSOM_INLINE Floats root(const Floats& x) {
+#if defined(LISSOM_LANES_AVX512)
+    return _mm512_maskz_sqrt_ps(0xffff, x);
+#else
     Floats result;
     for (int k = 0; k < kLanes; ++k) result[k] = std::sqrt(x[k]);
     return result;
+#endif
 }
 
 LISSOM_INLINE Ints truncate(const Floats& x) {
@@ -141,42 +222,93 @@ LISSOM_INLINE Floats to_floats(const Ints& x) {
 #endif
 }
 
-/// The halves of eight numbers, of which the lower comes first.
-LISSOM_INLINE void split(const Floats& x, HalfFloats& low, HalfFloats& high) {
-    std::memcpy(&low, &x, sizeof(low));
-    std::memcpy(&high, reinterpret_cast<const char*>(&x) + sizeof(low), sizeof(high));
-}
+// Shuffles of two vectors, in each part of four numbers alike: two numbers of a and two of b, or
+// one and one, twice.
+#if defined(LISSOM_HAS_SHUFFLES) && defined(LISSOM_LANES_AVX512)
+#define LISSOM_SHUFFLE_QUADS(a, b, i, j, k, l)                                             \
+    __builtin_shufflevector(a, b, i, j, k, l, (i) + 4, (j) + 4, (k) + 4, (l) + 4, (i) + 8, \
+                            (j) + 8, (k) + 8, (l) + 8, (i) + 12, (j) + 12, (k) + 12, (l) + 12)
+#elif defined(LISSOM_HAS_SHUFFLES) && defined(LISSOM_LANES_AVX2)
+#define LISSOM_SHUFFLE_QUADS(a, b, i, j, k, l) \
+    __builtin_shufflevector(a, b, i, j, k, l, (i) + 4, (j) + 4, (k) + 4, (l) + 4)
+#elif defined(LISSOM_HAS_SHUFFLES)
+#define LISSOM_SHUFFLE_QUADS(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
+#endif
 
-/// The last numbers of three, side by side; the fourth means nothing.
-LISSOM_INLINE HalfFloats last_of(const HalfFloats& a, const HalfFloats& b, const HalfFloats& c) {
+/// The last numbers of both halves of a and b: those halves of the result end with one of a and one
+/// of b; what is before means nothing.
+LISSOM_INLINE EightFloats last_of(const EightFloats& a, const EightFloats& b) {
 #if defined(LISSOM_HAS_SHUFFLES)
-    const HalfFloats ab = __builtin_shufflevector(a, b, 3, 7, 3, 7);
-    return __builtin_shufflevector(ab, c, 0, 1, 7, 7);
+    return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
 #else
-    return HalfFloats{a[3], b[3], c[3], c[3]};
+    return EightFloats{0.0f, 0.0f, a[3], b[3], 0.0f, 0.0f, a[7], b[7]};
 #endif
 }
 
-/// columns[i][k] = i-th number of rows[k].
-LISSOM_INLINE void transpose(const HalfFloats rows[kLanes], Floats columns[4]) {
 #if defined(LISSOM_HAS_SHUFFLES)
-    Floats pair[4];
-    for (int j = 0; j < 4; ++j) {
-        pair[j] = __builtin_shufflevector(rows[j], rows[j + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+// Four numbers of each of the rows 0, 4, 8 and so on. In registers: what was stored in parts is
+// slow to load at once.
+LISSOM_INLINE Floats every_fourth(const EightFloats* rows, int first) {
+    using Quad = float __attribute__((vector_size(16)));
+    Quad quads[kLanes / 4];
+    for (int i = 0; i < kLanes / 4; ++i) {
+        std::memcpy(&quads[i], reinterpret_cast<const float*>(&rows[4 * i]) + first, sizeof(Quad));
     }
-    const Floats a = __builtin_shufflevector(pair[0], pair[1], 0, 8, 1, 9, 4, 12, 5, 13);
-    const Floats b = __builtin_shufflevector(pair[2], pair[3], 0, 8, 1, 9, 4, 12, 5, 13);
-    const Floats c = __builtin_shufflevector(pair[0], pair[1], 2, 10, 3, 11, 6, 14, 7, 15);
-    const Floats d = __builtin_shufflevector(pair[2], pair[3], 2, 10, 3, 11, 6, 14, 7, 15);
-    columns[0] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-    columns[1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-    columns[2] = __builtin_shufflevector(c, d, 0, 1, 8, 9, 4, 5, 12, 13);
-    columns[3] = __builtin_shufflevector(c, d, 2, 3, 10, 11, 6, 7, 14, 15);
+#if defined(LISSOM_LANES_AVX512)
+    const EightFloats low = __builtin_shufflevector(quads[0], quads[1], 0, 1, 2, 3, 4, 5, 6, 7);
+    const EightFloats high = __builtin_shufflevector(quads[2], quads[3], 0, 1, 2, 3, 4, 5, 6, 7);
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#elif defined(LISSOM_LANES_AVX2)
+    return __builtin_shufflevector(quads[0], quads[1], 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+    return quads[0];
+#endif
+}
+#endif
+
+/// columns[i][k] = rows[k][first + i].
+LISSOM_INLINE void transpose(const EightFloats rows[kLanes], int first, Floats columns[4]) {
+#if defined(LISSOM_HAS_SHUFFLES)
+    constexpr int kEnd = kLanes;
+    Floats part[4];
+    for (int j = 0; j < 4; ++j) part[j] = every_fourth(rows + j, first);
+    const Floats a = LISSOM_SHUFFLE_QUADS(part[0], part[1], 0, kEnd, 1, kEnd + 1);
+    const Floats b = LISSOM_SHUFFLE_QUADS(part[2], part[3], 0, kEnd, 1, kEnd + 1);
+    const Floats c = LISSOM_SHUFFLE_QUADS(part[0], part[1], 2, kEnd + 2, 3, kEnd + 3);
+    const Floats d = LISSOM_SHUFFLE_QUADS(part[2], part[3], 2, kEnd + 2, 3, kEnd + 3);
+    columns[0] = LISSOM_SHUFFLE_QUADS(a, b, 0, 1, kEnd, kEnd + 1);
+    columns[1] = LISSOM_SHUFFLE_QUADS(a, b, 2, 3, kEnd + 2, kEnd + 3);
+    columns[2] = LISSOM_SHUFFLE_QUADS(c, d, 0, 1, kEnd, kEnd + 1);
+    columns[3] = LISSOM_SHUFFLE_QUADS(c, d, 2, 3, kEnd + 2, kEnd + 3);
 #else
     for (int i = 0; i < 4; ++i) {
-        for (int k = 0; k < kLanes; ++k) columns[i][k] = rows[k][i];
+        for (int k = 0; k < kLanes; ++k) columns[i][k] = rows[k][first + i];
     }
 #endif
 }
 
-}  // namespace lissom
+/// Lane k of three numbers side by side, in rows[k % 4] from k / 4 * 4 on; the fourth number there
+/// means nothing.
+LISSOM_INLINE void store_rows(const Floats& x, const Floats& y, const Floats& z,
+                              float rows[4][kLanes]) {
+#if defined(LISSOM_HAS_SHUFFLES)
+    constexpr int kEnd = kLanes;
+    const Floats low = LISSOM_SHUFFLE_QUADS(x, y, 0, kEnd, 1, kEnd + 1);
+    const Floats high = LISSOM_SHUFFLE_QUADS(x, y, 2, kEnd + 2, 3, kEnd + 3);
+    const Floats row[4] = {LISSOM_SHUFFLE_QUADS(low, z, 0, 1, kEnd, kEnd),
+                           LISSOM_SHUFFLE_QUADS(low, z, 2, 3, kEnd + 1, kEnd + 1),
+                           LISSOM_SHUFFLE_QUADS(high, z, 0, 1, kEnd + 2, kEnd + 2),
+                           LISSOM_SHUFFLE_QUADS(high, z, 2, 3, kEnd + 3, kEnd + 3)};
+    std::memcpy(rows, row, sizeof(row));
+#else
+    for (int k = 0; k < kLanes; ++k) {
+        float* row = rows[k % 4] + k / 4 * 4;
+        row[0] = x[k];
+        row[1] = y[k];
+        row[2] = row[3] = z[k];
+    }
+#endif
+}
+
+}  // namespace lissom::LISSOM_LANES
+LISSOM_LANES_END

@@ -66,13 +66,20 @@ struct Tuft {
     std::vector<Shoot> shoots;
 };
 
-/// With which instructions strands grow; the results are the same.
-enum class GrowthLoop { anywhere, avx2 };
-/// GrowthLoop::avx2 where this processor has it.
+/// With which instructions strands grow; the results are the same to the bit. A processor that runs
+/// one runs those before.
+enum class GrowthLoop { anywhere, avx2, avx512 };
+/// The last that this processor runs.
 GrowthLoop best_growth_loop();
 
 /// Replaces what `tuft` holds. `loop` must be one that this processor runs.
 void grow_tuft(const QuadGrid& grid, const GrowthRules& rules, std::span<const Seedling> seedlings,
                GrowthLoop loop, Tuft& tuft);
+
+/// grow_tuft on processors with AVX2, and with AVX-512; only where LISSOM_HAS_AVX2_PATH.
+void grow_tuft_avx2(const QuadGrid& grid, const GrowthRules& rules,
+                    std::span<const Seedling> seedlings, Tuft& tuft);
+void grow_tuft_avx512(const QuadGrid& grid, const GrowthRules& rules,
+                      std::span<const Seedling> seedlings, Tuft& tuft);
 
 }  // namespace lissom
