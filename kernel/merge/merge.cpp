@@ -165,6 +165,7 @@ struct Merge::State {
     std::vector<Vec3> all_positions(const BoundaryDeformation& deformed) const;
     void follow(const BoundaryDeformation& deformed, std::vector<Vec3>& positions) const;
     SewOptions sewing() const;
+    void finish_seams(Sewn& sewn, MergeReport& now, const Context& context) const;
     void turn_directions(const BoundaryDeformation& deformed, Mesh& moved) const;
 
     MergeOptions options;
@@ -218,6 +219,10 @@ void Merge::State::note_trims(const MergeSide& side, const char* name) {
         report.warnings.push_back(std::string("a boundary of the ") + name + " was jagged (" +
                                   degrees(side.turns[k]) +
                                   " degrees at each vertex) and has been trimmed");
+    }
+    for (const std::string& reason : side.untrimmed) {
+        report.warnings.push_back(std::string("a boundary of the ") + name +
+                                  " is jagged and could not be trimmed: " + reason);
     }
 }
 
@@ -509,6 +514,23 @@ SewOptions Merge::State::sewing() const {
     return how;
 }
 
+void Merge::State::finish_seams(Sewn& sewn, MergeReport& now, const Context& context) const {
+    const bool blends = options.source_transition > 0.0 || options.target_transition > 0.0;
+    if (blends) {
+        std::vector<TransitionWidths> widths;
+        for (const JoinReport& join : now.joins) {
+            widths.push_back({options.target_transition, options.source_transition * join.scale});
+        }
+        now.transition = blend_transition(sewn, widths, {}, context);
+    } else if (options.seam == SeamKind::fair) {
+        fair_seam(sewn.mesh, sewn.seams, {}, context);
+    }
+    if (blends || options.seam == SeamKind::fair) {
+        sewn.report.after = seam_quality(sewn.mesh, sewn.seams);
+    }
+    now.seam = sewn.report;
+}
+
 // Normals and tangents turn with the surface; displacements of morph targets grow with it as well.
 void Merge::State::turn_directions(const BoundaryDeformation& deformed, Mesh& moved) const {
     RestDirections(source.mesh, deformer->region()).apply_to(moved, deformed.transforms);
@@ -563,11 +585,7 @@ MergeResult Merge::solve(const Context& context) {
     state.turn_directions(deformed, moved);
     progress.step(0.5);
     Sewn sewn = sew(state.target, moved, pairs, state.sewing(), context);
-    if (state.options.seam == SeamKind::fair) {
-        fair_seam(sewn.mesh, sewn.seams, {}, context);
-        sewn.report.after = seam_quality(sewn.mesh, sewn.seams);
-    }
-    report.seam = sewn.report;
+    state.finish_seams(sewn, report, context);
     const MeshMap origins =
         appended_map(state.target_map, state.source.map, *state.given_target_topology);
     report.solve_seconds = seconds_since(start);

@@ -18,6 +18,7 @@
 #include "kernel/deform/boundary_deformer.h"
 #include "kernel/merge/correspondence.h"
 #include "kernel/merge/sew.h"
+#include "kernel/merge/transition.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/path.h"
 #include "kernel/mesh/region.h"
@@ -59,8 +60,8 @@ struct MergeOptions {
     double source_transition = 0.0, target_transition = 0.0;
     /// w_T of 3.3.3, of the thesis's transition.
     double transition_weight = 0.1;
-    /// Trims boundaries whose mean turn exceeds `greatest_turn` radians, because the seam shows
-    /// every tooth of them.
+    /// Trims boundaries that turn at their vertices, in the mean, by `greatest_turn` radians more
+    /// than a regular polygon: the seam would show every tooth of them.
     bool trim = true;
     double greatest_turn = 20.0 * kPi / 180.0;
     /// Splits the faces at a boundary of the source once where its edges are more than 1.5 times as
@@ -98,6 +99,8 @@ struct MergeReport {
     std::vector<std::string> warnings;
     DeformStats deform;
     SewReport seam;
+    /// Bands of the transition region, where there is one.
+    TransitionReport transition;
     /// Wall-clock seconds of preparation and of the last solve.
     double prepare_seconds = 0.0, solve_seconds = 0.0;
 };

@@ -9,6 +9,7 @@
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/measures.h"
 #include "kernel/mesh/transform.h"
+#include "kernel/mesh/trim.h"
 
 namespace lissom {
 namespace {
@@ -91,6 +92,13 @@ void require_simple(const Mesh& mesh, const std::vector<Index>& loop, const std:
     }
 }
 
+// Moves a loop to a new mesh by the vertices that stayed.
+std::vector<Index> carried_loop(const std::vector<Index>& loop, const std::vector<Index>& kept) {
+    std::vector<Index> result;
+    for (const Index v : loop) result.push_back(kept[v]);
+    return result;
+}
+
 }  // namespace
 
 Region MergeSide::carried(const Region& given) const {
@@ -108,7 +116,7 @@ Region MergeSide::carried(const Region& given) const {
 
 MergeSide make_side(const Mesh& mesh, const std::vector<Path>& boundaries,
                     const std::string& name) {
-    MergeSide side{mesh, identity_map(mesh.topology()), {}, {}, {}, false};
+    MergeSide side{mesh, identity_map(mesh.topology()), {}, {}, {}, {}, false};
     for (const Path& path : boundaries) {
         if (path.on_mesh())
             require_same_topology(mesh, path.topology(), "a boundary of the " + name);
@@ -139,9 +147,29 @@ void orient(MergeSide& side, const Context& context) {
 }
 
 void trim_jagged(MergeSide& side, double greatest_turn, const Context& context) {
-    (void)side;
-    (void)greatest_turn;
-    (void)context;
+    for (std::size_t k = 0; k < side.loops.size(); ++k) {
+        const Path boundary(side.mesh.shared_topology(), side.loops[k], true);
+        side.turns[k] = mean_turn(side.mesh, boundary);
+        // A loop of few vertices turns by much without being jagged.
+        const double smooth = 2.0 * kPi / static_cast<double>(side.loops[k].size());
+        if (side.turns[k] - smooth <= greatest_turn) continue;
+        try {
+            Trim trimmed = trim(side.mesh, boundary, {}, context);
+            const std::vector<Index> kept =
+                kept_vertices(trimmed.map.vertices, side.mesh.vertex_count());
+            for (std::size_t other = 0; other < side.loops.size(); ++other) {
+                side.loops[other] = other == k ? trimmed.boundary.vertices()
+                                               : carried_loop(side.loops[other], kept);
+            }
+            side.map = composed(trimmed.map, side.map);
+            side.mesh = std::move(trimmed.mesh);
+            side.trimmed[k] = 1;
+        } catch (const Error& error) {
+            // Where there is no room for a smooth line, a jagged seam is better than none.
+            if (error.code() != ErrorCode::boundary_conflict) throw;
+            side.untrimmed.push_back(error.message());
+        }
+    }
 }
 
 }  // namespace lissom

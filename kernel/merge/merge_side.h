@@ -22,6 +22,8 @@ struct MergeSide {
     /// Radians a loop's edges turn in the mean, as given, and whether it was trimmed.
     std::vector<double> turns;
     std::vector<char> trimmed;
+    /// Why jagged loops could not be trimmed.
+    std::vector<std::string> untrimmed;
     bool flipped = false;
 
     /// The vertices of `mesh` that are nothing but vertices of `given`.
@@ -36,7 +38,8 @@ MergeSide make_side(const Mesh& mesh, const std::vector<Path>& boundaries, const
 /// Turns a mesh over that is inside out: whose volume, boundaries capped, is clearly negative.
 void orient(MergeSide& side, const Context& context);
 
-/// Trims the loops that turn by more than `greatest_turn` radians in the mean.
+/// Trims the loops that turn by `greatest_turn` radians more than a regular polygon with as many
+/// vertices, in the mean. Where there is no room for it a loop stays as it is; see `untrimmed`.
 void trim_jagged(MergeSide& side, double greatest_turn, const Context& context);
 
 /// Splits the faces at one loop, once, by bisecting its edges.
