@@ -2,7 +2,8 @@
 /// (thesis section 3.3). The source is deformed so that its boundaries come to lie on those of the
 /// target, which stays, and both are sewn together.
 ///
-///     Merge merge(head, {&torso}, {{boundaries(head)[0], 0, boundaries(torso)[0], keys}});
+///     const Mesh* targets[] = {&torso};
+///     Merge merge(head, targets, {{boundaries(head)[0], boundaries(torso)[0]}});
 ///     MergeResult result = merge.solve();
 ///     merge.set_keys(0, other_keys);
 ///     result = merge.solve();  // no factorisation
