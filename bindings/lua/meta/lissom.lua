@@ -142,6 +142,34 @@
 ---@field group string Heading that it stands under, or an empty string.
 ---@field help string What it does, or an empty string.
 
+---The lines of a cut on the part that is kept, as a list.
+---@class lissom.CutLines
+---@field [integer] lissom.Path With the surface on its left; closed unless it ends at open boundaries.
+---@field b lissom.Path[] The same lines on the rest: from the same points, the other way.
+---@field report lissom.CutReport What was found and done.
+
+---What a cut found and did.
+---@class lissom.CutReport
+---@field warnings lissom.CutWarning[] Why the result may not be what was wanted.
+---@field touched_boundaries integer[] Open boundaries that lines end at: places in mesh:boundaries() of before.
+---@field lines_left integer Lines in which the plane crosses too, not cut.
+---@field whole_components integer Components that went to one part as a whole.
+---@field slid_vertices integer[] Vertices of before that slid onto a line.
+---@field divided_faces integer Faces that were divided.
+
+---Why the result of a cut may not be what was wanted.
+---@class lissom.CutWarning
+---@field kind string touches_boundary: a line ends at an open boundary; folded_line: a line seems to run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too.
+---@field message string What was found and what to do about it.
+---@field vertices integer[] Vertices of before where it was found, at most 100.
+
+---What was done to smooth a boundary.
+---@class lissom.TrimReport
+---@field before number Mean turn of the boundary before, in degrees.
+---@field after number Mean turn of the new one.
+---@field removed_faces integer Faces that are gone.
+---@field divided_faces integer Faces that were divided.
+
 ---Sizes of a hairstyle.
 ---@class lissom.HairstyleStats
 ---@field curves integer Number of curves.
@@ -520,6 +548,28 @@ function Mesh:path(options) end
 ---@return lissom.FillReport report # What was added.
 function Mesh:fill(boundary, options) end
 
+---@class lissom.Mesh.CutOptions.Plane
+---@field point lissom.Vector A point of the plane; the line nearest to it is cut.
+---@field normal lissom.Vector Towards the part to keep.
+---@field seed? lissom.Vector A point on or near the part to keep, instead of the normal's side.
+---@field near? lissom.Vector What the line is nearest to, instead of the point.
+---@field loops? "nearest"|"all" The line nearest to the point, or all lines of the plane. Default: "nearest".
+
+---@class lissom.Mesh.CutOptions
+---@field plane? lissom.Mesh.CutOptions.Plane Cuts by a plane; where it crosses the mesh elsewhere, that stays whole.
+---@field path? lissom.Vector[]|lissom.Path Cuts along a smooth line near a closed path; the part on its left is kept.
+---@field region? lissom.Region Cuts along all outlines of a region, which is kept.
+---@field seed? lissom.Vector A point on or near the part to keep, for a plane or path.
+---@field smoothing? number The line along a path or outline is smoothed over two edges around, but no more than this fraction of its length. Default: 0.04.
+---@field slide? number A vertex slides onto the line where that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.2.
+
+---Cuts the mesh in two along a smooth line through its faces: by exactly one of plane, path and region. Attributes are interpolated; vertices and faces off the line stay as they are. The mesh itself is not changed.
+---@param options? lissom.Mesh.CutOptions
+---@return lissom.Mesh a # The part that is kept.
+---@return lissom.Mesh b # The rest.
+---@return lissom.CutLines loops # The lines on both parts, and a report.
+function Mesh:cut(options) end
+
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Mesh:close() end
 
@@ -645,6 +695,21 @@ function Path:region() end
 ---The mesh that it runs on.
 ---@return lissom.Mesh mesh # The mesh.
 function Path:mesh() end
+
+---@class lissom.Path.TrimOptions
+---@field smoothing? number How smooth: standard deviation of the Gaussian that smooths the loop, as a fraction of its length. Default: 0.04.
+---@field margin? number Distance of the new boundary from the innermost vertex of the old one, in edge lengths. Default: 0.15.
+---@field slide? number A vertex slides onto the line where that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.2.
+
+---Makes a jagged open boundary smooth, in place: cuts a thin strip of the mesh off along a smooth line just inside. Paths and regions of before are then of an older topology.
+---@param options? lissom.Path.TrimOptions
+---@return lissom.Path boundary # The new boundary of the mesh.
+---@return lissom.TrimReport report # What was done.
+function Path:trim(options) end
+
+---Mean angle by which the line turns at its points: small for a smooth one, 30 degrees and more for one along the edges of triangles.
+---@return number angle # In degrees.
+function Path:mean_turn() end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Path:close() end
