@@ -135,14 +135,14 @@ int trim_boundary(Call& call) {
     options.margin = call.number("margin");
     options.slide = call.number("slide");
     struct {
-        double before, after;
+        double before, after, smoothing;
         Index removed, divided;
     } report{};
     const auto result = call.create<PathObject>();
     const bool done = call.attempt([&] {
         MeshObject& owner = *self->mesh;
         Trim trimmed = trim(owner.mesh, self->current(), options, call.context());
-        report = {trimmed.turn_before, trimmed.turn_after, trimmed.removed_faces,
+        report = {trimmed.turn_before, trimmed.turn_after, trimmed.smoothing, trimmed.removed_faces,
                   trimmed.divided_faces};
         result.set(std::make_shared<PathObject>(self->mesh, std::move(trimmed.boundary)));
         owner.mesh.replace_by(std::move(trimmed.mesh));
@@ -150,9 +150,10 @@ int trim_boundary(Call& call) {
     });
     if (!done) return call.fail();
     call.charge(result);
-    lua_createtable(call.lua(), 0, 4);
+    lua_createtable(call.lua(), 0, 5);
     call.set_field("before", call.push(report.before / kDegree));
     call.set_field("after", call.push(report.after / kDegree));
+    call.set_field("smoothing", call.push(report.smoothing));
     call.set_field("removed_faces", call.push(static_cast<int>(report.removed)));
     call.set_field("divided_faces", call.push(static_cast<int>(report.divided)));
     return 2;
@@ -288,6 +289,8 @@ std::vector<Record> cut_records() {
              "What was done to smooth a boundary.",
              {{"number", "before", "Mean turn of the boundary before, in degrees."},
               {"number", "after", "Mean turn of the new one."},
+              {"number", "smoothing",
+               "The smoothing used: less than asked for where the boundary turns too sharply."},
               {"integer", "removed_faces", "Faces that are gone."},
               {"integer", "divided_faces", "Faces that were divided."}}}};
 }
