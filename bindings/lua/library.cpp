@@ -28,7 +28,14 @@ Type whole_mesh_type() {
     add(mesh.methods, buffer_methods_of_mesh());
     add(mesh.methods, region_methods_of_mesh());
     add(mesh.methods, path_methods_of_mesh());
+    add(mesh.methods, cut_methods_of_mesh());
     return mesh;
+}
+
+Type whole_path_type() {
+    Type path = path_type();
+    add(path.methods, trim_methods_of_path());
+    return path;
 }
 
 }  // namespace
@@ -49,11 +56,12 @@ Library kernel_library() {
     add(library.functions, strand_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
-    library.types = {whole_mesh_type(),  region_type(),    path_type(),    buffer_type(),
-                     deformation_type(), handle_type(),    merging_type(), provenance_type(),
-                     scalp_type(),       hairstyle_type(), curve_type(),   strands_type(),
+    library.types = {whole_mesh_type(),  region_type(),    whole_path_type(), buffer_type(),
+                     deformation_type(), handle_type(),    merging_type(),    provenance_type(),
+                     scalp_type(),       hairstyle_type(), curve_type(),      strands_type(),
                      parameters_type()};
     library.records = kernel_records();
+    add(library.records, cut_records());
     add(library.records, merge_records());
     add(library.records, hairstyle_records());
     add(library.records, strand_records());

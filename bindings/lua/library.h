@@ -20,6 +20,10 @@ std::vector<Function> region_methods_of_mesh();
 Type path_type();
 std::vector<Function> path_methods_of_mesh();
 
+std::vector<Function> cut_methods_of_mesh();
+std::vector<Function> trim_methods_of_path();
+std::vector<Record> cut_records();
+
 Type buffer_type();
 std::vector<Function> buffer_methods_of_mesh();
 

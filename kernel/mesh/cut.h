@@ -29,7 +29,7 @@ struct CutOptions {
     CutLoops loops = CutLoops::nearest;
     /// A vertex slides onto the line where that crosses one of its edges within this fraction of
     /// the edge's length; 0 to 0.45.
-    double slide = 0.2;
+    double slide = 0.25;
 };
 
 struct CutPlane {

@@ -19,7 +19,7 @@ struct Splitting {
     /// join different parts only where a line crosses them.
     std::vector<signed char> side;
     /// Fraction of an edge within which its end slides onto a line.
-    double slide = 0.2;
+    double slide = 0.25;
 };
 
 /// A part of the mesh that was split.

@@ -16,6 +16,9 @@ namespace {
 // The band in which distances are known reaches this many edges beyond the new boundary.
 constexpr double kBandEdges = 3.0;
 
+// How often the smoothing is halved where no line is found.
+constexpr int kMostHalvings = 3;
+
 void require_options(const TrimOptions& options) {
     if (!(options.smoothing > 0.0 && options.smoothing <= 0.1)) {
         throw Error(ErrorCode::invalid_argument,
@@ -49,22 +52,37 @@ const std::vector<Index>& loop_of(const Mesh& mesh, const Path& boundary) {
                 std::move(elements));
 }
 
-// The contour at a constant distance from the smooth loop, just inside the innermost vertex.
-std::vector<ContourLine> new_boundary(const Mesh& mesh, const std::vector<Index>& loop,
-                                      const TrimOptions& options, const Context& context) {
-    const SurfaceCurve curve(mesh, loop, vertex_normals(mesh), options.smoothing);
+// The contour at a constant distance from the smooth loop, just inside the innermost vertex; none
+// where there is no such line all around.
+std::vector<ContourLine> line_inside(const Mesh& mesh, const std::vector<Index>& loop,
+                                     const SurfaceCurve& curve, double margin,
+                                     const Context& context) {
     const double edge = edge_length_at(mesh, loop);
     double inside = -std::numeric_limits<double>::infinity();
     for (const Index v : loop) {
         inside = std::max(inside, curve.nearest(mesh.position(v)).left);
     }
-    inside += options.margin * edge;
+    inside += margin * edge;
     const double width = std::abs(inside) + kBandEdges * edge;
     const CurveDistances distances = distances_to_curve(mesh, curve, loop, width, context);
     std::vector<double> value = distances.left;
     for (double& x : value) x -= inside;
     return contour_along(mesh, level_set(mesh.topology(), std::move(value), 0.0), distances,
                          context);
+}
+
+// A loop with sharp turns may not bear as much smoothing as was asked for.
+std::vector<ContourLine> new_boundary(const Mesh& mesh, const std::vector<Index>& loop,
+                                      const TrimOptions& options, double& smoothing,
+                                      const Context& context) {
+    const std::vector<Vec3> normals = vertex_normals(mesh);
+    smoothing = options.smoothing;
+    for (int halved = 0; halved <= kMostHalvings; ++halved, smoothing *= 0.5) {
+        const SurfaceCurve curve(mesh, loop, normals, smoothing);
+        std::vector<ContourLine> lines = line_inside(mesh, loop, curve, options.margin, context);
+        if (!lines.empty()) return lines;
+    }
+    refuse_strip(loop);
 }
 
 Index removed_faces(const Mesh& mesh, const MeshMap& map) {
@@ -81,8 +99,8 @@ Trim trim(const Mesh& mesh, const Path& boundary, const TrimOptions& options,
     require_cuttable(mesh, {.slide = options.slide});
     const std::vector<Index>& loop = loop_of(mesh, boundary);
     Progress progress(context, "trim");
-    std::vector<ContourLine> lines = new_boundary(mesh, loop, options, context);
-    if (lines.empty()) refuse_strip(loop);
+    double smoothing = 0.0;
+    std::vector<ContourLine> lines = new_boundary(mesh, loop, options, smoothing, context);
     std::vector<signed char> side = sides_of(mesh, lines);
     if (side[loop[0]] > 0) refuse_strip(loop);
     assign_whole_components(mesh, side, [](const auto&) -> signed char { return 1; });
@@ -90,6 +108,7 @@ Trim trim(const Mesh& mesh, const Path& boundary, const TrimOptions& options,
     SplitResult parts = split(mesh, splitting, context);
     SplitPart& part = parts.positive;
     Trim result{std::move(part.mesh), std::move(part.map), part.lines[0]};
+    result.smoothing = smoothing;
     result.turn_before = mean_turn(mesh, Path(mesh.shared_topology(), loop, true));
     result.turn_after = mean_turn(result.mesh, result.boundary);
     result.removed_faces = removed_faces(mesh, result.map);

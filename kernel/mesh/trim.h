@@ -8,13 +8,14 @@ namespace lissom {
 
 struct TrimOptions {
     /// How smooth: standard deviation of the Gaussian that smooths the loop, as a fraction of its
-    /// length; above 0, at most 0.1.
+    /// length; above 0, at most 0.1. Halved, up to three times, where a loop with sharp turns has
+    /// no smooth line beside it.
     double smoothing = 0.04;
     /// Distance of the new boundary from the innermost vertex of the old one, in mean edge lengths
     /// there; at least 0.
     double margin = 0.15;
     /// As CutOptions::slide.
-    double slide = 0.2;
+    double slide = 0.25;
 };
 
 struct Trim {
@@ -24,6 +25,8 @@ struct Trim {
     Path boundary;
     /// Mean turn of the boundary before and after, in radians.
     double turn_before = 0.0, turn_after = 0.0;
+    /// The smoothing that was used.
+    double smoothing = 0.0;
     /// Old faces that are gone and that were divided.
     Index removed_faces = 0, divided_faces = 0;
 };

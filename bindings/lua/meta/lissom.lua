@@ -142,6 +142,92 @@
 ---@field group string Heading that it stands under, or an empty string.
 ---@field help string What it does, or an empty string.
 
+---The lines of a cut on the part that is kept, as a list.
+---@class lissom.CutLines
+---@field [integer] lissom.Path With the surface on its left; closed unless it ends at open boundaries.
+---@field b lissom.Path[] The same lines on the rest: from the same points, the other way.
+---@field report lissom.CutReport What was found and done.
+
+---What a cut found and did.
+---@class lissom.CutReport
+---@field warnings lissom.CutWarning[] Why the result may not be what was wanted.
+---@field touched_boundaries integer[] Open boundaries that lines end at: places in mesh:boundaries() of before.
+---@field lines_left integer Lines in which the plane crosses too, not cut.
+---@field whole_components integer Components that went to one part as a whole.
+---@field slid_vertices integer[] Vertices of before that slid onto a line.
+---@field divided_faces integer Faces that were divided.
+
+---Why the result of a cut may not be what was wanted.
+---@class lissom.CutWarning
+---@field kind string touches_boundary: a line ends at an open boundary; folded_line: a line seems to run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too.
+---@field message string What was found and what to do about it.
+---@field vertices integer[] Vertices of before where it was found, at most 100.
+
+---What was done to smooth a boundary.
+---@class lissom.TrimReport
+---@field before number Mean turn of the boundary before, in degrees.
+---@field after number Mean turn of the new one.
+---@field smoothing number The smoothing used: less than asked for where the boundary turns too sharply.
+---@field removed_faces integer Faces that are gone.
+---@field divided_faces integer Faces that were divided.
+
+---An element that another comes from.
+---@class lissom.Origin
+---@field side string source or target.
+---@field target integer|nil Which of the targets.
+---@field vertex integer|nil A vertex of that mesh.
+---@field face integer|nil A face of that mesh.
+---@field weight number How much it counts.
+
+---How well seams are hidden; angles in degrees.
+---@class lissom.SeamQuality
+---@field greatest_dihedral number The greatest angle between faces across a seam.
+---@field rms_dihedral number Their root mean square, weighted by edge length.
+---@field greatest_near number The greatest angle on and next to a seam.
+---@field smallest_angle number The smallest angle of a triangle at a seam.
+---@field low_angle number The 5th percentile of the triangles' smallest angles.
+
+---What was done to sew.
+---@class lissom.SeamReport
+---@field inserted_into_target integer Vertices of the source inserted into its faces.
+---@field inserted_into_source integer The other way round.
+---@field snapped integer Pairs of vertices that became one because they were close.
+---@field flipped integer Edges flipped to avoid slivers.
+---@field band_removed integer Faces of the target that the band replaced.
+---@field band_added integer Faces that the band added.
+---@field before lissom.SeamQuality Before smoothing.
+---@field after lissom.SeamQuality As it is.
+
+---What was found at one join; angles in degrees.
+---@class lissom.JoinReport
+---@field source_size integer Vertices of the source's boundary as it was joined.
+---@field target_size integer Vertices of the target's.
+---@field scale number How much the source grew there.
+---@field guessed boolean No keys were given.
+---@field certainty number|nil Where it was guessed: how much worse the second best place is; below 1.5 give a key.
+---@field source_turn number Mean turn of the source's boundary at a vertex, as given.
+---@field target_turn number The same of the target's.
+---@field source_trimmed boolean It was jagged and has been trimmed.
+---@field target_trimmed boolean The same of the target's.
+---@field refined boolean Faces of the source were split there.
+
+---What a merge found and did.
+---@class lissom.MergeReport
+---@field joins lissom.JoinReport[] One a join.
+---@field warnings string[] What to look at, in plain words.
+---@field flipped table source and targets: what was inside out and has been turned over.
+---@field seam lissom.SeamReport What was done to sew, and how well.
+---@field seams lissom.Path[] The seams on the merged mesh.
+---@field source lissom.Region The vertices of the merged mesh that are the source's.
+---@field target lissom.Region Those that are the targets'.
+---@field provenance lissom.Provenance Where every element comes from.
+---@field free_vertices integer Vertices of the source that moved freely.
+---@field displaced_vertices integer Degenerate vertices displaced.
+---@field first_factor_seconds number Time to factor the first system.
+---@field second_factor_seconds number Time to factor the second.
+---@field prepare_seconds number Time to check, trim and factor.
+---@field solve_seconds number Time to deform and sew.
+
 ---Sizes of a hairstyle.
 ---@class lissom.HairstyleStats
 ---@field curves integer Number of curves.
@@ -524,6 +610,28 @@ function Mesh:path(options) end
 ---@return lissom.FillReport report # What was added.
 function Mesh:fill(boundary, options) end
 
+---@class lissom.Mesh.CutOptions.Plane
+---@field point lissom.Vector A point of the plane; the line nearest to it is cut.
+---@field normal lissom.Vector Towards the part to keep.
+---@field seed? lissom.Vector A point on or near the part to keep, instead of the normal's side.
+---@field near? lissom.Vector What the line is nearest to, instead of the point.
+---@field loops? "nearest"|"all" The line nearest to the point, or all lines of the plane. Default: "nearest".
+
+---@class lissom.Mesh.CutOptions
+---@field plane? lissom.Mesh.CutOptions.Plane Cuts by a plane; where it crosses the mesh elsewhere, that stays whole.
+---@field path? lissom.Vector[]|lissom.Path Cuts along a smooth line near a closed path; the part on its left is kept.
+---@field region? lissom.Region Cuts along all outlines of a region, which is kept.
+---@field seed? lissom.Vector A point on or near the part to keep, for a plane or path.
+---@field smoothing? number The line along a path or outline is smoothed over two edges around, but no more than this fraction of its length. Default: 0.04.
+---@field slide? number A vertex slides onto the line where that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.25.
+
+---Cuts the mesh in two along a smooth line through its faces: by exactly one of plane, path and region. Attributes are interpolated; vertices and faces off the line stay as they are. The mesh itself is not changed.
+---@param options? lissom.Mesh.CutOptions
+---@return lissom.Mesh a # The part that is kept.
+---@return lissom.Mesh b # The rest.
+---@return lissom.CutLines loops # The lines on both parts, and a report.
+function Mesh:cut(options) end
+
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Mesh:close() end
 
@@ -649,6 +757,21 @@ function Path:region() end
 ---The mesh that it runs on.
 ---@return lissom.Mesh mesh # The mesh.
 function Path:mesh() end
+
+---@class lissom.Path.TrimOptions
+---@field smoothing? number How smooth: standard deviation of the Gaussian that smooths the loop, as a fraction of its length. Default: 0.04.
+---@field margin? number Distance of the new boundary from the innermost vertex of the old one, in edge lengths. Default: 0.15.
+---@field slide? number A vertex slides onto the line where that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.25.
+
+---Makes a jagged open boundary smooth, in place: cuts a thin strip of the mesh off along a smooth line just inside. Paths and regions of before are then of an older topology.
+---@param options? lissom.Path.TrimOptions
+---@return lissom.Path boundary # The new boundary of the mesh.
+---@return lissom.TrimReport report # What was done.
+function Path:trim(options) end
+
+---Mean angle by which the line turns at its points: small for a smooth one, 30 degrees and more for one along the edges of triangles.
+---@return number angle # In degrees.
+function Path:mean_turn() end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Path:close() end
@@ -909,6 +1032,41 @@ function Handle:remove() end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Handle:close() end
+
+---A merge that is solved again, without factoring again, after its keys have moved: what a tool keeps while the user drags a key.
+---@class lissom.Merging
+local Merging = {}
+
+---Replaces the keys of one join, and returns the merge.
+---@param join integer Number of the join, from 1.
+---@param keys table List of { s, t }, as in lissom.merge.
+---@return lissom.Merging merging # The same merge.
+function Merging:set_keys(join, keys) end
+
+---Merges, and returns a new mesh and what was done.
+---@return lissom.Mesh mesh # The merged mesh.
+---@return lissom.MergeReport report # What was found and done.
+function Merging:solve() end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Merging:close() end
+
+---Where the elements of a merged mesh come from: elements of the source and of the targets as they were given.
+---@class lissom.Provenance
+local Provenance = {}
+
+---What a vertex is the weighted mean of, before it was moved: one vertex, or several where it was made on an edge; on a seam those of both sides.
+---@param vertex integer A vertex of the merged mesh.
+---@return lissom.Origin[] origins # With weights that sum to 1.
+function Provenance:vertex(vertex) end
+
+---The face that a face comes from.
+---@param face integer A face of the merged mesh.
+---@return lissom.Origin[] origins # With weights that sum to 1.
+function Provenance:face(face) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Provenance:close() end
 
 ---Where hair grows on a head, and the frame in which styles fit any head. It is that of the head's shape when it was made.
 ---@class lissom.Scalp
@@ -1509,7 +1667,7 @@ function Params:schema() end
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Params:close() end
 
----Modeling by few handles: meshes, regions, paths, deformation and hair.
+---Modeling by few handles: meshes, regions, paths, deformation, merging and hair.
 ---@class lissom
 ---@field version string Version of the library.
 local lissom = {}
@@ -1657,6 +1815,62 @@ function lissom.shapes.head(options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function lissom.deform(mesh, options) end
+
+---@class lissom.MergeOptions.Transition
+---@field source? number Width on the source. In units of the source. Default: 0.
+---@field target? number Width on the target. In units of the target. Default: 0.
+---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis". Default: 0.1.
+
+---@class lissom.MergeOptions
+---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, and the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
+---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
+---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@field configuration? "free"|"fixed" free: the source comes from wherever it lies, turned and scaled as fits (thesis 3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2). Default: "free".
+---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
+---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
+---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
+---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
+---@field smooth? integer Umbrella steps at the seam; with 0 no vertex of the target moves. Default: 3.
+---@field transition? lissom.MergeOptions.Transition Bands on either side of the seam in which details of both fade into each other. Default: none.
+---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
+---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
+---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
+---@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison. Default: "lissom".
+
+---Joins a source to one or several targets along open boundaries, into a new mesh. The source is deformed so that its boundaries meet those of the targets, wherever it lies and whatever its size; the targets stay. Vertices and faces of the targets come first, in their order, then those of the source; attributes, labels and regions of all are kept.
+---@param options lissom.MergeOptions
+---@return lissom.Mesh mesh # The merged mesh.
+---@return lissom.MergeReport report # What was found and done.
+function lissom.merge(options) end
+
+---@class lissom.MergingOptions.Transition
+---@field source? number Width on the source. In units of the source. Default: 0.
+---@field target? number Width on the target. In units of the target. Default: 0.
+---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis". Default: 0.1.
+
+---@class lissom.MergingOptions
+---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, and the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
+---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
+---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@field configuration? "free"|"fixed" free: the source comes from wherever it lies, turned and scaled as fits (thesis 3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2). Default: "free".
+---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
+---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
+---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
+---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
+---@field smooth? integer Umbrella steps at the seam; with 0 no vertex of the target moves. Default: 3.
+---@field transition? lissom.MergingOptions.Transition Bands on either side of the seam in which details of both fade into each other. Default: none.
+---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
+---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
+---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
+---@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison. Default: "lissom".
+
+---As lissom.merge, but returns an object that keeps what was prepared, so that a moved key costs a fraction of the first merge.
+---@param options lissom.MergingOptions
+---@return lissom.Merging merging # The merge, not solved yet.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.merging(options) end
 
 ---@class lissom.ScalpOptions
 ---@field region? lissom.Region Where hair grows. Default: the region "scalp", or what is above an average hairline.

@@ -1,0 +1,80 @@
+local lissom = require "lissom"
+local expect = require "expect"
+
+-- By a plane: the line nearest to the point, the side of the normal or of a seed.
+local cactus = lissom.shapes.cactus{ vertices = 4000 }
+local hash = cactus:hash()
+local arm_height = { cactus:region("left_arm"):center()[1], 1.4, 0 }
+local tip, trunk, loops = cactus:cut{ plane = { point = arm_height, normal = { 0, 1, 0 } } }
+expect.equal(cactus:hash(), hash)
+expect.equal(#loops, 1)
+expect.equal(#loops.b, 1)
+expect.truthy(rawequal(loops[1]:mesh(), tip) and rawequal(loops.b[1]:mesh(), trunk))
+expect.truthy(loops[1]:is_boundary() and loops.b[1]:is_boundary())
+expect.equal(loops.report.lines_left, 2)
+expect.truthy(loops.report.divided_faces > 0 and #loops.report.slid_vertices > 0)
+expect.equal(#loops.report.touched_boundaries, 0)
+expect.truthy(tip:bounds().max[1] < 0)
+local there, back = loops[1]:points(), loops.b[1]:reversed():points()
+for i = 1, #there do
+    for k = 1, 3 do expect.equal(there[i][k], back[i][k]) end
+end
+local kept = cactus:cut{ plane = { point = arm_height, normal = { 0, 1, 0 }, seed = { 0, 0, 0 } } }
+expect.equal(#kept, #trunk)
+kept = cactus:cut{ plane = { point = arm_height, normal = { 0, 1, 0 } }, seed = { 0, 0, 0 } }
+expect.equal(#kept, #trunk)
+local above = cactus:cut{ plane = { point = arm_height, normal = { 0, 1, 0 }, loops = "all" } }
+expect.equal(above:components(), 3)
+
+-- What stands in the way is said.
+local torus = lissom.shapes.torus()
+local none, message, code, elements = torus:cut{ plane = { point = { 1, 0, 0 }, normal = { 0, 0, 1 } } }
+expect.truthy(none == nil and message:find("does not separate", 1, true))
+expect.equal(code, "boundary_conflict")
+expect.equal(elements.kind, "edge")
+local grid = lissom.shapes.grid()
+local _, _, line = grid:cut{ plane = { point = { 0.03, 0, 0 }, normal = { 1, 0, 0.2 } } }
+expect.truthy(not line[1]:is_closed())
+expect.equal(line.report.touched_boundaries[1], 1)
+expect.equal(line.report.warnings[1].kind, "touches_boundary")
+expect.truthy(#line.report.warnings[1].message > 20 and #line.report.warnings[1].vertices == 2)
+
+-- By a path through points or vertices, and by a region.
+local ball = lissom.shapes.sphere{ kind = "triangles", segments = 16 }
+local points = {}
+for i = 1, 10 do
+    local angle = -i * math.pi / 5
+    points[i] = { math.cos(angle), 0.2 + 0.1 * math.cos(2 * angle), math.sin(angle) }
+end
+local cap, rest, ring = ball:cut{ path = points }
+expect.truthy(cap:bounds().max[2] > 0.9 and rest:bounds().min[2] < -0.9)
+expect.truthy(ring[1]:mean_turn() < 12)
+local low = ball:cut{ path = ball:path{ points = points, closed = true }, seed = { 0, -1, 0 } }
+expect.truthy(low:bounds().min[2] < -0.9)
+local region = ball:region{ plane = { point = { 0, 0.2, 0 }, normal = { 0.3, 1, 0 } } }
+local part, _, outline = ball:cut{ region = region, smoothing = 0.05 }
+expect.truthy(#part < #ball and outline[1]:mean_turn() < 12)
+
+-- Options that do not go together.
+expect.error("needs one of the options", function() ball:cut{} end)
+expect.error("needs one of the options", function() ball:cut{ path = points, region = region } end)
+expect.error("smoothing", function()
+    ball:cut{ plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } }, smoothing = 0.04 }
+end)
+expect.error("seed", function() ball:cut{ region = region, seed = { 0, 1, 0 } } end)
+expect.error("slide", function() ball:cut{ region = region, slide = 0.9 } end)
+
+-- Trimming changes the mesh in place.
+local jagged = ball:extract(region)
+local border = jagged:boundaries()[1]
+expect.truthy(border:mean_turn() > 20)
+local smooth, report = border:trim{}
+expect.truthy(rawequal(smooth:mesh(), jagged) and smooth:is_boundary())
+expect.truthy(report.before > 20 and report.after < 15 and report.removed_faces > 0)
+expect.near(smooth:mean_turn(), report.after, 1e-9)
+expect.error("[topology_mismatch]", function() border:trim() end)
+local before = jagged:hash()
+local failed, _, trim_code = smooth:trim{ margin = 1000 }
+expect.truthy(failed == nil)
+expect.equal(trim_code, "boundary_conflict")
+expect.equal(jagged:hash(), before)
