@@ -7,23 +7,27 @@
 namespace lissom {
 namespace {
 
+// Height of a triangle, in its longest edge, below which its normal counts for less and less.
+constexpr double kNeedle = 1e-6;
+
 // Angles, cotangents and area of one triangle, clamped.
 struct TriangleShape {
     double cotangent[3], angle[3];
     double area = 0.0;
     double edge_squared[3];  // opposite each corner
+    // Unit, but shorter for a needle, whose direction is that of rounding errors.
     Vec3 normal = Vec3::Zero();
 
     TriangleShape(const Vec3& a, const Vec3& b, const Vec3& c, double smallest_angle) {
         const Vec3 e[3] = {c - b, a - c, b - a};
         const Vec3 cross = e[2].cross(-e[1]);
         const double twice_area = cross.norm();
-        if (twice_area > 0.0) normal = cross / twice_area;
         double longest = 0.0;
         for (int k = 0; k < 3; ++k) {
             edge_squared[k] = e[k].squaredNorm();
             longest = std::max(longest, edge_squared[k]);
         }
+        if (twice_area > 0.0) normal = cross / std::hypot(twice_area, kNeedle * longest);
         area = 0.5 * std::max(twice_area, std::sin(smallest_angle) * longest);
         for (int k = 0; k < 3; ++k) {
             const double dot = -e[(k + 1) % 3].dot(e[(k + 2) % 3]);

@@ -30,9 +30,12 @@ struct Fans {
     }
 };
 
-// Distance at c of a front that reached a after `at_a` and b after `at_b`.
+// Distance at c of a front that reached a after `at_a` and b after `at_b`. It comes to c after
+// both: else a distance would jump where two vertices change places in the front by a rounding
+// error.
 double across(const Vec3& a, const Vec3& b, const Vec3& c, double at_a, double at_b) {
     const double along_edges = std::min(at_a + (c - a).norm(), at_b + (c - b).norm());
+    const auto later = [&](double d) { return std::min(along_edges, std::max({d, at_a, at_b})); };
     const double length = (b - a).norm();
     if (!(length > 0.0) || at_b == kFar) return along_edges;
     const double x = (c - a).dot(b - a) / length;
@@ -44,14 +47,14 @@ double across(const Vec3& a, const Vec3& b, const Vec3& c, double at_a, double a
         const double sy = std::sqrt(sy_squared);
         const double crossing = y + sy > 0.0 ? sx + (x - sx) * sy / (y + sy) : -1.0;
         if (crossing < 0.0 || crossing > length) return along_edges;
-        return std::min(along_edges, std::hypot(x - sx, y + sy));
+        return later(std::hypot(x - sx, y + sy));
     }
     const double sine = (at_b - at_a) / length;
     if (std::abs(sine) >= 1.0) return along_edges;
     const double cosine = std::sqrt(1.0 - sine * sine);
     const double crossing = x - y * sine / cosine;
     if (crossing < 0.0 || crossing > length) return along_edges;
-    return std::min(along_edges, at_a + sine * x + cosine * y);
+    return later(at_a + sine * x + cosine * y);
 }
 
 }  // namespace
