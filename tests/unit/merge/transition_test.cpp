@@ -3,7 +3,7 @@
 #include "kernel/merge/band_chart.h"
 #include "kernel/merge/band_map.h"
 #include "kernel/merge/fair_seam.h"
-#include "tests/unit/merge/seam_scenes.h"
+#include "tests/unit/merge/fairing_scenes.h"
 
 using namespace lissom;
 using doctest::Approx;
