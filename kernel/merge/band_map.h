@@ -7,14 +7,9 @@
 #include <vector>
 
 #include "kernel/merge/band_chart.h"
+#include "kernel/merge/band_place.h"
 
 namespace lissom {
-
-/// A place of a band: three of its mesh's vertices with weights that sum to 1.
-struct BandPlace {
-    Triangle vertices{kNoIndex, kNoIndex, kNoIndex};
-    std::array<double, 3> weights{1.0, 0.0, 0.0};
-};
 
 /// Finds the point of a band that has given coordinates.
 class BandMap {

@@ -11,10 +11,11 @@ namespace lissom {
 
 struct SeamFairing {
     /// Vertices within this many edges of a seam may move; at least 1.
-    Index rings = 4;
+    Index rings = 5;
     /// Of those the core, whose shape is made anew: the seam itself and this many rings less one;
-    /// at least 1, at most `rings`. Details between the core and the end of the band are kept.
-    Index core = 2;
+    /// at least 1, at most `rings`. Details between the core and the end of the band are kept. Two
+    /// rings beside the seam have faces that sewing has changed, and show neither side's shape.
+    Index core = 3;
     /// Umbrella steps within the tangent planes of the core, which spread its vertices before the
     /// surface is bent; 0 or more.
     Index umbrella = 1;

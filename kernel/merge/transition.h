@@ -22,7 +22,7 @@ struct TransitionOptions {
     /// The core of the seam, as SeamFairing: rings whose curvature continues what is around them,
     /// at least 1, umbrella steps within it, 0 or more, and times that the bands are bent, at
     /// least 1.
-    Index core = 2;
+    Index core = 3;
     Index umbrella = 1;
     Index passes = 2;
 };
