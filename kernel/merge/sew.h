@@ -78,10 +78,10 @@ struct Sewn {
 ///   the side that has any. Those of corners are interpolated in their own face, so that each side
 ///   keeps its values along the seam. Texture coordinates and tangents of vertices become those of
 ///   corners before;
-/// - what a side does not have at all is NaN there, as `append` does; files are written with white
-///   or without the value;
+/// - what a side does not have at all is NaN there, as `append` does. glTF files get white, zeros
+///   or the surface's normals in its place, OBJ files leave such colors out, others say nan;
 /// - a seam vertex is in the regions that it lies in on either side;
-/// - "normal" attributes are made anew on the seam, and turn with vertices that were smoothed;
+/// - normals are those of the surface on the seam, and turn with the vertices that were smoothed;
 /// - "joints" and "weights" are blended by joint where both sides have the same joints: the names
 ///   that the assets tell at the loops must agree, or the meshes must have the same asset or none.
 ///   Where one side alone has a skin, the other gets the weights of the seam, continued by a
