@@ -180,3 +180,29 @@ TEST_CASE("sew: ears at the same place on both sides do not make an edge with fo
     CHECK(sewn.mesh.topology().is_closed());
     CHECK(euler_characteristic(sewn.mesh.topology()) == 2);
 }
+
+TEST_CASE("sew: short edges of the source's loop are collapsed, the target keeps its vertices") {
+    SewScene scene = two_tubes(12, 30);
+    // Every third vertex of the source slides close to its neighbour.
+    LoopPair& join = scene.joins[0];
+    const std::vector<double> target = loop_fractions(points_of(scene.target, join.target));
+    std::vector<double> source;
+    for (std::size_t i = 0; i < join.source.size(); ++i) {
+        source.push_back((static_cast<double>(i) - (i % 3 == 2 ? 0.95 : 0.0)) / 30.0);
+    }
+    for (std::size_t i = 0; i < source.size(); ++i) join.on_target[i] = place_at(target, source[i]);
+    for (std::size_t j = 0; j < target.size(); ++j) join.on_source[j] = place_at(source, target[j]);
+    bring_together(scene.target, scene.source, join);
+    const Sewn sewn = sew(scene.target, scene.source, scene.joins, {.smooth = 0});
+    CHECK(sewn.report.collapsed > 0);
+    CHECK(sewn.mesh.vertex_count() == scene.target.vertex_count() + scene.source.vertex_count() -
+                                          sewn.report.snapped - sewn.report.collapsed);
+    CHECK(euler_characteristic(sewn.mesh.topology()) == 0);
+    for (Index v = 0; v < scene.target.vertex_count(); ++v) {
+        REQUIRE(same_bits(sewn.mesh.position(v), scene.target.position(v)));
+    }
+    const std::vector<Vec3> seam = points_of(sewn.mesh, sewn.seams[0]);
+    for (std::size_t k = 0; k < seam.size(); ++k) {
+        CHECK((seam[(k + 1) % seam.size()] - seam[k]).norm() > 0.4 * sewn.report.before.mean_edge);
+    }
+}
