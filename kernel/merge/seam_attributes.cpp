@@ -66,9 +66,18 @@ Vec3 normal_at(const Mesh& mesh, Index v) {
     return length > 0.0 ? Vec3(sum / length) : sum;
 }
 
-void write(Attribute& attribute, Index element, const Vec3& value) {
-    if (std::isnan(attribute.at(element)[0])) return;
-    for (int k = 0; k < 3; ++k) attribute.at(element)[k] = value[k];
+// Calls change(value) for each value that an attribute has at a vertex.
+template <typename Change>
+void change_at(const Topology& topology, Attribute& attribute, Index v, const Change& change) {
+    const auto change_one = [&](Index element) {
+        Eigen::Map<Vec3> value(attribute.at(element).data());
+        if (value.allFinite()) change(value);
+    };
+    if (attribute.domain == Domain::vertex) {
+        change_one(v);
+        return;
+    }
+    for (const Index f : topology.faces_around(v)) change_one(corner_at(topology, f, v));
 }
 
 }  // namespace
@@ -105,18 +114,28 @@ void carry_seam_regions(const Mesh& old, const std::unordered_map<Index, SeamSou
     }
 }
 
-void renew_normals(Mesh& mesh, std::span<const Index> vertices) {
-    Attribute* normals = mesh.attributes().find("normal");
-    if (!normals || role_of(*normals) != AttributeRole::normal) return;
-    if (normals->domain == Domain::face) return;
-    for (const Index v : vertices) {
-        const Vec3 normal = normal_at(mesh, v);
-        if (normals->domain == Domain::vertex) {
-            write(*normals, v, normal);
-            continue;
-        }
-        for (const Index f : mesh.topology().faces_around(v)) {
-            write(*normals, corner_at(mesh.topology(), f, v), normal);
+SeamNormals::SeamNormals(Mesh& mesh, std::vector<Index> moving) : mesh_(mesh) {
+    normals_ = mesh.attributes().find("normal");
+    const bool sound =
+        normals_ && role_of(*normals_) == AttributeRole::normal && normals_->domain != Domain::face;
+    if (!sound) normals_ = nullptr;
+    if (!normals_) return;
+    moving_ = std::move(moving);
+    for (const Index v : moving_) before_.push_back(normal_at(mesh, v));
+}
+
+void SeamNormals::follow(std::span<const std::vector<Index>> seams) {
+    if (!normals_) return;
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+        const auto turn =
+            Eigen::Quaterniond::FromTwoVectors(before_[i], normal_at(mesh_, moving_[i]));
+        change_at(mesh_.topology(), *normals_, moving_[i],
+                  [&](Eigen::Map<Vec3>& value) { value = (turn * value).normalized(); });
+    }
+    for (const std::vector<Index>& seam : seams) {
+        for (const Index v : seam) {
+            change_at(mesh_.topology(), *normals_, v,
+                      [&](Eigen::Map<Vec3>& value) { value = normal_at(mesh_, v); });
         }
     }
 }

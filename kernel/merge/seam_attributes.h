@@ -28,7 +28,20 @@ struct SeamSources {
 void carry_seam_regions(const Mesh& old, const std::unordered_map<Index, SeamSources>& sources,
                         std::span<const Index> new_number, Mesh& mesh);
 
-/// Replaces "normal" attributes of the given vertices by those of the surface.
-void renew_normals(Mesh& mesh, std::span<const Index> vertices);
+/// The "normal" attribute of a mesh around a seam that moves. Costs nothing where there is none.
+class SeamNormals {
+  public:
+    /// `moving` are vertices that will move.
+    SeamNormals(Mesh& mesh, std::vector<Index> moving);
+    /// Turns the normals of the vertices that moved with the surface, and gives those on the seams
+    /// the normal of the surface.
+    void follow(std::span<const std::vector<Index>> seams);
+
+  private:
+    Mesh& mesh_;
+    Attribute* normals_ = nullptr;
+    std::vector<Index> moving_;
+    std::vector<Vec3> before_;
+};
 
 }  // namespace lissom

@@ -108,16 +108,16 @@ class Assembly {
 
 void smooth(SeamWork& work, std::span<const Index> number, Index times, Sewn& sewn) {
     smooth_seams(work.patch, times);
-    std::vector<Index> changed;
+    std::vector<std::pair<Index, Vec3>> moved;
     for (const auto& [v, position] : work.patch.moved()) {
-        if (number[v] == kNoIndex) continue;
-        sewn.mesh.set_position(number[v], position);
-        changed.push_back(number[v]);
+        const bool moves = number[v] != kNoIndex && sewn.mesh.position(number[v]) != position;
+        if (moves) moved.emplace_back(number[v], position);
     }
-    for (const std::vector<Index>& seam : sewn.seams) {
-        changed.insert(changed.end(), seam.begin(), seam.end());
-    }
-    renew_normals(sewn.mesh, changed);
+    std::vector<Index> vertices;
+    for (const auto& [v, position] : moved) vertices.push_back(v);
+    SeamNormals normals(sewn.mesh, std::move(vertices));
+    for (const auto& [v, position] : moved) sewn.mesh.set_position(v, position);
+    normals.follow(sewn.seams);
 }
 
 }  // namespace

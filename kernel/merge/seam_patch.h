@@ -61,6 +61,10 @@ class SeamPatch {
     Index left_of(Index from, Index to) const;
     /// Puts vertex `into` of the target in the place of vertex `v` of the source.
     void merge_vertex(Index v, Index into);
+    /// Contracts the boundary edge between two vertices to `kept`; the face along it loses a corner
+    /// or, being a triangle, vanishes. False, and nothing is changed, where the result would not be
+    /// a manifold or a face would turn over.
+    bool collapse(Index gone, Index kept);
     /// Ends the splitting: `seams` are closed loops of vertices whose edges now have a face on each
     /// side.
     /// Errors: nonmanifold_edge where both sides join two seam vertices by an inner edge and
@@ -103,6 +107,7 @@ class SeamPatch {
     void replace(Index face, std::vector<SeamCorner> corners);
     void triangulate(Index face);
 
+    bool can_collapse(Index face, Index gone, Index kept) const;
     void separate_inner_edges();
     bool find_diagonal(Index a, Index c, std::size_t side, Diagonal& diagonal) const;
     bool can_flip(const Diagonal& diagonal) const;

@@ -33,8 +33,8 @@ struct SewOptions {
     /// Times that the umbrella operator moves the seam and, half as far, the vertices next to it; 0
     /// leaves every position of the target as it is, to the bit.
     Index smooth = 3;
-    /// Neighbours of different loops that are closer than this many mean seam edges become one
-    /// vertex, that of the target; 0 to 1. Not used by `band`.
+    /// Neighbours on the seam that are closer than this many mean seam edges become one vertex, 0
+    /// to 1: that of the target, if one is. Two of the target stay apart. `band` does not use it.
     double snap = 0.5;
     /// Flips edges within two rings of the seam that make slivers.
     bool flip = true;
@@ -45,8 +45,9 @@ struct SewReport {
     /// Vertices of the source's loops that were inserted into faces of the target, and the other
     /// way round, over all joins.
     Index inserted_into_target = 0, inserted_into_source = 0;
-    /// Pairs of vertices that became one because they were close.
-    Index snapped = 0;
+    /// Vertices of the source's loops that became one with a vertex of the target, and that were
+    /// drawn into another of the source, because they were close.
+    Index snapped = 0, collapsed = 0;
     Index flipped = 0;
     /// Faces of the target that `band` removed, and those it made.
     Index band_removed = 0, band_added = 0;
@@ -78,10 +79,10 @@ struct Sewn {
 ///   the side that has any. Those of corners are interpolated in their own face, so that each side
 ///   keeps its values along the seam. Texture coordinates and tangents of vertices become those of
 ///   corners before;
-/// - what a side does not have at all is NaN there, as `append` does; files are written with white
-///   or without the value;
+/// - what a side does not have at all is NaN there, as `append` does. glTF files get white, zeros
+///   or the surface's normals in its place, OBJ files leave such colors out, others say nan;
 /// - a seam vertex is in the regions that it lies in on either side;
-/// - "normal" attributes are made anew on the seam, and turn with vertices that were smoothed;
+/// - normals are those of the surface on the seam, and turn with the vertices that were smoothed;
 /// - "joints" and "weights" are blended by joint where both sides have the same joints: the names
 ///   that the assets tell at the loops must agree, or the meshes must have the same asset or none.
 ///   Where one side alone has a skin, the other gets the weights of the seam, continued by a

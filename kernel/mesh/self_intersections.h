@@ -12,7 +12,9 @@ namespace lissom {
 struct FacePair {
     Index first = kNoIndex, second = kNoIndex;
     bool operator==(const FacePair&) const = default;
-    auto operator<=>(const FacePair&) const = default;
+    bool operator<(const FacePair& other) const {
+        return first != other.first ? first < other.first : second < other.second;
+    }
 };
 
 struct SelfIntersectionOptions {

@@ -80,7 +80,8 @@ TEST_CASE("band: the least area of all starts, on random loops") {
 }
 
 TEST_CASE("band: a tube stays a manifold tube, and the source's loop is the seam") {
-    for (const auto& [n, m] : {std::pair<Index, Index>{24, 24}, {24, 31}, {40, 9}, {3, 50}}) {
+    for (const auto& counts : {std::pair<Index, Index>{24, 24}, {24, 31}, {40, 9}, {3, 50}}) {
+        const Index n = counts.first, m = counts.second;
         CAPTURE(n);
         CAPTURE(m);
         const SewScene scene = two_tubes(n, m);

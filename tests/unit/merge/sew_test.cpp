@@ -16,8 +16,6 @@ using namespace lissom::test;
 
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 bool same_bits(const Vec3& a, const Vec3& b) {
     return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
 }
@@ -28,10 +26,6 @@ SewScene cut_sphere() {
         cut_in_two(make_sphere({.segments = 12}), [](const Vec3& p) { return p.y() < 0.3; });
     add_join(scene, 0, 0, Vec3(1.0, 0.2, 0.3));
     return scene;
-}
-
-double degrees(double radians) {
-    return radians / kDegree;
 }
 
 }  // namespace
@@ -49,13 +43,14 @@ TEST_CASE("sew: parts of a sphere cut along its edges become the same sphere aga
 }
 
 TEST_CASE("sew: tubes with loops of very different counts give one manifold tube") {
-    for (const auto& [n, m] : {std::pair<Index, Index>{3, 200},
+    for (const auto& counts : {std::pair<Index, Index>{3, 200},
                                {200, 3},
                                {3, 3},
                                {17, 40},
                                {24, 24},
                                {40, 17},
                                {5, 6}}) {
+        const Index n = counts.first, m = counts.second;
         CAPTURE(n);
         CAPTURE(m);
         const SewScene scene = two_tubes(n, m);
@@ -64,11 +59,6 @@ TEST_CASE("sew: tubes with loops of very different counts give one manifold tube
         CHECK(euler_characteristic(sewn.mesh.topology()) == 0);
         CHECK(sewn.mesh.topology().component_count() == 1);
         CHECK(sewn.report.after.vertices == static_cast<Index>(sewn.seams[0].size()));
-        MESSAGE(n << " x " << m << ": before " << degrees(sewn.report.before.greatest_dihedral)
-                  << " / " << degrees(sewn.report.before.low_angle) << ", after "
-                  << degrees(sewn.report.after.greatest_dihedral) << " / "
-                  << degrees(sewn.report.after.low_angle) << " flips " << sewn.report.flipped
-                  << " snapped " << sewn.report.snapped);
     }
 }
 
@@ -189,4 +179,32 @@ TEST_CASE("sew: ears at the same place on both sides do not make an edge with fo
     const Sewn sewn = sew(scene.target, scene.source, scene.joins, {.smooth = 0});
     CHECK(sewn.mesh.topology().is_closed());
     CHECK(euler_characteristic(sewn.mesh.topology()) == 2);
+}
+
+TEST_CASE("sew: short edges of the source's loop are collapsed, the target keeps its vertices") {
+    SewScene scene = two_tubes(12, 30);
+    // Every third vertex of the source slides close to its neighbour.
+    LoopPair& join = scene.joins[0];
+    const std::vector<double> target = loop_fractions(points_of(scene.target, join.target));
+    std::vector<double> source;
+    for (std::size_t i = 0; i < join.source.size(); ++i) {
+        source.push_back((static_cast<double>(i) - (i % 3 == 2 ? 0.95 : 0.0)) / 30.0);
+    }
+    for (std::size_t i = 0; i < source.size(); ++i) join.on_target[i] = place_at(target, source[i]);
+    for (std::size_t j = 0; j < target.size(); ++j) join.on_source[j] = place_at(source, target[j]);
+    bring_together(scene.target, scene.source, join);
+    const Sewn sewn = sew(scene.target, scene.source, scene.joins, {.smooth = 0});
+    CHECK(sewn.report.collapsed > 0);
+    const auto met = std::count_if(join.on_target.begin(), join.on_target.end(),
+                                   [](const LoopPoint& place) { return place.t == 0.0; });
+    CHECK(sewn.mesh.vertex_count() + sewn.report.snapped + sewn.report.collapsed + met ==
+          scene.target.vertex_count() + scene.source.vertex_count());
+    CHECK(euler_characteristic(sewn.mesh.topology()) == 0);
+    for (Index v = 0; v < scene.target.vertex_count(); ++v) {
+        REQUIRE(same_bits(sewn.mesh.position(v), scene.target.position(v)));
+    }
+    const std::vector<Vec3> seam = points_of(sewn.mesh, sewn.seams[0]);
+    for (std::size_t k = 0; k < seam.size(); ++k) {
+        CHECK((seam[(k + 1) % seam.size()] - seam[k]).norm() > 0.4 * sewn.report.before.mean_edge);
+    }
 }
