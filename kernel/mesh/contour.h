@@ -7,6 +7,7 @@
 /// that only touches 0 has none there.
 #pragma once
 
+#include <cstdint>
 #include <unordered_map>
 #include <utility>
 #include <vector>

@@ -196,6 +196,7 @@ Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options, const 
     require_cuttable(mesh, options);
     require_smoothing(path.smoothing);
     Progress progress(context, "cut");
+    progress.step(0.6);
     const std::vector<Index> loop = loop_through(mesh, path.path, context);
     const SmoothLine line(mesh, loop, vertex_normals(mesh), path.smoothing, context);
     std::vector<ContourLine> lines{line.contour()};
@@ -210,6 +211,7 @@ Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options, const 
             }
             return line.curve().nearest(mean).left >= 0.0 ? 1 : -1;
         });
+    progress.step(0.4);
     return cut_along(mesh, std::move(lines), std::move(side), kept, options, std::move(report),
                      context);
 }
@@ -220,6 +222,7 @@ Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options,
     require_smoothing(region.smoothing);
     require_same_topology(mesh, region.region.topology(), "the region");
     Progress progress(context, "cut");
+    progress.step(0.6);
     const std::vector<Vec3> normals = vertex_normals(mesh);
     std::vector<ContourLine> lines;
     for (const std::vector<Index>& loop : inner_outlines(region)) {
@@ -235,6 +238,7 @@ Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options,
                                              [&](Index v) { return inside[v] != 0; });
             return 2 * count > static_cast<std::ptrdiff_t>(component.size()) ? 1 : -1;
         });
+    progress.step(0.4);
     return cut_along(mesh, std::move(lines), std::move(side), 1, options, std::move(report),
                      context);
 }

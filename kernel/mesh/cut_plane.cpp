@@ -77,6 +77,7 @@ Cut cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options,
     require_cuttable(mesh, options);
     require_plane(plane);
     Progress progress(context, "cut");
+    progress.step(0.4);
     const LevelSet levels = distances_from(mesh, plane);
     std::vector<ContourLine> lines = trace_contours(mesh, levels, context);
     if (lines.empty()) {
@@ -95,6 +96,7 @@ Cut cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options,
         return sum >= 0.0 ? 1 : -1;
     };
     report.whole_components = assign_whole_components(mesh, side, side_of);
+    progress.step(0.6);
     return cut_along(mesh, std::move(lines), std::move(side), kept, options, std::move(report),
                      context);
 }

@@ -291,9 +291,8 @@ class Splitter {
             } else if (p != q) {
                 push_different(nodes, p ? c.positive : c.negative);
             } else {
-                const Index first = first_of_both(line, i);
-                push_different(nodes, first);
-                push_different(nodes, c.other(first));
+                // The line comes along the edge, or only past the end that both neighbours share.
+                for (const Index step : {-1, 1}) push_different(nodes, shared_end(line, i, step));
             }
         }
         if (closed && nodes.size() > 1 && nodes.front() == nodes.back()) nodes.pop_back();
@@ -301,18 +300,19 @@ class Splitter {
     }
 
     static void push_different(std::vector<Node>& nodes, Node node) {
-        if (nodes.empty() || nodes.back() != node) nodes.push_back(node);
+        const bool same = !nodes.empty() && nodes.back() == node;
+        if (node != kNoIndex && !same) nodes.push_back(node);
     }
 
-    // Where both ends of a crossing slid, the line comes to that one first which the crossing
-    // before shares, and leaves by the one that the crossing after shares.
-    Index first_of_both(std::size_t line, Index i) const {
+    // The end that a crossing shares with the one before (step -1) or after it (step 1) on its
+    // line; kNoIndex where there is none.
+    Index shared_end(std::size_t line, Index i, Index step) const {
         const std::vector<Crossing>& c = splitting_.lines[line].crossings;
         const auto n = static_cast<Index>(c.size());
-        if (i == 0 && !splitting_.lines[line].closed) {
-            return c[0].positive == c[1].positive ? c[0].negative : c[0].positive;
-        }
-        return c[(i + n - 1) % n].positive == c[i].positive ? c[i].positive : c[i].negative;
+        const bool ends = i + step < 0 || i + step >= n;
+        if (ends && !splitting_.lines[line].closed) return kNoIndex;
+        const Crossing& other = c[(i + step + n) % n];
+        return other.positive == c[i].positive ? c[i].positive : c[i].negative;
     }
 
     const Mesh& mesh_;

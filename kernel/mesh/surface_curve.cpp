@@ -42,6 +42,38 @@ double length_of(const std::vector<Vec3>& points) {
     return length;
 }
 
+// Weights of a Gaussian over evenly spaced samples of a closed curve; `sigma` as a fraction of
+// their number.
+class Gaussian {
+  public:
+    Gaussian(double sigma, Index count) {
+        const double samples = sigma * count;
+        reach_ = std::min(static_cast<Index>(std::ceil(3.0 * samples)), (count - 1) / 2);
+        double sum = 0.0;
+        for (Index k = -reach_; k <= reach_; ++k) {
+            weight_.push_back(std::exp(-0.5 * (k / samples) * (k / samples)));
+            sum += weight_.back();
+        }
+        for (double& w : weight_) w /= sum;
+    }
+
+    std::vector<Vec3> smoothed(const std::vector<Vec3>& values) const {
+        const auto n = static_cast<Index>(values.size());
+        std::vector<Vec3> result = values;
+        for (Index i = 0; i < n; ++i) {
+            // Differences keep their digits far from the origin.
+            for (Index k = -reach_; k <= reach_; ++k) {
+                result[i] += weight_[k + reach_] * (values[(i + k + n) % n] - values[i]);
+            }
+        }
+        return result;
+    }
+
+  private:
+    Index reach_;
+    std::vector<double> weight_;
+};
+
 }  // namespace
 
 SurfaceCurve::SurfaceCurve(const Mesh& mesh, std::span<const Index> vertices,
@@ -85,29 +117,13 @@ void SurfaceCurve::sample(std::span<const Vec3> points, std::span<const Vec3> no
 }
 
 void SurfaceCurve::smooth(double sigma) {
-    const auto n = static_cast<Index>(points_.size());
-    const double samples = sigma * n;
-    if (!(samples > 0.0)) return;
-    const Index reach = std::min(static_cast<Index>(std::ceil(3.0 * samples)), (n - 1) / 2);
-    std::vector<double> weight;
-    double sum = 0.0;
-    for (Index k = -reach; k <= reach; ++k) {
-        weight.push_back(std::exp(-0.5 * (k / samples) * (k / samples)));
-        sum += weight.back();
-    }
-    std::vector<Vec3> points(points_.size(), Vec3::Zero()), normals = points;
-    for (Index i = 0; i < n; ++i) {
-        for (Index k = -reach; k <= reach; ++k) {
-            const Index j = (i + k + n) % n;
-            const double w = weight[k + reach] / sum;
-            // Differences keep their digits far from the origin.
-            points[i] += w * (points_[j] - points_[i]);
-            normals[i] += w * normals_[j];
-        }
-        points[i] += points_[i];
-    }
-    points_ = std::move(points);
-    normals_ = std::move(normals);
+    const Gaussian gaussian(sigma, static_cast<Index>(points_.size()));
+    // What a first pass takes away is smoothed and given back, 2 S - S S: bends keep their place,
+    // where a Gaussian alone would draw them inwards.
+    const std::vector<Vec3> once = gaussian.smoothed(points_);
+    const std::vector<Vec3> twice = gaussian.smoothed(once);
+    for (std::size_t i = 0; i < points_.size(); ++i) points_[i] = once[i] + (once[i] - twice[i]);
+    normals_ = gaussian.smoothed(normals_);
 }
 
 void SurfaceCurve::find_left() {

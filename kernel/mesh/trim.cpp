@@ -99,12 +99,14 @@ Trim trim(const Mesh& mesh, const Path& boundary, const TrimOptions& options,
     require_cuttable(mesh, {.slide = options.slide});
     const std::vector<Index>& loop = loop_of(mesh, boundary);
     Progress progress(context, "trim");
+    progress.step(0.6);
     double smoothing = 0.0;
     std::vector<ContourLine> lines = new_boundary(mesh, loop, options, smoothing, context);
     std::vector<signed char> side = sides_of(mesh, lines);
     if (side[loop[0]] > 0) refuse_strip(loop);
     assign_whole_components(mesh, side, [](const auto&) -> signed char { return 1; });
     const Splitting splitting{std::move(lines), std::move(side), options.slide};
+    progress.step(0.4);
     SplitResult parts = split(mesh, splitting, context);
     SplitPart& part = parts.positive;
     Trim result{std::move(part.mesh), std::move(part.map), part.lines[0]};

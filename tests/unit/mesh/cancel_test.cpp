@@ -4,15 +4,18 @@
 #include <string>
 
 #include "kernel/mesh/append.h"
+#include "kernel/mesh/cut.h"
 #include "kernel/mesh/distances.h"
 #include "kernel/mesh/extract.h"
 #include "kernel/mesh/fill.h"
+#include "kernel/mesh/region_select.h"
 #include "kernel/mesh/shapes.h"
 #include "kernel/mesh/smooth.h"
 #include "kernel/mesh/spatial_tree.h"
 #include "kernel/mesh/subdivide.h"
 #include "kernel/mesh/transform.h"
 #include "kernel/mesh/triangulate.h"
+#include "kernel/mesh/trim.h"
 #include "tests/unit/mesh/mesh_support.h"
 
 using namespace lissom;
@@ -72,6 +75,15 @@ TEST_CASE("a cancel at any report of progress leaves the mesh as it was") {
     check_cancel("extract", open, [](Mesh& m, const Context& c) {
         m = extract(m, Region::all(m.shared_topology()), c).mesh;
     });
+    check_cancel("cut", open, [](Mesh& m, const Context& c) {
+        m = cut(m, CutPlane{{0, 0.13, 0}, {0.2, 1, 0}}, {}, c).kept.mesh;
+    });
+    check_cancel("cut out", open, [](Mesh& m, const Context& c) {
+        const Region upper = select_plane(m, {0, 0.13, 0}, {0.2, 1, 0});
+        m = cut(m, CutRegion{upper}, {}, c).kept.mesh;
+    });
+    check_cancel("trim", open,
+                 [](Mesh& m, const Context& c) { m = trim(m, boundaries(m)[0], {}, c).mesh; });
     check_cancel("distances", open,
                  [](Mesh& m, const Context& c) { HeatDistances(m, c).from(std::array{0}, c); });
     check_cancel("tree", open, [](Mesh& m, const Context& c) { SpatialTree(m, c).bounds(); });

@@ -67,6 +67,33 @@ TEST_CASE("random planes through any shape leave two manifold parts that fit to 
     }
 }
 
+TEST_CASE("rough and folded surfaces on a lattice are cut as well as smooth ones") {
+    // Rounding the coordinates makes planes meet many vertices exactly and some faces without area.
+    const Mesh meshes[] = {make_sphere({.segments = 6}), make_box({.segments = {3, 3, 3}}),
+                           make_torus({.segments = 14, .tube_segments = 8})};
+    test::Random random(23);
+    for (int i = 0; i < 240; ++i) {
+        CAPTURE(i);
+        Mesh mesh = meshes[i % 3];
+        const double noise = (i % 2 ? 0.1 : 0.4) * mean_edge_length(mesh);
+        for (Vec3& p : mesh.edit_positions()) {
+            p += noise * random.direction();
+            if (i % 5 == 0) p = (8.0 * p.array()).round() / 8.0;
+        }
+        if (i % 4 < 2) triangulate(mesh);
+        const CutPlane plane{mesh.position(random.index(mesh.vertex_count())), random.direction()};
+        for (const double slide : {0.0, 0.25, 0.45}) {
+            try {
+                const Cut parts = cut(mesh, plane, {CutLoops::all, slide});
+                test::check_lines(parts);
+                test::check_faces(mesh, parts);
+            } catch (const Error& e) {
+                CHECK(e.code() == ErrorCode::invalid_argument);
+            }
+        }
+    }
+}
+
 TEST_CASE("planes through vertices, along edges and along faces cut cleanly") {
     // Every layer of vertices of a bar, a box and a sphere, and the same turned.
     for (const Mesh& mesh : {make_bar({.across = 4, .along = 10}), make_sphere({.segments = 8}),
