@@ -275,12 +275,12 @@ class LaneGrower {
         if (any(end)) end_lanes(end);
     }
 
-    // The code of what ends each strand with this segment, or before it, or 0; the last that holds
-    // counts.
     static LISSOM_INLINE void mark(Ints& end, const Ints& yes, StrandEnd why) {
         end = choose(yes, all(code(why)), end);
     }
 
+    // The code of what ends each strand with this segment, or before it, or 0; the last that holds
+    // counts.
     LISSOM_INLINE Ints ends_of(const Segments& next, const Ints& moves, const Ints& turns,
                                const Floats& left, const Floats& speed) const {
         Ints end = all(0);
