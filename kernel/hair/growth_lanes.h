@@ -14,7 +14,7 @@
 #if defined(LISSOM_LANES_AVX512)
 #include <immintrin.h>
 #define LISSOM_LANES lanes_avx512
-#define LISSOM_LANES_TARGET "avx2,avx512f"
+#define LISSOM_LANES_TARGET "avx2,avx512f,avx512bw,avx512dq,avx512vl"
 #elif defined(LISSOM_LANES_AVX2)
 #include <immintrin.h>
 #define LISSOM_LANES lanes_avx2
