@@ -179,7 +179,9 @@ LISSOM_INLINE unsigned bits_of(const Ints& yes) {
     return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(no(no(yes)))));
 #else
     unsigned bits = 0;
-    for (int k = 0; k < kLanes; ++k) bits |= (yes[k] != 0 ? 1u : 0u) << k;
+    for (int k = 0; k < kLanes; ++k) {
+        if (yes[k] != 0) bits |= 1u << k;
+    }
     return bits;
 #endif
 }
