@@ -15,7 +15,7 @@ namespace lissom {
 namespace {
 
 // Strands that are grown by one thread into one list.
-constexpr Index kTuft = 128;
+constexpr Index kTuft = 256;
 static_assert(kGrowthWave % kTuft == 0);
 
 // Strands that are copied by one thread at a time.
@@ -194,7 +194,11 @@ class Harvest {
     GrowthReport report;
 
   private:
-    Index number_points(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts);
+    // Lists the strands of a wave, with the count of i as offset i + 1; returns the root behind its
+    // last.
+    Index list_wave(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts);
+    // Makes offsets of the counts.
+    void number_points(Index first, Index last);
     void make_room(Index done);
 
     Strands& strands_;
@@ -202,33 +206,28 @@ class Harvest {
     Index count_;
     std::vector<float> points_;
     std::vector<Index> offsets_;
-    // The points of the strands of the wave, in the order of the roots.
-    std::vector<const float*> grown_;
+    // Where the points of each strand of a wave are, in the order of the roots: in that order they
+    // are copied fastest.
+    std::vector<const float*> wave_ = std::vector<const float*>(kGrowthWave);
     MemoryCharge charge_;
 };
 
-// Calls visit(shoot, root) for the strands of some tufts of a wave that begins with `first`.
-template <typename Visit>
-void for_each_shoot(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts,
-                    const Visit& visit) {
+Index Harvest::list_wave(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
+    Index next = first;
     for (const Tuft& tuft : tufts) {
-        for (const Tuft::Shoot& shoot : tuft.shoots) visit(tuft, shoot, roots.number(first++));
+        for (const Tuft::Shoot& shoot : tuft.shoots) {
+            const auto root = static_cast<std::size_t>(roots.number(next++));
+            wave_[root - static_cast<std::size_t>(first)] =
+                tuft.lists[shoot.list].data() + shoot.first;
+            offsets_[root + 1] = shoot.count;
+            ++report.ends[static_cast<std::size_t>(shoot.end)];
+            if (!report.ties.empty()) report.ties[root] = shoot.tie;
+        }
     }
+    return next;
 }
 
-Index Harvest::number_points(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
-    Index last = first;
-    grown_.resize(kGrowthWave);
-    for_each_shoot(roots, first, tufts,
-                   [&](const Tuft& tuft, const Tuft::Shoot& shoot, Index root) {
-                       grown_[static_cast<std::size_t>(root - first)] =
-                           tuft.lists[shoot.list].data() + shoot.first;
-                       offsets_[static_cast<std::size_t>(root) + 1] = shoot.count;
-                       ++report.ends[static_cast<std::size_t>(shoot.end)];
-                       if (!report.ties.empty())
-                           report.ties[static_cast<std::size_t>(root)] = shoot.tie;
-                       ++last;
-                   });
+void Harvest::number_points(Index first, Index last) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
         const std::size_t end =
             static_cast<std::size_t>(offsets_[i]) + static_cast<std::size_t>(offsets_[i + 1]);
@@ -237,8 +236,6 @@ Index Harvest::number_points(const GrowthRoots& roots, Index first, std::span<co
                 "longer segments");
         offsets_[i + 1] = static_cast<Index>(end);
     }
-    make_room(last);
-    return last;
 }
 
 // Room for the first `done` strands, and for the others to come.
@@ -253,12 +250,15 @@ void Harvest::make_room(Index done) {
 }
 
 void Harvest::take(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
-    const Index last = number_points(roots, first, tufts);
+    const Index last = list_wave(roots, first, tufts);
+    number_points(first, last);
+    make_room(last);
     context_.parallel_for(first, last, kCopied, [&](Index begin, Index end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            const auto to = 3 * static_cast<std::size_t>(offsets_[i]);
-            std::copy_n(grown_[i - static_cast<std::size_t>(first)],
-                        3 * static_cast<std::size_t>(offsets_[i + 1]) - to, points_.data() + to);
+            const auto from = static_cast<std::size_t>(offsets_[i]),
+                       to = static_cast<std::size_t>(offsets_[i + 1]);
+            std::copy_n(wave_[i - static_cast<std::size_t>(first)], 3 * (to - from),
+                        points_.data() + 3 * from);
         }
     });
 }

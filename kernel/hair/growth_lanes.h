@@ -14,39 +14,31 @@
 #if defined(LISSOM_LANES_AVX512)
 #include <immintrin.h>
 #define LISSOM_LANES lanes_avx512
+#define LISSOM_LANES_TARGET "avx2,avx512f,avx512bw,avx512dq,avx512vl"
 #elif defined(LISSOM_LANES_AVX2)
 #include <immintrin.h>
 #define LISSOM_LANES lanes_avx2
+#define LISSOM_LANES_TARGET "avx2"
 #else
 #define LISSOM_LANES lanes_anywhere
 #endif
 
 // All functions between are compiled for one processor: were they only inlined into a function for
 // it, gcc would have cut their vectors into pieces before.
-#define LISSOM_PRAGMA(x) _Pragma(#x)
-#if defined(LISSOM_LANES_AVX512) && defined(__clang__)
-#define LISSOM_LANES_BEGIN \
-    LISSOM_PRAGMA(         \
-        clang attribute push(__attribute__((target("avx2,avx512f"))), apply_to = function))
-#elif defined(LISSOM_LANES_AVX2) && defined(__clang__)
-#define LISSOM_LANES_BEGIN \
-    LISSOM_PRAGMA(clang attribute push(__attribute__((target("avx2"))), apply_to = function))
-#elif defined(LISSOM_LANES_AVX512)
-#define LISSOM_LANES_BEGIN          \
-    LISSOM_PRAGMA(GCC push_options) \
-    LISSOM_PRAGMA(GCC target("avx2,avx512f,prefer-vector-width=512"))
-#elif defined(LISSOM_LANES_AVX2)
-#define LISSOM_LANES_BEGIN          \
-    LISSOM_PRAGMA(GCC push_options) \
-    LISSOM_PRAGMA(GCC target("avx2"))
-#else
+#define LISSOM_PRAGMA_TEXT(x) _Pragma(#x)
+#define LISSOM_PRAGMA(x) LISSOM_PRAGMA_TEXT(x)
+#if !defined(LISSOM_LANES_TARGET)
 #define LISSOM_LANES_BEGIN
-#endif
-#if !defined(LISSOM_LANES_AVX512) && !defined(LISSOM_LANES_AVX2)
 #define LISSOM_LANES_END
 #elif defined(__clang__)
+#define LISSOM_LANES_BEGIN \
+    LISSOM_PRAGMA(         \
+        clang attribute push(__attribute__((target(LISSOM_LANES_TARGET))), apply_to = function))
 #define LISSOM_LANES_END LISSOM_PRAGMA(clang attribute pop)
 #else
+#define LISSOM_LANES_BEGIN          \
+    LISSOM_PRAGMA(GCC push_options) \
+    LISSOM_PRAGMA(GCC target(LISSOM_LANES_TARGET))
 #define LISSOM_LANES_END LISSOM_PRAGMA(GCC pop_options)
 #endif
 
@@ -187,7 +179,9 @@ LISSOM_INLINE unsigned bits_of(const Ints& yes) {
     return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(no(no(yes)))));
 #else
     unsigned bits = 0;
-    for (int k = 0; k < kLanes; ++k) bits |= (yes[k] != 0 ? 1u : 0u) << k;
+    for (int k = 0; k < kLanes; ++k) {
+        if (yes[k] != 0) bits |= 1u << k;
+    }
     return bits;
 #endif
 }

@@ -151,27 +151,29 @@ class LaneGrower {
         inside_ = (x == to_.x) & (y == to_.y) & (z == to_.z);
     }
 
-    const float* corner(int k) const {
-        return grid_.values + 4 * static_cast<std::size_t>(cell_[k]);
-    }
-
-    // At both ends along x of the cell where lane k is about to go, vector and distance, and slopes
-    // of the distance along y and z as the last two of four numbers.
-    LISSOM_INLINE void read(int k, EightFloats& quads, EightFloats& slopes) const {
-        const float* from = corner(k);
+    // At both ends along x of a cell, there along y and z, vector and distance, and slopes of the
+    // distance along y and z as the last two of four numbers.
+    LISSOM_INLINE void read(std::int32_t cell, float ty, float tz, EightFloats& quads,
+                            EightFloats& slopes) const {
+        const float* from = grid_.values + 4 * static_cast<std::size_t>(cell);
         const std::size_t nx = 4 * static_cast<std::size_t>(grid_.nx),
                           nxy = 4 * static_cast<std::size_t>(grid_.nxy);
         const EightFloats a = load(from), b = load(from + nx);
         const EightFloats low_z = load(from + nxy) - a, high_z = load(from + nxy + nx) - b;
-        const float ty = place_.y[k], tz = place_.z[k];
         const EightFloats low = a + tz * low_z, along_y = (b + tz * high_z) - low;
         quads = low + ty * along_y;
         slopes = last_of(along_y, low_z + ty * (high_z - low_z));
     }
 
     LISSOM_INLINE Reading read_all() const {
+        // Compilers that read single lanes of a vector may store all of it for each.
+        std::int32_t cells[kLanes];
+        float ty[kLanes], tz[kLanes];
+        std::memcpy(cells, &cell_, sizeof(cells));
+        std::memcpy(ty, &place_.y, sizeof(ty));
+        std::memcpy(tz, &place_.z, sizeof(tz));
         EightFloats quads[kLanes], slopes[kLanes];
-        for (int k = 0; k < kLanes; ++k) read(k, quads[k], slopes[k]);
+        for (int k = 0; k < kLanes; ++k) read(cells[k], ty[k], tz[k], quads[k], slopes[k]);
         Floats low[4], high[4], low_slopes[4], high_slopes[4];
         transpose(quads, 0, low);
         transpose(quads, 4, high);
@@ -275,12 +277,12 @@ class LaneGrower {
         if (any(end)) end_lanes(end);
     }
 
-    // The code of what ends each strand with this segment, or before it, or 0; the last that holds
-    // counts.
     static LISSOM_INLINE void mark(Ints& end, const Ints& yes, StrandEnd why) {
         end = choose(yes, all(code(why)), end);
     }
 
+    // The code of what ends each strand with this segment, or before it, or 0; the last that holds
+    // counts.
     LISSOM_INLINE Ints ends_of(const Segments& next, const Ints& moves, const Ints& turns,
                                const Floats& left, const Floats& speed) const {
         Ints end = all(0);
