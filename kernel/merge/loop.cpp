@@ -16,28 +16,67 @@ namespace {
 constexpr double kLengthSigma = 0.03;
 // A Gaussian ends at this many sigmas.
 constexpr double kReach = 3.0;
+// Vertices inside must be this many times as far from the boundary as what its own normal stands
+// for, to tell how it turns; and it turns on by no more than this, in radians.
+constexpr double kLeastReach = 1.5;
+constexpr double kMostTurn = 0.35;
 
 double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Normals of the surface at some vertices, weighted by angle, from the triangles around them alone.
+// The normal of the triangles around a vertex, weighted by angle, and how far from the vertex they
+// stand for in the mean: their middles by the same weights.
+struct FanNormal {
+    Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
+};
+
+FanNormal fan_normal(const Mesh& mesh, Index v) {
+    FanNormal fan;
+    double total = 0.0;
+    const Triangulation around =
+        triangulate_faces(mesh.topology(), mesh.positions(), mesh.topology().faces_around(v));
+    for (const Triangle& t : around.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            if (t[k] != v) continue;
+            const Vec3 a = mesh.position(t[(k + 1) % 3]) - mesh.position(v);
+            const Vec3 b = mesh.position(t[(k + 2) % 3]) - mesh.position(v);
+            const double angle = angle_between(a, b);
+            fan.normal += angle * a.cross(b).normalized();
+            fan.middle += angle * (a + b) / 3.0;
+            total += angle;
+        }
+    }
+    if (total > 0.0) fan.middle /= total;
+    fan.normal.normalize();
+    return fan;
+}
+
+// The normal of the surface on the boundary itself: that of the faces there is one a little inside,
+// and goes on as it turned from the vertices within to there. Without it a surface that bends
+// across the seam would be straightened.
+Vec3 boundary_normal(const Mesh& mesh, Index v) {
+    const FanNormal at = fan_normal(mesh, v);
+    Vec3 inner = Vec3::Zero(), arm = Vec3::Zero();
+    double count = 0.0;
+    for (const Index n : mesh.topology().neighbors(v)) {
+        if (mesh.topology().is_boundary(n)) continue;
+        inner += fan_normal(mesh, n).normal;
+        arm += mesh.position(n) - mesh.position(v);
+        count += 1.0;
+    }
+    if (count == 0.0) return at.normal;
+    inner.normalize();
+    const double near = at.middle.norm(), far = at.middle.normalized().dot(arm) / count;
+    if (!(far > kLeastReach * near)) return at.normal;
+    const Vec3 beyond = near / (far - near) * (at.normal - inner);
+    return (at.normal + std::min(1.0, kMostTurn / std::max(beyond.norm(), 1e-12)) * beyond)
+        .normalized();
+}
+
 std::vector<Vec3> normals_at(const Mesh& mesh, std::span<const Index> vertices) {
     std::vector<Vec3> normals;
-    for (const Index v : vertices) {
-        Vec3 sum = Vec3::Zero();
-        const Triangulation around =
-            triangulate_faces(mesh.topology(), mesh.positions(), mesh.topology().faces_around(v));
-        for (const Triangle& t : around.triangles) {
-            for (int k = 0; k < 3; ++k) {
-                if (t[k] != v) continue;
-                const Vec3 a = mesh.position(t[(k + 1) % 3]) - mesh.position(v);
-                const Vec3 b = mesh.position(t[(k + 2) % 3]) - mesh.position(v);
-                sum += angle_between(a, b) * a.cross(b).normalized();
-            }
-        }
-        normals.push_back(sum.normalized());
-    }
+    for (const Index v : vertices) normals.push_back(boundary_normal(mesh, v));
     return normals;
 }
 
