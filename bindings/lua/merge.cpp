@@ -27,6 +27,7 @@ MergeOptions merge_options(const Call& call) {
     options.trim = call.boolean("trim");
     options.greatest_turn = call.number("greatest_turn") * kPi / 180.0;
     options.refine = call.boolean("refine");
+    options.find_intersections = call.boolean("intersections");
     options.thesis = call.integer("fidelity") == 1;
     return options;
 }
@@ -251,6 +252,9 @@ std::vector<Parameter> merge_parameters() {
         boolean("refine",
                 "Faces of the source at a boundary are split once where its edges are "
                 "more than 1.5 times as long as those they meet.")
+            .defaults(true),
+        boolean("intersections",
+                "Looks for faces that run through one another and did not before, for the report.")
             .defaults(true),
         choice("fidelity", {"lissom", "thesis"},
                "thesis: its frames, scales and systems to the letter, for comparison.")

@@ -29,6 +29,7 @@ void push_seam(const Call& call, const SewReport& seam) {
     call.set_field("inserted_into_target", call.push(seam.inserted_into_target));
     call.set_field("inserted_into_source", call.push(seam.inserted_into_source));
     call.set_field("snapped", call.push(seam.snapped));
+    call.set_field("collapsed", call.push(seam.collapsed));
     call.set_field("flipped", call.push(seam.flipped));
     call.set_field("band_removed", call.push(seam.band_removed));
     call.set_field("band_added", call.push(seam.band_added));
@@ -95,6 +96,37 @@ void push_flips(const Call& call, const MergeReport& report) {
     lua_createtable(call.lua(), 0, 2);
     call.set_field("source", call.push(report.source_flipped));
     call.set_field("targets", call.push_ids(report.targets_flipped));
+}
+
+void push_intersections(const Call& call, const std::vector<FacePair>& pairs) {
+    lua_createtable(call.lua(), static_cast<int>(pairs.size()), 0);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const Index ids[] = {pairs[i].first, pairs[i].second};
+        call.push_ids(ids);
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
+}
+
+void push_band(const Call& call, const TransitionBand& band) {
+    lua_createtable(call.lua(), 0, 4);
+    call.set_field("width", call.push(band.width));
+    call.set_field("vertices", call.push(band.vertices));
+    call.set_field("flipped", call.push(band.flipped));
+    call.set_field("unmapped", call.push(band.unmapped));
+}
+
+// One pair of bands a seam; an empty list without a transition.
+void push_transition(const Call& call, const TransitionReport& transition) {
+    const std::size_t count = std::min(transition.source.size(), transition.target.size());
+    lua_createtable(call.lua(), static_cast<int>(count), 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        lua_createtable(call.lua(), 0, 2);
+        push_band(call, transition.source[i]);
+        call.set_field("source");
+        push_band(call, transition.target[i]);
+        call.set_field("target");
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
 }
 
 // ---- Provenance
@@ -190,6 +222,10 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     call.set_field("flipped");
     push_seam(call, result.report.seam);
     call.set_field("seam");
+    push_transition(call, result.report.transition);
+    call.set_field("transition");
+    push_intersections(call, result.report.intersections);
+    call.set_field("intersections");
     push_times(call, result.report);
     if (push_paths(call, owner, seams) != 1) return call.fail();
     call.set_field("seams");
@@ -252,6 +288,7 @@ std::vector<Record> merge_records() {
          {{"integer", "inserted_into_target", "Vertices of the source inserted into its faces."},
           {"integer", "inserted_into_source", "The other way round."},
           {"integer", "snapped", "Pairs of vertices that became one because they were close."},
+          {"integer", "collapsed", "Short edges of the source's boundary that became a vertex."},
           {"integer", "flipped", "Edges flipped to avoid slivers."},
           {"integer", "band_removed", "Faces of the target that the band replaced."},
           {"integer", "band_added", "Faces that the band added."},
@@ -276,6 +313,11 @@ std::vector<Record> merge_records() {
           {"string[]", "warnings", "What to look at, in plain words."},
           {"table", "flipped", "source and targets: what was inside out and has been turned over."},
           {"lissom.SeamReport", "seam", "What was done to sew, and how well."},
+          {"table[]", "transition",
+           "For each seam source and target: width, vertices, and flipped and unmapped ones, of "
+           "its bands."},
+          {"integer[][]", "intersections",
+           "Pairs of faces that run through one another and come from faces that did not."},
           {"lissom.Path[]", "seams", "The seams on the merged mesh."},
           {"lissom.Region", "source", "The vertices of the merged mesh that are the source's."},
           {"lissom.Region", "target", "Those that are the targets'."},

@@ -166,6 +166,7 @@ struct Merge::State {
     void follow(const BoundaryDeformation& deformed, std::vector<Vec3>& positions) const;
     SewOptions sewing() const;
     void finish_seams(Sewn& sewn, MergeReport& now, const Context& context) const;
+    std::vector<FacePair> new_intersections(const Sewn& sewn, const Context& context);
     void turn_directions(const BoundaryDeformation& deformed, Mesh& moved) const;
 
     MergeOptions options;
@@ -185,6 +186,8 @@ struct Merge::State {
     std::unique_ptr<BoundaryDeformer> deformer;
     /// With the features of a free configuration held as well.
     std::unique_ptr<BoundaryDeformer> featured;
+    /// Faces of the source that run through one another as they are; found when first needed.
+    std::optional<std::vector<FacePair>> own_intersections;
 };
 
 Merge::State::State(const Mesh& given_source, std::span<const Mesh* const> given_targets,
@@ -531,6 +534,23 @@ void Merge::State::finish_seams(Sewn& sewn, MergeReport& now, const Context& con
     now.seam = sewn.report;
 }
 
+std::vector<FacePair> Merge::State::new_intersections(const Sewn& sewn, const Context& context) {
+    if (!own_intersections) own_intersections = self_intersections(source.mesh, {}, context);
+    const Index shift = target.face_count();
+    std::vector<Index> faces;
+    for (Index f = 0; f < sewn.mesh.face_count(); ++f) {
+        if (sewn.side_of_face[f] == SeamSide::source) faces.push_back(f);
+    }
+    std::vector<FacePair> pairs = self_intersections(sewn.mesh, {std::move(faces)}, context);
+    std::erase_if(pairs, [&](const FacePair& pair) {
+        const Index a = sewn.map.faces.main_source(pair.first) - shift;
+        const Index b = sewn.map.faces.main_source(pair.second) - shift;
+        const FacePair before{std::min(a, b), std::max(a, b)};
+        return std::binary_search(own_intersections->begin(), own_intersections->end(), before);
+    });
+    return pairs;
+}
+
 // Normals and tangents turn with the surface; displacements of morph targets grow with it as well.
 void Merge::State::turn_directions(const BoundaryDeformation& deformed, Mesh& moved) const {
     RestDirections(source.mesh, deformer->region()).apply_to(moved, deformed.transforms);
@@ -586,6 +606,14 @@ MergeResult Merge::solve(const Context& context) {
     progress.step(0.5);
     Sewn sewn = sew(state.target, moved, pairs, state.sewing(), context);
     state.finish_seams(sewn, report, context);
+    if (state.options.find_intersections) {
+        report.intersections = state.new_intersections(sewn, context);
+        if (!report.intersections.empty()) {
+            report.warnings.push_back(std::to_string(report.intersections.size()) +
+                                      " pairs of faces run through one another that did not "
+                                      "before; see the report's intersections");
+        }
+    }
     const MeshMap origins =
         appended_map(state.target_map, state.source.map, *state.given_target_topology);
     report.solve_seconds = seconds_since(start);

@@ -23,6 +23,7 @@
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/path.h"
 #include "kernel/mesh/region.h"
+#include "kernel/mesh/self_intersections.h"
 
 namespace lissom {
 
@@ -68,6 +69,9 @@ struct MergeOptions {
     /// Splits the faces at a boundary of the source once where its edges are more than 1.5 times as
     /// long as those it meets (section 2.5).
     bool refine = true;
+    /// Looks for faces of the source that run through others and did not before; see
+    /// MergeReport::intersections.
+    bool find_intersections = true;
     /// The thesis to the letter: raw frames, scales from tangent lengths, its operators; |M| / sqrt
     /// 3 and (2.11); its transition. Seam and trimming are as chosen.
     bool thesis = false;
@@ -102,6 +106,9 @@ struct MergeReport {
     SewReport seam;
     /// Bands of the transition region, where there is one.
     TransitionReport transition;
+    /// Pairs of faces of the result, one of them at least of the source, that run through one
+    /// another and come from faces that did not.
+    std::vector<FacePair> intersections;
     /// Wall-clock seconds of preparation and of the last solve.
     double prepare_seconds = 0.0, solve_seconds = 0.0;
 };

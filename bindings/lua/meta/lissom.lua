@@ -192,6 +192,7 @@
 ---@field inserted_into_target integer Vertices of the source inserted into its faces.
 ---@field inserted_into_source integer The other way round.
 ---@field snapped integer Pairs of vertices that became one because they were close.
+---@field collapsed integer Short edges of the source's boundary that became a vertex.
 ---@field flipped integer Edges flipped to avoid slivers.
 ---@field band_removed integer Faces of the target that the band replaced.
 ---@field band_added integer Faces that the band added.
@@ -217,6 +218,8 @@
 ---@field warnings string[] What to look at, in plain words.
 ---@field flipped table source and targets: what was inside out and has been turned over.
 ---@field seam lissom.SeamReport What was done to sew, and how well.
+---@field transition table[] For each seam source and target: width, vertices, and flipped and unmapped ones, of its bands.
+---@field intersections integer[][] Pairs of faces that run through one another and come from faces that did not.
 ---@field seams lissom.Path[] The seams on the merged mesh.
 ---@field source lissom.Region The vertices of the merged mesh that are the source's.
 ---@field target lissom.Region Those that are the targets'.
@@ -1835,6 +1838,7 @@ function lissom.deform(mesh, options) end
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
+---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
 ---@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison. Default: "lissom".
 
 ---Joins a source to one or several targets along open boundaries, into a new mesh. The source is deformed so that its boundaries meet those of the targets, wherever it lies and whatever its size; the targets stay. Vertices and faces of the targets come first, in their order, then those of the source; attributes, labels and regions of all are kept.
@@ -1862,6 +1866,7 @@ function lissom.merge(options) end
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
+---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
 ---@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison. Default: "lissom".
 
 ---As lissom.merge, but returns an object that keeps what was prepared, so that a moved key costs a fraction of the first merge.

@@ -1,0 +1,345 @@
+// What merges promise, on generated shapes.
+#include "kernel/merge/merge.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kernel/deform/polar.h"
+#include "kernel/mesh/append.h"
+#include "kernel/mesh/cut.h"
+#include "kernel/mesh/measures.h"
+#include "kernel/mesh/region_select.h"
+#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/transform.h"
+#include "tests/unit/merge/loop_shapes.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+// A tube with bumps, standing on the plane z = 0 with an open end there, closed at the top.
+Mesh bumpy_dome(Index count, Index rings) {
+    Mesh open = tube(count, rings, [](double angle, double height) {
+        const double r = (1.0 + 0.08 * std::cos(3.0 * angle) * std::sin(5.0 * height)) *
+                         std::sqrt(1.0 - 0.98 * height * height);
+        return Vec3(r * std::cos(angle), 0.8 * r * std::sin(angle), 2.5 * height);
+    });
+    FaceList faces = open.topology().faces();
+    std::vector<Index> top;
+    for (Index k = 0; k < count; ++k) top.push_back((rings - 1) * count + k);
+    faces.add(top);
+    return Mesh({open.positions().begin(), open.positions().end()}, faces);
+}
+
+// The same upside down, twice as large, with its opening at the top.
+Mesh bowl(Index count, Index rings) {
+    Mesh mesh = bumpy_dome(count, rings);
+    Affine over = rotation(Vec3::UnitX(), kPi, Vec3::Zero());
+    over.linear *= 2.0;
+    transform(mesh, over);
+    return mesh;
+}
+
+Path opening(const Mesh& mesh) {
+    return boundaries(mesh).front();
+}
+
+MergeResult merged(const Mesh& source, const Mesh& target, const MergeOptions& options = {},
+                   std::vector<KeyPair> keys = {}) {
+    const Mesh* targets[] = {&target};
+    return Merge(source, targets, {Join{opening(source), opening(target), 0, std::move(keys)}},
+                 options)
+        .solve();
+}
+
+Region above(const Mesh& mesh, double height) {
+    std::vector<Index> vertices;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (mesh.position(v).z() > height) vertices.push_back(v);
+    }
+    return Region(mesh.shared_topology(), std::move(vertices));
+}
+
+// The vertex of the result that is nothing but a vertex of the source.
+Index result_vertex(const MergeResult& result, Index target_count, Index v) {
+    for (Index r = 0; r < result.mesh.vertex_count(); ++r) {
+        const auto sources = result.provenance.vertices[r];
+        if (sources.size() == 1 && sources.front().element == target_count + v) return r;
+    }
+    return kNoIndex;
+}
+
+// How far points are from the similarity image of others that fits them best.
+double shape_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+    const auto n = static_cast<double>(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        from += a[i] / n;
+        to += b[i] / n;
+    }
+    Mat3 products = Mat3::Zero();
+    double squares_a = 0.0, squares_b = 0.0, worst = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        products += (b[i] - to) * (a[i] - from).transpose();
+        squares_a += (a[i] - from).squaredNorm();
+        squares_b += (b[i] - to).squaredNorm();
+    }
+    const double scale = std::sqrt(squares_b / squares_a);
+    const Mat3 turn = nearest_rotation(products / std::sqrt(squares_a * squares_b));
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        worst = std::max(worst, (b[i] - to - scale * (turn * (a[i] - from))).norm());
+    }
+    return worst / std::sqrt(squares_b / n);
+}
+
+}  // namespace
+
+TEST_CASE("a dome on a bowl: closed, the dome twice as large, the report says what happened") {
+    const Mesh source = bumpy_dome(40, 24), target = bowl(50, 20);
+    const MergeResult result = merged(source, target, {}, {{Vec3(1, 0, 0), Vec3(2, 0, 0)}});
+    CHECK(result.mesh.topology().is_closed());
+    CHECK(euler_characteristic(result.mesh.topology()) == 2);
+    CHECK(volume(result.mesh) > 0.0);
+    CHECK(result.report.joins[0].scale == doctest::Approx(2.0).epsilon(0.01));
+    CHECK(!result.report.joins[0].guessed);
+    CHECK(result.report.warnings.empty());
+    CHECK(result.report.seam.after.greatest_dihedral < 0.3);
+    CHECK(result.side_of_face.size() == static_cast<std::size_t>(result.mesh.face_count()));
+    CHECK(result.seams.size() == 1);
+    // The top of the dome comes to lie where the dome, twice as large, has it.
+    CHECK(bounds(result.mesh).max.z() == doctest::Approx(5.0).epsilon(0.05));
+}
+
+TEST_CASE("provenance: every vertex is the mean it says, corners and faces are complete") {
+    const Mesh source = bumpy_dome(40, 24), target = bowl(57, 20);
+    const MergeResult result = merged(source, target);
+    const Index vertices = source.vertex_count() + target.vertex_count();
+    const Index corners = source.topology().corner_count() + target.topology().corner_count();
+    const Index faces = source.face_count() + target.face_count();
+    const auto complete = [](const ElementMap& map, Index count, Index limit) {
+        REQUIRE(map.size() == count);
+        for (Index i = 0; i < count; ++i) {
+            double sum = 0.0;
+            for (const auto& [element, weight] : map[i]) {
+                CHECK(element >= 0);
+                CHECK(element < limit);
+                sum += weight;
+            }
+            CHECK(sum == doctest::Approx(1.0));
+        }
+    };
+    complete(result.provenance.vertices, result.mesh.vertex_count(), vertices);
+    complete(result.provenance.corners, result.mesh.topology().corner_count(), corners);
+    complete(result.provenance.faces, result.mesh.face_count(), faces);
+    CHECK(result_vertex(result, target.vertex_count(), 500) != kNoIndex);
+}
+
+TEST_CASE("a fixed feature keeps its shape in the free configuration, and moves as a whole") {
+    const Mesh source = bumpy_dome(40, 24), target = bowl(50, 20);
+    // A boundary that is pressed flat, so that the dome bends.
+    Mesh pressed = target;
+    for (Vec3& p : pressed.edit_positions()) p.y() *= 0.6;
+    const Region feature = above(source, 1.5);
+    const auto positions_of = [&](const MergeResult& result) {
+        std::vector<Vec3> positions;
+        for (const Index v : feature.vertices()) {
+            positions.push_back(
+                result.mesh.position(result_vertex(result, target.vertex_count(), v)));
+        }
+        return positions;
+    };
+    std::vector<Vec3> rest;
+    for (const Index v : feature.vertices()) rest.push_back(source.position(v));
+    const std::vector<KeyPair> keys{{Vec3(1, 0, 0), Vec3(2, 0, 0)}};
+    MergeOptions options;
+    const double bent =
+        shape_difference(rest, positions_of(merged(source, pressed, options, keys)));
+    options.fixed = {feature};
+    const MergeResult kept = merged(source, pressed, options, keys);
+    CHECK(bent > 1e-3);
+    CHECK(shape_difference(rest, positions_of(kept)) < 1e-9);
+    CHECK(kept.mesh.topology().is_closed());
+}
+
+TEST_CASE("the fixed configuration leaves the source where it is, apart from its end") {
+    Mesh source = bumpy_dome(40, 24);
+    Affine place;
+    place.linear = 2.1 * Mat3::Identity();
+    place.translation = Vec3(0.3, 0.2, 0.4);
+    transform(source, place);
+    const Mesh target = bowl(50, 20);
+    MergeOptions options;
+    options.configuration = Configuration::fixed;
+    SUBCASE("by features that stay") {
+        options.fixed = {above(source, 2.5)};
+    }
+    SUBCASE("by a reach") {
+        options.reach = 1.5;
+    }
+    SUBCASE("with frames that stay") {
+        options.reach = 1.5;
+        options.turn_frames = false;
+    }
+    const MergeResult result = merged(source, target, options, {{Vec3(2.4, 0, .4), Vec3(2, 0, 0)}});
+    CHECK(result.mesh.topology().is_closed());
+    for (const Index v : above(source, 2.5).vertices()) {
+        const Index r = result_vertex(result, target.vertex_count(), v);
+        CHECK(result.mesh.position(r) == source.position(v));
+    }
+    CHECK(result.report.deform.free_vertices < source.vertex_count() - 100);
+}
+
+TEST_CASE("full frames meet the target more smoothly than those that stay") {
+    Mesh source = bumpy_dome(40, 24);
+    const Affine tilted = rotation(Vec3::UnitX(), 0.6, Vec3::Zero());
+    Affine place = tilted;
+    place.linear *= 2.0;
+    place.translation = Vec3(0, 0, 0.8);
+    transform(source, place);
+    const Mesh target = bowl(50, 20);
+    MergeOptions options;
+    options.configuration = Configuration::fixed;
+    options.smooth = 0;
+    options.reach = 2.0;
+    const double full = merged(source, target, options, {{Vec3(2, 0, .8), Vec3(2, 0, 0)}})
+                            .report.seam.after.rms_dihedral;
+    options.turn_frames = false;
+    const double kept = merged(source, target, options, {{Vec3(2, 0, .8), Vec3(2, 0, 0)}})
+                            .report.seam.after.rms_dihedral;
+    CHECK(full < 0.6 * kept);
+}
+
+TEST_CASE("parts of the source without a join go along with what is nearest to them") {
+    Mesh source = bumpy_dome(40, 24);
+    SphereOptions small;
+    small.radius = 0.1;
+    Mesh eye = make_sphere(small);
+    Affine place;
+    place.translation = Vec3(0.8, 0, 1.4);
+    transform(eye, place);
+    const Index first = source.vertex_count();
+    append(source, eye);
+    const Mesh target = bowl(50, 20);
+    const MergeResult result = merged(source, target, {}, {{Vec3(1, 0, 0), Vec3(2, 0, 0)}});
+    CHECK(result.mesh.topology().component_count() == 2);
+    std::vector<Vec3> before, after;
+    for (Index v = first; v < source.vertex_count(); ++v) {
+        before.push_back(source.position(v));
+        after.push_back(result.mesh.position(result_vertex(result, target.vertex_count(), v)));
+    }
+    CHECK(shape_difference(before, after) < 1e-9);
+    CHECK((after[0] - after[1]).norm() / (before[0] - before[1]).norm() ==
+          doctest::Approx(2.0).epsilon(0.01));
+}
+
+TEST_CASE("one source onto several targets: a cross of four tubes between four of other sizes") {
+    // Two tubes through one another would cross; four arms of a plate with holes do not.
+    const Mesh source = [] {
+        Mesh mesh = round_tube(32, 24);
+        return mesh;
+    }();
+    // The two ends of a tube on two others of different size that stand askew.
+    Mesh low = round_tube(40, 8), high = round_tube(24, 8);
+    Affine down = rotation(Vec3::UnitX(), kPi, Vec3::Zero());
+    down.linear *= 3.0;
+    transform(low, down);
+    Affine up = rotation(Vec3(1, 1, 0), 0.4, Vec3::Zero());
+    up.linear *= 0.7;
+    up.translation = Vec3(1, 2, 9);
+    transform(high, up);
+    const auto facing = [](const Mesh& mesh, double z) {
+        for (const Path& path : boundaries(mesh)) {
+            Vec3 mean = Vec3::Zero();
+            for (const Vec3& p : path.points(mesh)) mean += p / path.size();
+            if (std::abs(mean.z() - z) < 0.5) return path;
+        }
+        FAIL("no boundary there");
+        return boundaries(mesh).front();
+    };
+    const Mesh* targets[] = {&low, &high};
+    Merge merge(source, targets,
+                {Join{facing(source, 0.0), facing(low, 0.0), 0},
+                 Join{facing(source, 2.0), facing(high, 9.0), 1}});
+    const MergeResult result = merge.solve();
+    CHECK(result.mesh.topology().component_count() == 1);
+    CHECK(result.mesh.topology().boundary_loops().size() == 2);
+    CHECK(euler_characteristic(result.mesh.topology()) == 0);
+    CHECK(result.report.joins[0].scale == doctest::Approx(3.0).epsilon(0.01));
+    CHECK(result.report.joins[1].scale == doctest::Approx(0.7).epsilon(0.01));
+    CHECK(result.report.intersections.empty());
+    // Between the ends the size goes from one to the other.
+    CHECK(result.mesh.vertex_count() > 32 * 20);
+}
+
+TEST_CASE("a moved key gives what a merge made with it gives") {
+    const Mesh source = bumpy_dome(40, 24), target = bowl(50, 20);
+    const Mesh* targets[] = {&target};
+    const std::vector<KeyPair> first{{Vec3(1, 0, 0), Vec3(2, 0, 0)}};
+    const std::vector<KeyPair> moved{{Vec3(1, 0, 0), Vec3(0, 1.6, 0)}};
+    Merge merge(source, targets, {Join{opening(source), opening(target), 0, first}});
+    const MergeResult before = merge.solve();
+    merge.set_keys(0, moved);
+    const MergeResult after = merge.solve();
+    CHECK(hash(after.mesh) == hash(merged(source, target, {}, moved).mesh));
+    CHECK(hash(after.mesh) != hash(before.mesh));
+    merge.set_keys(0, first);
+    CHECK(hash(merge.solve().mesh) == hash(before.mesh));
+    CHECK_THROWS_AS(merge.set_keys(1, {}), Error);
+}
+
+TEST_CASE("the number of threads changes nothing") {
+    const Mesh source = bumpy_dome(60, 40), target = bowl(50, 20);
+    const Mesh* targets[] = {&target};
+    const auto hash_with = [&](int threads) {
+        ContextOptions how;
+        how.threads = threads;
+        const Context context(how);
+        MergeOptions options;
+        options.source_transition = options.target_transition = 0.5;
+        Merge merge(source, targets, {Join{opening(source), opening(target)}}, options, context);
+        return hash(merge.solve(context).mesh);
+    };
+    CHECK(hash_with(1) == hash_with(2));
+    CHECK(hash_with(1) == hash_with(5));
+}
+
+TEST_CASE("a jagged boundary is trimmed, keys on it still count, and the report says so") {
+    const Mesh smooth = bumpy_dome(60, 40), target = bowl(50, 20);
+    // Every other triangle of the first ring is gone.
+    std::vector<char> drop(static_cast<std::size_t>(smooth.face_count()), 0);
+    for (Index f = 0; f < 2 * 60; f += 4) drop[f] = 1;
+    FaceList faces;
+    for (Index f = 0; f < smooth.face_count(); ++f) {
+        if (!drop[f]) faces.add(smooth.topology().face(f));
+    }
+    const Mesh source({smooth.positions().begin(), smooth.positions().end()}, faces);
+    const Path boundary = opening(source);
+    const KeyPair key{boundary.vertices()[3], Vec3(2, 0, 0)};
+    const MergeResult result = merged(source, target, {}, {key});
+    CHECK(result.report.joins[0].source_trimmed);
+    CHECK(result.report.joins[0].source_turn > 0.35);
+    CHECK(result.report.warnings.size() == 1);
+    CHECK(result.mesh.topology().is_closed());
+    MergeOptions options;
+    options.trim = false;
+    CHECK(!merged(source, target, options, {key}).report.joins[0].source_trimmed);
+}
+
+TEST_CASE("the thesis to the letter still gives one surface, whatever the unit") {
+    const Mesh source = bumpy_dome(40, 24), target = bowl(50, 20);
+    MergeOptions options;
+    options.thesis = true;
+    const MergeResult result = merged(source, target, options, {{Vec3(1, 0, 0), Vec3(2, 0, 0)}});
+    CHECK(result.mesh.topology().is_closed());
+    Mesh large = source;
+    transform(large, scaling(Vec3::Constant(1000.0), Vec3::Zero()));
+    const MergeResult same = merged(large, target, options, {{Vec3(1000, 0, 0), Vec3(2, 0, 0)}});
+    for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+        CHECK((result.mesh.position(v) - same.mesh.position(v)).norm() < 1e-7);
+    }
+}
