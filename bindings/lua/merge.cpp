@@ -187,7 +187,8 @@ void close_merging(void* object) {
 
 // ---- Descriptions
 
-std::vector<Parameter> merge_parameters() {
+// A merge that is dragged leaves out what a frame has no time for.
+std::vector<Parameter> merge_parameters(bool intersections) {
     return {
         table("joins",
               "List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which "
@@ -255,7 +256,7 @@ std::vector<Parameter> merge_parameters() {
             .defaults(true),
         boolean("intersections",
                 "Looks for faces that run through one another and did not before, for the report.")
-            .defaults(true),
+            .defaults(intersections),
         choice("fidelity", {"lissom", "thesis"},
                "thesis: its frames, scales and systems to the letter, for comparison.")
             .defaults("lissom")};
@@ -318,7 +319,7 @@ std::vector<Function> merge_functions() {
              "lies and whatever its size; the targets stay. Vertices and faces of the targets come "
              "first, in their order, then those of the source; attributes, labels and regions of "
              "all are kept.",
-         .options = merge_parameters(),
+         .options = merge_parameters(true),
          .results = {{"lissom.Mesh", "mesh", "The merged mesh."},
                      {"lissom.MergeReport", "report", "What was found and done."}},
          .errors = merge_errors(),
@@ -333,7 +334,7 @@ assert(math.abs(report.joins[1].scale - 3) < 1e-6))"},
          .body = new_merging,
          .summary = "As lissom.merge, but returns an object that keeps what was prepared, so that "
                     "a moved key costs a fraction of the first merge.",
-         .options = merge_parameters(),
+         .options = merge_parameters(false),
          .results = {{"lissom.Merging", "merging", "The merge, not solved yet."}},
          .errors = merge_errors(),
          .example = halves + R"(local merging = lissom.merging{

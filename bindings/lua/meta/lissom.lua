@@ -1866,7 +1866,7 @@ function lissom.merge(options) end
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
----@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
+---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: false.
 ---@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison. Default: "lissom".
 
 ---As lissom.merge, but returns an object that keeps what was prepared, so that a moved key costs a fraction of the first merge.
