@@ -103,7 +103,7 @@ void require_inside(const Region& region, const Region& held) {
     for (const Index v : outside.vertices()) vertices.add(v);
     throw Error(ErrorCode::handle_outside_region,
                 describe(vertices) + " cannot be held: they lie outside the region",
-                std::move(vertices));
+                vertices);
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ Loop::Loop(const Mesh& mesh, std::vector<Index> vertices) : vertices_(std::move(
         Elements elements{ElementKind::vertex, 0, {}};
         for (const Index v : vertices_) elements.add(v);
         throw Error(ErrorCode::boundary_conflict, "the boundary at " + describe(elements) + why,
-                    std::move(elements));
+                    elements);
     };
     if (size() < 3) refuse(" has fewer than 3 vertices and cannot be joined; cut the mesh there");
     for (const Index v : vertices_) points_.push_back(mesh.position(v));

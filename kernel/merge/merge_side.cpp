@@ -87,7 +87,7 @@ void require_simple(const Mesh& mesh, const std::vector<Index>& loop, const std:
             throw Error(ErrorCode::boundary_conflict,
                         "a boundary of the " + name + " crosses itself at " + describe(elements) +
                             "; move these vertices apart, or cut the mesh along another curve",
-                        std::move(elements));
+                        elements);
         }
     }
 }
@@ -126,7 +126,7 @@ MergeSide make_side(const Mesh& mesh, const std::vector<Path>& boundaries,
             throw Error(ErrorCode::boundary_conflict,
                         "two joins use the boundary of the " + name + " at " + describe(elements) +
                             "; each boundary can be joined once",
-                        std::move(elements));
+                        elements);
         }
         require_simple(mesh, loop, name);
         side.loops.push_back(loop);
