@@ -166,7 +166,10 @@ struct Merge::State {
     void follow(const BoundaryDeformation& deformed, std::vector<Vec3>& positions) const;
     SewOptions sewing() const;
     void finish_seams(Sewn& sewn, MergeReport& now, const Context& context) const;
-    std::vector<FacePair> new_intersections(const Sewn& sewn, const Context& context);
+    std::vector<FacePair> new_intersections(const Sewn& sewn, const Context& context) const;
+    FacePair origin_of(const Sewn& sewn, const FacePair& pair) const;
+    std::vector<FacePair> own_intersections(const Sewn& sewn, const std::vector<FacePair>& pairs,
+                                            const Context& context) const;
     void turn_directions(const BoundaryDeformation& deformed, Mesh& moved) const;
 
     MergeOptions options;
@@ -186,8 +189,6 @@ struct Merge::State {
     std::unique_ptr<BoundaryDeformer> deformer;
     /// With the features of a free configuration held as well.
     std::unique_ptr<BoundaryDeformer> featured;
-    /// Faces of the source that run through one another as they are; found when first needed.
-    std::optional<std::vector<FacePair>> own_intersections;
 };
 
 Merge::State::State(const Mesh& given_source, std::span<const Mesh* const> given_targets,
@@ -534,21 +535,42 @@ void Merge::State::finish_seams(Sewn& sewn, MergeReport& now, const Context& con
     now.seam = sewn.report;
 }
 
-std::vector<FacePair> Merge::State::new_intersections(const Sewn& sewn, const Context& context) {
-    if (!own_intersections) own_intersections = self_intersections(source.mesh, {}, context);
-    const Index shift = target.face_count();
+std::vector<FacePair> Merge::State::new_intersections(const Sewn& sewn,
+                                                      const Context& context) const {
     std::vector<Index> faces;
     for (Index f = 0; f < sewn.mesh.face_count(); ++f) {
         if (sewn.side_of_face[f] == SeamSide::source) faces.push_back(f);
     }
     std::vector<FacePair> pairs = self_intersections(sewn.mesh, {std::move(faces)}, context);
+    const std::vector<FacePair> before = own_intersections(sewn, pairs, context);
     std::erase_if(pairs, [&](const FacePair& pair) {
-        const Index a = sewn.map.faces.main_source(pair.first) - shift;
-        const Index b = sewn.map.faces.main_source(pair.second) - shift;
-        const FacePair before{std::min(a, b), std::max(a, b)};
-        return std::binary_search(own_intersections->begin(), own_intersections->end(), before);
+        return std::binary_search(before.begin(), before.end(), origin_of(sewn, pair));
     });
     return pairs;
+}
+
+// The faces of the source that two of the result come from; negative for one of the target.
+FacePair Merge::State::origin_of(const Sewn& sewn, const FacePair& pair) const {
+    const Index a = sewn.map.faces.main_source(pair.first) - target.face_count();
+    const Index b = sewn.map.faces.main_source(pair.second) - target.face_count();
+    return {std::min(a, b), std::max(a, b)};
+}
+
+// Those of the source as it is among the faces that `pairs` come from.
+std::vector<FacePair> Merge::State::own_intersections(const Sewn& sewn,
+                                                      const std::vector<FacePair>& pairs,
+                                                      const Context& context) const {
+    std::vector<Index> faces;
+    for (const FacePair& pair : pairs) {
+        const FacePair origin = origin_of(sewn, pair);
+        if (origin.first < 0) continue;
+        faces.push_back(origin.first);
+        faces.push_back(origin.second);
+    }
+    if (faces.empty()) return {};
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return self_intersections(source.mesh, {faces, faces}, context);
 }
 
 // Normals and tangents turn with the surface; displacements of morph targets grow with it as well.
