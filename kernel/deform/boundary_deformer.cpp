@@ -8,6 +8,7 @@
 
 #include "kernel/deform/constraints.h"
 #include "kernel/deform/frame_blocks.h"
+#include "kernel/deform/gradient_residual.h"
 #include "kernel/deform/gradient_system.h"
 #include "kernel/deform/gradients.h"
 #include "kernel/deform/polar.h"
@@ -20,6 +21,8 @@ namespace {
 
 // Rings around the region that the stencils of its vertices reach.
 constexpr Index kRings = 1;
+// Corrections of the first system by the residual of its energy.
+constexpr int kCorrections = 2;
 // Scales that differ by less are one scale.
 constexpr double kSameScale = 1e-12;
 // Weights of the harmonic interpolation are at least this, so that it never leaves the range of
@@ -102,8 +105,7 @@ void require_inside(const Region& region, const Region& held) {
     Elements vertices{ElementKind::vertex, 0, {}};
     for (const Index v : outside.vertices()) vertices.add(v);
     throw Error(ErrorCode::handle_outside_region,
-                describe(vertices) + " cannot be held: they lie outside the region",
-                vertices);
+                describe(vertices) + " cannot be held: they lie outside the region", vertices);
 }
 
 }  // namespace
@@ -132,6 +134,7 @@ struct BoundaryDeformer::State {
     Base find_base(std::span<const BoundaryValue> values) const;
     void place_held(std::span<const BoundaryValue> values, const Base& base);
     void solve_first();
+    void correct_first();
     Mat3 gathered(Index v, const Mat3& base) const;
     std::vector<Mat3> gradients_of(const Base& base, const Context& context) const;
     void find_sizes(const Context& context);
@@ -151,6 +154,8 @@ struct BoundaryDeformer::State {
     GradientStencils stencils;
     std::unique_ptr<GradientSystem> first;
     std::unique_ptr<RotationSystem> second;
+    /// Null for the thesis's weights.
+    std::unique_ptr<GradientResidual> residual;
     /// Harmonic interpolation over the vertices that are not held, made when scales first differ.
     std::unique_ptr<SparseSystem> harmonic;
     std::vector<Index> harmonic_row, harmonic_vertex;
@@ -184,6 +189,10 @@ BoundaryDeformer::State::State(const Mesh& mesh, const Region& given, const Regi
     stencils = make_gradients(patch, work.rings, work.geometry, known, -patch.origin, options);
     first = std::make_unique<GradientSystem>(work, stencils, known, options, context);
     second = std::make_unique<RotationSystem>(work, known.position, options, context);
+    if (options.coherence == 1 && options.scale_free) {
+        residual =
+            std::make_unique<GradientResidual>(work, stencils, known, options.coherence_weight);
+    }
     stats.assemble_seconds = seconds_since(start);
     progress.step(0.7);
     factor(context);
@@ -298,6 +307,22 @@ void BoundaryDeformer::State::solve_first() {
     const std::vector<double> columns = first->solve(right, 3);
     for (std::size_t r = 0; r < rows; ++r) {
         deviation[free[r]] = {columns[r], columns[rows + r], columns[2 * rows + r]};
+    }
+    for (int step = 0; residual && step < kCorrections; ++step) correct_first();
+}
+
+// Takes out what rounding errors of the matrix have left.
+void BoundaryDeformer::State::correct_first() {
+    const std::vector<Index>& free = first->free_vertices();
+    const std::size_t rows = free.size();
+    const std::vector<Vec3> left = residual->find(deviation, known_turn);
+    std::vector<double> columns(rows * 3);
+    for (std::size_t r = 0; r < rows; ++r) {
+        for (std::size_t d = 0; d < 3; ++d) columns[d * rows + r] = left[free[r]][d];
+    }
+    first->solve_roughly(columns, columns, 3);
+    for (std::size_t r = 0; r < rows; ++r) {
+        deviation[free[r]] += Vec3(columns[r], columns[rows + r], columns[2 * rows + r]);
     }
 }
 

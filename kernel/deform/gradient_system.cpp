@@ -14,9 +14,6 @@ Index grain_of(Index size) {
     return std::max<Index>(1024, (size + 15) / 16);
 }
 
-// Coherence weights below this have no say but could make the weighted graph fall apart.
-constexpr double kSmallestCoherence = 1e-3;
-
 // Pairs two rings apart weigh as an edge between equilateral triangles.
 constexpr double kSecondRingCoherence = 0.57735026918962576;
 

@@ -15,6 +15,9 @@
 
 namespace lissom {
 
+/// Coherence weights below this have no say but could make the weighted graph fall apart.
+inline constexpr double kSmallestCoherence = 1e-3;
+
 /// Normal equations of Eq 2.8 with the known quantities moved to the right-hand side:
 /// A x_free = - (known_positions X + known_gradients W). Rows are free vertices; columns of the two
 /// couplings are local vertices. Ties add their terms; anchors are known.
@@ -64,6 +67,11 @@ class GradientSystem {
         std::vector<double> x(b.size());
         system_.solve_refined(matrix_, b, x, columns);
         return x;
+    }
+
+    /// As `solve`, without refinement.
+    void solve_roughly(std::span<const double> b, std::span<double> x, Index columns) const {
+        system_.solve(b, x, columns);
     }
 
   private:

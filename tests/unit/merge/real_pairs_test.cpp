@@ -154,7 +154,7 @@ TEST_CASE("the result does not depend on where the source lies, how it is turned
     for (const LoadedPair& pair : loaded_pairs()) {
         CAPTURE(pair.pair->name);
         const Mesh expected = pair.merged().mesh;
-        const double size = bounds(expected).diagonal();
+        const double size = surface_radius(expected);
         for (int trial = 0; trial < trials(); ++trial) {
             Affine map = rotation(Vec3(unit(random), unit(random), unit(random)),
                                   3.0 * unit(random), Vec3::Zero());
