@@ -1,0 +1,386 @@
+#include "kernel/merge/thesis_merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/deform/polar.h"
+#include "kernel/deform/rotation_system.h"
+#include "kernel/deform/working_patch.h"
+#include "kernel/merge/band_map.h"
+#include "kernel/merge/band_system.h"
+#include "kernel/merge/seam_core.h"
+#include "kernel/mesh/extract.h"
+
+namespace lissom {
+namespace {
+
+// Rings of the target around its regions that the energy's terms reach.
+constexpr Index kRings = 3;
+// Rings at a seam whose faces sewing may have changed, itself among them.
+constexpr Index kCore = 3;
+
+void require_widths(const ThesisJoin& join) {
+    for (const double width : {join.target_width, join.source_width}) {
+        if (width > 0.0 && std::isfinite(width)) continue;
+        throw Error(ErrorCode::invalid_argument,
+                    "the thesis's transition needs a region on both sides: give finite widths "
+                    "above 0 for source and target");
+    }
+}
+
+// Regions of two joins must not share a vertex.
+void require_disjoint(std::span<const ThesisBand> bands, Index vertices, const char* side) {
+    std::vector<Index> band_at(static_cast<std::size_t>(vertices), kNoIndex);
+    for (std::size_t j = 0; j < bands.size(); ++j) {
+        for (const Index v : bands[j].chart.vertex) {
+            const Index other = std::exchange(band_at[v], static_cast<Index>(j));
+            if (other == kNoIndex || other == static_cast<Index>(j)) continue;
+            throw Error(ErrorCode::invalid_argument,
+                        "the transition regions of joins " + std::to_string(other + 1) + " and " +
+                            std::to_string(j + 1) + " meet on the " + side +
+                            "; make them narrower");
+        }
+    }
+}
+
+// The mesh without attributes, its positions mapped.
+template <typename Map>
+Mesh mapped(const Mesh& mesh, const Map& map) {
+    std::vector<Vec3> positions;
+    positions.reserve(mesh.positions().size());
+    for (const Vec3& p : mesh.positions()) positions.push_back(map(p));
+    return {std::move(positions), mesh.shared_topology()};
+}
+
+std::size_t row_of(const Region& region, Index v) {
+    const std::vector<Index>& ids = region.vertices();
+    return static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), v) - ids.begin());
+}
+
+// Moves the weights of a place away from vertices of open boundaries; false where nothing is left.
+bool leave_boundary(BandPlace& place, const Topology& topology) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        double& weight = place.weights[k];
+        weight = topology.is_boundary(place.vertices[k]) ? 0.0 : std::max(0.0, weight);
+        sum += weight;
+    }
+    for (double& weight : place.weights) weight = sum > 0.0 ? weight / sum : 0.0;
+    return sum > 0.0;
+}
+
+// Some vertices of a mesh with what is around them, and local numbers of its vertices.
+struct Surroundings {
+    Surroundings(const Mesh& mesh, const std::vector<Index>& vertices, const Context& context)
+        : part(extract(mapped(mesh, [](const Vec3& x) { return x; }),
+                       Region(mesh.shared_topology(), vertices).grown(kRings), context)),
+          local(static_cast<std::size_t>(mesh.vertex_count()), kNoIndex) {
+        for (std::size_t i = part.vertex_map.size(); i-- > 0;) {
+            local[part.vertex_map[i]] = static_cast<Index>(i);
+        }
+    }
+
+    MeshPart part;
+    std::vector<Index> local;
+};
+
+// A mesh of which nothing is known yet.
+TransitionMesh unknown(const Mesh& mesh) {
+    const auto n = static_cast<std::size_t>(mesh.vertex_count());
+    return {&mesh,
+            std::vector<char>(n, 0),
+            std::vector<char>(n, 0),
+            {mesh.positions().begin(), mesh.positions().end()},
+            std::vector<Mat3>(n, Mat3::Identity()),
+            {},
+            {}};
+}
+
+void hold(TransitionMesh& side, Index v, const Vec3& position, const Mat3& gradient) {
+    side.position_known[v] = side.gradient_known[v] = 1;
+    side.position[v] = position;
+    side.gradient[v] = gradient;
+}
+
+// The second system of one mesh, with the scales of Eq 2.11.
+void remove_shear(const TransitionMesh& side, TransitionShape& shape, const Context& context) {
+    const DeformOptions options = DeformOptions::thesis();
+    const WorkingPatch work(build_patch(*side.mesh, Region::all(side.mesh->shared_topology()), 0),
+                            options);
+    const Patch& patch = work.patch;
+    std::vector<char> known(static_cast<std::size_t>(patch.vertex_count), 0);
+    for (Index i = 0; i < patch.real_count; ++i) {
+        const Index v = patch.mesh_vertex[i];
+        known[i] = side.position_known[v] || work.rings.count(i) == 0;
+        if (side.gradient_known[v]) continue;
+        Mat3& m = shape.gradients[v];
+        m = uniform_scale(m) * nearest_rotation(m);
+    }
+    RotationSystem system(work, known, options, context);
+    if (system.free_vertices().empty()) return;
+    system.factor(context);
+    system.finish(context);
+    // For what deviates from the rest shape.
+    std::vector<PaddedMat3> turns;
+    std::vector<Vec4> x(static_cast<std::size_t>(patch.vertex_count), Vec4::Zero());
+    for (Index i = 0; i < patch.real_count; ++i) {
+        const Index v = patch.mesh_vertex[i];
+        turns.push_back(padded_columns(shape.gradients[v] - Mat3::Identity()));
+        x[i] = padded(shape.positions[v] - side.mesh->position(v));
+    }
+    system.solve(turns, x, false, context);
+    for (Index i = 0; i < patch.real_count; ++i) {
+        const Index v = patch.mesh_vertex[i];
+        if (!known[i]) shape.positions[v] = side.mesh->position(v) + x[i].head<3>();
+    }
+}
+
+std::vector<Vec3> coordinates_of(const BandSystem& band) {
+    std::vector<Vec3> result(static_cast<std::size_t>(band.vertex_count()), Vec3::Zero());
+    for (Index i = 0; i < band.vertex_count(); ++i) {
+        if (band.is_row(i)) result[i] = band.coordinates(i);
+    }
+    return result;
+}
+
+// Coordinates with those of the core interpolated.
+std::vector<Vec3> filled(const BandSystem& band, const SeamCore& core, std::vector<Vec3> values,
+                         const Context& context) {
+    std::vector<double> component(values.size());
+    for (int k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i < values.size(); ++i) component[i] = values[i][k];
+        component = core.filled(band, component, context);
+        for (std::size_t i = 0; i < values.size(); ++i) values[i][k] = component[i];
+    }
+    return values;
+}
+
+// The vertices of the sewn mesh that those of a mesh have become, or kNoIndex.
+std::vector<Index> sewn_vertices(const Sewn& sewn, Index first, Index count) {
+    std::vector<Index> result(static_cast<std::size_t>(count), kNoIndex);
+    for (Index v = 0; v < sewn.map.vertices.size(); ++v) {
+        for (const ElementMap::Source& from : sewn.map.vertices[v]) {
+            const Index old = from.element - first;
+            if (old >= 0 && old < count && result[old] == kNoIndex) result[old] = v;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+ThesisMerge::ThesisMerge(const Mesh& target, const Mesh& source, std::vector<ThesisJoin> joins,
+                         double weight, const Context& context)
+    : target_(target), source_(source), joins_(std::move(joins)), weight_(weight) {
+    for (const ThesisJoin& join : joins_) {
+        require_widths(join);
+        target_bands_.push_back(make_thesis_band(
+            target, target_band_loop(target, join.pair, join.start), join.target_width, context));
+        source_bands_.push_back(make_thesis_band(
+            source, source_band_loop(target, join.pair, join.start), join.source_width, context));
+    }
+    require_disjoint(target_bands_, target.vertex_count(), "target");
+    require_disjoint(source_bands_, source.vertex_count(), "source");
+    for (std::size_t j = 0; j < joins_.size(); ++j) {
+        of_target_.push_back(match(target_bands_[j], source_bands_[j], target, source));
+        of_source_.push_back(match(source_bands_[j], target_bands_[j], source, target));
+        of_source_.back().report.width *= joins_[j].scale;
+    }
+}
+
+// Vertices of open boundaries have no counterpart and are none.
+ThesisMerge::Matches ThesisMerge::match(const ThesisBand& own, const ThesisBand& other,
+                                        const Mesh& mesh, const Mesh& across) {
+    const BandMap map(other.chart, other.width);
+    Matches result;
+    result.report = {own.width, 0, BandMap(own.chart, own.width).flipped(), 0};
+    std::vector<char> seen(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    for (std::size_t i = 0; i < own.chart.vertex.size(); ++i) {
+        const Index v = own.chart.vertex[i];
+        if (mesh.topology().is_boundary(v) || std::exchange(seen[v], 1)) continue;
+        result.members.push_back(v);
+        const double angle = own.chart.angle[i], away = own.chart.distance[i] / own.width;
+        std::optional<BandPlace> place = map.locate(angle, away);
+        result.report.unmapped += place ? 0 : 1;
+        if (!place) place = map.nearest(angle, away);
+        if (!place || !leave_boundary(*place, across.topology())) continue;
+        result.matches.push_back({v, *place, 0.5 + 0.5 * own.path[i] / own.width});
+    }
+    result.report.vertices = static_cast<Index>(result.members.size());
+    return result;
+}
+
+// Both meshes at one scale and of unit size around the seams: rest positions of the source turned
+// to where they go, positions of the target and of the result as they are.
+struct ThesisMerge::Frames {
+    Mat3 turn = Mat3::Identity();
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+    double scale = 1.0, unit = 1.0;
+
+    Vec3 rest(const Vec3& x) const { return scale / unit * (turn * (x - from)); }
+    Vec3 world(const Vec3& x) const { return (x - to) / unit; }
+    Mat3 gradient(const Mat3& m) const { return m * turn.transpose() / scale; }
+    Vec3 position_back(const Vec3& x) const { return to + unit * x; }
+    Mat3 gradient_back(const Mat3& m) const { return scale * m * turn; }
+};
+
+ThesisMerge::Frames ThesisMerge::frames(const Region& region, const Region& held,
+                                        const BoundaryDeformation& ordinary) const {
+    Frames f;
+    double logs = 0.0;
+    for (const ThesisJoin& join : joins_) logs += std::log(join.scale);
+    f.scale = std::exp(logs / static_cast<double>(joins_.size()));
+    Mat3 turns = Mat3::Zero();
+    const Vec3 &first_from = source_.position(held.vertices().front()),
+               &first_to = ordinary.positions[row_of(region, held.vertices().front())];
+    for (const Index v : held.vertices()) {
+        const std::size_t row = row_of(region, v);
+        turns += nearest_rotation(ordinary.transforms[row]);
+        f.from += (source_.position(v) - first_from) / held.size();
+        f.to += (ordinary.positions[row] - first_to) / held.size();
+    }
+    f.turn = nearest_rotation(turns);
+    f.from += first_from;
+    f.to += first_to;
+    double squares = 0.0;
+    for (const Index v : region.vertices()) squares += (source_.position(v) - f.from).squaredNorm();
+    f.unit = f.scale * std::sqrt(squares / region.size());
+    return f;
+}
+
+BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held,
+                                        const BoundaryDeformation& ordinary,
+                                        const Context& context) {
+    const Frames frame = frames(region, held, ordinary);
+    std::vector<Index> bands;
+    for (const Matches& band : of_target_) {
+        bands.insert(bands.end(), band.members.begin(), band.members.end());
+    }
+    for (const ThesisJoin& join : joins_) {
+        bands.insert(bands.end(), join.pair.target.begin(), join.pair.target.end());
+    }
+    const Surroundings around(target_, bands, context);
+    const Mesh target_rest =
+        mapped(around.part.mesh, [&](const Vec3& x) { return frame.world(x); });
+    const Mesh source_rest = mapped(source_, [&](const Vec3& x) { return frame.rest(x); });
+
+    TransitionMesh target = unknown(target_rest), source = unknown(source_rest);
+    std::vector<char> free(static_cast<std::size_t>(target_.vertex_count()), 0);
+    for (const Matches& band : of_target_) {
+        for (const Index v : band.members) free[v] = 1;
+    }
+    for (Index i = 0; i < target_rest.vertex_count(); ++i) {
+        if (!free[around.part.vertex_map[i]]) {
+            hold(target, i, target_rest.position(i), Mat3::Identity());
+        }
+    }
+    source_held_.assign(static_cast<std::size_t>(source_.vertex_count()), 1);
+    for (const Index v : region.minus(held).vertices()) source_held_[v] = 0;
+    for (Index v = 0; v < source_.vertex_count(); ++v) {
+        if (!source_held_[v]) continue;
+        if (region.contains(v)) {
+            const std::size_t row = row_of(region, v);
+            hold(source, v, frame.world(ordinary.positions[row]),
+                 frame.gradient(ordinary.transforms[row]));
+        } else {
+            hold(source, v, frame.world(source_.position(v)), frame.gradient(Mat3::Identity()));
+        }
+    }
+    for (std::size_t j = 0; j < joins_.size(); ++j) {
+        for (const Match& m : of_target_[j].matches) {
+            target.region.push_back(around.local[m.vertex]);
+            target.counterpart.push_back(m.place);
+        }
+        for (const Match& m : of_source_[j].matches) {
+            source.region.push_back(m.vertex);
+            source.counterpart.push_back(m.place);
+            for (Index& v : source.counterpart.back().vertices) v = around.local[v];
+        }
+    }
+    ThesisTransition solved = thesis_transition(target, source, weight_, context);
+    remove_shear(target, solved.target, context);
+    remove_shear(source, solved.source, context);
+
+    target_shift_.assign(static_cast<std::size_t>(target_.vertex_count()), Vec3::Zero());
+    for (Index i = 0; i < target_rest.vertex_count(); ++i) {
+        const Index v = around.part.vertex_map[i];
+        if (!free[v]) continue;
+        target_shift_[v] = frame.unit * (solved.target.positions[i] - target_rest.position(i));
+    }
+    BoundaryDeformation result = ordinary;
+    for (std::size_t row = 0; row < region.vertices().size(); ++row) {
+        const Index v = region.vertices()[row];
+        if (source_held_[v]) continue;
+        result.positions[row] = frame.position_back(solved.source.positions[v]);
+        result.transforms[row] = frame.gradient_back(solved.source.gradients[v]);
+    }
+    return result;
+}
+
+// The vertices of all regions in the sewn mesh with their interpolation, in local numbers.
+TransitionReport ThesisMerge::reconstruct(Sewn& sewn, const Context& context) const {
+    const std::vector<Index> target_at = sewn_vertices(sewn, 0, target_.vertex_count());
+    const std::vector<Index> source_at =
+        sewn_vertices(sewn, target_.vertex_count(), source_.vertex_count());
+    std::vector<Index> all, moving;
+    std::vector<Vec3> shape(sewn.mesh.positions().begin(), sewn.mesh.positions().end());
+    TransitionReport report;
+    for (std::size_t j = 0; j < joins_.size(); ++j) {
+        report.target.push_back(of_target_[j].report);
+        report.source.push_back(of_source_[j].report);
+        for (const Index v : of_target_[j].members) {
+            if (target_at[v] == kNoIndex) continue;
+            shape[target_at[v]] += target_shift_[v];
+            all.push_back(target_at[v]);
+            moving.push_back(target_at[v]);
+        }
+        for (const Index v : of_source_[j].members) {
+            if (source_at[v] == kNoIndex) continue;
+            all.push_back(source_at[v]);
+            if (!source_held_[v]) moving.push_back(source_at[v]);
+        }
+    }
+    for (const std::vector<Index>& seam : sewn.seams) {
+        all.insert(all.end(), seam.begin(), seam.end());
+        moving.insert(moving.end(), seam.begin(), seam.end());
+    }
+    const Region read(sewn.mesh.shared_topology(), std::move(all));
+    const Region free(sewn.mesh.shared_topology(), std::move(moving));
+    BandSystem band(read, free, shape);
+    const std::vector<Index> rings = seam_rings(sewn.mesh.topology(), sewn.seams, kCore);
+    const SeamCore core(band, rings, kCore);
+    const std::vector<Vec3> own = filled(band, core, coordinates_of(band), context);
+    std::vector<Index> local(shape.size(), kNoIndex);
+    for (Index i = 0; i < band.vertex_count(); ++i) local[band.mesh_vertex(i)] = i;
+
+    std::vector<Vec3> wanted = own;
+    const auto interpolate = [&](const std::vector<Match>& matches, const std::vector<Index>& at,
+                                 const std::vector<Index>& across) {
+        for (const Match& m : matches) {
+            if (at[m.vertex] == kNoIndex) continue;
+            const Index i = local[at[m.vertex]];
+            Vec3 other = Vec3::Zero();
+            double sum = 0.0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (!(m.place.weights[k] > 0.0) || across[m.place.vertices[k]] == kNoIndex) continue;
+                other += m.place.weights[k] * own[local[across[m.place.vertices[k]]]];
+                sum += m.place.weights[k];
+            }
+            if (sum > 0.0) wanted[i] = m.share * own[i] + (1.0 - m.share) / sum * other;
+        }
+    };
+    for (std::size_t j = 0; j < joins_.size(); ++j) {
+        interpolate(of_target_[j].matches, target_at, source_at);
+        interpolate(of_source_[j].matches, source_at, target_at);
+    }
+    band.bend(filled(band, core, wanted, context), context);
+    band.write(sewn.mesh);
+    report.moved = free.vertices();
+    return report;
+}
+
+}  // namespace lissom
