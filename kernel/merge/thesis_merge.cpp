@@ -139,24 +139,27 @@ void remove_shear(const TransitionMesh& side, TransitionShape& shape, const Cont
     }
 }
 
+// Coordinates with those of the core interpolated: their curvatures and the normals, as vectors
+// that turn around the seam would come out too short.
+std::vector<Vec3> filled(const BandSystem& band, const SeamCore& core, std::vector<Vec3> values,
+                         const Context& context) {
+    std::vector<double> curvature(values.size(), 0.0);
+    for (Index i = 0; i < band.vertex_count(); ++i) {
+        if (band.is_row(i)) curvature[i] = values[i].dot(band.normal(i));
+    }
+    const std::vector<Vec3> relaxed = core.relaxed(band, curvature, context);
+    for (Index i = 0; i < band.vertex_count(); ++i) {
+        if (core.contains(i)) values[i] = relaxed[i];
+    }
+    return values;
+}
+
 std::vector<Vec3> coordinates_of(const BandSystem& band) {
     std::vector<Vec3> result(static_cast<std::size_t>(band.vertex_count()), Vec3::Zero());
     for (Index i = 0; i < band.vertex_count(); ++i) {
         if (band.is_row(i)) result[i] = band.coordinates(i);
     }
     return result;
-}
-
-// Coordinates with those of the core interpolated.
-std::vector<Vec3> filled(const BandSystem& band, const SeamCore& core, std::vector<Vec3> values,
-                         const Context& context) {
-    std::vector<double> component(values.size());
-    for (int k = 0; k < 3; ++k) {
-        for (std::size_t i = 0; i < values.size(); ++i) component[i] = values[i][k];
-        component = core.filled(band, component, context);
-        for (std::size_t i = 0; i < values.size(); ++i) values[i][k] = component[i];
-    }
-    return values;
 }
 
 // The vertices of the sewn mesh that those of a mesh have become, or kNoIndex.
