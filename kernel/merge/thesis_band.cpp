@@ -27,9 +27,9 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 using Edge = std::pair<Index, Index>;
 
 [[noreturn]] void refuse(SeamSide side, const char* what) {
-    throw Error(ErrorCode::invalid_argument,
-                std::string("the transition region of the ") +
-                    (side == SeamSide::target ? "target" : "source") + " " + what);
+    throw Error(ErrorCode::invalid_argument, std::string("the transition region of the ") +
+                                                 (side == SeamSide::target ? "target" : "source") +
+                                                 " " + what);
 }
 
 double wrapped(double turn) {

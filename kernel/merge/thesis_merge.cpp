@@ -39,10 +39,10 @@ void require_disjoint(std::span<const ThesisBand> bands, Index vertices, const c
         for (const Index v : bands[j].chart.vertex) {
             const Index other = std::exchange(band_at[v], static_cast<Index>(j));
             if (other == kNoIndex || other == static_cast<Index>(j)) continue;
-            throw Error(ErrorCode::invalid_argument,
-                        "the transition regions of joins " + std::to_string(other + 1) + " and " +
-                            std::to_string(j + 1) + " meet on the " + side +
-                            "; make them narrower");
+            throw Error(ErrorCode::invalid_argument, "the transition regions of joins " +
+                                                         std::to_string(other + 1) + " and " +
+                                                         std::to_string(j + 1) + " meet on the " +
+                                                         side + "; make them narrower");
         }
     }
 }
@@ -369,7 +369,8 @@ TransitionReport ThesisMerge::reconstruct(Sewn& sewn, const Context& context) co
             Vec3 other = Vec3::Zero();
             double sum = 0.0;
             for (std::size_t k = 0; k < 3; ++k) {
-                if (!(m.place.weights[k] > 0.0) || across[m.place.vertices[k]] == kNoIndex) continue;
+                if (!(m.place.weights[k] > 0.0) || across[m.place.vertices[k]] == kNoIndex)
+                    continue;
                 other += m.place.weights[k] * own[local[across[m.place.vertices[k]]]];
                 sum += m.place.weights[k];
             }

@@ -75,8 +75,7 @@ TEST_CASE("counterparts on two tubes are those of the same angle and height, for
     Index inner = 0;
     for (std::size_t i = 0; i < below.chart.vertex.size(); ++i) {
         const Vec3& p = scene.target.position(below.chart.vertex[i]);
-        const auto place =
-            map.locate(below.chart.angle[i], below.chart.distance[i] / below.width);
+        const auto place = map.locate(below.chart.angle[i], below.chart.distance[i] / below.width);
         REQUIRE(place);
         Vec3 there = Vec3::Zero();
         for (std::size_t k = 0; k < 3; ++k) {

@@ -181,7 +181,8 @@ TEST_CASE("it is another transition than the robust one, and needs regions that 
     CHECK(refuses(kWidth, kWidth));
 }
 
-TEST_CASE("real pairs: the thesis's transition hides the seam, and every vertex has a counterpart") {
+TEST_CASE(
+    "real pairs: the thesis's transition hides the seam, and every vertex has a counterpart") {
     Index pairs = 0;
     for (const test::RealPair& pair : test::real_pairs()) {
         const auto source = test::load_part(pair.source), target = test::load_part(pair.target);
