@@ -255,34 +255,18 @@ ThesisMerge::Frames ThesisMerge::frames(const Region& region, const Region& held
     return f;
 }
 
-BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held,
-                                        const BoundaryDeformation& ordinary,
-                                        const Context& context) {
-    const Frames frame = frames(region, held, ordinary);
-    std::vector<Index> bands;
+std::vector<Index> ThesisMerge::members_of_target() const {
+    std::vector<Index> members;
     for (const Matches& band : of_target_) {
-        bands.insert(bands.end(), band.members.begin(), band.members.end());
+        members.insert(members.end(), band.members.begin(), band.members.end());
     }
-    for (const ThesisJoin& join : joins_) {
-        bands.insert(bands.end(), join.pair.target.begin(), join.pair.target.end());
-    }
-    const Surroundings around(target_, bands, context);
-    const Mesh target_rest =
-        mapped(around.part.mesh, [&](const Vec3& x) { return frame.world(x); });
-    const Mesh source_rest = mapped(source_, [&](const Vec3& x) { return frame.rest(x); });
+    return members;
+}
 
-    TransitionMesh target = unknown(target_rest), source = unknown(source_rest);
-    std::vector<char> free(static_cast<std::size_t>(target_.vertex_count()), 0);
-    for (const Matches& band : of_target_) {
-        for (const Index v : band.members) free[v] = 1;
-    }
-    for (Index i = 0; i < target_rest.vertex_count(); ++i) {
-        if (!free[around.part.vertex_map[i]]) {
-            hold(target, i, target_rest.position(i), Mat3::Identity());
-        }
-    }
-    source_held_.assign(static_cast<std::size_t>(source_.vertex_count()), 1);
-    for (const Index v : region.minus(held).vertices()) source_held_[v] = 0;
+// Of the source what is held goes where the merge without transition took it, and what is outside
+// the region stays.
+void ThesisMerge::hold_source(const Region& region, const BoundaryDeformation& ordinary,
+                              const Frames& frame, TransitionMesh& source) const {
     for (Index v = 0; v < source_.vertex_count(); ++v) {
         if (!source_held_[v]) continue;
         if (region.contains(v)) {
@@ -293,25 +277,54 @@ BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held
             hold(source, v, frame.world(source_.position(v)), frame.gradient(Mat3::Identity()));
         }
     }
+}
+
+// Both regions of every join; of the target in the numbers of its part.
+void ThesisMerge::add_counterparts(std::span<const Index> target_local, TransitionMesh& target,
+                                   TransitionMesh& source) const {
     for (std::size_t j = 0; j < joins_.size(); ++j) {
         for (const Match& m : of_target_[j].matches) {
-            target.region.push_back(around.local[m.vertex]);
+            target.region.push_back(target_local[m.vertex]);
             target.counterpart.push_back(m.place);
         }
         for (const Match& m : of_source_[j].matches) {
             source.region.push_back(m.vertex);
             source.counterpart.push_back(m.place);
-            for (Index& v : source.counterpart.back().vertices) v = around.local[v];
+            for (Index& v : source.counterpart.back().vertices) v = target_local[v];
         }
     }
+}
+
+BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held,
+                                        const BoundaryDeformation& ordinary,
+                                        const Context& context) {
+    const Frames frame = frames(region, held, ordinary);
+    const Region moving(target_.shared_topology(), members_of_target());
+    std::vector<Index> near = moving.vertices();
+    for (const ThesisJoin& join : joins_) {
+        near.insert(near.end(), join.pair.target.begin(), join.pair.target.end());
+    }
+    const Surroundings around(target_, near, context);
+    const Mesh target_rest =
+        mapped(around.part.mesh, [&](const Vec3& x) { return frame.world(x); });
+    const Mesh source_rest = mapped(source_, [&](const Vec3& x) { return frame.rest(x); });
+
+    TransitionMesh target = unknown(target_rest), source = unknown(source_rest);
+    for (Index i = 0; i < target_rest.vertex_count(); ++i) {
+        if (moving.contains(around.part.vertex_map[i])) continue;
+        hold(target, i, target_rest.position(i), Mat3::Identity());
+    }
+    source_held_.assign(static_cast<std::size_t>(source_.vertex_count()), 1);
+    for (const Index v : region.minus(held).vertices()) source_held_[v] = 0;
+    hold_source(region, ordinary, frame, source);
+    add_counterparts(around.local, target, source);
     ThesisTransition solved = thesis_transition(target, source, weight_, context);
     remove_shear(target, solved.target, context);
     remove_shear(source, solved.source, context);
 
     target_shift_.assign(static_cast<std::size_t>(target_.vertex_count()), Vec3::Zero());
-    for (Index i = 0; i < target_rest.vertex_count(); ++i) {
-        const Index v = around.part.vertex_map[i];
-        if (!free[v]) continue;
+    for (const Index v : moving.vertices()) {
+        const Index i = around.local[v];
         target_shift_[v] = frame.unit * (solved.target.positions[i] - target_rest.position(i));
     }
     BoundaryDeformation result = ordinary;
@@ -324,66 +337,83 @@ BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held
     return result;
 }
 
-// The vertices of all regions in the sewn mesh with their interpolation, in local numbers.
-TransitionReport ThesisMerge::reconstruct(Sewn& sewn, const Context& context) const {
-    const std::vector<Index> target_at = sewn_vertices(sewn, 0, target_.vertex_count());
-    const std::vector<Index> source_at =
-        sewn_vertices(sewn, target_.vertex_count(), source_.vertex_count());
+// The bands of the sewn mesh: all vertices of the regions and seams, those of them that may move,
+// and its positions with the target's regions deformed.
+struct ThesisMerge::SewnBands {
+    std::vector<Index> target_at, source_at;
     std::vector<Index> all, moving;
-    std::vector<Vec3> shape(sewn.mesh.positions().begin(), sewn.mesh.positions().end());
-    TransitionReport report;
-    for (std::size_t j = 0; j < joins_.size(); ++j) {
-        report.target.push_back(of_target_[j].report);
-        report.source.push_back(of_source_[j].report);
-        for (const Index v : of_target_[j].members) {
-            if (target_at[v] == kNoIndex) continue;
-            shape[target_at[v]] += target_shift_[v];
-            all.push_back(target_at[v]);
-            moving.push_back(target_at[v]);
-        }
-        for (const Index v : of_source_[j].members) {
-            if (source_at[v] == kNoIndex) continue;
-            all.push_back(source_at[v]);
-            if (!source_held_[v]) moving.push_back(source_at[v]);
-        }
+    std::vector<Vec3> shape;
+};
+
+ThesisMerge::SewnBands ThesisMerge::sewn_bands(const Sewn& sewn) const {
+    SewnBands bands{sewn_vertices(sewn, 0, target_.vertex_count()),
+                    sewn_vertices(sewn, target_.vertex_count(), source_.vertex_count()),
+                    {},
+                    {},
+                    {sewn.mesh.positions().begin(), sewn.mesh.positions().end()}};
+    const auto add = [&](Index v, bool moves) {
+        if (v == kNoIndex) return;
+        bands.all.push_back(v);
+        if (moves) bands.moving.push_back(v);
+    };
+    for (const Index v : members_of_target()) {
+        const Index at = bands.target_at[v];
+        if (at != kNoIndex) bands.shape[at] += target_shift_[v];
+        add(at, true);
+    }
+    for (const Matches& band : of_source_) {
+        for (const Index v : band.members) add(bands.source_at[v], !source_held_[v]);
     }
     for (const std::vector<Index>& seam : sewn.seams) {
-        all.insert(all.end(), seam.begin(), seam.end());
-        moving.insert(moving.end(), seam.begin(), seam.end());
+        for (const Index v : seam) add(v, true);
     }
-    const Region read(sewn.mesh.shared_topology(), std::move(all));
-    const Region free(sewn.mesh.shared_topology(), std::move(moving));
-    BandSystem band(read, free, shape);
-    const std::vector<Index> rings = seam_rings(sewn.mesh.topology(), sewn.seams, kCore);
-    const SeamCore core(band, rings, kCore);
-    const std::vector<Vec3> own = filled(band, core, coordinates_of(band), context);
-    std::vector<Index> local(shape.size(), kNoIndex);
-    for (Index i = 0; i < band.vertex_count(); ++i) local[band.mesh_vertex(i)] = i;
+    return bands;
+}
 
-    std::vector<Vec3> wanted = own;
-    const auto interpolate = [&](const std::vector<Match>& matches, const std::vector<Index>& at,
-                                 const std::vector<Index>& across) {
-        for (const Match& m : matches) {
-            if (at[m.vertex] == kNoIndex) continue;
-            const Index i = local[at[m.vertex]];
-            Vec3 other = Vec3::Zero();
-            double sum = 0.0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (!(m.place.weights[k] > 0.0) || across[m.place.vertices[k]] == kNoIndex)
-                    continue;
-                other += m.place.weights[k] * own[local[across[m.place.vertices[k]]]];
-                sum += m.place.weights[k];
-            }
-            if (sum > 0.0) wanted[i] = m.share * own[i] + (1.0 - m.share) / sum * other;
+// Moves the coordinates of vertices of one side, given by local number, towards those of their
+// counterparts.
+void ThesisMerge::interpolate(std::span<const Match> matches, std::span<const Index> local,
+                              std::span<const Index> across, std::span<const Vec3> own,
+                              std::vector<Vec3>& wanted) {
+    for (const Match& m : matches) {
+        if (local[m.vertex] == kNoIndex) continue;
+        Vec3 other = Vec3::Zero();
+        double sum = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index i = across[m.place.vertices[k]];
+            if (i == kNoIndex || !(m.place.weights[k] > 0.0)) continue;
+            other += m.place.weights[k] * own[i];
+            sum += m.place.weights[k];
         }
-    };
-    for (std::size_t j = 0; j < joins_.size(); ++j) {
-        interpolate(of_target_[j].matches, target_at, source_at);
-        interpolate(of_source_[j].matches, source_at, target_at);
+        if (!(sum > 0.0)) continue;
+        const Index i = local[m.vertex];
+        wanted[i] = m.share * own[i] + (1.0 - m.share) / sum * other;
     }
-    band.bend(filled(band, core, wanted, context), context);
+}
+
+TransitionReport ThesisMerge::reconstruct(Sewn& sewn, const Context& context) const {
+    SewnBands bands = sewn_bands(sewn);
+    const Region read(sewn.mesh.shared_topology(), bands.all);
+    const Region moving(sewn.mesh.shared_topology(), bands.moving);
+    BandSystem band(read, moving, bands.shape);
+    std::vector<Index> local(bands.shape.size(), kNoIndex);
+    for (Index i = 0; i < band.vertex_count(); ++i) local[band.mesh_vertex(i)] = i;
+    for (std::vector<Index>* side : {&bands.target_at, &bands.source_at}) {
+        for (Index& v : *side) v = v == kNoIndex ? kNoIndex : local[v];
+    }
+    const SeamCore core(band, seam_rings(sewn.mesh.topology(), sewn.seams, kCore), kCore);
+    const std::vector<Vec3> own = filled(band, core, coordinates_of(band), context);
+    std::vector<Vec3> wanted = own;
+    TransitionReport report;
+    for (std::size_t j = 0; j < joins_.size(); ++j) {
+        interpolate(of_target_[j].matches, bands.target_at, bands.source_at, own, wanted);
+        interpolate(of_source_[j].matches, bands.source_at, bands.target_at, own, wanted);
+        report.target.push_back(of_target_[j].report);
+        report.source.push_back(of_source_[j].report);
+    }
+    band.bend(filled(band, core, std::move(wanted), context), context);
     band.write(sewn.mesh);
-    report.moved = free.vertices();
+    report.moved = moving.vertices();
     return report;
 }
 

@@ -78,11 +78,21 @@ class ThesisMerge {
         TransitionBand report;
     };
     struct Frames;
+    struct SewnBands;
 
     static Matches match(const ThesisBand& own, const ThesisBand& other, const Mesh& mesh,
                          const Mesh& across);
+    static void interpolate(std::span<const Match> matches, std::span<const Index> local,
+                            std::span<const Index> across, std::span<const Vec3> own,
+                            std::vector<Vec3>& wanted);
+    std::vector<Index> members_of_target() const;
     Frames frames(const Region& region, const Region& held,
                   const BoundaryDeformation& ordinary) const;
+    void hold_source(const Region& region, const BoundaryDeformation& ordinary, const Frames& frame,
+                     TransitionMesh& source) const;
+    void add_counterparts(std::span<const Index> target_local, TransitionMesh& target,
+                          TransitionMesh& source) const;
+    SewnBands sewn_bands(const Sewn& sewn) const;
 
     const Mesh& target_;
     const Mesh& source_;

@@ -163,6 +163,30 @@ TEST_CASE("in the fixed configuration what is held stays") {
     CHECK(roughness(tubes, result, -0.9, -0.1) > 1e-3);
 }
 
+TEST_CASE("a source between two targets has a region at either end, and they must not meet") {
+    const Tubes below(0.1);
+    Mesh above = below.target;
+    for (Vec3& p : above.edit_positions()) p.y() += 5.0;
+    const auto end = [](const Mesh& mesh, double sign) {
+        return boundaries(mesh)[test::boundary_towards(mesh, sign)];
+    };
+    Join top{end(below.source, 1.0), end(above, -1.0), 1};
+    top.keys = {{test::farthest(below.source, top.source, Vec3::UnitX()),
+                 test::farthest(above, top.target, Vec3::UnitX())}};
+    const Mesh* targets[] = {&below.target, &above};
+    const auto merged = [&](double width) {
+        MergeOptions options = below.options;
+        options.source_transition = width;
+        return Merge(below.source, targets, {below.join, top}, options).solve();
+    };
+    const MergeResult result = merged(0.9);
+    CHECK(result.mesh.topology().component_count() == 1);
+    CHECK(result.report.transition.source[1].vertices == 7 * 32);
+    CHECK(result.report.transition.target[1].vertices == 7 * 32);
+    for (const Vec3& p : result.mesh.positions()) CHECK(p.head<1>().norm() < 1.5);
+    CHECK(test::error_of([&] { merged(1.3); }).code() == ErrorCode::invalid_argument);
+}
+
 TEST_CASE("it is another transition than the robust one, and needs regions that are bands") {
     Tubes tubes(0.1);
     const Mesh thesis = tubes.merged().mesh;
