@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/merge/band_map.h"
+#include "tests/unit/merge/real_pairs.h"
 #include "tests/unit/merge/seam_scenes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
@@ -111,6 +112,31 @@ TEST_CASE("the cut is the shortest path to the other end, and a region's holes c
             CHECK(away >= 0.0);
             CHECK(away <= band.width);
         }
+    }
+}
+
+TEST_CASE("real parts: no triangle of the square turns over") {
+    for (const test::RealPair& pair : test::real_pairs()) {
+        const auto part = test::load_part(pair.target);
+        if (!part) return;
+        CAPTURE(pair.name);
+        const LoopPair loop{{0}, part->boundary.vertices(), {{0, 0.0}}, {}};
+        const double width = 0.16 * part->boundary.length(part->mesh);
+        const ThesisBand band =
+            make_thesis_band(part->mesh, target_band_loop(part->mesh, loop, 0), width, {});
+        double whole = 0.0;
+        for (const Triangle& t : band.chart.triangles) {
+            std::array<Vec2, 3> at;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double first = band.chart.angle[t[0]], angle = band.chart.angle[t[k]];
+                at[k] = {angle - std::round(angle - first), band.chart.distance[t[k]] / width};
+            }
+            const Vec2 a = at[1] - at[0], b = at[2] - at[0];
+            const double area = 0.5 * (a.x() * b.y() - a.y() * b.x());
+            CHECK(area > -1e-12);
+            whole += area;
+        }
+        CHECK(whole == Approx(1.0).epsilon(1e-9));
     }
 }
 
