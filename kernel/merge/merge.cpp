@@ -16,6 +16,7 @@
 #include "kernel/merge/loop_values.h"
 #include "kernel/merge/merge_side.h"
 #include "kernel/merge/provenance.h"
+#include "kernel/merge/thesis_merge.h"
 #include "kernel/mesh/append.h"
 #include "kernel/mesh/distances.h"
 #include "kernel/mesh/measures.h"
@@ -111,6 +112,12 @@ Key worked_key(const Key& key, const GivenLoop& given, std::size_t number, const
                 elements);
 }
 
+// Number of the vertex nearest to a parameter of a loop.
+Index nearest_vertex(const Loop& loop, double parameter) {
+    const LoopPoint at = loop.place_at(parameter);
+    return (at.segment + (at.t > 0.5 ? 1 : 0)) % loop.size();
+}
+
 // The similarity that moves a feature as the surface around it would have moved it.
 BoundaryValue common_value(const Mesh& mesh, const Region& feature, const Region& region,
                            const BoundaryDeformation& free, Vec3& rest_center) {
@@ -165,11 +172,14 @@ struct Merge::State {
     std::vector<Vec3> all_positions(const BoundaryDeformation& deformed) const;
     void follow(const BoundaryDeformation& deformed, std::vector<Vec3>& positions) const;
     SewOptions sewing() const;
-    void finish_seams(Sewn& sewn, MergeReport& now, const Context& context) const;
     std::vector<FacePair> new_intersections(const Sewn& sewn, const Context& context) const;
     FacePair origin_of(const Sewn& sewn, const FacePair& pair) const;
     std::vector<FacePair> own_intersections(const Sewn& sewn, const std::vector<FacePair>& pairs,
                                             const Context& context) const;
+    std::optional<ThesisMerge> thesis_merge(const std::vector<LoopPair>& pairs,
+                                            const MergeReport& now, const Context& context) const;
+    void finish_seams(Sewn& sewn, const std::optional<ThesisMerge>& thesis, MergeReport& now,
+                      const Context& context) const;
     void turn_directions(const BoundaryDeformation& deformed, Mesh& moved) const;
 
     MergeOptions options;
@@ -518,9 +528,31 @@ SewOptions Merge::State::sewing() const {
     return how;
 }
 
-void Merge::State::finish_seams(Sewn& sewn, MergeReport& now, const Context& context) const {
+// The thesis's transition, where it is asked for.
+std::optional<ThesisMerge> Merge::State::thesis_merge(const std::vector<LoopPair>& pairs,
+                                                      const MergeReport& now,
+                                                      const Context& context) const {
+    if (!options.thesis) return std::nullopt;
+    if (!(options.source_transition > 0.0 || options.target_transition > 0.0)) return std::nullopt;
+    std::vector<ThesisJoin> thesis;
+    for (std::size_t j = 0; j < joins.size(); ++j) {
+        const bool scales = options.configuration == Configuration::free;
+        const std::vector<ParameterPair> keys = keys_of(j);
+        const Index start =
+            keys.empty() ? 0 : nearest_vertex(source_curves[j], keys.front().source);
+        thesis.push_back({pairs[j], start, scales ? now.joins[j].scale : 1.0,
+                          options.target_transition, options.source_transition});
+    }
+    return std::make_optional<ThesisMerge>(target, source.mesh, std::move(thesis),
+                                           options.transition_weight, context);
+}
+
+void Merge::State::finish_seams(Sewn& sewn, const std::optional<ThesisMerge>& thesis,
+                                MergeReport& now, const Context& context) const {
     const bool blends = options.source_transition > 0.0 || options.target_transition > 0.0;
-    if (blends) {
+    if (thesis) {
+        now.transition = thesis->reconstruct(sewn, context);
+    } else if (blends) {
         std::vector<TransitionWidths> widths;
         for (const JoinReport& join : now.joins) {
             widths.push_back({options.target_transition, options.source_transition * join.scale});
@@ -621,13 +653,18 @@ MergeResult Merge::solve(const Context& context) {
     MergeReport report = state.report;
     const std::vector<LoopPair> pairs = state.correspond(report);
     progress.step(0.5);
-    const BoundaryDeformation deformed = state.deform(pairs, context);
+    BoundaryDeformation deformed = state.deform(pairs, context);
+    std::optional<ThesisMerge> thesis = state.thesis_merge(pairs, report, context);
+    if (thesis) {
+        const auto& by = state.featured ? *state.featured : *state.deformer;
+        deformed = thesis->deform(by.region(), by.held(), deformed, context);
+    }
     Mesh moved = state.source.mesh;
     moved.set_positions(state.all_positions(deformed));
     state.turn_directions(deformed, moved);
     progress.step(0.5);
     Sewn sewn = sew(state.target, moved, pairs, state.sewing(), context);
-    state.finish_seams(sewn, report, context);
+    state.finish_seams(sewn, thesis, report, context);
     if (state.options.find_intersections) {
         report.intersections = state.new_intersections(sewn, context);
         if (!report.intersections.empty()) {

@@ -58,7 +58,8 @@ struct MergeOptions {
     /// Umbrella steps at the seam.
     int smooth = 3;
     /// Widths of the transition region (3.3.3) on each side, in the units of source and target; 0
-    /// is none.
+    /// is none. The thesis's transition needs both, and regions that are bands: its widths are
+    /// lengths along edges.
     double source_transition = 0.0, target_transition = 0.0;
     /// w_T of 3.3.3, of the thesis's transition.
     double transition_weight = 0.1;
@@ -146,7 +147,8 @@ class Merge {
     void set_keys(Index join, std::vector<KeyPair> keys);
 
     /// Finds the correspondence, deforms the source, and sews.
-    /// Errors: key_conflict; as `sew`; cancelled.
+    /// Errors: key_conflict; invalid_argument where a region of the thesis's transition is no band
+    /// (too narrow, too wide, with a handle, or meeting another); as `sew`; cancelled.
     MergeResult solve(const Context& context = {});
 
     /// Bytes held: both inputs and the factors.

@@ -27,6 +27,8 @@ class SeamCore {
     /// `rings` of the mesh's vertices; those below `width` are core.
     SeamCore(const BandSystem& band, std::span<const Index> rings, Index width);
 
+    bool contains(Index local) const { return unknown_[local] != kNoIndex; }
+
     /// One umbrella step within the tangent planes of the shape last measured: the core moves
     /// towards the mean of its neighbours, all at once, half the way on the seam and less in each
     /// ring away from it. Along the normal it would sink, and take with it the curvature that is
@@ -45,8 +47,6 @@ class SeamCore {
   private:
     std::vector<Vec4> fill(const BandSystem& band, std::vector<Vec4> values,
                            const Context& context) const;
-    bool contains(Index local) const { return unknown_[local] != kNoIndex; }
-
     std::vector<Index> vertices_;
     // Unknown of each local vertex in `fill`, or kNoIndex where it is not of the core.
     std::vector<Index> unknown_;
