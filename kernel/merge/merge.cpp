@@ -107,14 +107,17 @@ std::vector<GivenLoop> given_loops(const Mesh& mesh, const MergeSide& side) {
     return result;
 }
 
-// A key on the mesh that was given as a key on the loop that is worked with: by its place, where
-// the boundary has been changed.
-Key worked_key(const Key& key, const GivenLoop& given, std::size_t number, const char* side) {
+// A key on the mesh that was given as a key on the loop that is worked with: where the boundary has
+// been changed, the place nearest to it.
+Key worked_key(const Key& key, const GivenLoop& given, const Loop& loop, std::size_t number,
+               const char* side) {
     const Index* vertex = std::get_if<Index>(&key);
     if (!vertex) return key;
     const auto at = std::find(given.vertices.begin(), given.vertices.end(), *vertex);
     if (at != given.vertices.end()) {
-        return given.points[static_cast<std::size_t>(at - given.vertices.begin())];
+        double distance = 0.0;
+        const auto k = static_cast<std::size_t>(at - given.vertices.begin());
+        return point_of(loop.points(), loop.nearest(given.points[k], distance));
     }
     Elements elements{ElementKind::vertex, 0, {}};
     elements.add(*vertex);
@@ -406,8 +409,9 @@ std::vector<ParameterPair> Merge::State::keys_of(std::size_t join) const {
     std::vector<KeyPair> keys;
     for (std::size_t k = 0; k < joins[join].keys.size(); ++k) {
         const KeyPair& key = joins[join].keys[k];
-        keys.push_back({worked_key(key.source, given_source_loops[join], k, "source"),
-                        worked_key(key.target, given_target_loops[join], k, "target")});
+        keys.push_back(
+            {worked_key(key.source, given_source_loops[join], source_curves[join], k, "source"),
+             worked_key(key.target, given_target_loops[join], target_curves[join], k, "target")});
     }
     return key_parameters(source_curves[join], target_curves[join], keys);
 }
