@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <string_view>
 
 #include "kernel/merge/merge.h"
 #include "kernel/mesh/append.h"
@@ -258,4 +260,56 @@ TEST_CASE("merge: features on loose parts go with them") {
         CHECK(mesh.topology().component_count() == 2);
         CHECK(finite(mesh));
     }
+}
+
+TEST_CASE("merge: a cancel at any report leaves everything as it was") {
+    const Mesh source = half_ball(6), target = lower_half(5);
+    const std::uint64_t before[] = {hash(source), hash(target)};
+    const Mesh* targets[] = {&target};
+    MergeOptions options;
+    options.seam = SeamKind::fair;
+    Merge merge(source, targets, {first_join(source, target)}, options);
+    const std::uint64_t whole = hash(merge.solve().mesh);
+    const auto cancelled = [](int stop, const auto& action) {
+        std::optional<Context> context;
+        int reports = 0;
+        ContextOptions how;
+        how.progress = [&](std::string_view, double) {
+            if (reports++ == stop) context->cancel();
+        };
+        context.emplace(how);
+        try {
+            action(*context);
+            return false;
+        } catch (const Error& error) {
+            CHECK(error.code() == ErrorCode::cancelled);
+            return true;
+        }
+    };
+    int prepared = 0, solved = 0;
+    while (cancelled(prepared, [&](const Context& context) {
+        Merge(source, targets, {first_join(source, target)}, options, context);
+    })) {
+        ++prepared;
+    }
+    while (cancelled(solved, [&](const Context& context) { merge.solve(context); })) {
+        ++solved;
+        REQUIRE(hash(merge.solve().mesh) == whole);
+    }
+    CHECK(prepared > 0);
+    CHECK(solved > 0);
+    CHECK(hash(source) == before[0]);
+    CHECK(hash(target) == before[1]);
+}
+
+TEST_CASE("merge: a limit of memory is an error, not a crash") {
+    const Mesh source = half_ball(), target = lower_half();
+    const Mesh* targets[] = {&target};
+    ContextOptions how;
+    how.memory_limit = 1000;
+    const Context context(how);
+    CHECK(error_of([&] {
+              Merge(source, targets, {first_join(source, target)}, {}, context);
+          }).code() == ErrorCode::memory_limit);
+    CHECK(context.memory()->used() == 0);
 }
