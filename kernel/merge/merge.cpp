@@ -58,6 +58,20 @@ void require_options(const MergeOptions& options, std::size_t joins, std::size_t
     require(options.greatest_turn > 0.0, "the greatest turn must be above 0");
 }
 
+void require_distinct(const Mesh& source, std::span<const Mesh* const> targets) {
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+        if (targets[t] == &source) {
+            throw Error(ErrorCode::boundary_conflict,
+                        "source and target are one mesh; merge a copy of it");
+        }
+        const auto earlier = targets.first(t);
+        if (std::find(earlier.begin(), earlier.end(), targets[t]) != earlier.end()) {
+            throw Error(ErrorCode::boundary_conflict,
+                        "a mesh is given as a target twice; give it once, for all of its joins");
+        }
+    }
+}
+
 // Vertices of the parts of a mesh that the given loops bound.
 Region joined_parts(const Mesh& mesh, const std::vector<std::vector<Index>>& loops) {
     const std::vector<Index>& part = mesh.topology().components();
@@ -94,14 +108,17 @@ std::vector<GivenLoop> given_loops(const Mesh& mesh, const MergeSide& side) {
     return result;
 }
 
-// A key on the mesh that was given as a key on the loop that is worked with: by its place, where
-// the boundary has been changed.
-Key worked_key(const Key& key, const GivenLoop& given, std::size_t number, const char* side) {
+// A key on the mesh that was given as a key on the loop that is worked with: where the boundary has
+// been changed, the place nearest to it.
+Key worked_key(const Key& key, const GivenLoop& given, const Loop& loop, std::size_t number,
+               const char* side) {
     const Index* vertex = std::get_if<Index>(&key);
     if (!vertex) return key;
     const auto at = std::find(given.vertices.begin(), given.vertices.end(), *vertex);
     if (at != given.vertices.end()) {
-        return given.points[static_cast<std::size_t>(at - given.vertices.begin())];
+        double distance = 0.0;
+        const auto k = static_cast<std::size_t>(at - given.vertices.begin());
+        return point_of(loop.points(), loop.nearest(given.points[k], distance));
     }
     Elements elements{ElementKind::vertex, 0, {}};
     elements.add(*vertex);
@@ -116,6 +133,16 @@ Key worked_key(const Key& key, const GivenLoop& given, std::size_t number, const
 Index nearest_vertex(const Loop& loop, double parameter) {
     const LoopPoint at = loop.place_at(parameter);
     return (at.segment + (at.t > 0.5 ? 1 : 0)) % loop.size();
+}
+
+void require_apart(const Region& feature, const Region& others, const MergeSide& side,
+                   const std::string& why) {
+    const Region common = feature.intersected(others);
+    if (common.empty()) return;
+    Elements elements{ElementKind::vertex, 0, {}};
+    for (const Index v : common.vertices()) elements.add(side.map.vertices.main_source(v));
+    throw Error(ErrorCode::handle_overlap, "a fixed feature covers " + describe(elements) + why,
+                elements);
 }
 
 // The similarity that moves a feature as the surface around it would have moved it.
@@ -207,6 +234,10 @@ Merge::State::State(const Mesh& given_source, std::span<const Mesh* const> given
     Progress progress(context, "merge: prepare");
     const auto start = Clock::now();
     require_options(options, joins.size(), given_targets.size());
+    require_distinct(given_source, given_targets);
+    for (const Region& feature : options.fixed) {
+        require_same_topology(given_source, feature.topology(), "a fixed feature of the source");
+    }
     make_sides(given_source, given_targets, context);
     progress.step(0.3);
     make_loops();
@@ -261,10 +292,6 @@ void Merge::State::make_sides(const Mesh& given_source, std::span<const Mesh* co
     std::vector<MergeSide> sides;
     given_target_loops.resize(joins.size());
     for (std::size_t t = 0; t < given_targets.size(); ++t) {
-        if (given_targets[t] == &given_source) {
-            throw Error(ErrorCode::boundary_conflict,
-                        "source and target are one mesh; merge a copy of it");
-        }
         MergeSide& side =
             sides.emplace_back(make_side(*given_targets[t], target_paths[t], "target"));
         const std::vector<GivenLoop> given = given_loops(*given_targets[t], side);
@@ -338,21 +365,21 @@ void Merge::State::refine_coarse(const Context& context) {
     make_loops();
 }
 
+// Features on parts without a join need no care: these go as a whole, or stay.
 void Merge::State::carry_features() {
     const Region loops = region_of_loops(source.mesh, source.loops);
+    const Region parts = joined_parts(source.mesh, source.loops);
+    Region taken = Region::none(source.mesh.shared_topology());
     for (const Region& given : options.fixed) {
-        Region feature = source.carried(given);
-        const Region common = feature.intersected(loops);
-        if (!common.empty()) {
-            Elements elements{ElementKind::vertex, 0, {}};
-            for (const Index v : common.vertices())
-                elements.add(source.map.vertices.main_source(v));
-            throw Error(ErrorCode::handle_overlap,
-                        "a fixed feature covers " + describe(elements) +
-                            " of a boundary that is joined; take these vertices out of it",
-                        elements);
+        const Region feature = source.carried(given).intersected(parts);
+        require_apart(feature, loops, source,
+                      " of a boundary that is joined; take these vertices out of it");
+        if (options.configuration == Configuration::free) {
+            require_apart(feature, taken, source,
+                          " of another, and each moves on its own; make them one feature");
         }
-        if (!feature.empty()) features.push_back(std::move(feature));
+        taken = taken.united(feature);
+        if (!feature.empty()) features.push_back(feature);
     }
 }
 
@@ -396,8 +423,9 @@ std::vector<ParameterPair> Merge::State::keys_of(std::size_t join) const {
     std::vector<KeyPair> keys;
     for (std::size_t k = 0; k < joins[join].keys.size(); ++k) {
         const KeyPair& key = joins[join].keys[k];
-        keys.push_back({worked_key(key.source, given_source_loops[join], k, "source"),
-                        worked_key(key.target, given_target_loops[join], k, "target")});
+        keys.push_back(
+            {worked_key(key.source, given_source_loops[join], source_curves[join], k, "source"),
+             worked_key(key.target, given_target_loops[join], target_curves[join], k, "target")});
     }
     return key_parameters(source_curves[join], target_curves[join], keys);
 }

@@ -134,8 +134,9 @@ class Merge {
     /// Errors: invalid_argument without targets or joins, or for options out of range;
     /// topology_mismatch; not_a_boundary for a path that is not an open boundary of its mesh;
     /// boundary_conflict where two joins share one, where one crosses itself, has fewer than three
-    /// vertices or no length, or where source and target are one mesh; handle_overlap where a fixed
-    /// feature covers vertices of a boundary; unconstrained; zero_area; memory_limit; cancelled.
+    /// vertices or no length, or where a mesh is given twice; handle_overlap where a fixed feature
+    /// covers vertices of a boundary or, in the free configuration, of another feature;
+    /// unconstrained; zero_area; memory_limit; cancelled.
     Merge(const Mesh& source, std::span<const Mesh* const> targets, std::vector<Join> joins,
           const MergeOptions& options = {}, const Context& context = {});
     ~Merge();

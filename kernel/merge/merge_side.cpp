@@ -28,12 +28,14 @@ Elements elements_of(std::span<const Index> vertices) {
 // The boundary loop that `path` runs along.
 const std::vector<Index>& loop_of(const Mesh& mesh, const Path& path, const std::string& name) {
     if (!path.on_mesh() || !path.is_boundary()) {
-        Elements elements = elements_of(path.vertices());
+        const Elements elements = elements_of(path.vertices());
+        const std::string at = elements.count > 0 ? " at " + describe(elements) : "";
+        const char* open = path.closed() ? "" : ", which is open,";
         throw Error(ErrorCode::not_a_boundary,
-                    "a path of the " + name + (path.closed() ? "" : ", which is open,") +
+                    "a path of the " + name + at + open +
                         " is not one of its open boundaries; take one of those, or cut the mesh "
                         "along it first",
-                    std::move(elements));
+                    elements);
     }
     for (const std::vector<Index>& loop : mesh.topology().boundary_loops()) {
         if (std::find(loop.begin(), loop.end(), path.vertices().front()) != loop.end()) return loop;

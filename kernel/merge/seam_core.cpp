@@ -12,7 +12,7 @@ constexpr double kUmbrellaStrength = 0.5;
 constexpr double kLeastWeight = 0.05;
 
 // Pulls each value to the one it had, where nothing around the core holds it.
-constexpr double kHold = 1e-9;
+constexpr double kHold = 1e-7;
 
 // Vertices that nothing holds would drift: the farthest of each component stay where all of it
 // moves.

@@ -67,6 +67,10 @@ bool SeamPatch::has_edge(Index a, Index b) const {
     return left_of(a, b) != kNoIndex || left_of(b, a) != kNoIndex;
 }
 
+std::size_t SeamPatch::side_of(Index v) const {
+    return mesh_.topology().faces_around(v).front() >= first_source_face_ ? 1 : 0;
+}
+
 bool SeamPatch::is_complete(Index v) const {
     return complete_.contains(v);
 }
@@ -130,8 +134,10 @@ void SeamPatch::triangulate(Index face) {
 
 void SeamPatch::split_edge(Index from, Index to, std::span<const Index> vertices,
                            std::span<const double> fractions) {
-    triangulate(left_of(from, to));
-    const Index face = left_of(from, to);
+    // The other side may by now have an edge between the same two vertices, across a corner.
+    const std::size_t side = side_of(from);
+    triangulate(left_of(from, to, side));
+    const Index face = left_of(from, to, side);
     const std::vector<SeamCorner> old = faces_[face].corners;
     std::size_t k = 0;
     while (old[k].vertex != from) ++k;

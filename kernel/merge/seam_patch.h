@@ -101,6 +101,8 @@ class SeamPatch {
     Index left_of(Index from, Index to, std::size_t side) const;
     bool has_edge(Index a, Index b) const;
     bool is_complete(Index v) const;
+    // 0 for a vertex of the target, 1 for one of the source.
+    std::size_t side_of(Index v) const;
 
     void enter(Index face);
     void leave(Index face);

@@ -59,6 +59,11 @@ style = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 })
 -- The style has no curve, or each call of grow would make much hair.
 curve = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 }):stream{
     points = { { 0, 1, 0 }, { 0, 1.2, 0 } } }
+ball = lissom.shapes.sphere{ segments = 2 }
+cap, rest = ball:cut{ plane = { point = { 0, 0.1, 0 }, normal = { 0, 1, 0 } } }
+merging = lissom.merging{
+    joins = { { source = cap:boundaries()[1], target = rest:boundaries()[1] } } }
+provenance = select(2, merging:solve()).provenance
 function fresh()
     box = lissom.shapes.box()
     edit = lissom.deform(box)
@@ -68,7 +73,7 @@ function fresh()
         ["lissom.Path"] = grid:boundaries()[1], ["lissom.Buffer"] = box:positions(),
         ["lissom.Deformation"] = edit, ["lissom.Handle"] = handle, ["lissom.Params"] = params,
         ["lissom.Strands"] = strands, ["lissom.Scalp"] = scalp, ["lissom.Hairstyle"] = style,
-        ["lissom.Curve"] = curve }
+        ["lissom.Curve"] = curve, ["lissom.Merging"] = merging, ["lissom.Provenance"] = provenance }
 end
 )";
 
@@ -243,11 +248,11 @@ TEST_CASE("arguments by position") {
 
 TEST_CASE("work that comes later is an unknown name") {
     LuaState lua;
-    for (const char* name : {"merge", "paste", "scene", "tool", "replay"}) {
+    for (const char* name : {"paste", "scene", "tool", "replay"}) {
         CHECK(lua.run("return lissom." + std::string(name)).find("no function") !=
               std::string::npos);
     }
-    CHECK(lua.run("lissom.shapes.box():cut()").find("no method 'cut'") != std::string::npos);
+    CHECK(lua.run("lissom.shapes.box():paste()").find("no method 'paste'") != std::string::npos);
 }
 
 }  // namespace
