@@ -120,15 +120,15 @@ end
 function blocks.tail(options)
     options = options or {}
     local cells = blocks.cells{
-        { 0, 0, 0, 1, 1, 5 }, { 0, 0, -1 }, { 1, 0, -1 }, { 0, 0, -2 }, { 1, 0, -2 }, { -1, 0, -3, 2, 0, -3 },
-        { -2, 0, -4, -1, 0, -4 }, { 2, 0, -4, 3, 0, -4 },
+        { 0, 0, 3, 2, 1, 5 }, { 1, 0, -3, 1, 1, 2 }, { 0, 0, -4, 2, 0, -4 }, { -1, 0, -5, 0, 0, -5 },
+        { 2, 0, -5, 3, 0, -5 },
     }
     local open = {}
-    for x = 0, 1 do
+    for x = 0, 2 do
         for y = 0, 1 do table.insert(open, { x, y, 5, "z" }) end
     end
     return blocks.surface{ cells = cells, open = open, levels = options.levels or 3 }
-        :transform{ translate = { -1, -1, 0 } }
+        :transform{ translate = { -1.5, -1, 0 } }
 end
 
 --- A frame with a hole in its middle and four open arms of one size, like a valve: genus 1, four boundaries.

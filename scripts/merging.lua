@@ -232,6 +232,48 @@ function merging.join(source, target, options)
         keys = directions and merging.keys(from, to, directions) } }, own, warnings)
 end
 
+-- The columns of a frame: the way into the surface at a boundary's end (`sign` 1) or out of it, the part of a
+-- direction that is square to it, and their cross product.
+local function frame(boundary, direction, sign)
+    local axis = plus({ 0, 0, 0 }, merging.axis(boundary), sign)
+    local d = merging.direction(direction)
+    local side = unit(plus(d, axis, -dot(d, axis)))
+    return { axis, side, cross(axis, side) }
+end
+
+-- The axis and the angle in degrees of the rotation that takes one frame to another.
+local function rotation_between(from, to)
+    local m, trace = {}, 0
+    for i = 1, 3 do
+        m[i] = {}
+        for j = 1, 3 do
+            m[i][j] = to[1][i] * from[1][j] + to[2][i] * from[2][j] + to[3][i] * from[3][j]
+        end
+        trace = trace + m[i][i]
+    end
+    local angle = math.acos(math.max(-1, math.min(1, (trace - 1) / 2)))
+    local axis = { m[3][2] - m[2][3], m[1][3] - m[3][1], m[2][1] - m[1][2] }
+    if length(axis) < 1e-6 then
+        -- Half a turn: a column of m + 1 is the axis.
+        axis = { m[1][1] + 1, m[2][1], m[3][1] }
+        if length(axis) < 0.5 then axis = { m[1][2], m[2][2] + 1, m[3][2] } end
+        if length(axis) < 0.5 then axis = { m[1][3], m[2][3], m[3][3] + 1 } end
+    end
+    return axis, math.deg(angle)
+end
+
+--- A copy of the source moved, turned and scaled so that its boundary comes to lie at the target's: in the middle,
+-- as long, looking at it, and with the first direction of a key (a pair) on the second. Returns the copy and its
+-- boundary: what merging in the fixed configuration starts from.
+function merging.placed(from, to, key)
+    local axis, angle = rotation_between(frame(from, key[1], 1), frame(to, key[2], -1))
+    local here, there, scale = merging.center(from), merging.center(to), to:length() / from:length()
+    local copy = from:mesh():copy():transform{ scale = scale, about = here }
+    copy:transform{ rotate = { axis = axis, angle = angle, about = here }, translate = plus(there, here, -1) }
+    local point = { copy:position(from:vertices()[1]) }
+    return copy, merging.boundary_near(copy, point)
+end
+
 --- A copy of a mesh that lies elsewhere, turned and of another size, and is the same for the same number.
 function merging.elsewhere(mesh, number)
     local function chance(k)
