@@ -85,12 +85,22 @@ function merging.turned(direction, axis, angle)
     return plus(plus(plus({ 0, 0, 0 }, d, c), cross(n, d), s), n, (1 - c) * dot(n, d))
 end
 
---- The vertex of a boundary that is farthest along a direction.
+--- The vertex of a boundary that is farthest along a direction; of several that are, the one in their middle.
 function merging.extreme(boundary, direction)
-    local d, points = merging.direction(direction), boundary:points()
-    local best = 1
+    local d, points = unit(merging.direction(direction)), boundary:points()
+    local most, slack = -math.huge, 1e-6 * boundary:length()
+    for _, p in ipairs(points) do most = math.max(most, dot(p, d)) end
+    local middle, count = { 0, 0, 0 }, 0
+    for _, p in ipairs(points) do
+        if dot(p, d) >= most - slack then middle, count = plus(middle, p, 1), count + 1 end
+    end
+    middle = plus({ 0, 0, 0 }, middle, 1 / count)
+    local best, nearest
     for i, p in ipairs(points) do
-        if dot(p, d) > dot(points[best], d) then best = i end
+        local distance = length(plus(p, middle, -1))
+        if dot(p, d) >= most - slack and (not best or distance < nearest - slack) then
+            best, nearest = i, distance
+        end
     end
     return boundary:vertices()[best]
 end

@@ -14,15 +14,17 @@ local merge_script = require "merge_script"
 local merging = require "merging"
 local vectors = require "vectors"
 
-local params = merge_script.params{
+local schema = {
     source_legs = { type = "integer", default = 2, min = 1, max = 6, help = "length of the hind legs" },
     target_legs = { type = "integer", default = 4, min = 1, max = 6, help = "length of the front legs" },
     tilt = { type = "number", default = 0, min = -120, max = 120, unit = "degrees",
-        help = "how far a given model is turned about its own z axis, or `tilt_axis`" },
-    tilt_axis = { type = "string", default = "z", help = "of the target's model" },
+        help = "how far a given model is turned about `tilt_axis`, in its place" },
+    tilt_axis = { type = "string", default = "z", help = "a direction of the target's model" },
     hold = { type = "number", default = 0.5, min = 0.05, max = 0.9,
         help = "share of the height over the opening that is held, of a given model" },
 }
+for name, one in pairs(merging.schema) do schema[name] = one end
+local params = merge_script.params(schema)
 
 local given = params.pair ~= "" or params.source ~= ""
 local source, target, options = merge_script.models(params, merging.schema, function()
@@ -30,7 +32,7 @@ local source, target, options = merge_script.models(params, merging.schema, func
     return blocks.beast{ legs = params.source_legs, open = false },
         blocks.beast{ legs = params.target_legs, open = false },
         { source_cut = { point = middle, normal = { 0, 0, -1 } }, target_cut = { point = middle, normal = "z" },
-            keys = { { "y", "y" }, { "-y", "-y" } } }
+            keys = "1, 1, 0 = 1, 1, 0; -1, 1, 0 = -1, 1, 0; -1, -1, 0 = -1, -1, 0; 1, -1, 0 = 1, -1, 0" }
 end)
 local back, from = assert(merging.part(source, merging.read_cut(options.source_cut)))
 local front, to = assert(merging.part(target, merging.read_cut(options.target_cut)))
@@ -46,7 +48,8 @@ local function far_half(mesh, boundary)
     local axis, center, most = merging.axis(boundary), merging.center(boundary), 0
     local function height(...) return -vectors.dot(vectors.plus({ ... }, center, -1), axis) end
     for v = 1, #mesh do most = math.max(most, height(mesh:position(v))) end
-    return mesh:region{ where = function(_, ...) return height(...) > (1 - params.hold) * most end }
+    local clear = boundary:region():grow(3)
+    return mesh:region{ where = function(_, ...) return height(...) > (1 - params.hold) * most end }:minus(clear)
 end
 
 local placed, there, held

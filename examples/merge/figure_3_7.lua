@@ -1,13 +1,14 @@
 -- A transition region (Figure 3.7): within a band on either side of the seam, details of both parts fade into each
--- other. Here a smooth cactus goes on as a ribbed one.
+-- other.
 --
 --     lissom run examples/merge/figure_3_7.lua --width 1.5
 --     lissom run examples/merge/figure_3_7.lua --models ../shared/data/models --pair dinosaur_on_feline
 
+local blocks = require "blocks"
 local figures = require "figures"
-local lissom = require "lissom"
 local merge_script = require "merge_script"
 local merging = require "merging"
+local transplant_head = require "recipes.transplant_head"
 
 local schema = { width = { type = "number", default = 0.9, min = 0.1, max = 5,
     help = "of the band on each side, in radii of the boundary" } }
@@ -15,18 +16,19 @@ for name, one in pairs(merging.schema) do schema[name] = one end
 local params = merge_script.params(schema)
 
 local source, target, options = merge_script.models(params, merging.schema, function()
-    return lissom.shapes.cactus{ vertices = 9000, ribs = 0, thorns = 0 },
-        lissom.shapes.cactus{ vertices = 9000, ribs = 8, rib_depth = 0.12, thorns = 0 },
-        { source_cut = "0, 1.55, 0; 0, 1, 0", target_cut = "0, 1.45, 0; 0, -1, 0", keys = "z = z; x = x" }
+    local head, _, cuts = transplant_head.example()
+    local body = blocks.torso{ levels = 4 }
+    cuts.keys = "z = z; x = x; -z = -z; -x = -x"
+    return head, body, cuts
 end)
 
 local plain, plain_report, parts = assert(merging.join(source, target, options))
-merge_script.finish(params, "figure_3_7_plain", plain, plain_report, parts, { view = "front" })
+merge_script.finish(params, "figure_3_7_plain", plain, plain_report, parts)
 
 local function band(boundary) return params.width * boundary:length() / (2 * math.pi) end
 options.transition = { source = band(parts.joins[1].source), target = band(parts.joins[1].target) }
 local mesh, report, faded = assert(merging.join(source, target, options))
-merge_script.finish(params, "figure_3_7", mesh, report, faded, { view = "front" })
+merge_script.finish(params, "figure_3_7", mesh, report, faded)
 
 -- How much faces turn against each other within the bands.
 local function bends(merged, merged_report)
@@ -41,7 +43,7 @@ figures.claim(report.seam.after.greatest_dihedral < math.max(20, plain_report.se
     "the seam is hidden")
 
 figures.write{
-    name = "figure_3_7_compared", out = params.out, view = "front", size = { 1400, 640 },
+    name = "figure_3_7_compared", out = params.out, size = { 1400, 640 },
     panels = { { parts.source, "source" }, { parts.targets[1], "target" },
         { plain, "merged" }, { mesh, "with a transition" } }, fit = "each",
 }
