@@ -134,11 +134,12 @@ local function least_boundary(mesh, measure)
     return best
 end
 
---- The unit vector around which a boundary runs counter-clockwise: out of the surface's end.
+--- The unit vector that points out of the opening: that around which a boundary runs clockwise, having the surface
+-- on its left.
 function merging.axis(boundary)
     local points, center, axis = boundary:points(), merging.center(boundary), { 0, 0, 0 }
     for i, p in ipairs(points) do
-        axis = plus(axis, cross(plus(p, center, -1), plus(points[i % #points + 1], center, -1)), 1)
+        axis = plus(axis, cross(plus(p, center, -1), plus(points[i % #points + 1], center, -1)), -1)
     end
     return unit(axis)
 end
@@ -242,8 +243,8 @@ function merging.join(source, target, options)
         keys = directions and merging.keys(from, to, directions) } }, own, warnings)
 end
 
--- The columns of a frame: the way into the surface at a boundary's end (`sign` 1) or out of it, the part of a
--- direction that is square to it, and their cross product.
+-- The columns of a frame: the way out of an opening (`sign` 1) or into it, the part of a direction that is square
+-- to it, and their cross product.
 local function frame(boundary, direction, sign)
     local axis = plus({ 0, 0, 0 }, merging.axis(boundary), sign)
     local d = merging.direction(direction)

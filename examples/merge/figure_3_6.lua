@@ -89,6 +89,7 @@ local function greatest_move(mesh, report)
 end
 print(string.format("what is held moves by %g where it is fixed, by %.3g where all is free",
     greatest_move(fixed, fixed_report), greatest_move(free, free_report)))
+figures.claim(#held > 0, "something is held")
 figures.claim(greatest_move(fixed, fixed_report) == 0, "what is fixed stays to the bit")
 figures.claim(given or greatest_move(free, free_report) > 0.5, "the free configuration moves the feet")
 figures.claim(#fixed:boundaries() == #back:boundaries() + #front:boundaries() - 2, "the seam is closed")
