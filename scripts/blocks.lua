@@ -1,8 +1,8 @@
---- Smooth models from unit cubes: a few cells say what is where, subdivision rounds them. Faces may be left out,
--- where the model is to be open.
+--- Smooth models from unit cubes: a few cells say what is where, subdivision rounds them. Faces may be left
+-- out, where the model is to be open.
 --
 --     local blocks = require "blocks"
---     local cells = blocks.cells{ { 0, 0, 0, 3, 1, 1 }, { 1, 2, 0 } }     -- a beam of 4 x 2 x 2 cells, one on it
+--     local cells = blocks.cells{ { 0, 0, 0, 3, 1, 1 }, { 1, 2, 0 } }     -- a beam, a cell on it
 --     local mesh = blocks.surface{ cells = cells, open = { { 1, 2, 0, "y" } }, levels = 3 }
 local lissom = require "lissom"
 
@@ -81,8 +81,8 @@ end
 
 -- ---- Models
 
---- A body on four legs along z, its neck towards +z and +y. Options: open, whether the neck is (default true);
--- legs, their length in cells (default 3); levels.
+--- A body on four legs along z, its neck towards +z and +y. Options: open, whether the neck is (default
+-- true); legs, their length in cells (default 3); levels.
 function blocks.beast(options)
     options = options or {}
     local legs = options.legs or 3

@@ -11,17 +11,19 @@ local merge_pictures = {}
 
 --- Prints what a merge found and how well the seam is hidden.
 function merge_pictures.print(name, mesh, report, parts)
-    print(string.format("%s: %d vertices, %d of them free, genus %d, prepared in %.3f s, solved in %.3f s", name,
-        #mesh, report.free_vertices, mesh:genus(), report.prepare_seconds, report.solve_seconds))
+    print(string.format("%s: %d vertices, %d of them free, genus %d, prepared in %.3f s, "
+        .. "solved in %.3f s", name, #mesh, report.free_vertices, mesh:genus(), report.prepare_seconds,
+        report.solve_seconds))
     for i, join in ipairs(report.joins) do
         print(string.format("  join %d: %d vertices meet %d, scale %.3g%s%s%s", i, join.source_size,
             join.target_size, join.scale, join.guessed and ", keys guessed" or "",
-            join.source_trimmed and ", source trimmed" or "", join.target_trimmed and ", target trimmed" or ""))
+            join.source_trimmed and ", source trimmed" or "",
+            join.target_trimmed and ", target trimmed" or ""))
     end
     local before, after = report.seam.before, report.seam.after
-    print(string.format("  seam: greatest angle between faces %.1f degrees (%.1f before smoothing), rms %.1f, "
-        .. "smallest angles %.1f", after.greatest_dihedral, before.greatest_dihedral, after.rms_dihedral,
-        after.low_angle))
+    print(string.format("  seam: greatest angle between faces %.1f degrees (%.1f before smoothing), "
+        .. "rms %.1f, smallest angles %.1f", after.greatest_dihedral, before.greatest_dihedral,
+        after.rms_dihedral, after.low_angle))
     for _, warning in ipairs(parts and parts.warnings or {}) do print("  " .. warning) end
     for _, warning in ipairs(report.warnings) do print("  " .. warning) end
 end
@@ -54,8 +56,9 @@ local function ring_frame(path)
     return center, radius, merging.axis(path)
 end
 
---- A camera that looks at a seam from the side. Options: seam, its number; from, the direction to stand in, which
--- is turned to be square to the seam's axis; up; wide, the height of the picture in radii of the seam.
+--- A camera that looks at a seam from the side. Options: seam, its number; from, the direction to stand in,
+-- which is turned to be square to the seam's axis; up; wide, the height of the picture in radii of the
+-- seam.
 function merge_pictures.seam_camera(report, options)
     local center, radius, axis = ring_frame(report.seams[options.seam or 1])
     local from = vectors.unit(merging.direction(options.from or { 0.5, 0.25, 0.83 }))
@@ -81,11 +84,11 @@ local picture_options = {
     seam = true, wide = true, size = true,
 }
 
---- Writes four pictures of a merge: NAME_before.png, the source and the targets as they were cut, each at its own
--- scale; NAME.png, the result in two colours and in one; NAME_wire.png and NAME_seam.png, the seam close up with
--- its edges and without. Options: name; mesh, report and parts as merging.join returns them; out, the folder
--- (default "out"); view and up as of lissom.render; from, seam and wide as of merge_pictures.seam_camera; size, of a
--- cell in pixels (default 640).
+--- Writes four pictures of a merge: NAME_before.png, the source and the targets as they were cut, each at
+-- its own scale; NAME.png, the result in two colours and in one; NAME_wire.png and NAME_seam.png, the seam
+-- close up with its edges and without. Options: name; mesh, report and parts as merging.join returns them;
+-- out, the folder (default "out"); view and up as of lissom.render; from, seam and wide as of
+-- merge_pictures.seam_camera; size, of a cell in pixels (default 640).
 function merge_pictures.write(options)
     check(options, picture_options)
     local cell = options.size or 640

@@ -43,14 +43,13 @@ local function script_options(params)
     return options
 end
 
---- Source, target and options of a script: a known pair, given models, or what generate() returns; and what was
--- asked for on the command line among the parameters of `schema`.
+--- Source, target and options of a script: a known pair, given models, or what generate() returns; and what
+-- was asked for on the command line among the parameters of `schema`.
 function merge_script.models(params, schema, generate)
     local source, target, options
     if params.pair ~= "" then
-        local pair = assert(merge_pairs.load(params.pair, params.models))
-        source, target = pair.source, pair.target
-        options = { source_cut = pair.source_cut, target_cut = pair.target_cut, keys = pair.keys }
+        source, target, options = merge_pairs.load(params.pair, params.models)
+        assert(source, target)
     elseif params.source ~= "" or params.target ~= "" then
         source, target = assert(lissom.load(params.source)), assert(lissom.load(params.target))
         source = source:subdivide(params.levels, { scheme = "loop" })

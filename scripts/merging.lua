@@ -8,10 +8,11 @@
 --     })
 --     require("merge_pictures").write{ name = "mermaid", mesh = mesh, report = report, parts = parts }
 --
--- A cut is { point=, normal=, seed= }: the line of the plane that is nearest to the point is cut, and what lies on
--- the normal's side, or holds the seed, is kept. Without a cut the longest open boundary is taken.
--- A key is a pair of directions: the vertex of the source's boundary that is farthest along the first meets the
--- vertex of the target's that is farthest along the second. A direction is {x, y, z}, "x", "-z" or "0, 1, -0.5".
+-- A cut is { point=, normal=, seed= }: the line of the plane that is nearest to the point is cut, and what
+-- lies on the normal's side, or holds the seed, is kept. Without a cut the longest open boundary is taken.
+-- A key is a pair of directions: the vertex of the source's boundary that is farthest along the first meets
+-- the vertex of the target's that is farthest along the second. A direction is {x, y, z}, "x", "-z" or "0,
+-- 1, -0.5".
 local lissom = require "lissom"
 local vectors = require "vectors"
 
@@ -54,7 +55,7 @@ function merging.read_cut(text)
     for part in (text .. ";"):gmatch("([^;]*);") do table.insert(list, numbers(part) or false) end
     local point, normal, seed = list[1], list[2], list[3]
     if not point or not normal or seed == false or #list > 3 then
-        error("a cut is \"x, y, z; x, y, z\", a point and a normal, and perhaps \"; x, y, z\" of a seed, not '"
+        error("a cut is \"x, y, z; x, y, z\", a point and a normal, perhaps \"; x, y, z\" of a seed, not '"
             .. text .. "'", 2)
     end
     return { point = point, normal = normal, seed = seed }
@@ -134,8 +135,8 @@ local function least_boundary(mesh, measure)
     return best
 end
 
---- The unit vector that points out of the opening: that around which a boundary runs clockwise, having the surface
--- on its left.
+--- The unit vector that points out of the opening: that around which a boundary runs clockwise, having the
+-- surface on its left.
 function merging.axis(boundary)
     local points, center, axis = boundary:points(), merging.center(boundary), { 0, 0, 0 }
     for i, p in ipairs(points) do
@@ -154,8 +155,9 @@ function merging.longest_boundary(mesh)
     return least_boundary(mesh, function(boundary) return -boundary:length() end)
 end
 
---- The part of a mesh that a cut keeps, its new boundary, and what the cut found (a list of warnings). Without a
--- cut the mesh itself and its longest boundary. nil, message, code where the plane does not cut a part off.
+--- The part of a mesh that a cut keeps, its new boundary, and what the cut found (a list of warnings).
+-- Without a cut the mesh itself and its longest boundary. nil, message, code where the plane does not cut a
+-- part off.
 function merging.part(mesh, cut)
     if not cut then
         local boundary = merging.longest_boundary(mesh)
@@ -172,11 +174,12 @@ end
 
 -- ---- Joining
 
-local merge_options = { "configuration", "fixed", "reach", "frames", "seam", "smooth", "transition", "trim", "refine",
-    "fidelity" }
+local merge_options = { "configuration", "fixed", "reach", "frames", "seam", "smooth", "transition", "trim",
+    "refine", "fidelity" }
 
---- The values of a recipe's parameters (`schema` as of lissom.params), those given or else the defaults, and a table
--- of the given options that are lissom.merge's own. Any other name is an error at the caller of the recipe.
+--- The values of a recipe's parameters (`schema` as of lissom.params), those given or else the defaults,
+-- and a table of the given options that are lissom.merge's own. Any other name is an error at the caller of
+-- the recipe.
 function merging.read_options(name, schema, options)
     local values, own, left = {}, {}, {}
     for key, value in pairs(options or {}) do left[key] = value end
@@ -195,9 +198,9 @@ function merging.read_options(name, schema, options)
     return values, own
 end
 
---- Merges joins as lissom.merge does, `options` being its other options; `fixed` may be a function that is given
--- the source and returns a list of its regions. Returns the mesh, the report and
--- { source=, targets=, joins=, warnings= }: the parts as they were joined. nil, message, code where it fails.
+--- Merges joins as lissom.merge does, `options` being its other options; `fixed` may be a function that is
+-- given the source and returns a list of its regions. Returns the mesh, the report and { source=, targets=,
+-- joins=, warnings= }: the parts as they were joined. nil, message, code where it fails.
 function merging.merge(joins, options, warnings)
     local source, targets, seen = joins[1].source:mesh(), {}, {}
     for _, join in ipairs(joins) do
@@ -227,7 +230,8 @@ merging.schema = {
         help = "what meets: \"y = -z; ...\", directions on source and target; else what fits best" },
 }
 
---- Cuts two models, or takes their longest open boundaries, and merges what is left of the source onto the target.
+--- Cuts two models, or takes their longest open boundaries, and merges what is left of the source onto the
+-- target.
 -- Options: source_cut, target_cut; keys, pairs of directions; the others are those of merging.merge.
 -- Returns what that returns. nil, message, code where a cut or the merge fails.
 function merging.join(source, target, options)
@@ -243,8 +247,8 @@ function merging.join(source, target, options)
         keys = directions and merging.keys(from, to, directions) } }, own, warnings)
 end
 
--- The columns of a frame: the way out of an opening (`sign` 1) or into it, the part of a direction that is square
--- to it, and their cross product.
+-- The columns of a frame: the way out of an opening (`sign` 1) or into it, the part of a direction that is
+-- square to it, and their cross product.
 local function frame(boundary, direction, sign)
     local axis = plus({ 0, 0, 0 }, merging.axis(boundary), sign)
     local d = merging.direction(direction)
@@ -273,9 +277,9 @@ local function rotation_between(from, to)
     return axis, math.deg(angle)
 end
 
---- A copy of the source moved, turned and scaled so that its boundary comes to lie at the target's: in the middle,
--- as long, looking at it, and with the first direction of a key (a pair) on the second. Returns the copy and its
--- boundary: what merging in the fixed configuration starts from.
+--- A copy of the source moved, turned and scaled so that its boundary comes to lie at the target's: in the
+-- middle, as long, looking at it, and with the first direction of a key (a pair) on the second. Returns the
+-- copy and its boundary: what merging in the fixed configuration starts from.
 function merging.placed(from, to, key)
     local axis, angle = rotation_between(frame(from, key[1], 1), frame(to, key[2], -1))
     local here, there, scale = merging.center(from), merging.center(to), to:length() / from:length()
@@ -300,8 +304,8 @@ function merging.elsewhere(mesh, number)
     }
 end
 
---- Merges again from another place, turn and size of the source, by the same vertices, and returns how far the
--- vertices of the two results are apart at most, in sizes of the first.
+--- Merges again from another place, turn and size of the source, by the same vertices, and returns how far
+-- the vertices of the two results are apart at most, in sizes of the first.
 function merging.configuration_error(mesh, parts, number, options)
     local moved, joins = merging.elsewhere(parts.source, number), {}
     for i, join in ipairs(parts.joins) do

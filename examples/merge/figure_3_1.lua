@@ -1,5 +1,5 @@
--- A head merged to a body from two configurations (Figure 3.1): wherever the source lies, however it is turned and
--- whatever its size, the result is the same.
+-- A head merged to a body from two configurations (Figure 3.1): wherever the source lies, however it is
+-- turned and whatever its size, the result is the same.
 --
 --     lissom run examples/merge/figure_3_1.lua
 --     lissom run examples/merge/figure_3_1.lua --models ../shared/data/models --pair mannequin

@@ -1,5 +1,6 @@
--- A cactus whose handle is moved, turned and scaled (Figure 3.3): the rest follows by the same similarity. Here the
--- handle is the foot: the cactus is cut, the foot taken elsewhere, and the upper part merged back to it.
+-- A cactus whose handle is moved, turned and scaled (Figure 3.3): the rest follows by the same similarity.
+-- Here the handle is the foot: the cactus is cut, the foot taken elsewhere, and the upper part merged back
+-- to it.
 --
 --     lissom run examples/merge/figure_3_3.lua
 --     lissom run examples/merge/figure_3_3.lua --mesh cactus.off --cut "0, 0.2, 0; 0, 1, 0" --scale 3
@@ -32,7 +33,8 @@ local similarity = {
 local handle = below:copy():transform(similarity)
 local wanted = above:copy():transform(similarity)
 
--- What met before meets again. The line of the cut follows the ribs: it turns sharply and is not to be trimmed.
+-- What met before meets again. The line of the cut follows the ribs: it turns sharply and is not to be
+-- trimmed.
 local from, first = lines[1], lines.b[1]
 local there = merging.boundary_near(handle, { handle:position(first:vertices()[1]) })
 local positions, keys = {}, {}
@@ -58,8 +60,8 @@ for v = 1, #mesh do
     end
 end
 worst = worst / wanted:size()
-print(string.format("scale %.12g for %.12g, shape off by %.1e of the size", report.joins[1].scale, params.scale,
-    worst))
+print(string.format("scale %.12g for %.12g, shape off by %.1e of the size", report.joins[1].scale,
+    params.scale, worst))
 figures.claim(math.abs(report.joins[1].scale / params.scale - 1) < 0.02, "the part takes the handle's scale")
 figures.claim(worst < 0.01, "the part follows by the handle's similarity")
 

@@ -56,7 +56,8 @@ local function generated()
     head:fill(head:boundaries()[1])
     local source, from = with_discs(head, { { 0.1, 0.03, -0.02 }, { -0.1, 0.03, -0.02 } }, 0.03)
     local target, to = with_cuts(blocks.hare(), {
-        { point = { 2, 6.5, 0 }, normal = { 0.9, -1, 0 } }, { point = { -2, 6.5, 0 }, normal = { -0.9, -1, 0 } },
+        { point = { 2, 6.5, 0 }, normal = { 0.9, -1, 0 } },
+        { point = { -2, 6.5, 0 }, normal = { -0.9, -1, 0 } },
     })
     return source, from, target, to, { { "z", "z" }, { "-z", "-z" } }
 end

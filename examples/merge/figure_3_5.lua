@@ -1,5 +1,5 @@
--- One piece between four cylinders of different size (Figure 3.5): four joins at once, four targets, and a piece
--- with a hole in it. From any configuration the result is the same.
+-- One piece between four cylinders of different size (Figure 3.5): four joins at once, four targets, and a
+-- piece with a hole in it. From any configuration the result is the same.
 --
 --     lissom run examples/merge/figure_3_5.lua
 --     lissom run examples/merge/figure_3_5.lua --levels 1 --seam fair
@@ -25,7 +25,8 @@ for i, place in ipairs(places) do
     local cylinder = lissom.shapes.cylinder{
         radius = place.radius, height = 5, segments = 32, rings = 24, caps = false,
     }
-    targets[i] = cylinder:transform{ rotate = { axis = place.axis, angle = place.angle }, translate = place.at }
+    cylinder:transform{ rotate = { axis = place.axis, angle = place.angle }, translate = place.at }
+    targets[i] = cylinder
     -- Ends of the piece and of the cylinder that look at each other.
     local outward = { place.at[1], 0, place.at[3] }
     local from = merging.boundary_near(piece, outward)

@@ -1,9 +1,10 @@
--- The hind part of a beast on the front of another (Figure 3.6). In the free configuration it takes its size from
--- where they meet, and its legs may be too short. In the fixed one it is put in its place by hand, the feet are held
--- where they stand, and the legs reach the ground.
+-- The hind part of a beast on the front of another (Figure 3.6). In the free configuration it takes its
+-- size from where they meet, and its legs may be too short. In the fixed one it is put in its place by
+-- hand, the feet are held where they stand, and the legs reach the ground.
 --
 --     lissom run examples/merge/figure_3_6.lua --source_legs 3
---     lissom run examples/merge/figure_3_6.lua --models ../shared/data/models --pair feline_on_dinosaur --tilt 40
+--     lissom run examples/merge/figure_3_6.lua --models ../shared/data/models
+--         --pair dinosaur_on_feline --tilt 45
 --
 -- For other models the source is put before the target's opening, tilted, and the half of it that is farthest
 -- away is held.
@@ -31,7 +32,8 @@ local source, target, options = merge_script.models(params, merging.schema, func
     local middle = { 0, 100, 0 }
     return blocks.beast{ legs = params.source_legs, open = false },
         blocks.beast{ legs = params.target_legs, open = false },
-        { source_cut = { point = middle, normal = { 0, 0, -1 } }, target_cut = { point = middle, normal = "z" },
+        { source_cut = { point = middle, normal = { 0, 0, -1 } },
+            target_cut = { point = middle, normal = "z" },
             keys = "1, 1, 0 = 1, 1, 0; -1, 1, 0 = -1, 1, 0; -1, -1, 0 = -1, -1, 0; 1, -1, 0 = 1, -1, 0" }
 end)
 local back, from = assert(merging.part(source, merging.read_cut(options.source_cut)))
@@ -49,7 +51,8 @@ local function far_half(mesh, boundary)
     local function height(...) return -vectors.dot(vectors.plus({ ... }, center, -1), axis) end
     for v = 1, #mesh do most = math.max(most, height(mesh:position(v))) end
     local clear = boundary:region():grow(3)
-    return mesh:region{ where = function(_, ...) return height(...) > (1 - params.hold) * most end }:minus(clear)
+    local far = mesh:region{ where = function(_, ...) return height(...) > (1 - params.hold) * most end }
+    return far:minus(clear)
 end
 
 local placed, there, held

@@ -1,5 +1,5 @@
--- A transition region (Figure 3.7): within a band on either side of the seam, details of both parts fade into each
--- other.
+-- A transition region (Figure 3.7): within a band on either side of the seam, details of both parts fade
+-- into each other.
 --
 --     lissom run examples/merge/figure_3_7.lua --width 1.5
 --     lissom run examples/merge/figure_3_7.lua --models ../shared/data/models --pair dinosaur_on_feline
@@ -38,7 +38,8 @@ local function bends(merged, merged_report)
 end
 print(string.format("mean angle between faces within eight edges of the seam: %.2f degrees, %.2f without",
     bends(mesh, report), bends(plain, plain_report)))
-figures.claim(#mesh:boundaries() == #plain:boundaries() and mesh:genus() == plain:genus(), "the seam is closed")
+figures.claim(#mesh:boundaries() == #plain:boundaries() and mesh:genus() == plain:genus(),
+    "the seam is closed")
 figures.claim(report.seam.after.greatest_dihedral < math.max(20, plain_report.seam.after.greatest_dihedral),
     "the seam is hidden")
 

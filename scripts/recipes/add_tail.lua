@@ -40,7 +40,8 @@ end
 --- A generated tail, a generated torso, and options that join them.
 function add_tail.example(levels)
     local blocks = require "blocks"
-    return blocks.tail{ levels = levels }, blocks.torso{ levels = levels, waist = "open", neck = "closed" }, {}
+    return blocks.tail{ levels = levels },
+        blocks.torso{ levels = levels, waist = "open", neck = "closed" }, {}
 end
 
 if ... ~= "recipes.add_tail" then

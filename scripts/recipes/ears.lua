@@ -4,7 +4,7 @@
 --     lissom run scripts/recipes/ears.lua --radius 0.8
 --
 --     local ears = require "recipes.ears"
---     local mesh, report, parts = ears.make(ear, head, { left = { 1, 2, 0 }, right = { -1, 2, 0 }, radius = 0.3 })
+--     local mesh, report, parts = ears.make(ear, head, { left = { 1, 2, 0 }, radius = 0.3 })
 local lissom = require "lissom"
 local merging = require "merging"
 
@@ -64,7 +64,8 @@ local function keys(from, to, ear_front, head_front)
         { none, { -head_front[1], -head_front[2], -head_front[3] } } })
 end
 
---- Merges an ear and its mirror image onto a head. `options` are values of the schema and options of lissom.merge.
+--- Merges an ear and its mirror image onto a head. `options` are values of the schema and options of
+-- lissom.merge.
 -- Returns what merging.merge does; nil, message, code where it fails.
 function ears.make(ear, head, options)
     local values, own = merging.read_options("ears", ears.schema, options)
@@ -90,8 +91,8 @@ function ears.example(levels)
     local blocks = require "blocks"
     local ear = blocks.surface{ levels = levels, open = { { 0, 0, 0, "-y" } },
         cells = blocks.cells{ { 0, 0, 0, 0, 1, 0 }, { 0, 2, 0, 1, 4, 0 }, { 0, 5, 0 } } }
-    return ear:transform{ scale = { 1, 1, 0.6 }, translate = { 1, 0, 0 } }, lissom.shapes.head{ vertices = 8000 },
-        { left = { 0.045, 0.125, 0 }, radius = 0.022 }
+    return ear:transform{ scale = { 1, 1, 0.6 }, translate = { 1, 0, 0 } },
+        lissom.shapes.head{ vertices = 8000 }, { left = { 0.045, 0.125, 0 }, radius = 0.022 }
 end
 
 if ... ~= "recipes.ears" then

@@ -12,8 +12,9 @@ local merging = require "merging"
 
 local replace_limb = {}
 
---- Parameters, as lissom.params takes them. In Lua there may be `places` instead of `target_cut`: a list of cuts of
--- the body, each with `mirror` ("x", "y" or "z") where the limb's mirror image along that axis is wanted.
+--- Parameters, as lissom.params takes them. In Lua there may be `places` instead of `target_cut`: a list of
+-- cuts of the body, each with `mirror` ("x", "y" or "z") where the limb's mirror image along that axis is
+-- wanted.
 replace_limb.schema = {
     source_cut = { type = "string", default = "",
         help = "where the limb is cut: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
@@ -47,8 +48,8 @@ local function cut_all(body, places)
     return body, points
 end
 
--- A copy of the limb for each place, mirrored where that is asked for, side by side in one mesh, and for each a
--- point of its boundary.
+-- A copy of the limb for each place, mirrored where that is asked for, side by side in one mesh, and for
+-- each a point of its boundary.
 local function copies(limb, boundary, places)
     local all, points, point = nil, {}, boundary:points()[1]
     local step = 3 * limb:bounds().diagonal
@@ -64,9 +65,9 @@ local function copies(limb, boundary, places)
     return all, points
 end
 
---- Merges copies of a limb onto a body. `options` are values of the schema, `places`, and options of lissom.merge.
--- Keys are directions of the limb as it is given. Returns what merging.merge does; nil, message, code where it
--- fails.
+--- Merges copies of a limb onto a body. `options` are values of the schema, `places`, and options of
+-- lissom.merge. Keys are directions of the limb as it is given. Returns what merging.merge does; nil,
+-- message, code where it fails.
 function replace_limb.make(limb, body, options)
     local given = {}
     for key, value in pairs(options or {}) do given[key] = key ~= "places" and value or nil end

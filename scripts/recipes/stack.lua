@@ -41,8 +41,8 @@ local function highest(mesh, axis)
     return best, most
 end
 
--- The mesh with an opening at its end along a direction, and that boundary: one that lies in the last `share` of
--- its height, or a new one.
+-- The mesh with an opening at its end along a direction, and that boundary: one that lies in the last
+-- `share` of its height, or a new one.
 local function opened(mesh, axis, share)
     local low, high = extent(mesh, axis)
     local boundary, height = highest(mesh, axis)
@@ -59,8 +59,9 @@ local function opened(mesh, axis, share)
         normal = vectors.plus(none, axis, -1) })
 end
 
---- Stacks a list of parts on the first. `options` are values of the schema and options of lissom.merge. Returns the
--- mesh, the report of the last merge and its parts, and the list of all reports; nil, message, code where it fails.
+--- Stacks a list of parts on the first. `options` are values of the schema and options of lissom.merge.
+-- Returns the mesh, the report of the last merge and its parts, and the list of all reports; nil, message,
+-- code where it fails.
 function stack.make(list, options)
     local values, own = merging.read_options("stack", stack.schema, options)
     if #list < 2 then error("'stack' needs a list of two or more parts", 2) end

@@ -1,5 +1,5 @@
---- A head on another body: both are cut through the neck, and the head takes the place, the direction and the size
--- that the body's neck gives it.
+--- A head on another body: both are cut through the neck, and the head takes the place, the direction and
+-- the size that the body's neck gives it.
 --
 --     lissom run scripts/recipes/transplant_head.lua --turn 40
 --     lissom run scripts/recipes/transplant_head.lua --source head.obj --target body.obj
@@ -47,7 +47,7 @@ end
 --- A generated head, a generated torso, and options that join them.
 function transplant_head.example(levels)
     local blocks, lissom = require "blocks", require "lissom"
-    return lissom.shapes.head{ vertices = 2500 * 4 ^ ((levels or 3) - 2) }, blocks.torso{ levels = levels }, {
+    return lissom.shapes.head{ vertices = levels == 2 and 4000 or 10000 }, blocks.torso{ levels = levels }, {
         source_cut = { point = { 0, -0.15, 0 }, normal = { 0, 1, -0.25 }, seed = { 0, 0.1, 0 } } }
 end
 
