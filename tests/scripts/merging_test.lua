@@ -43,7 +43,7 @@ local none, message, code = merging.part(lissom.shapes.torus(), { point = { 1, 0
 expect.failure("boundary_conflict", none, message, code)
 
 -- A join is the same from everywhere, and its options are checked.
-local head, torso, options = require("recipes.transplant_head").example(2)
+local head, torso, options = require("recipes.transplant_head").example(3)
 options.keys = "z = z; -z = -z"
 local hash = head:hash()
 local mesh, report, parts = merging.join(head, torso, options)
@@ -54,8 +54,8 @@ expect.truthy(rawequal(parts.source, parts.joins[1].source:mesh()))
 expect.truthy(report.seam.after.greatest_dihedral < 25)
 for number = 1, 3 do expect.truthy(merging.configuration_error(mesh, parts, number) < 1e-9) end
 expect.error("unknown option 'key' of 'join'", function() merging.join(head, torso, { key = "" }) end)
-none, message, code = merging.join(head, torso, { source_cut = "0, 9, 0; 0, 1, 0" })
-expect.truthy(none == nil and message:find("^source: ") and type(code) == "string")
+local done, reason = pcall(merging.join, head, torso, { source_cut = "0, 9, 0; 0, 1, 0" })
+expect.truthy(not done and reason:find("does not cross the mesh", 1, true))
 none, message, code = merging.join(head, torso, { source_cut = options.source_cut,
     keys = "z = z; x = -x; -z = -z; -x = x" })
 expect.failure("key_conflict", none, message, code)
@@ -130,7 +130,7 @@ local list, own = stack.example(2, 4)
 local tower, last, of_tower, reports = stack.make(list, own)
 expect_whole("stack", tower, last, of_tower)
 expect.equal(#reports, 3)
-expect.truthy(tower:is_closed() and tower:bounds().max[2] > list[1]:bounds().max[2] + 2)
+expect.truthy(tower:is_closed() and tower:bounds().max[2] > list[1]:bounds().max[2] + 0.5)
 expect.error("two or more parts", function() stack.make({ list[1] }) end)
 
 -- Blocks.
