@@ -72,8 +72,8 @@ local function model(folder, part)
     return part[2] > 0 and mesh:subdivide(part[2], { scheme = "loop" }) or mesh
 end
 
---- Source, target and the options of merging.join for a pair: their cuts, and keys. nil, message, code where a
--- model is not in the folder.
+--- Source, target and the options of merging.join for a pair: their cuts, and keys. nil, message, code
+-- where a model is not in the folder.
 function merge_pairs.load(name, folder)
     local pair = known[name]
     if not pair then
