@@ -209,10 +209,10 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     });
     if (!done) return call.fail();
     const int first = lua_gettop(call.lua()) - 5;
-    call.remember(owner.get());
     call.charge(mesh);
     call.charge(provenance);
     lua_pushvalue(call.lua(), first);
+    call.remember(owner.get());
     lua_createtable(call.lua(), 0, 16);
     push_joins(call, result.report.joins);
     call.set_field("joins");

@@ -1,0 +1,323 @@
+--- Merging by planes and directions instead of ids, and its pictures.
+--
+--     local merging = require "merging"
+--     local mesh, report, parts = merging.join(fish, torso, {
+--         source_cut = { point = { 0, 0.1, -0.2 }, normal = { 0, 0, -1 } },
+--         target_cut = { point = { 0, -1, 0 }, normal = { 0, 1, 0 } },
+--         keys = { { "y", "-z" }, { "-y", "z" } },
+--     })
+--     require("merge_pictures").write{ name = "mermaid", mesh = mesh, report = report, parts = parts }
+--
+-- A cut is { point=, normal=, seed= }: the line of the plane that is nearest to the point is cut, and what
+-- lies on the normal's side, or holds the seed, is kept. Without a cut the longest open boundary is taken.
+-- A key is a pair of directions: the vertex of the source's boundary that is farthest along the first meets
+-- the vertex of the target's that is farthest along the second. A direction is {x, y, z}, "x", "-z" or "0,
+-- 1, -0.5".
+local lissom = require "lissom"
+local vectors = require "vectors"
+
+local cross, dot, length, plus, unit = vectors.cross, vectors.dot, vectors.length, vectors.plus, vectors.unit
+
+local merging = {}
+
+-- ---- Directions, cuts and keys as scripts and command lines give them
+
+local function numbers(text)
+    local list = {}
+    for word in text:gmatch("[^,%s]+") do
+        local number = tonumber(word)
+        if not number then return nil end
+        table.insert(list, number)
+    end
+    return #list == 3 and list or nil
+end
+
+local axes = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
+
+--- The vector that a direction means: {x, y, z}, or "x", "-y", "0, 1, -0.5".
+function merging.direction(value)
+    if type(value) == "table" and #value == 3 and length(value) > 0 then return value end
+    if type(value) == "string" then
+        local sign, axis = value:match("^%s*([+-]?)([xyz])%s*$")
+        if axis then return plus({ 0, 0, 0 }, axes[axis], sign == "-" and -1 or 1) end
+        local vector = numbers(value)
+        if vector and length(vector) > 0 then return vector end
+    end
+    error("a direction is {x, y, z}, \"x\", \"-y\" or \"0, 1, -0.5\", not " .. tostring(value), 2)
+end
+
+--- The cut that "point; normal" or "point; normal; seed" means, as "0, -0.95, 0; 0, 1, 0"; nil for "" and
+-- nil. A table is returned as it is.
+function merging.read_cut(text)
+    if text == nil or text == "" then return nil end
+    if type(text) == "table" then return text end
+    local list = {}
+    for part in (text .. ";"):gmatch("([^;]*);") do table.insert(list, numbers(part) or false) end
+    local point, normal, seed = list[1], list[2], list[3]
+    if not point or not normal or seed == false or #list > 3 then
+        error("a cut is \"x, y, z; x, y, z\", a point and a normal, perhaps \"; x, y, z\" of a seed, not '"
+            .. text .. "'", 2)
+    end
+    return { point = point, normal = normal, seed = seed }
+end
+
+--- The keys that "y = -z; -y = z" means: pairs of directions on the source and on the target; nil for "" and
+-- nil. A table is returned as it is.
+function merging.read_keys(text)
+    if text == nil or text == "" then return nil end
+    if type(text) == "table" then return text end
+    local keys = {}
+    for pair in text:gmatch("[^;]+") do
+        local from, to = pair:match("^([^=]+)=([^=]+)$")
+        if not from then
+            error("keys are \"direction = direction; ...\", the source's first, not '" .. text .. "'", 2)
+        end
+        table.insert(keys, { merging.direction(from), merging.direction(to) })
+    end
+    return keys
+end
+
+-- ---- Boundaries
+
+--- A direction turned about an axis by an angle in degrees.
+function merging.turned(direction, axis, angle)
+    local d, n = merging.direction(direction), unit(merging.direction(axis))
+    local c, s = math.cos(math.rad(angle)), math.sin(math.rad(angle))
+    return plus(plus(plus({ 0, 0, 0 }, d, c), cross(n, d), s), n, (1 - c) * dot(n, d))
+end
+
+--- The vertex of a boundary that is farthest along a direction; of several that are, the one in their middle.
+function merging.extreme(boundary, direction)
+    local d, points = unit(merging.direction(direction)), boundary:points()
+    local most, slack = -math.huge, 1e-6 * boundary:length()
+    for _, p in ipairs(points) do most = math.max(most, dot(p, d)) end
+    local middle, count = { 0, 0, 0 }, 0
+    for _, p in ipairs(points) do
+        if dot(p, d) >= most - slack then middle, count = plus(middle, p, 1), count + 1 end
+    end
+    middle = plus({ 0, 0, 0 }, middle, 1 / count)
+    local best, nearest
+    for i, p in ipairs(points) do
+        local distance = length(plus(p, middle, -1))
+        if dot(p, d) >= most - slack and (not best or distance < nearest - slack) then
+            best, nearest = i, distance
+        end
+    end
+    return boundary:vertices()[best]
+end
+
+--- Key vertices of two boundaries: for each pair of directions the vertices that are farthest along them.
+function merging.keys(source, target, directions)
+    local keys = {}
+    for i, pair in ipairs(directions) do
+        if type(pair) ~= "table" or #pair ~= 2 then
+            error("key " .. i .. " is no pair of directions, the source's and the target's", 2)
+        end
+        keys[i] = { merging.extreme(source, pair[1]), merging.extreme(target, pair[2]) }
+    end
+    return keys
+end
+
+--- The mean point of a boundary's vertices.
+function merging.center(boundary)
+    local sum, points = { 0, 0, 0 }, boundary:points()
+    for _, p in ipairs(points) do sum = plus(sum, p, 1 / #points) end
+    return sum
+end
+
+-- The boundary of a mesh for which measure(boundary) is least.
+local function least_boundary(mesh, measure)
+    local best, least
+    for _, boundary in ipairs(mesh:boundaries()) do
+        local value = measure(boundary)
+        if not best or value < least then best, least = boundary, value end
+    end
+    return best
+end
+
+--- The unit vector that points out of the opening: that around which a boundary runs clockwise, having the
+-- surface on its left.
+function merging.axis(boundary)
+    local points, center, axis = boundary:points(), merging.center(boundary), { 0, 0, 0 }
+    for i, p in ipairs(points) do
+        axis = plus(axis, cross(plus(p, center, -1), plus(points[i % #points + 1], center, -1)), -1)
+    end
+    return unit(axis)
+end
+
+--- The open boundary of a mesh that comes nearest to a point, or nil.
+function merging.boundary_near(mesh, point)
+    return least_boundary(mesh, function(boundary) return boundary:nearest(point).distance end)
+end
+
+--- The longest open boundary of a mesh, or nil.
+function merging.longest_boundary(mesh)
+    return least_boundary(mesh, function(boundary) return -boundary:length() end)
+end
+
+--- The part of a mesh that a cut keeps, its new boundary, and what the cut found (a list of warnings).
+-- Without a cut the mesh itself and its longest boundary. nil, message, code where the plane does not cut a
+-- part off.
+function merging.part(mesh, cut)
+    if not cut then
+        local boundary = merging.longest_boundary(mesh)
+        if not boundary then error("the mesh is closed; say by a cut where it is to be opened", 2) end
+        return mesh, boundary, {}
+    end
+    local plane = {}
+    for key, value in pairs(cut) do plane[key] = value end
+    plane.normal = merging.direction(cut.normal)
+    local kept, rest, lines = mesh:cut{ plane = plane }
+    if not kept then return nil, rest, lines end
+    return kept, lines[1], lines.report.warnings
+end
+
+-- ---- Joining
+
+local merge_options = { "configuration", "fixed", "reach", "frames", "seam", "smooth", "transition", "trim",
+    "refine", "fidelity" }
+
+--- The values of a recipe's parameters (`schema` as of lissom.params), those given or else the defaults,
+-- and a table of the given options that are lissom.merge's own. Any other name is an error at the caller of
+-- the recipe.
+function merging.read_options(name, schema, options)
+    local values, own, left = {}, {}, {}
+    for key, value in pairs(options or {}) do left[key] = value end
+    for key, one in pairs(schema) do
+        values[key] = left[key]
+        if values[key] == nil then values[key] = one.default end
+        left[key] = nil
+    end
+    for _, key in ipairs(merge_options) do
+        own[key], left[key] = left[key], nil
+    end
+    local unknown = next(left)
+    if unknown ~= nil then
+        error("unknown option '" .. tostring(unknown) .. "' of '" .. name .. "'", 3)
+    end
+    return values, own
+end
+
+--- Merges joins as lissom.merge does, `options` being its other options; `fixed` may be a function that is
+-- given the source and returns a list of its regions. Returns the mesh, the report and { source=, targets=,
+-- joins=, warnings= }: the parts as they were joined. nil, message, code where it fails.
+function merging.merge(joins, options, warnings)
+    local source, targets, seen = joins[1].source:mesh(), {}, {}
+    for _, join in ipairs(joins) do
+        local target = join.target:mesh()
+        if not seen[target] then table.insert(targets, target) end
+        seen[target] = true
+    end
+    local all = { joins = joins }
+    for key, value in pairs(options or {}) do all[key] = value end
+    if type(all.fixed) == "function" then all.fixed = all.fixed(source) end
+    local mesh, report, code = lissom.merge(all)
+    if not mesh then return nil, report, code end
+    return mesh, report, { source = source, targets = targets, joins = joins, warnings = warnings or {} }
+end
+
+-- Adds what a cut found to a list, with the side it was found on.
+local function note(list, side, warnings)
+    for _, warning in ipairs(warnings) do table.insert(list, side .. ": " .. warning.message) end
+end
+
+--- Parameters of merging.join, as lissom.params takes them.
+merging.schema = {
+    source_cut = { type = "string", default = "",
+        help = "where the source is cut: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
+    target_cut = { type = "string", default = "", help = "where the target is cut" },
+    keys = { type = "string", default = "",
+        help = "what meets: \"y = -z; ...\", directions on source and target; else what fits best" },
+}
+
+--- Cuts two models, or takes their longest open boundaries, and merges what is left of the source onto the
+-- target.
+-- Options: source_cut, target_cut; keys, pairs of directions; the others are those of merging.merge.
+-- Returns what that returns. nil, message, code where a cut or the merge fails.
+function merging.join(source, target, options)
+    local values, own = merging.read_options("join", merging.schema, options)
+    local a, from, of_source = merging.part(source, merging.read_cut(values.source_cut))
+    if not a then return nil, "source: " .. from, of_source end
+    local b, to, of_target = merging.part(target, merging.read_cut(values.target_cut))
+    if not b then return nil, "target: " .. to, of_target end
+    local warnings, directions = {}, merging.read_keys(values.keys)
+    note(warnings, "source", of_source)
+    note(warnings, "target", of_target)
+    return merging.merge({ { source = from, target = to,
+        keys = directions and merging.keys(from, to, directions) } }, own, warnings)
+end
+
+-- The columns of a frame: the way out of an opening (`sign` 1) or into it, the part of a direction that is
+-- square to it, and their cross product.
+local function frame(boundary, direction, sign)
+    local axis = plus({ 0, 0, 0 }, merging.axis(boundary), sign)
+    local d = merging.direction(direction)
+    local side = unit(plus(d, axis, -dot(d, axis)))
+    return { axis, side, cross(axis, side) }
+end
+
+-- The axis and the angle in degrees of the rotation that takes one frame to another.
+local function rotation_between(from, to)
+    local m, trace = {}, 0
+    for i = 1, 3 do
+        m[i] = {}
+        for j = 1, 3 do
+            m[i][j] = to[1][i] * from[1][j] + to[2][i] * from[2][j] + to[3][i] * from[3][j]
+        end
+        trace = trace + m[i][i]
+    end
+    local angle = math.acos(math.max(-1, math.min(1, (trace - 1) / 2)))
+    local axis = { m[3][2] - m[2][3], m[1][3] - m[3][1], m[2][1] - m[1][2] }
+    if length(axis) < 1e-6 then
+        -- Half a turn: a column of m + 1 is the axis.
+        axis = { m[1][1] + 1, m[2][1], m[3][1] }
+        if length(axis) < 0.5 then axis = { m[1][2], m[2][2] + 1, m[3][2] } end
+        if length(axis) < 0.5 then axis = { m[1][3], m[2][3], m[3][3] + 1 } end
+    end
+    return axis, math.deg(angle)
+end
+
+--- A copy of the source moved, turned and scaled so that its boundary comes to lie at the target's: in the
+-- middle, as long, looking at it, and with the first direction of a key (a pair) on the second. Returns the
+-- copy and its boundary: what merging in the fixed configuration starts from.
+function merging.placed(from, to, key)
+    local axis, angle = rotation_between(frame(from, key[1], 1), frame(to, key[2], -1))
+    local here, there, scale = merging.center(from), merging.center(to), to:length() / from:length()
+    local copy = from:mesh():copy():transform{ scale = scale, about = here }
+    copy:transform{ rotate = { axis = axis, angle = angle, about = here }, translate = plus(there, here, -1) }
+    local point = { copy:position(from:vertices()[1]) }
+    return copy, merging.boundary_near(copy, point)
+end
+
+--- A copy of a mesh that lies elsewhere, turned and of another size, and is the same for the same number.
+function merging.elsewhere(mesh, number)
+    local function chance(k)
+        local x = math.sin(12.9898 * number + 78.233 * k) * 43758.5453
+        return 2 * (x - math.floor(x)) - 1
+    end
+    local scale = 10 ^ (2 * chance(1))
+    local far = 5 * scale * mesh:size()
+    return mesh:copy():transform{
+        scale = scale,
+        rotate = { axis = { chance(2), chance(3), chance(4) + 1.5 }, angle = 180 * chance(5) },
+        translate = { far * chance(6), far * chance(7), far * chance(8) },
+    }
+end
+
+--- Merges again from another place, turn and size of the source, by the same vertices, and returns how far
+-- the vertices of the two results are apart at most, in sizes of the first.
+function merging.configuration_error(mesh, parts, number, options)
+    local moved, joins = merging.elsewhere(parts.source, number), {}
+    for i, join in ipairs(parts.joins) do
+        -- A copy has the same vertices, so that the boundary is the one through where a vertex went.
+        local point = { moved:position(join.source:vertices()[1]) }
+        joins[i] = { source = merging.boundary_near(moved, point), target = join.target, keys = join.keys }
+    end
+    local other = assert(merging.merge(joins, options))
+    if #other ~= #mesh then return math.huge end
+    local p, q, greatest = mesh:positions(), other:positions(), 0
+    for i = 1, #p do greatest = math.max(greatest, math.abs(p[i] - q[i])) end
+    return greatest / mesh:size(), other
+end
+
+return merging

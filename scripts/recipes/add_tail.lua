@@ -1,0 +1,55 @@
+--- A tail, or whatever else ends in one opening, in the place of what a body is cut off at: a mermaid.
+--
+--     lissom run scripts/recipes/add_tail.lua --twist 20
+--     lissom run scripts/recipes/add_tail.lua --models ../shared/data/models --pair mermaid
+--
+--     local add_tail = require "recipes.add_tail"
+--     local mesh, report, parts = add_tail.make(fish, torso, { source_cut = "0, .1, -.2; 0, .7, -.7" })
+local merging = require "merging"
+local vectors = require "vectors"
+
+local add_tail = {}
+
+--- Parameters, as lissom.params takes them.
+add_tail.schema = {
+    source_cut = { type = "string", default = "",
+        help = "where the tail is cut: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
+    target_cut = { type = "string", default = "", help = "where the body is cut" },
+    tail_up = { type = "string", default = "y", help = "the side of the tail that meets `body_up`" },
+    body_up = { type = "string", default = "-z", help = "the side of the body that meets `tail_up`" },
+    twist = { type = "number", default = 0, min = -180, max = 180, unit = "degrees",
+        help = "turns the tail about where it is joined" },
+}
+
+--- Merges a tail onto a body. `options` are values of the schema and options of lissom.merge. Returns what
+-- merging.merge does: the mesh, the report and the parts; nil, message, code where it fails.
+function add_tail.make(tail, body, options)
+    local values, own = merging.read_options("add_tail", add_tail.schema, options)
+    local source, from, found = merging.part(tail, merging.read_cut(values.source_cut))
+    if not source then return nil, "tail: " .. from, found end
+    local target, to, seen = merging.part(body, merging.read_cut(values.target_cut))
+    if not target then return nil, "body: " .. to, seen end
+    local none = { 0, 0, 0 }
+    local up = merging.direction(values.tail_up)
+    local meets = merging.turned(values.body_up, merging.axis(to), values.twist)
+    local keys = merging.keys(from, to,
+        { { up, meets }, { vectors.plus(none, up, -1), vectors.plus(none, meets, -1) } })
+    return merging.merge({ { source = from, target = to, keys = keys } }, own)
+end
+
+--- A generated tail, a generated torso, and options that join them.
+function add_tail.example(levels)
+    local blocks = require "blocks"
+    return blocks.tail{ levels = levels },
+        blocks.torso{ levels = levels, waist = "open", neck = "closed" }, {}
+end
+
+if ... ~= "recipes.add_tail" then
+    local merge_script = require "merge_script"
+    local params = merge_script.params(add_tail.schema)
+    local tail, body, options = merge_script.models(params, add_tail.schema, add_tail.example)
+    options.keys = nil
+    merge_script.finish(params, "add_tail", assert(add_tail.make(tail, body, options)))
+end
+
+return add_tail

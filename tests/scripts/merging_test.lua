@@ -1,0 +1,157 @@
+-- The library of merging: directions, cuts, keys, recipes.
+local blocks = require "blocks"
+local expect = require "expect"
+local lissom = require "lissom"
+local merging = require "merging"
+
+-- What scripts and command lines say.
+expect.near_list(merging.direction("-y"), { 0, -1, 0 })
+expect.near_list(merging.direction(" +z "), { 0, 0, 1 })
+expect.near_list(merging.direction("1, -0.5, 2"), { 1, -0.5, 2 })
+expect.error("a direction is", function() merging.direction("up") end)
+expect.error("a direction is", function() merging.direction{ 0, 0, 0 } end)
+local cut = merging.read_cut("0, 1, 2; 0, 0, 1; 5, 5, 5")
+expect.near_list(cut.point, { 0, 1, 2 })
+expect.near_list(cut.normal, { 0, 0, 1 })
+expect.near_list(cut.seed, { 5, 5, 5 })
+expect.equal(merging.read_cut("0,1,2; 0,0,1").seed, nil)
+expect.equal(merging.read_cut(""), nil)
+expect.error("a cut is", function() merging.read_cut("0, 1; 0, 0, 1") end)
+expect.error("a cut is", function() merging.read_cut("0, 1, 0") end)
+local pairs_of = merging.read_keys("y = -z; 1, 0, 0 = x")
+expect.equal(#pairs_of, 2)
+expect.near_list(pairs_of[1][2], { 0, 0, -1 })
+expect.error("keys are", function() merging.read_keys("y, z") end)
+expect.near_list(merging.turned("z", "y", 90), { 1, 0, 0 }, 1e-12)
+
+-- Boundaries by where they lie.
+local tube = lissom.shapes.cylinder{ radius = 1, height = 4, segments = 32, caps = false }
+local low = merging.boundary_near(tube, { 0, -9, 0 })
+expect.near(merging.center(low)[2], -2)
+expect.near_list(merging.axis(low), { 0, -1, 0 }, 1e-12)
+expect.near_list(merging.axis(merging.boundary_near(tube, { 0, 9, 0 })), { 0, 1, 0 }, 1e-12)
+local x, _, z = tube:position(merging.extreme(low, { 3, 0, 0 }))
+expect.near_list({ x, z }, { 1, 0 }, 1e-12)
+-- Of many that are as far, the one in the middle.
+local grid = lissom.shapes.grid{ size = { 2, 2 }, segments = { 10, 10 } }
+local gx, _, gz = grid:position(merging.extreme(grid:boundaries()[1], "z"))
+expect.near_list({ gx, gz }, { 0, 1 }, 1e-12)
+local wide = merging.part(tube, { point = { 0, 1, 0 }, normal = "-y" })
+expect.equal(#wide:boundaries(), 2)
+expect.error("the mesh is closed", function() merging.part(lissom.shapes.box()) end)
+local none, message, code = merging.part(lissom.shapes.torus(), { point = { 1, 0, 0 }, normal = "z" })
+expect.failure("boundary_conflict", none, message, code)
+
+-- A join is the same from everywhere, and its options are checked.
+local head, torso, options = require("recipes.transplant_head").example(3)
+options.keys = "z = z; -z = -z"
+local hash = head:hash()
+local mesh, report, parts = merging.join(head, torso, options)
+expect.truthy(mesh:is_manifold() and #mesh:boundaries() == 0)
+expect.equal(head:hash(), hash)
+expect.equal(#parts.targets, 1)
+expect.truthy(rawequal(parts.source, parts.joins[1].source:mesh()))
+expect.truthy(report.seam.after.greatest_dihedral < 25)
+for number = 1, 3 do expect.truthy(merging.configuration_error(mesh, parts, number) < 1e-9) end
+expect.error("unknown option 'key' of 'join'", function() merging.join(head, torso, { key = "" }) end)
+local done, reason = pcall(merging.join, head, torso, { source_cut = "0, 9, 0; 0, 1, 0" })
+expect.truthy(not done and reason:find("does not cross the mesh", 1, true))
+none, message, code = merging.join(head, torso, { source_cut = options.source_cut,
+    keys = "z = z; x = -x; -z = -z; -x = x" })
+expect.failure("key_conflict", none, message, code)
+
+-- A copy in its place lies at the opening and looks at it.
+local from, to = parts.joins[1].source, parts.joins[1].target
+local placed, there = merging.placed(from, to, { "z", "z" })
+expect.near_list(merging.center(there), merging.center(to), 1e-9)
+expect.near(there:length(), to:length(), 1e-9)
+local into, out = merging.axis(there), merging.axis(to)
+for k = 1, 3 do expect.near(into[k], -out[k], 1e-9) end
+expect.equal(#placed, #parts.source)
+
+-- Recipes: each makes one closed surface of its example.
+local function expect_whole(name, result, of_result, of_parts)
+    if not result then error(name .. ": " .. tostring(of_result), 2) end
+    expect.equal(result:components(), 1)
+    expect.truthy(result:is_manifold())
+    expect.truthy(of_result.seam.after.greatest_dihedral < 30)
+    expect.truthy(#of_parts.joins == #of_result.joins)
+    return result
+end
+for _, name in ipairs{ "transplant_head", "add_tail", "ears", "replace_limb" } do
+    local recipe = require("recipes." .. name)
+    local source, target, own = recipe.example(2)
+    local before_source, before_target = source:hash(), target:hash()
+    local result = expect_whole(name, recipe.make(source, target, own))
+    expect.truthy(result:is_closed())
+    expect.equal(result:genus(), 0)
+    expect.equal(source:hash(), before_source)
+    expect.equal(target:hash(), before_target)
+    expect.error("unknown option 'colour' of '" .. name .. "'", function()
+        recipe.make(source, target, { colour = 1 })
+    end)
+end
+
+-- The head turns with its parameter.
+local transplant_head = require "recipes.transplant_head"
+local function nose(turn)
+    local with = { source_cut = options.source_cut, turn = turn }
+    local whole, of_whole = transplant_head.make(head, torso, with)
+    local best, most = nil, -math.huge
+    for v = 1, #parts.source do
+        local nx, ny, nz = parts.source:position(v)
+        if nz > most and ny > -0.1 then best, most = { nx, ny, nz }, nz end
+    end
+    for v = 1, #whole do
+        local origins = of_whole.provenance:vertex(v)
+        if #origins == 1 and origins[1].side == "source" then
+            local p = { parts.source:position(origins[1].vertex) }
+            if p[1] == best[1] and p[2] == best[2] and p[3] == best[3] then return whole:position(v) end
+        end
+    end
+end
+local x0, _, z0 = nose(0)
+local x90, _, z90 = nose(90)
+expect.truthy(math.abs(x0) < 0.3 and z0 > 0.3)
+expect.truthy(x90 > 0.3 and math.abs(z90) < 0.6)
+
+-- Ears are mirror images; limbs too.
+local ears = require "recipes.ears"
+expect.error("needs the option 'left'", function() ears.make(head, torso, {}) end)
+local replace_limb = require "recipes.replace_limb"
+expect.error("needs 'target_cut' or 'places'", function() replace_limb.make(head, torso, {}) end)
+local limb, body, places = replace_limb.example(2)
+local two_legs = replace_limb.make(limb, body, places)
+expect.near(two_legs:bounds().max[1], -two_legs:bounds().min[1], 0.05)
+
+-- Stacks grow.
+local stack = require "recipes.stack"
+local list, own = stack.example(2, 4)
+local tower, last, of_tower, reports = stack.make(list, own)
+expect_whole("stack", tower, last, of_tower)
+expect.equal(#reports, 3)
+expect.truthy(tower:is_closed() and tower:bounds().max[2] > list[1]:bounds().max[2] + 0.5)
+expect.error("two or more parts", function() stack.make({ list[1] }) end)
+
+-- Blocks.
+expect.equal(#blocks.cells{ { 0, 0, 0, 1, 1, 1 }, { 0, 0, 0 } }, 8)
+expect.equal(blocks.valve{ levels = 2 }:genus(), 1)
+expect.equal(#blocks.valve{ levels = 2 }:boundaries(), 4)
+expect.error("these cells have no surface", function()
+    blocks.surface{ cells = { { 0, 0, 0 }, { 1, 1, 0 } } }
+end)
+
+-- Known pairs.
+local merge_pairs = require "merge_pairs"
+expect.equal(#merge_pairs.names(), 8)
+expect.error("there are: camel_on_cow", function() merge_pairs.load("hydra", ".") end)
+none, message, code = merge_pairs.load("mermaid", "no/such/folder")
+expect.failure("file_not_found", none, message, code)
+local folder = (os.getenv("LISSOM_TEST_DATA") or "") .. "/models"
+local file = io.open(folder .. "/fish_oded.obj")
+if file then
+    file:close()
+    local fish, venus, own_options = merge_pairs.load("mermaid", folder)
+    local mermaid, of_mermaid = merging.join(fish, venus, own_options)
+    expect.truthy(mermaid:is_manifold() and of_mermaid.seam.after.greatest_dihedral < 10.8)
+end
