@@ -20,7 +20,6 @@
 #include "kernel/mesh/append.h"
 #include "kernel/mesh/distances.h"
 #include "kernel/mesh/measures.h"
-#include "kernel/mesh/spatial_tree.h"
 
 namespace lissom {
 namespace {
