@@ -152,7 +152,7 @@ std::vector<Include> includes_of(std::string_view source) {
 
 /// Headers of the kernel that are not installed, and so may show the libraries of their folder.
 bool is_private(std::string_view path) {
-    return path.starts_with("kernel/io/gltf_");
+    return path.starts_with("kernel/io/gltf_") || path == "kernel/hair/growth_lanes.h";
 }
 
 bool project_allows(const Rule& rule, std::string_view header) {

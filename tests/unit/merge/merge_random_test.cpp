@@ -163,6 +163,8 @@ void check_target_kept(const MergeResult& result, const Mesh& target) {
 // trimmed boundary or run the wrong way because a part was inside out, bands that are all of a
 // part.
 bool may_refuse(const Error& error, const MergeOptions& options) {
+    // Transition regions of the thesis need room for their square.
+    if (options.thesis && error.code() == ErrorCode::invalid_argument) return true;
     return (error.code() == ErrorCode::boundary_conflict && options.seam == SeamKind::band) ||
            error.code() == ErrorCode::key_conflict || error.code() == ErrorCode::nonmanifold_edge;
 }
