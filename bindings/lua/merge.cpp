@@ -219,10 +219,12 @@ std::vector<Parameter> merge_parameters(bool intersections) {
                "fixed configuration: whether the surface at the boundary turns to meet the "
                "target's, or keeps its directions as in the thesis, which leaves a crease.")
             .defaults("turn"),
-        choice("seam", {"conform", "fair", "band"},
-               "conform: vertices of both boundaries are inserted into the faces of the other "
-               "side. fair: then the surface around the seam is bent smooth. band: a band of the "
-               "target's faces is replaced, as in the thesis.")
+        choice(
+            "seam", {"conform", "fair", "band"},
+            "conform: vertices of both boundaries are inserted into the faces of the other "
+            "side. fair: then the surface around the seam is bent smooth, unless a transition does "
+            "that. band: a band of the "
+            "target's faces is replaced, as in the thesis.")
             .defaults("conform"),
         integer("smooth", "Umbrella steps at the seam; with 0 no vertex of the target moves.")
             .between(0, 1000)
@@ -236,7 +238,8 @@ std::vector<Parameter> merge_parameters(bool intersections) {
                      .at_least(0)
                      .in("units of the target")
                      .defaults(0.0),
-                 number("weight", "w_T of thesis 3.3.3, for fidelity = \"thesis\".")
+                 number("weight",
+                        "w_T of thesis 3.3.3, for fidelity = \"thesis\", which needs both widths.")
                      .above(0)
                      .defaults(0.1)},
                 "Bands on either side of the seam in which details of both fade into each other.")

@@ -54,7 +54,12 @@ void require_options(const MergeOptions& options, std::size_t joins, std::size_t
                 std::isfinite(options.source_transition + options.target_transition),
             "widths of transition regions must be finite and not negative");
     require(!options.reach || *options.reach > 0.0, "the reach of a merge must be above 0");
-    require(options.greatest_turn > 0.0, "the greatest turn must be above 0");
+    require(options.greatest_turn >= 0.0, "the greatest turn must not be negative");
+    const bool stays = options.configuration == Configuration::fixed;
+    require(stays || !options.reach,
+            "a reach applies to the fixed configuration; in the free one all of the source moves");
+    require(stays || options.turn_frames,
+            "frames that keep their directions apply to the fixed configuration");
 }
 
 void require_distinct(const Mesh& source, std::span<const Mesh* const> targets) {

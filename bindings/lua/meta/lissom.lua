@@ -184,7 +184,7 @@
 ---@field greatest_dihedral number The greatest angle between faces across a seam.
 ---@field rms_dihedral number Their root mean square, weighted by edge length.
 ---@field greatest_near number The greatest angle on and next to a seam.
----@field smallest_angle number The smallest angle of a triangle at a seam.
+---@field smallest_angle number The smallest angle of a triangle at a seam; 0 without any.
 ---@field low_angle number The 5th percentile of the triangles' smallest angles.
 
 ---What was done to sew.
@@ -1822,7 +1822,7 @@ function lissom.deform(mesh, options) end
 ---@class lissom.MergeOptions.Transition
 ---@field source? number Width on the source. In units of the source. Default: 0.
 ---@field target? number Width on the target. In units of the target. Default: 0.
----@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis". Default: 0.1.
+---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergeOptions
 ---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, and the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
@@ -1832,7 +1832,7 @@ function lissom.deform(mesh, options) end
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
----@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
+---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
 ---@field smooth? integer Umbrella steps at the seam; with 0 no vertex of the target moves. Default: 3.
 ---@field transition? lissom.MergeOptions.Transition Bands on either side of the seam in which details of both fade into each other. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
@@ -1850,7 +1850,7 @@ function lissom.merge(options) end
 ---@class lissom.MergingOptions.Transition
 ---@field source? number Width on the source. In units of the source. Default: 0.
 ---@field target? number Width on the target. In units of the target. Default: 0.
----@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis". Default: 0.1.
+---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergingOptions
 ---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, and the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
@@ -1860,7 +1860,7 @@ function lissom.merge(options) end
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
----@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
+---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
 ---@field smooth? integer Umbrella steps at the seam; with 0 no vertex of the target moves. Default: 3.
 ---@field transition? lissom.MergingOptions.Transition Bands on either side of the seam in which details of both fade into each other. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.

@@ -201,10 +201,19 @@ TEST_CASE("merge: options out of range") {
         [](MergeOptions& o) { o.smooth = -1; },
         [](MergeOptions& o) { o.source_transition = -1.0; },
         [&](MergeOptions& o) { o.target_transition = nan; },
-        [](MergeOptions& o) { o.greatest_turn = 0.0; },
+        [](MergeOptions& o) { o.greatest_turn = -0.1; },
         [&](MergeOptions& o) { o.greatest_turn = nan; },
-        [](MergeOptions& o) { o.reach = 0.0; },
-        [&](MergeOptions& o) { o.reach = nan; },
+        [](MergeOptions& o) {
+            o.configuration = Configuration::fixed;
+            o.reach = 0.0;
+        },
+        [&](MergeOptions& o) {
+            o.configuration = Configuration::fixed;
+            o.reach = nan;
+        },
+        // What only the fixed configuration has a use for.
+        [](MergeOptions& o) { o.reach = 1.0; },
+        [](MergeOptions& o) { o.turn_frames = false; },
     };
     for (const auto& change : wrong) {
         MergeOptions options;

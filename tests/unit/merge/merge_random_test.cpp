@@ -102,7 +102,7 @@ MergeOptions random_options(Random& random, const Mesh& source, const Mesh& targ
     options.refine = random.index(2) == 0;
     options.trim = random.index(2) == 0;
     options.thesis = random.index(5) == 0;
-    options.turn_frames = random.index(3) != 0;
+    options.turn_frames = options.configuration == Configuration::free || random.index(3) != 0;
     return options;
 }
 
