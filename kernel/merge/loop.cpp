@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/merge/face_angles.h"
 #include "kernel/mesh/triangulation.h"
 
 namespace lissom {
@@ -20,10 +21,6 @@ constexpr double kReach = 3.0;
 // for, to tell how it turns; and it turns on by no more than this, in radians.
 constexpr double kLeastReach = 1.5;
 constexpr double kMostTurn = 0.35;
-
-double angle_between(const Vec3& a, const Vec3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 // The normal of the triangles around a vertex, weighted by angle, and how far from the vertex they
 // stand for in the mean: their middles by the same weights.

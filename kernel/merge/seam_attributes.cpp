@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kernel/merge/face_angles.h"
 #include "kernel/mesh/append.h"
 
 namespace lissom {
@@ -27,16 +28,6 @@ void split_charts(Mesh& mesh) {
         attribute.domain = Domain::corner;
         attribute.values = std::move(values);
     }
-}
-
-Vec3 area_vector(const Mesh& mesh, Index face) {
-    const std::span<const Index> vertices = mesh.topology().face(face);
-    const Vec3& origin = mesh.position(vertices[0]);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
-        sum += (mesh.position(vertices[k]) - origin).cross(mesh.position(vertices[k + 1]) - origin);
-    }
-    return sum;
 }
 
 // Corner of face `f` at vertex `v`.

@@ -6,6 +6,8 @@
 
 #include "kernel/merge/seam_patch.h"
 
+#include "kernel/merge/face_angles.h"
+
 namespace lissom {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr int kPasses = 10;
 constexpr double kGain = 1e-6;
 // Angles (radians) that differ by less are equal.
 constexpr double kSameAngle = 1e-9;
-
-double angle_between(const Vec3& u, const Vec3& v) {
-    return std::atan2(u.cross(v).norm(), u.dot(v));
-}
 
 // Angle between two normals; where one has no length it may be anything.
 double dihedral(const Vec3& n, const Vec3& m) {

@@ -1,5 +1,7 @@
 #include "kernel/merge/seam_quality.h"
 
+#include "kernel/merge/face_angles.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -10,20 +12,6 @@ namespace lissom {
 namespace {
 
 using Edge = std::pair<Index, Index>;
-
-Vec3 area_vector(const Mesh& mesh, Index face) {
-    const std::span<const Index> vertices = mesh.topology().face(face);
-    const Vec3& origin = mesh.position(vertices[0]);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
-        sum += (mesh.position(vertices[k]) - origin).cross(mesh.position(vertices[k + 1]) - origin);
-    }
-    return sum;
-}
-
-double angle_between(const Vec3& u, const Vec3& v) {
-    return std::atan2(u.cross(v).norm(), u.dot(v));
-}
 
 // The face on the left of a directed edge, or kNoIndex.
 Index left_of(const Topology& topology, Index from, Index to) {
