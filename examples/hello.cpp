@@ -7,7 +7,7 @@
 
 #include "kernel/deform/deformer.h"
 #include "kernel/io/mesh_file.h"
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/shapes/shapes.h"
 
 using namespace lissom;
 

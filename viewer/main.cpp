@@ -1,7 +1,7 @@
 // The `lissom` program with the viewer's verbs and functions.
 #include "bindings/cli/program.h"
-#include "viewer/render_verb.h"
-#include "viewer/viewer_library.h"
+#include "viewer/lua/render_verb.h"
+#include "viewer/lua/viewer_library.h"
 
 int main(int argc, char** argv) {
     lissom::cli::ProgramParts parts = lissom::cli::kernel_parts();

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "kernel/core/error.h"
-#include "viewer/legend.h"
-#include "viewer/overlay.h"
+#include "viewer/draw/legend.h"
+#include "viewer/draw/overlay.h"
 
 namespace lissom {
 namespace {

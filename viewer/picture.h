@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/drawing.h"
+#include "viewer/draw/drawing.h"
 #include "viewer/renderer.h"
 
 namespace lissom {

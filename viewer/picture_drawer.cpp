@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "viewer/colormap.h"
-#include "viewer/shaders.h"
+#include "viewer/draw/colormap.h"
+#include "viewer/gl/shaders.h"
 
 namespace lissom {
 namespace {

@@ -1,9 +1,9 @@
 /// Draws a drawing that is on the graphics card into a picture. All of it needs a current context.
 #pragma once
 
-#include "viewer/image.h"
-#include "viewer/occlusion.h"
-#include "viewer/projection.h"
+#include "viewer/draw/image.h"
+#include "viewer/draw/occlusion.h"
+#include "viewer/draw/projection.h"
 #include "viewer/renderer.h"
 
 namespace lissom {

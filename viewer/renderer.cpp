@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "kernel/core/error.h"
-#include "kernel/hair/strand_measures.h"
+#include "kernel/hair/strands/strand_measures.h"
 #include "viewer/picture_drawer.h"
-#include "viewer/strand_layer.h"
+#include "viewer/strands/strand_layer.h"
 
 namespace lissom {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "kernel/sketch/camera.h"
-#include "viewer/drawing.h"
-#include "viewer/image.h"
-#include "viewer/platform.h"
+#include "viewer/draw/drawing.h"
+#include "viewer/draw/image.h"
+#include "viewer/gl/platform.h"
 
 namespace lissom {
 

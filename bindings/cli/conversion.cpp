@@ -4,8 +4,8 @@
 #include <chrono>
 #include <system_error>
 
-#include "bindings/lua/failure.h"
-#include "kernel/io/file.h"
+#include "bindings/lua/core/failure.h"
+#include "kernel/io/stream/file.h"
 
 namespace lissom::cli {
 namespace fs = std::filesystem;

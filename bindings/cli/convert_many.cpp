@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "bindings/cli/file_patterns.h"
-#include "kernel/io/file.h"
+#include "kernel/io/stream/file.h"
 
 namespace lissom::cli {
 namespace fs = std::filesystem;

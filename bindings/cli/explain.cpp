@@ -4,8 +4,8 @@
 
 #include "bindings/cli/json.h"
 #include "bindings/cli/verbs.h"
-#include "bindings/lua/failure.h"
-#include "bindings/lua/nearest.h"
+#include "bindings/lua/core/failure.h"
+#include "bindings/lua/core/nearest.h"
 
 namespace lissom::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include "bindings/cli/load_flags.h"
 #include "bindings/cli/verbs.h"
 #include "kernel/io/mesh_file.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/path.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/query/path.h"
 
 namespace lissom::cli {
 namespace {

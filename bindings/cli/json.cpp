@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bindings/lua/failure.h"
+#include "bindings/lua/core/failure.h"
 
 namespace lissom::cli {
 namespace {

@@ -6,12 +6,12 @@
 #include <optional>
 #include <thread>
 
-#include "bindings/cli/interrupt.h"
 #include "bindings/cli/json.h"
-#include "bindings/cli/progress_bar.h"
-#include "bindings/cli/terminal.h"
-#include "bindings/lua/nearest.h"
-#include "kernel/solve/sparse_system.h"
+#include "bindings/cli/terminal/interrupt.h"
+#include "bindings/cli/terminal/progress_bar.h"
+#include "bindings/cli/terminal/terminal.h"
+#include "bindings/lua/core/nearest.h"
+#include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom::cli {
 

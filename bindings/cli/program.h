@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bindings/lua/state.h"
+#include "bindings/lua/core/state.h"
 #include "kernel/core/context.h"
 #include "kernel/core/error.h"
 

@@ -3,8 +3,8 @@
 #include <cstring>
 #include <iostream>
 
-#include "bindings/cli/line_editor.h"
 #include "bindings/cli/script.h"
+#include "bindings/cli/terminal/line_editor.h"
 #include "bindings/cli/verbs.h"
 
 namespace lissom::cli {

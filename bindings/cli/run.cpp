@@ -5,7 +5,7 @@
 #include "bindings/cli/json.h"
 #include "bindings/cli/script.h"
 #include "bindings/cli/verbs.h"
-#include "bindings/lua/script_parameters.h"
+#include "bindings/lua/core/script_parameters.h"
 
 namespace lissom::cli {
 namespace {

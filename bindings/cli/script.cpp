@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "bindings/cli/interrupt.h"
-#include "bindings/lua/script_parameters.h"
+#include "bindings/cli/terminal/interrupt.h"
+#include "bindings/lua/core/script_parameters.h"
 
 namespace lissom::cli {
 namespace {

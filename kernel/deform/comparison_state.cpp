@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "kernel/deform/deformer_state.h"
-#include "kernel/deform/polar.h"
-#include "kernel/deform/winding.h"
+#include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/rotation/winding.h"
 
 namespace lissom {
 namespace {

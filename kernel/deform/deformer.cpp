@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "kernel/deform/deformer_state.h"
-#include "kernel/deform/mirror.h"
-#include "kernel/deform/polar.h"
-#include "kernel/deform/winding.h"
+#include "kernel/deform/holds/mirror.h"
+#include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/rotation/winding.h"
 
 namespace lissom {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "kernel/deform/deformer_state.h"
-#include "kernel/deform/polar.h"
+#include "kernel/deform/rotation/polar.h"
 
 namespace lissom {
 namespace {

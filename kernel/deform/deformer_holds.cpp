@@ -7,7 +7,7 @@
 
 #include "kernel/deform/deformer.h"
 #include "kernel/deform/deformer_state.h"
-#include "kernel/deform/mirror.h"
+#include "kernel/deform/holds/mirror.h"
 
 namespace lissom {
 namespace {

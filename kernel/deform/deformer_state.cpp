@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "kernel/deform/boundary_refinement.h"
-#include "kernel/deform/polar.h"
+#include "kernel/deform/holds/boundary_refinement.h"
+#include "kernel/deform/rotation/polar.h"
 
 namespace lissom {
 namespace {

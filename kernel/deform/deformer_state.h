@@ -6,19 +6,19 @@
 #include <span>
 #include <vector>
 
-#include "kernel/deform/comparison_method.h"
-#include "kernel/deform/constraints.h"
+#include "kernel/deform/comparison/method.h"
 #include "kernel/deform/deformer.h"
-#include "kernel/deform/frame_blocks.h"
-#include "kernel/deform/frame_loops.h"
-#include "kernel/deform/gradient_system.h"
-#include "kernel/deform/gradients.h"
-#include "kernel/deform/linear_solution.h"
-#include "kernel/deform/operators.h"
-#include "kernel/deform/patch.h"
-#include "kernel/deform/rest_directions.h"
-#include "kernel/deform/rotation_system.h"
-#include "kernel/deform/working_patch.h"
+#include "kernel/deform/holds/constraints.h"
+#include "kernel/deform/patch/operators.h"
+#include "kernel/deform/patch/patch.h"
+#include "kernel/deform/patch/working_patch.h"
+#include "kernel/deform/rotation/rest_directions.h"
+#include "kernel/deform/system/frame_blocks.h"
+#include "kernel/deform/system/frame_loops.h"
+#include "kernel/deform/system/gradient_system.h"
+#include "kernel/deform/system/gradients.h"
+#include "kernel/deform/system/linear_solution.h"
+#include "kernel/deform/system/rotation_system.h"
 
 namespace lissom {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "kernel/mesh/mesh.h"
-#include "kernel/mesh/path.h"
-#include "kernel/mesh/spatial_tree.h"
+#include "kernel/mesh/query/path.h"
+#include "kernel/mesh/query/spatial_tree.h"
 
 namespace lissom {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kernel/solve/grid_constraints.h"
+#include "kernel/solve/grid/grid_constraints.h"
 
 namespace lissom {
 

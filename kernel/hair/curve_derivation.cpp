@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "kernel/hair/curve.h"
+#include "kernel/hair/curve/curve.h"
 
 namespace lissom {
 namespace {

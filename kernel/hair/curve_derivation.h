@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "kernel/hair/distance_grid.h"
-#include "kernel/hair/growth.h"
-#include "kernel/hair/scalp.h"
-#include "kernel/hair/style_curve.h"
+#include "kernel/hair/curve/style_curve.h"
+#include "kernel/hair/field/distance_grid.h"
+#include "kernel/hair/growth/growth.h"
+#include "kernel/hair/scalp/scalp.h"
 
 namespace lissom {
 

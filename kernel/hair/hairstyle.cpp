@@ -6,7 +6,7 @@
 
 #include "kernel/hair/curve_conflicts.h"
 #include "kernel/hair/curve_derivation.h"
-#include "kernel/hair/root_uvs.h"
+#include "kernel/hair/scalp/root_uvs.h"
 #include "kernel/hair/style_roots.h"
 
 namespace lissom {

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "kernel/hair/growth.h"
-#include "kernel/hair/hair_field.h"
-#include "kernel/hair/roots.h"
-#include "kernel/hair/scalp.h"
-#include "kernel/hair/scalp_step.h"
-#include "kernel/hair/strands.h"
-#include "kernel/hair/style_curve.h"
+#include "kernel/hair/curve/style_curve.h"
+#include "kernel/hair/field/hair_field.h"
+#include "kernel/hair/field/scalp_step.h"
+#include "kernel/hair/growth/growth.h"
+#include "kernel/hair/scalp/roots.h"
+#include "kernel/hair/scalp/scalp.h"
+#include "kernel/hair/strands/strands.h"
 
 namespace lissom {
 

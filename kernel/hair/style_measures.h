@@ -2,9 +2,9 @@
 #pragma once
 
 #include "kernel/core/context.h"
-#include "kernel/hair/dividing_curve.h"
-#include "kernel/hair/ponytail.h"
-#include "kernel/hair/strands.h"
+#include "kernel/hair/curve/dividing_curve.h"
+#include "kernel/hair/curve/ponytail.h"
+#include "kernel/hair/strands/strands.h"
 
 namespace lissom {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "kernel/hair/roots.h"
+#include "kernel/hair/scalp/roots.h"
 
 namespace lissom {
 

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "kernel/core/error.h"
-#include "kernel/io/byte_reader.h"
-#include "kernel/io/file.h"
-#include "kernel/io/read_error.h"
-#include "kernel/io/scalar.h"
+#include "kernel/io/stream/byte_reader.h"
+#include "kernel/io/stream/file.h"
+#include "kernel/io/stream/read_error.h"
+#include "kernel/io/stream/scalar.h"
 
 namespace lissom {
 namespace {

@@ -6,17 +6,17 @@
 #include <utility>
 
 #include "kernel/core/error.h"
-#include "kernel/io/file.h"
-#include "kernel/io/gltf.h"
-#include "kernel/io/mtl.h"
-#include "kernel/io/obj.h"
-#include "kernel/io/off.h"
-#include "kernel/io/ply.h"
-#include "kernel/io/scalar.h"
+#include "kernel/io/gltf/gltf.h"
+#include "kernel/io/obj/mtl.h"
+#include "kernel/io/obj/obj.h"
+#include "kernel/io/off/off.h"
+#include "kernel/io/ply/ply.h"
 #include "kernel/io/sniff.h"
-#include "kernel/io/stl.h"
-#include "kernel/mesh/directions.h"
-#include "kernel/mesh/repair.h"
+#include "kernel/io/stl/stl.h"
+#include "kernel/io/stream/file.h"
+#include "kernel/io/stream/scalar.h"
+#include "kernel/mesh/measure/directions.h"
+#include "kernel/mesh/repair/repair.h"
 
 namespace lissom {
 namespace {

@@ -18,7 +18,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/mesh/mesh.h"
-#include "kernel/mesh/repair.h"
+#include "kernel/mesh/repair/repair.h"
 
 namespace lissom {
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "kernel/core/error.h"
-#include "kernel/io/gltf_animation.h"
-#include "kernel/io/gltf_names.h"
-#include "kernel/mesh/measures.h"
+#include "kernel/io/gltf/animation.h"
+#include "kernel/io/gltf/mesh/names.h"
+#include "kernel/mesh/measure/measures.h"
 
 namespace lissom {
 namespace {

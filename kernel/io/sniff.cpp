@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "kernel/io/stl.h"
-#include "kernel/io/text_reader.h"
+#include "kernel/io/stl/stl.h"
+#include "kernel/io/stream/text_reader.h"
 
 namespace lissom {
 namespace {

@@ -5,15 +5,15 @@
 #include <utility>
 
 #include "kernel/core/error.h"
-#include "kernel/io/byte_source.h"
-#include "kernel/io/cyhair.h"
-#include "kernel/io/file.h"
-#include "kernel/io/gltf_strands.h"
-#include "kernel/io/hair_salon.h"
-#include "kernel/io/obj_strands.h"
-#include "kernel/io/rib_curves.h"
-#include "kernel/io/strand_check.h"
-#include "kernel/io/usda_curves.h"
+#include "kernel/io/gltf/strands.h"
+#include "kernel/io/hair/cyhair.h"
+#include "kernel/io/hair/hair_salon.h"
+#include "kernel/io/hair/rib_curves.h"
+#include "kernel/io/obj/strands.h"
+#include "kernel/io/record/strand_check.h"
+#include "kernel/io/stream/byte_source.h"
+#include "kernel/io/stream/file.h"
+#include "kernel/io/usda/curves.h"
 
 namespace lissom {
 namespace {

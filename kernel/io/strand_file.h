@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "kernel/hair/strands.h"
+#include "kernel/hair/strands/strands.h"
 #include "kernel/io/mesh_file.h"
-#include "kernel/io/strand_report.h"
+#include "kernel/io/record/strand_report.h"
 
 namespace lissom {
 

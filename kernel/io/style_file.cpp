@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "kernel/io/file.h"
-#include "kernel/io/text_writer.h"
+#include "kernel/io/stream/file.h"
+#include "kernel/io/stream/text_writer.h"
 
 namespace lissom {
 namespace {

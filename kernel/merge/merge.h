@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "kernel/deform/boundary_deformer.h"
-#include "kernel/merge/correspondence.h"
-#include "kernel/merge/sew.h"
-#include "kernel/merge/transition.h"
+#include "kernel/deform/boundary/boundary_deformer.h"
+#include "kernel/merge/blend/transition.h"
+#include "kernel/merge/loop/correspondence.h"
+#include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/mesh.h"
-#include "kernel/mesh/path.h"
+#include "kernel/mesh/query/path.h"
+#include "kernel/mesh/query/self_intersections.h"
 #include "kernel/mesh/region.h"
-#include "kernel/mesh/self_intersections.h"
 
 namespace lissom {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "kernel/merge/loop_values.h"
+#include "kernel/merge/loop/loop_values.h"
 #include "kernel/merge/merge_state.h"
 #include "kernel/merge/provenance.h"
-#include "kernel/mesh/append.h"
-#include "kernel/mesh/distances.h"
+#include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/query/distances.h"
 
 namespace lissom {
 namespace {

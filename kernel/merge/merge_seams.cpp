@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kernel/merge/fair_seam.h"
+#include "kernel/merge/blend/fair_seam.h"
 #include "kernel/merge/merge_state.h"
 
 namespace lissom {

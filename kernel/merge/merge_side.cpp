@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "kernel/merge/provenance.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/transform.h"
-#include "kernel/mesh/trim.h"
+#include "kernel/mesh/cut/trim.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/measure/measures.h"
 
 namespace lissom {
 namespace {

@@ -8,7 +8,7 @@
 #include "kernel/core/context.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
-#include "kernel/mesh/path.h"
+#include "kernel/mesh/query/path.h"
 #include "kernel/mesh/region.h"
 
 namespace lissom {

@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "kernel/deform/polar.h"
-#include "kernel/deform/rest_directions.h"
-#include "kernel/merge/automatic_keys.h"
-#include "kernel/merge/loop_values.h"
+#include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/rotation/rest_directions.h"
+#include "kernel/merge/loop/automatic_keys.h"
+#include "kernel/merge/loop/loop_values.h"
 #include "kernel/merge/merge_state.h"
 
 namespace lissom {

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "kernel/merge/loop.h"
+#include "kernel/merge/loop/loop.h"
 #include "kernel/merge/merge.h"
 #include "kernel/merge/merge_side.h"
-#include "kernel/merge/thesis_merge.h"
+#include "kernel/merge/thesis/thesis_merge.h"
 
 namespace lissom {
 

@@ -7,7 +7,7 @@
 
 #include "kernel/merge/merge_side.h"
 #include "kernel/merge/provenance.h"
-#include "kernel/mesh/triangulation.h"
+#include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
 namespace {

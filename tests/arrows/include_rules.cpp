@@ -28,7 +28,7 @@ const std::vector<Rule>& rules() {
          {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform", "kernel/merge"},
          {"Eigen"}},
         {"kernel/hair", {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/hair"}, {"Eigen"}},
-        {"kernel/hair/growth_lanes.h", {"kernel/core"}, {"intrinsics"}},
+        {"kernel/hair/growth/growth_lanes.h", {"kernel/core"}, {"intrinsics"}},
         {"kernel/sketch",
          {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/sketch"},
          {"Eigen"}},
@@ -43,7 +43,7 @@ const std::vector<Rule>& rules() {
         {"bindings/c", {"kernel", "bindings/c"}, {"Eigen"}},
         {"bindings/engine", {}, {"platform"}},
         {"bindings/lua", {"kernel", "bindings/lua"}, {"Eigen", "Lua"}},
-        {"bindings/lua/reference_main.cpp", {"bindings/lua"}, {"printing"}},
+        {"bindings/lua/reference/reference_main.cpp", {"bindings/lua"}, {"printing"}},
         {"bindings/cli",
          {"kernel", "bindings"},
          {"Eigen", "Lua", "CLI11", "JSON", "readline", "printing", "platform"}},
@@ -152,7 +152,7 @@ std::vector<Include> includes_of(std::string_view source) {
 
 /// Headers of the kernel that are not installed, and so may show the libraries of their folder.
 bool is_private(std::string_view path) {
-    return path.starts_with("kernel/io/gltf_") || path == "kernel/hair/growth_lanes.h";
+    return path.starts_with("kernel/io/gltf_") || path == "kernel/hair/growth/growth_lanes.h";
 }
 
 bool project_allows(const Rule& rule, std::string_view header) {

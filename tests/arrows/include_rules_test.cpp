@@ -87,7 +87,7 @@ TEST_CASE("a kernel header shows no library but Eigen") {
     CHECK(count("kernel/mesh/a.cpp", "#include <OpenMesh/Core/Mesh/Handles.hh>\n") == 0);
     CHECK(count("kernel/mesh/a.h", kOpening + std::string("#include <Eigen/Core>\n")) == 0);
     CHECK(count("kernel/io/gltf_a.h", kOpening + std::string("#include <tiny_gltf.h>\n")) == 0);
-    CHECK(count("kernel/io/gltf.h", kOpening + std::string("#include <tiny_gltf.h>\n")) == 1);
+    CHECK(count("kernel/io/gltf/gltf.h", kOpening + std::string("#include <tiny_gltf.h>\n")) == 1);
     CHECK(count("kernel/mesh/a.cpp", "#include <tiny_gltf.h>\n") == 1);
     CHECK(count("kernel/mesh/a.h",
                 kOpening + std::string("#include <OpenMesh/Core/Mesh/Handles.hh>\n")) == 1);

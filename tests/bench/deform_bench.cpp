@@ -12,12 +12,12 @@
 #include <string>
 
 #include "kernel/deform/deformer.h"
-#include "kernel/deform/polar.h"
+#include "kernel/deform/rotation/polar.h"
 #include "kernel/io/mesh_file.h"
-#include "kernel/mesh/extract.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/shapes.h"
-#include "kernel/mesh/subdivide.h"
+#include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/edit/subdivide.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/bench/report.h"
 #ifdef LISSOM_BENCH_CGAL
 #include "tests/bench/cgal_deform.h"

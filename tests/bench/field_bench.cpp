@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/solve/grid_field.h"
+#include "kernel/solve/field/grid_field.h"
 #include "tests/bench/report.h"
 
 namespace lissom::bench {

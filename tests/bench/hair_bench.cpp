@@ -9,10 +9,10 @@
 #define LISSOM_HAS_RUSAGE
 #endif
 
-#include "kernel/hair/curve.h"
-#include "kernel/hair/growth.h"
-#include "kernel/hair/stream_curve.h"
-#include "kernel/mesh/head.h"
+#include "kernel/hair/curve/curve.h"
+#include "kernel/hair/curve/stream_curve.h"
+#include "kernel/hair/growth/growth.h"
+#include "kernel/mesh/shapes/head.h"
 #include "tests/bench/report.h"
 
 namespace lissom::bench {

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "kernel/io/mesh_file.h"
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/bench/heap.h"
 #include "tests/bench/io_rivals.h"
 #include "tests/bench/report.h"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "kernel/merge/merge.h"
-#include "kernel/mesh/cut.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/shapes.h"
-#include "kernel/mesh/transform.h"
+#include "kernel/mesh/cut/cut.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/bench/report.h"
 
 namespace lissom::bench {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/deform/polar.h"
-#include "kernel/mesh/measures.h"
+#include "kernel/deform/rotation/polar.h"
+#include "kernel/mesh/measure/measures.h"
 
 namespace lissom::bench {
 namespace {

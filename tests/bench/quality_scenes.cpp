@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/shapes.h"
-#include "kernel/mesh/triangulate.h"
+#include "kernel/mesh/edit/triangulate.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/shapes/shapes.h"
 
 namespace lissom::bench {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "kernel/deform/deformer.h"
-#include "kernel/mesh/measures.h"
+#include "kernel/mesh/measure/measures.h"
 #include "tests/data/data_files.h"
 
 namespace lissom::test {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <map>
 
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/triangulation.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "tests/data/data_files.h"
 
 namespace lissom::test {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "bindings/lua/call.h"
+#include "bindings/lua/core/call.h"
 #include "tests/unit/bindings/lua_state.h"
 
 namespace lissom::lua {

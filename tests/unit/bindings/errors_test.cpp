@@ -1,5 +1,5 @@
 // Errors across the border between C++ and Lua.
-#include "bindings/lua/call.h"
+#include "bindings/lua/core/call.h"
 #include "tests/unit/bindings/lua_state.h"
 
 namespace lissom::lua {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "bindings/lua/state.h"
+#include "bindings/lua/core/state.h"
 
 namespace lissom::test {
 

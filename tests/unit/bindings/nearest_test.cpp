@@ -1,4 +1,4 @@
-#include "bindings/lua/nearest.h"
+#include "bindings/lua/core/nearest.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Life of objects: closing, collecting, several states, coroutines.
-#include "bindings/lua/mesh_object.h"
+#include "bindings/lua/mesh/mesh_object.h"
 #include "tests/unit/bindings/lua_state.h"
 
 namespace lissom::lua {

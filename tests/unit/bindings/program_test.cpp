@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bindings/lua/compat.h"
+#include "bindings/lua/core/compat.h"
 #include "tests/unit/bindings/program_run.h"
 #include "tests/unit/support.h"
 

@@ -1,4 +1,4 @@
-#include "bindings/cli/progress_bar.h"
+#include "bindings/cli/terminal/progress_bar.h"
 
 #include <doctest/doctest.h>
 

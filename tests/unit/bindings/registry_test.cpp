@@ -1,10 +1,10 @@
-#include "bindings/lua/registry.h"
+#include "bindings/lua/core/registry.h"
 
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
-#include "bindings/lua/reference.h"
+#include "bindings/lua/reference/reference.h"
 #include "tests/unit/bindings/lua_state.h"
 
 namespace lissom::lua {

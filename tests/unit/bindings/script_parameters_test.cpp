@@ -1,4 +1,4 @@
-#include "bindings/lua/script_parameters.h"
+#include "bindings/lua/core/script_parameters.h"
 
 #include "tests/unit/bindings/lua_state.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
 

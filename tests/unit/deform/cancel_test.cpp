@@ -1,7 +1,7 @@
 // A cancel at any moment leaves the deformer as it was, and the same call afterwards gives the same
 // result.
 
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
 

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "kernel/core/error.h"
-#include "kernel/deform/comparison_fields.h"
-#include "kernel/deform/polar.h"
+#include "kernel/deform/comparison/fields.h"
+#include "kernel/deform/rotation/polar.h"
 #include "kernel/io/mesh_file.h"
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
 

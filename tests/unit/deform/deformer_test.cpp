@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "kernel/mesh/region_select.h"
-#include "kernel/mesh/shapes.h"
-#include "kernel/mesh/triangulation.h"
+#include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/query/region_select.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
 

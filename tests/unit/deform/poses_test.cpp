@@ -1,6 +1,6 @@
 // Handles are put back to where they stood, and the rest shape can be had at any time.
 
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
 

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "kernel/deform/deformer.h"
-#include "kernel/deform/patch.h"
-#include "kernel/deform/patch_distance.h"
+#include "kernel/deform/patch/patch.h"
+#include "kernel/deform/patch/patch_distance.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom::test {

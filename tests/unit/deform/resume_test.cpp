@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "kernel/io/mesh_file.h"
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
 

@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "kernel/mesh/repair.h"
-#include "kernel/mesh/shapes.h"
-#include "kernel/mesh/triangulate.h"
+#include "kernel/mesh/edit/triangulate.h"
+#include "kernel/mesh/repair/repair.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kernel/deform/deformer.h"
-#include "kernel/mesh/measures.h"
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom::test {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <random>
 
-#include "kernel/io/file.h"
+#include "kernel/io/stream/file.h"
 #include "tests/unit/engine/basis_scene.h"
 #include "tests/unit/io/io_support.h"
 

@@ -11,8 +11,8 @@
 #include "bindings/engine/lissom_basis.h"
 #include "kernel/deform/deformer.h"
 #include "kernel/io/basis_file.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/support.h"
 
 namespace lissom::test {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "kernel/io/mesh_file.h"
-#include "kernel/mesh/measures.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
-#include "kernel/mesh/triangulation.h"
 #include "tests/unit/support.h"
 
 namespace lissom::test {

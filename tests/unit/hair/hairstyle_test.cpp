@@ -5,9 +5,9 @@
 
 #include <memory>
 
-#include "kernel/hair/strand_measures.h"
-#include "kernel/mesh/head.h"
-#include "kernel/solve/grid_field.h"
+#include "kernel/hair/strands/strand_measures.h"
+#include "kernel/mesh/shapes/head.h"
+#include "kernel/solve/field/grid_field.h"
 #include "tests/unit/hair/hair_support.h"
 
 using namespace lissom;

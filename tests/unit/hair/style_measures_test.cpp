@@ -1,9 +1,9 @@
 #include "kernel/hair/style_measures.h"
 
-#include "kernel/hair/curve.h"
-#include "kernel/hair/growth.h"
-#include "kernel/hair/stream_curve.h"
-#include "kernel/mesh/head.h"
+#include "kernel/hair/curve/curve.h"
+#include "kernel/hair/curve/stream_curve.h"
+#include "kernel/hair/growth/growth.h"
+#include "kernel/mesh/shapes/head.h"
 #include "tests/unit/hair/hair_support.h"
 
 using namespace lissom;

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "kernel/deform/deformer.h"
-#include "kernel/mesh/append.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/shapes.h"
-#include "tests/unit/io/gltf_support.h"
+#include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/io/gltf/support.h"
 
 using namespace lissom;
 using namespace lissom::test;

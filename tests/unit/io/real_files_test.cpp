@@ -1,5 +1,5 @@
 // Real meshes, and files that have made other programs fail.
-#include "kernel/io/file.h"
+#include "kernel/io/stream/file.h"
 #include "tests/unit/io/io_support.h"
 
 using namespace lissom;

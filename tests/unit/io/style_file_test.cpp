@@ -5,8 +5,8 @@
 
 #include <fstream>
 
-#include "kernel/hair/strand_measures.h"
-#include "kernel/mesh/head.h"
+#include "kernel/hair/strands/strand_measures.h"
+#include "kernel/mesh/shapes/head.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

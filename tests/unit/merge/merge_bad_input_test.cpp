@@ -7,15 +7,15 @@
 #include <string_view>
 
 #include "kernel/merge/merge.h"
-#include "kernel/mesh/append.h"
-#include "kernel/mesh/cut.h"
-#include "kernel/mesh/extract.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/quality.h"
-#include "kernel/mesh/shapes.h"
-#include "kernel/mesh/transform.h"
-#include "kernel/mesh/trim.h"
-#include "tests/unit/merge/loop_shapes.h"
+#include "kernel/mesh/cut/cut.h"
+#include "kernel/mesh/cut/trim.h"
+#include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/repair/quality.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/merge/loop/loop_shapes.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

@@ -7,11 +7,11 @@
 #include <cstdlib>
 
 #include "kernel/merge/merge.h"
-#include "kernel/mesh/cut.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/shapes.h"
-#include "kernel/mesh/transform.h"
-#include "kernel/mesh/triangulate.h"
+#include "kernel/mesh/cut/cut.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/edit/triangulate.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
 using namespace lissom;

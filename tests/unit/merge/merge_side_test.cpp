@@ -6,9 +6,9 @@
 
 #include "kernel/core/error.h"
 #include "kernel/merge/provenance.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/transform.h"
-#include "tests/unit/merge/loop_shapes.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/measure/measures.h"
+#include "tests/unit/merge/loop/loop_shapes.h"
 
 using namespace lissom;
 using namespace lissom::test;

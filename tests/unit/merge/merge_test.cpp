@@ -7,14 +7,14 @@
 #include <cmath>
 #include <vector>
 
-#include "kernel/deform/polar.h"
-#include "kernel/mesh/append.h"
-#include "kernel/mesh/cut.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/region_select.h"
-#include "kernel/mesh/shapes.h"
-#include "kernel/mesh/transform.h"
-#include "tests/unit/merge/loop_shapes.h"
+#include "kernel/deform/rotation/polar.h"
+#include "kernel/mesh/cut/cut.h"
+#include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/query/region_select.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/merge/loop/loop_shapes.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "kernel/io/mesh_file.h"
-#include "kernel/mesh/cut.h"
-#include "kernel/mesh/subdivide.h"
+#include "kernel/mesh/cut/cut.h"
+#include "kernel/mesh/edit/subdivide.h"
 #include "tests/unit/support.h"
 
 namespace lissom::test {

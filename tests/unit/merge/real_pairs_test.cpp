@@ -11,10 +11,10 @@
 #include <random>
 #include <set>
 
-#include "kernel/deform/polar.h"
-#include "kernel/mesh/measures.h"
-#include "kernel/mesh/self_intersections.h"
-#include "kernel/mesh/transform.h"
+#include "kernel/deform/rotation/polar.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/query/self_intersections.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

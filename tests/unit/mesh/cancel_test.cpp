@@ -3,19 +3,19 @@
 #include <optional>
 #include <string>
 
-#include "kernel/mesh/append.h"
-#include "kernel/mesh/cut.h"
-#include "kernel/mesh/distances.h"
-#include "kernel/mesh/extract.h"
-#include "kernel/mesh/fill.h"
-#include "kernel/mesh/region_select.h"
-#include "kernel/mesh/shapes.h"
-#include "kernel/mesh/smooth.h"
-#include "kernel/mesh/spatial_tree.h"
-#include "kernel/mesh/subdivide.h"
-#include "kernel/mesh/transform.h"
-#include "kernel/mesh/triangulate.h"
-#include "kernel/mesh/trim.h"
+#include "kernel/mesh/cut/cut.h"
+#include "kernel/mesh/cut/trim.h"
+#include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/edit/smooth.h"
+#include "kernel/mesh/edit/subdivide.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/edit/triangulate.h"
+#include "kernel/mesh/fill/fill.h"
+#include "kernel/mesh/query/distances.h"
+#include "kernel/mesh/query/region_select.h"
+#include "kernel/mesh/query/spatial_tree.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
 using namespace lissom;

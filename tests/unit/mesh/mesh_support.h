@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "kernel/mesh/measures.h"
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/mesh.h"
 #include "tests/unit/support.h"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
 using namespace lissom;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "kernel/mesh/extract.h"
-#include "kernel/mesh/path.h"
-#include "kernel/mesh/region_select.h"
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/query/path.h"
+#include "kernel/mesh/query/region_select.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
 using namespace lissom;

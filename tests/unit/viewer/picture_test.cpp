@@ -1,6 +1,6 @@
 #include "viewer/picture.h"
 
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/viewer_support.h"
 
 using namespace lissom;

@@ -3,9 +3,9 @@
 #include <limits>
 #include <thread>
 
-#include "kernel/mesh/shapes.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/viewer_support.h"
-#include "viewer/colormap.h"
+#include "viewer/draw/colormap.h"
 
 using namespace lissom;
 using test::front_camera;

@@ -1,0 +1,112 @@
+#include "bindings/cli/terminal/interrupt.h"
+
+#include <atomic>
+#include <csignal>
+
+namespace lissom::cli {
+namespace {
+
+// A signal handler takes no argument, so what it needs is the process's.
+std::atomic<const Context*> listening_context{nullptr};
+std::atomic<lua_State*> running_thread{nullptr};
+volatile std::sig_atomic_t pressed_flag = 0;
+
+// Stays armed until the host's call returns: pcall cannot swallow it for good.
+void stop_script(lua_State* L, lua_Debug*) {
+    luaL_error(L, "cancelled");
+}
+
+void arm(lua_State* L) {
+    lua_sethook(L, stop_script, LUA_MASKCALL | LUA_MASKRET | LUA_MASKLINE | LUA_MASKCOUNT, 1);
+}
+
+// Only lock-free stores, and lua_sethook, which Lua's own interpreter calls here too.
+extern "C" void on_interrupt(int signal) {
+    if (pressed_flag) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+        return;
+    }
+    std::signal(signal, on_interrupt);
+    pressed_flag = 1;
+    if (const Context* context = listening_context.load()) context->cancel();
+    if (lua_State* L = running_thread.load()) arm(L);
+}
+
+// Calls the function at upvalue 1 with the arguments on the stack while `thread` runs.
+int call_in_thread(lua_State* L, lua_State* thread) {
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    running_thread.store(thread);
+    const int status = lua_pcall(L, lua_gettop(L) - 1, LUA_MULTRET, 0);
+    running_thread.store(L);
+    if (pressed_flag) arm(L);
+    return status == LUA_OK ? lua_gettop(L) : lua_error(L);
+}
+
+// coroutine.resume; upvalue 1 is Lua's own.
+int watched_resume(lua_State* L) {
+    lua_State* thread = lua_tothread(L, 1);
+    return call_in_thread(L, thread ? thread : L);
+}
+
+// A function made by coroutine.wrap (upvalue 1), and its thread (upvalue 2).
+int watched_wrapped(lua_State* L) {
+    return call_in_thread(L, lua_tothread(L, lua_upvalueindex(2)));
+}
+
+// coroutine.wrap; upvalue 1 is Lua's own, whose results keep their thread as upvalue 1.
+int watched_wrap(lua_State* L) {
+    lua_settop(L, 1);
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, 1, 1);
+    if (!lua_getupvalue(L, 1, 1)) return 1;
+    lua_pushcclosure(L, watched_wrapped, 2);
+    return 1;
+}
+
+// Replaces a function of the table on top of the stack by one that has it as upvalue.
+void replace(lua_State* L, const char* name, lua_CFunction watched) {
+    lua_getfield(L, -1, name);
+    lua_pushcclosure(L, watched, 1);
+    lua_setfield(L, -2, name);
+}
+
+}  // namespace
+
+Interrupt::Interrupt(const Context& context) : context_(context) {
+    pressed_flag = 0;
+    listening_context.store(&context_);
+    std::signal(SIGINT, on_interrupt);
+}
+
+Interrupt::~Interrupt() {
+    std::signal(SIGINT, SIG_DFL);
+    listening_context.store(nullptr);
+    forget();
+}
+
+void Interrupt::watch(lua_State* L) {
+    lua_getglobal(L, "coroutine");
+    replace(L, "resume", watched_resume);
+    replace(L, "wrap", watched_wrap);
+    lua_pop(L, 1);
+    running_thread.store(L);
+}
+
+void Interrupt::forget() {
+    running_thread.store(nullptr);
+}
+
+bool Interrupt::pressed() const {
+    return pressed_flag != 0;
+}
+
+void Interrupt::clear() {
+    pressed_flag = 0;
+    context_.clear_cancel();
+    if (lua_State* L = running_thread.load()) lua_sethook(L, nullptr, 0, 0);
+}
+
+}  // namespace lissom::cli

@@ -1,0 +1,320 @@
+#include "bindings/lua/core/call.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "bindings/lua/core/parser.h"
+
+namespace lissom::lua {
+namespace {
+
+// Native bytes between two steps of the collector.
+constexpr std::size_t kChargeStep = std::size_t{64} << 10;
+
+int push_kind(lua_State* L, ElementKind kind) {
+    const std::string_view name = kind_name(kind);
+    lua_pushlstring(L, name.data(), name.size());
+    return 1;
+}
+
+}  // namespace
+
+void push_place(lua_State* L) {
+    constexpr int kDeepest = 10;
+    lua_pushliteral(L, "");
+    for (int level = 1; level < kDeepest && lua_tostring(L, -1)[0] == '\0'; ++level) {
+        lua_pop(L, 1);
+        luaL_where(L, level);
+    }
+}
+
+Call::Call(lua_State* L, State& state, const Entry& entry)
+    : L_(L), state_(&state), entry_(&entry), name_(entry.function->name.c_str()) {
+    if (state.listeners->running) raise("a listener cannot call lissom while an operation runs");
+    Parser(*this).run();
+}
+
+Call::Call(lua_State* L, State& state, const Operator& op)
+    : L_(L), state_(&state), entry_(nullptr), name_(op.name.c_str()) {}
+
+const Value& Call::value(const char* path) const {
+    for (std::size_t i = 0; i < entry_->slots.size(); ++i) {
+        if (entry_->slots[i].path == path) return values_[i];
+    }
+    luaL_error(L_, "'%s' has no parameter '%s'", name_, path);
+    return values_[0];
+}
+
+bool Call::has(const char* path) const {
+    return value(path).present;
+}
+Kind Call::kind(const char* path) const {
+    return value(path).kind;
+}
+bool Call::boolean(const char* path) const {
+    return value(path).number != 0.0;
+}
+int Call::integer(const char* path) const {
+    return static_cast<int>(value(path).number);
+}
+double Call::number(const char* path) const {
+    return value(path).number;
+}
+int Call::stack_index(const char* path) const {
+    return value(path).stack;
+}
+
+const char* Call::string(const char* path) const {
+    return static_cast<const char*>(value(path).data);
+}
+
+Vec3 Call::vector(const char* path) const {
+    const Value& v = value(path);
+    return {v.xyz[0], v.xyz[1], v.xyz[2]};
+}
+
+Mat3 Call::matrix3(const char* path) const {
+    using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+    return Eigen::Map<const RowMajor>(static_cast<const double*>(value(path).data));
+}
+
+Affine Call::affine(const char* path) const {
+    using Rows = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>;
+    const Rows rows(static_cast<const double*>(value(path).data));
+    return {rows.leftCols<3>(), rows.col(3)};
+}
+
+std::span<const Index> Call::ids(const char* path) const {
+    const Value& v = value(path);
+    return {static_cast<const Index*>(v.data), v.size};
+}
+
+IdLists Call::id_lists(const char* path) const {
+    const Value& v = value(path);
+    const auto total = static_cast<std::size_t>(v.offsets[v.size]);
+    return {{v.offsets, v.size + 1}, {static_cast<const Index*>(v.data), total}};
+}
+
+std::span<const Vec3> Call::points(const char* path) const {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    const Value& v = value(path);
+    return {static_cast<const Vec3*>(v.data), v.size};
+}
+
+std::span<const double> Call::numbers(const char* path) const {
+    const Value& v = value(path);
+    return {static_cast<const double*>(v.data), v.size};
+}
+
+std::span<const char* const> Call::strings(const char* path) const {
+    const Value& v = value(path);
+    return {static_cast<const char* const*>(v.data), v.size};
+}
+
+void Call::select_item(const char* path, const char* key) {
+    for (const Entry::Slot& slot : entry_->slots) {
+        if (slot.path == path) return Parser(*this).read_item(slot, value(path).stack, key);
+    }
+}
+
+void Call::raise(const char* text) const {
+    push_place(L_);
+    lua_pushstring(L_, text);
+    lua_concat(L_, 2);
+    lua_error(L_);
+    std::abort();  // lua_error does not return
+}
+
+void Call::reject(const char* path, const char* text) const {
+    const char* kind = "option";
+    for (int i = 0; i < entry_->arguments; ++i) {
+        if (entry_->slots[i].path == path) kind = "argument";
+    }
+    raise(lua_pushfstring(L_, "bad %s '%s' of '%s' (%s)", kind, path, name_, text));
+}
+
+Holder* Call::push_holder(const char* type_name) const {
+    auto* holder = static_cast<Holder*>(new_userdata(L_, sizeof(Holder)));
+    new (holder) Holder();
+    luaL_getmetatable(L_, type_name);
+    lua_setmetatable(L_, -2);
+    return holder;
+}
+
+void* Call::push_held(std::size_t bytes, void (*destroy)(void*)) const {
+    auto* memory = static_cast<char*>(new_userdata(L_, kHeldOffset + bytes));
+    std::memcpy(memory, &destroy, sizeof destroy);
+    raw_get_pointer(L_, LUA_REGISTRYINDEX, State::held_metatable_key());
+    lua_setmetatable(L_, -2);
+    return memory + kHeldOffset;
+}
+
+int collect_held(lua_State* L) {
+    auto* memory = static_cast<char*>(lua_touserdata(L, 1));
+    void (*destroy)(void*) = nullptr;
+    std::memcpy(&destroy, memory, sizeof destroy);
+    destroy(memory + Call::kHeldOffset);
+    return 0;
+}
+
+void Call::begin_work() {
+    luaL_checkstack(L_, LUA_MINSTACK, "no room for a listener");
+    state_->listeners->running = L_;
+}
+
+bool Call::end_work() {
+    state_->listeners->running = nullptr;
+    state_->end_operation(L_);
+    return !failed_;
+}
+
+int Call::fail() {
+    if (is_misuse(failure_.code)) {
+        const std::string_view code = code_name(failure_.code);
+        raise(lua_pushfstring(L_, "%s [%s]", failure_.message, code.data()));
+    }
+    return answer_failure();
+}
+
+int Call::answer_failure() {
+    state_->last_failure = failure_;
+    state_->has_failed = true;
+    push_place(L_);
+    std::snprintf(state_->last_failure_place, sizeof state_->last_failure_place, "%s",
+                  lua_tostring(L_, -1));
+    lua_pop(L_, 1);
+    lua_pushnil(L_);
+    lua_pushstring(L_, failure_.message);
+    push(code_name(failure_.code));
+    push_elements();
+    return 4;
+}
+
+// nil, or {kind=, count=, ids=}; the ids of an edge are a pair.
+void Call::push_elements() const {
+    if (failure_.kind == ElementKind::none) {
+        lua_pushnil(L_);
+        return;
+    }
+    lua_createtable(L_, 0, 3);
+    push_kind(L_, failure_.kind);
+    lua_setfield(L_, -2, "kind");
+    push_count(failure_.count);
+    lua_setfield(L_, -2, "count");
+    if (failure_.kind == ElementKind::edge) {
+        lua_createtable(L_, static_cast<int>(failure_.id_count / 2), 0);
+        for (std::size_t i = 0; i + 1 < failure_.id_count; i += 2) {
+            push_ids({failure_.ids + i, 2});
+            lua_rawseti(L_, -2, static_cast<int>(i / 2) + 1);
+        }
+    } else {
+        push_ids({failure_.ids, failure_.id_count});
+    }
+    lua_setfield(L_, -2, "ids");
+}
+
+void Call::charge_bytes(std::size_t bytes) const {
+    state_->uncharged_bytes += bytes;
+    if (state_->uncharged_bytes < kChargeStep || !lua_gc(L_, LUA_GCISRUNNING, 0)) return;
+    const std::size_t kilobytes = std::min<std::size_t>(state_->uncharged_bytes >> 10, 1u << 30);
+    state_->uncharged_bytes = 0;
+    lua_gc(L_, LUA_GCSTEP, static_cast<int>(kilobytes));
+}
+
+int Call::push(bool value) const {
+    lua_pushboolean(L_, value ? 1 : 0);
+    return 1;
+}
+
+int Call::push(double value) const {
+    lua_pushnumber(L_, value);
+    return 1;
+}
+
+int Call::push(int value) const {
+    push_integer(L_, value);
+    return 1;
+}
+
+int Call::push(std::string_view text) const {
+    lua_pushlstring(L_, text.data(), text.size());
+    return 1;
+}
+
+int Call::push_count(std::size_t value) const {
+    push_integer(L_, static_cast<long long>(value));
+    return 1;
+}
+
+int Call::push_id(Index zero_based) const {
+    push_integer(L_, static_cast<long long>(zero_based) + 1);
+    return 1;
+}
+
+int Call::push_ids(std::span<const Index> zero_based) const {
+    lua_createtable(L_, static_cast<int>(zero_based.size()), 0);
+    for (std::size_t i = 0; i < zero_based.size(); ++i) {
+        push_id(zero_based[i]);
+        lua_rawseti(L_, -2, static_cast<int>(i) + 1);
+    }
+    return 1;
+}
+
+int Call::push_vector(const Vec3& value) const {
+    return push_numbers({value.data(), 3});
+}
+
+int Call::push_numbers(std::span<const double> values) const {
+    lua_createtable(L_, static_cast<int>(values.size()), 0);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        lua_pushnumber(L_, values[i]);
+        lua_rawseti(L_, -2, static_cast<int>(i) + 1);
+    }
+    return 1;
+}
+
+int Call::push_affine(const Affine& value) const {
+    lua_createtable(L_, 4, 0);
+    for (int row = 0; row < 4; ++row) {
+        const double last[4] = {0.0, 0.0, 0.0, 1.0};
+        const double upper[4] = {value.linear(row % 3, 0), value.linear(row % 3, 1),
+                                 value.linear(row % 3, 2), value.translation[row % 3]};
+        push_numbers({row < 3 ? upper : last, 4});
+        lua_rawseti(L_, -2, row + 1);
+    }
+    return 1;
+}
+
+int Call::push_argument(int index) const {
+    lua_pushvalue(L_, index);
+    return 1;
+}
+
+int Call::push_coordinates(const Vec3& value) const {
+    for (int k = 0; k < 3; ++k) lua_pushnumber(L_, value[k]);
+    return 3;
+}
+
+void Call::set_field(const char* key, int) const {
+    lua_setfield(L_, -2, key);
+}
+
+void Call::remember(const void* object) const {
+    raw_get_pointer(L_, LUA_REGISTRYINDEX, State::object_table_key());
+    lua_pushvalue(L_, -2);
+    raw_set_pointer(L_, -2, object);
+    lua_pop(L_, 1);
+}
+
+bool Call::push_remembered(const void* object) const {
+    raw_get_pointer(L_, LUA_REGISTRYINDEX, State::object_table_key());
+    raw_get_pointer(L_, -1, object);
+    lua_remove(L_, -2);
+    const auto* holder = static_cast<const Holder*>(lua_touserdata(L_, -1));
+    if (holder && holder->object.get() == object) return true;
+    lua_pop(L_, 1);
+    return false;
+}
+
+}  // namespace lissom::lua

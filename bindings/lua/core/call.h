@@ -1,0 +1,256 @@
+/// Call: one call of an exposed function. A body works in four steps, because a Lua error may leave
+/// a C function by longjmp, which skips destructors, and an exception must never reach Lua:
+///
+///     int smooth(Call& call) {
+///         const auto mesh = call.self<MeshObject>();                       // 1 read: plain data
+///         only const int iterations = call.integer("iterations"); const auto result =
+///         call.create<MeshObject>();                   // 2 make an empty result if
+///         (!call.attempt([&] { result.set(smoothed(mesh, iterations)); }))  // 3 C++, no Lua
+///             return call.fail();
+///         return 1;                                                        // 4 push
+///     }
+///
+/// What the table says about arguments has been checked before the body runs. Outside `attempt`
+/// only trivially destructible values may be alive.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "bindings/lua/core/compat.h"
+#include "bindings/lua/core/failure.h"
+#include "bindings/lua/core/object.h"
+#include "bindings/lua/core/registry.h"
+#include "bindings/lua/core/state.h"
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+
+namespace lissom::lua {
+
+/// A list of lists of ids: list i has ids[offsets[i]] .. ids[offsets[i + 1] - 1].
+struct IdLists {
+    std::span<const Index> offsets;
+    std::span<const Index> ids;
+};
+
+/// One value that was read, as plain data. Which fields count depends on `kind`.
+struct Value {
+    bool present;
+    Kind kind;
+    /// Where a function or table is on the stack.
+    int stack;
+    /// Boolean, integer, number, id (0-based), place of a choice.
+    double number;
+    double xyz[3];
+    /// Bytes of a string, elements of a list, the Holder of an object, 12 or 9 numbers of a matrix.
+    const void* data;
+    std::size_t size;
+    /// For a list of lists, `size` + 1 offsets into `data`.
+    const Index* offsets;
+};
+
+class Call {
+  public:
+    /// Bytes before a held value: they say how to destroy it.
+    static constexpr std::size_t kHeldOffset = 16;
+
+    /// A call of `entry`, whose arguments are on the stack of `L`. Checks them: raises a Lua error.
+    Call(lua_State* L, State& state, const Entry& entry);
+    /// A call of a metamethod, whose operands are on the stack; nothing is checked.
+    Call(lua_State* L, State& state, const Operator& op);
+
+    /// The Lua stack: arguments from 1 on, then what parsing and `create` made.
+    lua_State* lua() const { return L_; }
+    State& state() const { return *state_; }
+    const Context& context() const { return state_->context; }
+
+    // ---- Step 1: arguments. `path` is the name of an argument or option, or "option.field".
+
+    /// Whether the script gave a value or the table has a default.
+    bool has(const char* path) const;
+    /// Which alternative was given.
+    Kind kind(const char* path) const;
+    bool boolean(const char* path) const;
+    int integer(const char* path) const;
+    double number(const char* path) const;
+    /// A string that lives as long as the call.
+    const char* string(const char* path) const;
+    /// A choice as an enum of the kernel whose values are in the order of the choices.
+    template <typename Enum = int>
+    Enum choice(const char* path) const {
+        return static_cast<Enum>(integer(path));
+    }
+    /// 0-based.
+    Index id(const char* path) const { return static_cast<Index>(integer(path)); }
+    /// Also of factors and of an axis.
+    Vec3 vector(const char* path) const;
+    Mat3 matrix3(const char* path) const;
+    Affine affine(const char* path) const;
+    /// 0-based ids, or the integers of a list.
+    std::span<const Index> ids(const char* path) const;
+    IdLists id_lists(const char* path) const;
+    std::span<const Vec3> points(const char* path) const;
+    std::span<const double> numbers(const char* path) const;
+    std::span<const char* const> strings(const char* path) const;
+    /// Stack index of a function or table.
+    int stack_index(const char* path) const;
+    template <typename T>
+    Ref<T> object(const char* path) const {
+        return Ref<T>(static_cast<Holder*>(const_cast<void*>(value(path).data)));
+    }
+    /// Number of objects in a list, and each of them.
+    std::size_t object_count(const char* path) const { return value(path).size; }
+    template <typename T>
+    Ref<T> object_at(const char* path, std::size_t i) const {
+        return Ref<T>(static_cast<Holder* const*>(value(path).data)[i]);
+    }
+
+    /// Reads the table under `key` in a table of option tables: its fields are at "path.field"
+    /// until the next one is selected, which drops what was pushed since. Raises a Lua error for
+    /// bad ones.
+    void select_item(const char* path, const char* key);
+
+    /// The object whose method this is, or operand `index` of a metamethod.
+    template <typename T>
+    Ref<T> self(int index = 1) const {
+        return Ref<T>(static_cast<Holder*>(lua_touserdata(L_, index)));
+    }
+
+    /// Raises "bad option 'radius' of 'region' (`text`)" for a value that only the body could
+    /// judge.
+    [[noreturn]] void reject(const char* path, const char* text) const;
+    /// Raises a Lua error: the script's file and line, then `text`.
+    [[noreturn]] void raise(const char* text) const;
+
+    /// Memory for plain data that lives as long as the call.
+    template <typename T>
+    T* scratch(std::size_t count) const {
+        static_assert(std::is_trivially_destructible_v<T>);
+        return static_cast<T*>(new_userdata(L_, count * sizeof(T)));
+    }
+
+    /// A value that needs a destructor, alive as long as the call: the collector owns it. Filled in
+    /// step 3 and pushed in step 4.
+    template <typename T>
+    T& hold() const {
+        static_assert(std::is_nothrow_default_constructible_v<T> && alignof(T) <= kHeldOffset);
+        void* memory = push_held(sizeof(T), [](void* object) { static_cast<T*>(object)->~T(); });
+        return *new (memory) T();
+    }
+
+    // ---- Step 2: results.
+
+    /// Pushes a new userdata without an object.
+    template <typename T>
+    Ref<T> create() const {
+        return Ref<T>(push_holder(T::kTypeName));
+    }
+
+    // ---- Step 3: C++.
+
+    /// Runs `work` and keeps what it throws as the call's failure; false then. `work` calls no Lua.
+    template <typename Work>
+    bool attempt(const Work& work) {
+        static_assert(std::is_trivially_destructible_v<Work>, "capture by reference");
+        begin_work();
+        failed_ = !failure_.guard(work);
+        return end_work();
+    }
+
+    /// As `attempt`, for quick work without a context: no listener, no progress.
+    template <typename Work>
+    bool attempt_quick(const Work& work) {
+        static_assert(std::is_trivially_destructible_v<Work>, "capture by reference");
+        failed_ = !failure_.guard(work);
+        return !failed_;
+    }
+
+    // ---- Step 4: the end.
+
+    /// Ends the call with the failure: raises a Lua error for misuse, or returns nil, message,
+    /// code, elements.
+    int fail();
+    /// Returns nil, message, code, elements whatever the code: for what a script may well ask for
+    /// although it is absent.
+    int answer_failure();
+    const Failure& failure() const { return failure_; }
+
+    /// Tells the collector how much native memory `object` has now; growth since the last time
+    /// makes it work. May run finalizers. T has `memory_bytes()` and `charged_bytes`.
+    template <typename T>
+    void charge(const Ref<T>& object) const {
+        const std::size_t before = object->charged_bytes;
+        object->charged_bytes = object->memory_bytes();
+        if (object->charged_bytes > before) charge_bytes(object->charged_bytes - before);
+    }
+    void charge_bytes(std::size_t bytes) const;
+
+    /// Each pushes one value and returns 1.
+    int push(bool value) const;
+    int push(double value) const;
+    int push(int value) const;
+    int push(std::string_view text) const;
+    int push(const char* text) const { return push(std::string_view(text)); }
+    int push_count(std::size_t value) const;
+    int push_id(Index zero_based) const;
+    int push_ids(std::span<const Index> zero_based) const;
+    /// {x, y, z}.
+    int push_vector(const Vec3& value) const;
+    int push_numbers(std::span<const double> values) const;
+    /// Rows of a 4 x 4 matrix.
+    int push_affine(const Affine& value) const;
+    /// The object of a method that changes it, or an argument.
+    int push_argument(int index = 1) const;
+    /// x, y, z as three results; returns 3.
+    int push_coordinates(const Vec3& value) const;
+
+    /// Stores the value on top of the stack in the table below it: `set_field("x", push(1))`.
+    void set_field(const char* key, int pushed = 1) const;
+
+    /// Lets `push_shared` find the userdata at the top of the stack, which holds `object`.
+    void remember(const void* object) const;
+    /// Pushes the userdata that holds `object` already, or a new one. `object` must be owned by
+    /// more than a local.
+    template <typename T>
+    int push_shared(const std::shared_ptr<T>& object) const {
+        if (push_remembered(object.get())) return 1;
+        create<T>().set(object);
+        remember(object.get());
+        return 1;
+    }
+
+  private:
+    friend class Parser;
+
+    const Value& value(const char* path) const;
+    Holder* push_holder(const char* type_name) const;
+    void* push_held(std::size_t bytes, void (*destroy)(void*)) const;
+    bool push_remembered(const void* object) const;
+    void push_elements() const;
+    void begin_work();
+    bool end_work();
+
+    lua_State* L_;
+    State* state_;
+    const Entry* entry_;
+    const char* name_;
+    bool failed_ = false;
+    // Top of the stack below the item selected last; 0 before.
+    int item_top_ = 0;
+    Failure failure_;
+    Value values_[Entry::kMaximumSlots];
+};
+
+/// Pushes "file:line: " of the innermost Lua function, or "" where there is none near: the script's
+/// place even after a tail call or inside a metamethod.
+void push_place(lua_State* L);
+
+/// __gc of held values.
+int collect_held(lua_State* L);
+
+static_assert(std::is_trivially_destructible_v<Call>);
+static_assert(std::is_trivially_destructible_v<Affine>);
+
+}  // namespace lissom::lua

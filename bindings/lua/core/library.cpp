@@ -1,0 +1,193 @@
+#include "bindings/lua/core/library.h"
+
+#include "kernel/mesh/report.h"
+
+#include <iterator>
+#include <utility>
+
+#include "bindings/lua/core/listeners.h"
+
+#ifndef LISSOM_VERSION
+#error "the build defines LISSOM_VERSION"
+#endif
+
+namespace lissom::lua {
+namespace {
+
+template <typename T>
+void add(std::vector<T>& list, std::vector<T> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(list));
+}
+
+Type whole_mesh_type() {
+    Type mesh = mesh_type();
+    add(mesh.methods, mesh_edit_methods());
+    add(mesh.methods, mesh_query_methods());
+    add(mesh.methods, mesh_file_methods());
+    add(mesh.methods, mesh_report_methods());
+    add(mesh.methods, buffer_methods_of_mesh());
+    add(mesh.methods, region_methods_of_mesh());
+    add(mesh.methods, path_methods_of_mesh());
+    add(mesh.methods, cut_methods_of_mesh());
+    return mesh;
+}
+
+Type whole_path_type() {
+    Type path = path_type();
+    add(path.methods, trim_methods_of_path());
+    return path;
+}
+
+}  // namespace
+
+Library kernel_library() {
+    Library library{
+        .name = "lissom",
+        .summary =
+            "Modeling by few handles: meshes, regions, paths, deformation, merging and hair."};
+    library.constants = {{"version", LISSOM_VERSION, "Version of the library."}};
+    add(library.functions, mesh_file_functions());
+    add(library.functions, mesh_functions());
+    add(library.functions, shape_functions());
+    add(library.functions, deform_functions());
+    add(library.functions, merge_functions());
+    add(library.functions, scalp_functions());
+    add(library.functions, hairstyle_functions());
+    add(library.functions, strand_functions());
+    add(library.functions, parameter_functions());
+    library.functions.push_back(listen_function());
+    library.types = {whole_mesh_type(),  region_type(),    whole_path_type(), buffer_type(),
+                     deformation_type(), handle_type(),    merging_type(),    provenance_type(),
+                     scalp_type(),       hairstyle_type(), curve_type(),      strands_type(),
+                     parameters_type()};
+    library.records = kernel_records();
+    add(library.records, cut_records());
+    add(library.records, merge_records());
+    add(library.records, hairstyle_records());
+    add(library.records, strand_records());
+    return library;
+}
+
+std::vector<Parameter> rotation_fields(const std::string& about_default) {
+    return {axis("axis", "Axis of the rotation."),
+            number("angle", "Angle, counter-clockwise seen against the axis.").in("degrees"),
+            vector("about", "A point on the axis.").optional(about_default)};
+}
+
+std::vector<Result> finding_fields() {
+    std::vector<Result> fields{{"lissom.Finding", "[integer]", "The findings in order."}};
+    for (const FindingKind kind : all_finding_kinds()) {
+        fields.push_back({"lissom.Finding|nil", std::string(finding_name(kind)),
+                          std::string(finding_explanation(kind))});
+    }
+    return fields;
+}
+
+std::vector<Record> kernel_records() {
+    return {
+        {"lissom.Bounds",
+         "An axis-aligned box.",
+         {{"lissom.Vector", "min", "Smallest coordinates."},
+          {"lissom.Vector", "max", "Greatest coordinates."},
+          {"lissom.Vector", "center", "The middle."},
+          {"number", "diagonal", "Length of the diagonal."}}},
+        {"lissom.SurfacePoint",
+         "A point of a surface.",
+         {{"lissom.Vector", "position", "The point."},
+          {"integer", "face", "The face that contains it."},
+          {"integer", "vertex", "The nearest vertex of its triangle."},
+          {"integer[]", "triangle", "Vertices of the triangle of the face that contains it."},
+          {"number[]", "bary", "Its barycentric coordinates in that triangle."},
+          {"lissom.Vector", "normal", "Unit normal of the triangle; zero where it has no area."},
+          {"number", "distance", "Distance from the query point, or along the ray."}}},
+        {"lissom.PathPoint",
+         "A point of a path.",
+         {{"lissom.Vector", "position", "The point."},
+          {"number", "parameter", "Fraction of the path's length up to it, 0 to 1."},
+          {"integer", "segment", "It lies between this point of the path and the next."},
+          {"number", "distance", "Distance from the query point."}}},
+        {"lissom.FillReport",
+         "What was done to close a hole.",
+         {{"integer", "loop_size", "Vertices around the hole."},
+          {"integer", "first_vertex", "The first new vertex."},
+          {"integer", "vertex_count", "New vertices; their ids follow each other."},
+          {"integer", "first_face", "The first new face."},
+          {"integer", "face_count", "New faces; their ids follow each other."},
+          {"integer", "parts", "Parts that the loop was divided into."},
+          {"integer", "folded_edges", "Edges of the patch that turn by more than 150 degrees."},
+          {"boolean", "limit_reached", "Refinement ended at maximum_vertices."}}},
+        {"lissom.AttributeInfo",
+         "What an attribute is.",
+         {{"string", "name", "Its name."},
+          {"string", "domain", "vertex, corner or face."},
+          {"integer", "width", "Numbers an element."},
+          {"string", "type", "Number type in files: float32, uint8, ..."},
+          {"integer", "count", "Elements."}}},
+        {"lissom.Check",
+         "The state of a mesh.",
+         {{"integer", "vertices", "Number of vertices."},
+          {"integer", "edges", "Number of edges."},
+          {"integer", "faces", "Number of faces."},
+          {"integer", "components", "Connected components, vertices without faces included."},
+          {"integer", "boundaries", "Open boundaries."},
+          {"integer", "genus", "Handles of the surface, summed over the components."},
+          {"integer", "euler", "V - E + F over vertices that have faces."},
+          {"boolean", "closed", "No open boundary."},
+          {"boolean", "manifold", "Every vertex has one fan of faces."},
+          {"boolean", "triangles", "All faces are triangles."},
+          {"integer[]", "isolated_vertices", "Vertices without faces."},
+          {"integer[]", "zero_area_faces", "Faces without area."}}},
+        {"lissom.Finding",
+         "One finding of a report.",
+         {{"string", "kind", "What was found: vertices_welded, edges_nonmanifold, ..."},
+          {"integer", "count", "Number of elements or items."},
+          {"string", "summary", "The same in a few words."},
+          {"string|nil", "message", "Details, where there are any."},
+          {"string|nil", "element", "What the ids number: vertex, edge, face or component."},
+          {"string|nil", "of",
+           "file where the ids are those of the file, mesh where they are the mesh's."},
+          {"integer[]|nil", "ids", "The elements; edges are pairs of vertex ids."}}},
+        {"lissom.Report", "Findings as a list, and each under the name of its kind.",
+         finding_fields()},
+        {"lissom.DeformStats",
+         "Sizes and times of the last preparation of a deformation.",
+         {{"integer", "region_vertices", "Vertices of the region."},
+          {"integer", "free_vertices", "Those that no constraint holds."},
+          {"integer", "constrained_vertices", "Those that one holds."},
+          {"integer", "handles", "Handles."},
+          {"integer", "displaced_vertices", "Degenerate vertices displaced."},
+          {"integer", "inserted_vertices", "Vertices inserted at corners of the boundary."},
+          {"integer", "refined_vertices", "Vertices that a refinement of coarse borders added."},
+          {"integer", "zero_area_faces", "Faces without area."},
+          {"integer", "first_nonzeros", "Entries of the first system's factor."},
+          {"integer", "second_nonzeros", "Entries of the second system's factor."},
+          {"integer", "factor_bytes", "Bytes of both factors."},
+          {"number", "assemble_seconds", "Time to assemble the systems."},
+          {"number", "first_factor_seconds", "Time to factor the first."},
+          {"number", "second_factor_seconds", "Time to factor the second."},
+          {"number", "basis_seconds", "Time to compute the handle basis."},
+          {"integer", "factorizations", "Factorisations so far: dragging adds none."}}},
+        {"lissom.HandleBasis",
+         "The first system's solution as a linear function of the handles: vertex v is at fixed(v) "
+         "plus, for each handle, its 3 x 4 transform times the four weights of v.",
+         {{"integer[]", "vertices", "Vertices of the region; one row of each buffer."},
+          {"lissom.Handle[]", "handles", "The handles, in the order of `weights`."},
+          {"lissom.Buffer[]", "weights", "For each handle four numbers a vertex."},
+          {"lissom.Buffer", "fixed", "What no handle moves: three numbers a vertex."}}},
+        {"lissom.ParamSchema",
+         "The declaration of a parameter.",
+         {{"string", "name", "Its name."},
+          {"string", "type", "number, integer, boolean, string, choice or file."},
+          {"any", "default", "Its default; nil where it must be given."},
+          {"any", "value", "Its present value."},
+          {"number?", "min", "Smallest value."},
+          {"number?", "max", "Greatest value."},
+          {"number?", "step", "Step of a slider."},
+          {"string[]?", "choices", "The values of a choice."},
+          {"string", "unit", "Its unit, or an empty string."},
+          {"string", "group", "Heading that it stands under, or an empty string."},
+          {"string", "help", "What it does, or an empty string."}}},
+    };
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,62 @@
+/// The parts of the kernel's library; private to bindings/lua. Each file of this folder describes
+/// what it exposes by one of these.
+#pragma once
+
+#include "bindings/lua/core/registry.h"
+
+namespace lissom::lua {
+
+Type mesh_type();
+std::vector<Function> mesh_functions();
+std::vector<Function> mesh_edit_methods();
+std::vector<Function> mesh_query_methods();
+std::vector<Function> mesh_file_functions();
+std::vector<Function> mesh_file_methods();
+std::vector<Function> mesh_report_methods();
+
+Type region_type();
+std::vector<Function> region_methods_of_mesh();
+
+Type path_type();
+std::vector<Function> path_methods_of_mesh();
+
+std::vector<Function> cut_methods_of_mesh();
+std::vector<Function> trim_methods_of_path();
+std::vector<Record> cut_records();
+
+Type buffer_type();
+std::vector<Function> buffer_methods_of_mesh();
+
+Type deformation_type();
+std::vector<Function> deform_engine_methods();
+Type handle_type();
+std::vector<Function> deform_functions();
+
+Type merging_type();
+Type provenance_type();
+std::vector<Function> merge_functions();
+std::vector<Record> merge_records();
+
+std::vector<Function> shape_functions();
+
+Type scalp_type();
+std::vector<Function> scalp_functions();
+Type curve_type();
+Type hairstyle_type();
+std::vector<Function> hairstyle_functions();
+std::vector<Record> hairstyle_records();
+
+Type strands_type();
+std::vector<Function> strand_functions();
+std::vector<Record> strand_records();
+
+Type parameters_type();
+std::vector<Function> parameter_functions();
+
+/// The tables that functions return.
+std::vector<Record> kernel_records();
+
+/// Option tables shared by several functions: {axis=, angle=, about=}.
+std::vector<Parameter> rotation_fields(const std::string& about_default);
+
+}  // namespace lissom::lua

@@ -1,0 +1,54 @@
+/// Listeners: Lua functions that hear of progress and log messages (lissom.listen).
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bindings/lua/core/compat.h"
+#include "bindings/lua/core/registry.h"
+#include "kernel/core/context.h"
+
+namespace lissom::lua {
+
+/// The functions of one Lua state, and what is on its way to them.
+struct Listeners {
+    struct Message {
+        LogLevel level;
+        std::string text;
+    };
+
+    /// The Lua thread whose call runs an operation now, and the context it runs under; null between
+    /// operations.
+    lua_State* running = nullptr;
+    const Context* context = nullptr;
+    /// References into Lua's registry: the functions, an error that one raised, and the C function
+    /// that calls the progress function.
+    int progress = LUA_NOREF, log = LUA_NOREF, error = LUA_NOREF, caller = LUA_NOREF;
+    /// The progress function raised an error, or returned false: the operation was cancelled for
+    /// it.
+    bool failed = false, stopped = false;
+    /// Messages of the operation that runs, from any thread; delivered when it has ended.
+    std::mutex mutex;
+    std::vector<Message> messages, delivered;
+};
+
+/// Prepares the references.
+void open_listeners(lua_State* L, Listeners& listeners);
+
+/// Calls the progress function in protected mode, in the middle of an operation. An error or
+/// `false` cancels the operation; the error is raised when it has unwound.
+void report_progress(Listeners& listeners, std::string_view label, double fraction);
+
+/// Keeps a message until the operation has ended. Any thread.
+void keep_message(Listeners& listeners, LogLevel level, std::string_view text);
+
+/// After an operation, with no C++ object alive: delivers messages and raises what a function
+/// raised.
+void end_listening(lua_State* L, Listeners& listeners);
+
+/// lissom.listen
+Function listen_function();
+
+}  // namespace lissom::lua

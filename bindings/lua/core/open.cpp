@@ -1,0 +1,348 @@
+// Makes the module and the metatables of a Lua state from its registration table.
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "bindings/lua/core/call.h"
+#include "bindings/lua/core/nearest.h"
+
+namespace lissom::lua {
+namespace {
+
+// Keys of Lua's registry: their addresses.
+const char kStateKey = 0, kModuleKey = 0;
+
+struct StateBox {
+    State* state;
+};
+
+State& state_upvalue(lua_State* L, int i) {
+    auto* box = static_cast<StateBox*>(lua_touserdata(L, lua_upvalueindex(i)));
+    if (!box || !box->state) luaL_error(L, "lissom is closed in this state");
+    return *box->state;
+}
+
+int collect_state(lua_State* L) {
+    auto* box = static_cast<StateBox*>(lua_touserdata(L, 1));
+    if (box) {
+        delete box->state;
+        box->state = nullptr;
+    }
+    return 0;
+}
+
+// ---- Calls. Upvalues: the description (light), the StateBox, the Type (light) for objects.
+
+int dispatch(lua_State* L) {
+    const auto* entry = static_cast<const Entry*>(lua_touserdata(L, lua_upvalueindex(1)));
+    Call call(L, state_upvalue(L, 2), *entry);
+    return entry->function->body(call);
+}
+
+const Type& type_upvalue(lua_State* L) {
+    return *static_cast<const Type*>(lua_touserdata(L, lua_upvalueindex(3)));
+}
+
+Holder* open_holder(lua_State* L, int index, const Type& type) {
+    auto* holder = static_cast<Holder*>(luaL_testudata(L, index, type.name.c_str()));
+    return holder && holder->object ? holder : nullptr;
+}
+
+int dispatch_operator(lua_State* L) {
+    const auto* op = static_cast<const Operator*>(lua_touserdata(L, lua_upvalueindex(1)));
+    State& state = state_upvalue(L, 2);
+    const Type& type = type_upvalue(L);
+    if (!open_holder(L, 1, type)) {
+        return luaL_error(
+            L, "bad operand of '%s' (%s expected, got %s)", op->name.c_str(), type.name.c_str(),
+            luaL_testudata(L, 1, type.name.c_str()) ? "a closed one" : luaL_typename(L, 1));
+    }
+    Call call(L, state, *op);
+    return op->body(call);
+}
+
+int equal_objects(lua_State* L) {
+    const Type& type = type_upvalue(L);
+    if (open_holder(L, 1, type) && open_holder(L, 2, type)) return dispatch_operator(L);
+    lua_pushboolean(L, 0);
+    return 1;
+}
+
+int object_to_string(lua_State* L) {
+    const Type& type = type_upvalue(L);
+    if (luaL_testudata(L, 1, type.name.c_str()) && !open_holder(L, 1, type)) {
+        lua_pushfstring(L, "%s (closed)", type.name.c_str());
+        return 1;
+    }
+    if (lua_touserdata(L, lua_upvalueindex(1))) return dispatch_operator(L);
+    lua_pushstring(L, type.name.c_str());
+    return 1;
+}
+
+// ---- Names that do not exist.
+
+std::string missing_method_text(const Type& type, const char* name) {
+    std::vector<std::string_view> names{"close"};
+    for (const Function& method : type.methods) names.push_back(method.name);
+    return type.name + ": no method '" + name + "'" + name_hint(name, names);
+}
+
+std::string missing_function_text(const Registry& registry, const std::string& prefix,
+                                  const char* name) {
+    std::vector<std::string_view> names;
+    const auto add = [&](const std::string& full) {
+        if (full.compare(0, prefix.size(), prefix) != 0) return;
+        const std::string_view rest = std::string_view(full).substr(prefix.size());
+        const std::string_view first = rest.substr(0, rest.find('.'));
+        if (names.empty() || names.back() != first) names.push_back(first);
+    };
+    for (const auto& library : registry.libraries()) {
+        for (const Constant& constant : library->constants) add(constant.name);
+        for (const Function& function : library->functions) add(function.name);
+    }
+    const std::string table = "lissom" + (prefix.empty() ? "" : "." + prefix);
+    return table.substr(0, table.size() - (prefix.empty() ? 0 : 1)) + ": no function '" + name +
+           "'" + name_hint(name, names);
+}
+
+const char* push_key_text(lua_State* L) {
+    return lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : to_display_string(L, 2);
+}
+
+template <typename Compose>
+int raise_missing(lua_State* L, const Compose& compose) {
+    char text[2048];
+    Failure failure;
+    const bool composed = failure.guard(
+        [&] { std::snprintf(text, sizeof text, "%s", std::string(compose()).c_str()); });
+    push_place(L);
+    lua_pushstring(L, composed ? text : failure.message);
+    lua_concat(L, 2);
+    return lua_error(L);
+}
+
+int missing_method(lua_State* L) {
+    const Type& type = type_upvalue(L);
+    const char* name = push_key_text(L);
+    return raise_missing(L, [&] { return missing_method_text(type, name); });
+}
+
+// Upvalues: the prefix ("" or "shapes."), the StateBox.
+int missing_function(lua_State* L) {
+    const State& state = state_upvalue(L, 2);
+    const char* prefix = lua_tostring(L, lua_upvalueindex(1));
+    const char* name = push_key_text(L);
+    return raise_missing(L, [&] { return missing_function_text(*state.registry, prefix, name); });
+}
+
+// ---- Life of objects.
+
+int collect_object(lua_State* L) {
+    auto* holder = static_cast<Holder*>(luaL_testudata(L, 1, type_upvalue(L).name.c_str()));
+    if (holder) holder->object.reset();
+    return 0;
+}
+
+int close_object(lua_State* L) {
+    const Type& type = type_upvalue(L);
+    auto* holder = static_cast<Holder*>(luaL_testudata(L, 1, type.name.c_str()));
+    if (!holder) {
+        return luaL_error(L, "bad argument #1 to 'close' (%s expected, got %s)", type.name.c_str(),
+                          luaL_typename(L, 1));
+    }
+    if (state_upvalue(L, 2).listeners->running) {
+        return luaL_error(L, "a listener cannot close objects while an operation runs");
+    }
+    if (holder->object && type.close) type.close(holder->object.get());
+    holder->object.reset();
+    return 0;
+}
+
+// ---- Tables. `box` is the stack index of the StateBox.
+
+void push_closure(lua_State* L, lua_CFunction function, const void* description, int box,
+                  const Type* type) {
+    lua_pushlightuserdata(L, const_cast<void*>(description));
+    lua_pushvalue(L, box);
+    lua_pushlightuserdata(L, const_cast<Type*>(type));
+    lua_pushcclosure(L, function, 3);
+}
+
+const Operator* find_operator(const Type& type, const char* name) {
+    for (const Operator& op : type.operators) {
+        if (op.name == name) return &op;
+    }
+    return nullptr;
+}
+
+// An "__index" operator is asked first; what it leaves is looked up among the methods (upvalue 4).
+int index_object(lua_State* L) {
+    if (open_holder(L, 1, type_upvalue(L))) {
+        const int results = dispatch_operator(L);
+        if (results > 0) return results;
+    }
+    lua_settop(L, 2);
+    lua_gettable(L, lua_upvalueindex(4));
+    return 1;
+}
+
+void push_methods(lua_State* L, const Registry& registry, const Type& type, int box) {
+    lua_newtable(L);
+    for (const auto& entry : registry.entries()) {
+        if (entry->type != &type) continue;
+        push_closure(L, dispatch, entry.get(), box, &type);
+        lua_setfield(L, -2, entry->function->name.c_str());
+    }
+    push_closure(L, close_object, nullptr, box, &type);
+    lua_setfield(L, -2, "close");
+    lua_newtable(L);
+    push_closure(L, missing_method, nullptr, box, &type);
+    lua_setfield(L, -2, "__index");
+    lua_setmetatable(L, -2);
+}
+
+// Sets __index of the metatable on top of the stack.
+void set_index(lua_State* L, const Registry& registry, const Type& type, int box) {
+    const Operator* index = find_operator(type, "__index");
+    if (!index) {
+        push_methods(L, registry, type, box);
+    } else {
+        lua_pushlightuserdata(L, const_cast<Operator*>(index));
+        lua_pushvalue(L, box);
+        lua_pushlightuserdata(L, const_cast<Type*>(&type));
+        push_methods(L, registry, type, box);
+        lua_pushcclosure(L, index_object, 4);
+    }
+    lua_setfield(L, -2, "__index");
+}
+
+void make_metatable(lua_State* L, const Registry& registry, const Type& type, int box) {
+    luaL_newmetatable(L, type.name.c_str());
+    lua_pushstring(L, type.name.c_str());
+    lua_setfield(L, -2, "__name");
+    for (const Operator& op : type.operators) {
+        if (op.name == "__index" || op.name == "__tostring") continue;
+        push_closure(L, op.name == "__eq" ? equal_objects : dispatch_operator, &op, box, &type);
+        lua_setfield(L, -2, op.name.c_str());
+    }
+    push_closure(L, object_to_string, find_operator(type, "__tostring"), box, &type);
+    lua_setfield(L, -2, "__tostring");
+    push_closure(L, collect_object, nullptr, box, &type);
+    lua_setfield(L, -2, "__gc");
+    push_closure(L, close_object, nullptr, box, &type);
+    lua_setfield(L, -2, "__close");
+    set_index(L, registry, type, box);
+    lua_pop(L, 1);
+}
+
+// Pushes the table of `module` that holds the name `path` ("shapes.box": lissom.shapes), made where
+// it is missing, and returns what follows the last dot.
+const char* push_table_for(lua_State* L, int module, const char* path, int box) {
+    const char* dot = std::strrchr(path, '.');
+    lua_pushvalue(L, module);
+    if (!dot) return path;
+    lua_pushlstring(L, path, static_cast<std::size_t>(dot - path));
+    lua_rawget(L, module);
+    if (lua_isnil(L, -1)) {
+        lua_pop(L, 1);
+        lua_newtable(L);
+        lua_newtable(L);
+        lua_pushlstring(L, path, static_cast<std::size_t>(dot - path) + 1);
+        lua_pushvalue(L, box);
+        lua_pushcclosure(L, missing_function, 2);
+        lua_setfield(L, -2, "__index");
+        lua_setmetatable(L, -2);
+        lua_pushlstring(L, path, static_cast<std::size_t>(dot - path));
+        lua_pushvalue(L, -2);
+        lua_rawset(L, module);
+    }
+    lua_remove(L, -2);
+    return dot + 1;
+}
+
+void push_module(lua_State* L, const Registry& registry, int box) {
+    lua_newtable(L);
+    const int module = lua_gettop(L);
+    for (const auto& library : registry.libraries()) {
+        for (const Constant& constant : library->constants) {
+            lua_pushstring(L, constant.value.c_str());
+            lua_setfield(L, module, constant.name.c_str());
+        }
+    }
+    for (const auto& entry : registry.entries()) {
+        if (entry->type) continue;
+        const char* name = push_table_for(L, module, entry->function->name.c_str(), box);
+        push_closure(L, dispatch, entry.get(), box, nullptr);
+        lua_setfield(L, -2, name);
+        lua_pop(L, 1);
+    }
+    lua_newtable(L);
+    lua_pushliteral(L, "");
+    lua_pushvalue(L, box);
+    lua_pushcclosure(L, missing_function, 2);
+    lua_setfield(L, -2, "__index");
+    lua_setmetatable(L, module);
+}
+
+// Pushes the StateBox with a new State.
+State& push_state(lua_State* L, const HostOptions& options) {
+    auto* box = static_cast<StateBox*>(new_userdata(L, sizeof(StateBox)));
+    box->state = nullptr;
+    lua_createtable(L, 0, 1);
+    lua_pushcfunction(L, collect_state);
+    lua_setfield(L, -2, "__gc");
+    lua_setmetatable(L, -2);
+    Failure failure;
+    if (!failure.guard([&] { box->state = new State(options); })) {
+        luaL_error(L, "cannot open lissom: %s", failure.message);
+    }
+    return *box->state;
+}
+
+void make_object_table(lua_State* L) {
+    lua_newtable(L);
+    lua_createtable(L, 0, 1);
+    lua_pushliteral(L, "v");
+    lua_setfield(L, -2, "__mode");
+    lua_setmetatable(L, -2);
+    raw_set_pointer(L, LUA_REGISTRYINDEX, State::object_table_key());
+}
+
+void make_held_metatable(lua_State* L) {
+    lua_createtable(L, 0, 1);
+    lua_pushcfunction(L, collect_held);
+    lua_setfield(L, -2, "__gc");
+    raw_set_pointer(L, LUA_REGISTRYINDEX, State::held_metatable_key());
+}
+
+}  // namespace
+
+void open(lua_State* L, const HostOptions& options) {
+    luaL_checkstack(L, LUA_MINSTACK, "cannot open lissom");
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kModuleKey);
+    if (lua_istable(L, -1)) return;
+    lua_pop(L, 1);
+    const State& state = push_state(L, options);
+    const int box = lua_gettop(L);
+    open_listeners(L, *state.listeners);
+    make_object_table(L);
+    make_held_metatable(L);
+    for (const auto& library : state.registry->libraries()) {
+        for (const Type& type : library->types) make_metatable(L, *state.registry, type, box);
+    }
+    push_module(L, *state.registry, box);
+    lua_pushvalue(L, box);
+    raw_set_pointer(L, LUA_REGISTRYINDEX, &kStateKey);
+    lua_pushvalue(L, -1);
+    raw_set_pointer(L, LUA_REGISTRYINDEX, &kModuleKey);
+    lua_remove(L, box);
+}
+
+State* find_state(lua_State* L) {
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kStateKey);
+    const auto* box = static_cast<const StateBox*>(lua_touserdata(L, -1));
+    lua_pop(L, 1);
+    return box ? box->state : nullptr;
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,669 @@
+#include "bindings/lua/core/parser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <variant>
+
+#include "bindings/lua/core/nearest.h"
+
+namespace lissom::lua {
+namespace {
+
+constexpr int kTextSize = 1024;
+
+// Runs `compose`, which returns a std::string, and copies the result: no C++ object is left alive
+// where a Lua error follows.
+template <typename Compose>
+void compose_text(char (&text)[kTextSize], const Compose& compose) noexcept {
+    try {
+        std::snprintf(text, sizeof text, "%s", std::string(compose()).c_str());
+    } catch (const std::exception&) {
+        std::snprintf(text, sizeof text, "bad argument");
+    }
+}
+
+std::string plain_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.14g", value);
+    return text;
+}
+
+std::string range_text(const Parameter& p) {
+    const bool low = std::isfinite(p.min), high = std::isfinite(p.max);
+    if (low && high && p.above_min) {
+        return " above " + plain_number(p.min) + " and at most " + plain_number(p.max);
+    }
+    if (low && high) return " from " + plain_number(p.min) + " to " + plain_number(p.max);
+    if (low && p.above_min) return " above " + plain_number(p.min);
+    if (low) return " of at least " + plain_number(p.min);
+    if (high) return " of at most " + plain_number(p.max);
+    return "";
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+        text += words[i];
+    }
+    return text;
+}
+
+std::string quoted_choices(const Parameter& p) {
+    std::vector<std::string> words;
+    for (const std::string& c : p.choices) words.push_back('"' + c + '"');
+    return listed(words);
+}
+
+std::string alternative_texts(const Parameter& p) {
+    std::vector<std::string> words;
+    for (const Parameter& alternative : p.alternatives) words.push_back(expectation(alternative));
+    return listed(words);
+}
+
+bool in_range(const Parameter& p, double value) {
+    if (!p.infinite && !std::isfinite(value)) return false;
+    if (std::isnan(value)) return false;
+    return (p.above_min ? value > p.min : value >= p.min) && value <= p.max;
+}
+
+// Pushes what the value at `index` is, for messages. `expected_type` is the type of object wanted.
+const char* push_description(lua_State* L, int index, const char* expected_type) {
+    const int type = lua_type(L, index);
+    if (type == LUA_TNUMBER) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.14g", lua_tonumber(L, index));
+        lua_pushstring(L, text);
+        return lua_tostring(L, -1);
+    }
+    if (type == LUA_TSTRING) return lua_pushfstring(L, "\"%s\"", lua_tostring(L, index));
+    if (type != LUA_TUSERDATA || !luaL_getmetafield(L, index, "__name")) {
+        return type == LUA_TNONE ? "no value" : lua_typename(L, type);
+    }
+    const char* name = lua_tostring(L, -1);
+    if (!name) return lua_typename(L, type);
+    return std::strcmp(name, expected_type) == 0 ? lua_pushfstring(L, "a closed %s", name) : name;
+}
+
+std::vector<std::string_view> slot_names(const Entry& entry, int first, int last) {
+    std::vector<std::string_view> names;
+    for (int i = first; i < last; ++i) names.push_back(entry.slots[i].parameter->name);
+    return names;
+}
+
+// The unit vector of the axis called "x", "y" or "z".
+void set_axis(const char* name, Value& value) noexcept {
+    for (int k = 0; k < 3; ++k) value.xyz[k] = name[0] - 'x' == k ? 1.0 : 0.0;
+}
+
+}  // namespace
+
+std::string expectation(const Parameter& p) {
+    switch (p.kind) {
+        case Kind::boolean:
+            return "boolean";
+        case Kind::integer:
+            return "integer" + range_text(p);
+        case Kind::number:
+            return (p.infinite ? "number" : "finite number") + range_text(p);
+        case Kind::string:
+            return "string";
+        case Kind::choice:
+            return quoted_choices(p);
+        case Kind::id:
+            return "id from 1";
+        case Kind::vector:
+            return "{x, y, z}";
+        case Kind::factors:
+            return "number or {x, y, z}";
+        case Kind::axis:
+            return "\"x\", \"y\", \"z\" or {x, y, z} with a length";
+        case Kind::affine:
+            return "4 rows of 4 numbers, the last 0, 0, 0, 1";
+        case Kind::matrix3:
+            return "3 rows of 3 numbers";
+        case Kind::ids:
+            return "list of ids";
+        case Kind::id_lists:
+            return "list of lists of ids";
+        case Kind::points:
+            return "list of {x, y, z}";
+        case Kind::numbers:
+            return "list of numbers";
+        case Kind::integers:
+            return "list of integers" + range_text(p);
+        case Kind::strings:
+            return "list of strings";
+        case Kind::object:
+            return p.type_name;
+        case Kind::objects:
+            return "list of " + p.type_name;
+        case Kind::function:
+            return "function";
+        case Kind::options:
+            return "table of options";
+        case Kind::option_map:
+            return "table of tables of options";
+        case Kind::table:
+            return "table";
+        case Kind::either:
+            return alternative_texts(p);
+    }
+    return "";
+}
+
+void Parser::run() {
+    const int slots = static_cast<int>(entry_.slots.size());
+    luaL_checkstack(L_, LUA_MINSTACK + 3 * slots, "too many arguments");
+    for (int i = 0; i < slots; ++i) call_.values_[i] = Value{};
+    const int given = lua_gettop(L_);
+    int index = 1;
+    if (entry_.type) {
+        check_self();
+        index = 2;
+    }
+    for (int slot = 0; slot < entry_.arguments; ++slot) index = read_argument(slot, index, given);
+    read_options(index, given);
+}
+
+void Parser::check_self() {
+    const char* name = entry_.type->name.c_str();
+    const void* holder = luaL_testudata(L_, 1, name);
+    if (holder && static_cast<const Holder*>(holder)->object) return;
+    refuse({1, "", 0}, name, push_description(L_, 1, name));
+}
+
+// Returns the index of the argument after this one.
+int Parser::read_argument(int slot, int index, int given) {
+    const Parameter& p = *entry_.slots[slot].parameter;
+    Value& value = call_.values_[slot];
+    const Place place{index - (entry_.type ? 1 : 0), p.name.c_str(), 0};
+    if (index > given || lua_isnil(L_, index)) {
+        if (p.required) mismatch(p, index, place);
+        fill_default(p, value);
+        return index + 1;
+    }
+    if (!p.required && index == given && is_option_table(p, index)) {
+        fill_default(p, value);
+        return index;
+    }
+    if (p.kind != Kind::vector || lua_type(L_, index) != LUA_TNUMBER) {
+        read(p, index, value, place);
+        return index + 1;
+    }
+    value.present = true;
+    value.kind = Kind::vector;
+    for (int k = 0; k < 3; ++k) {
+        const Place coordinate{place.argument + k, place.path, 0};
+        value.xyz[k] = read_coordinate(p, index + k, coordinate);
+    }
+    return index + 3;
+}
+
+// Whether the last argument is the option table, given where an optional argument could be.
+bool Parser::is_option_table(const Parameter& p, int index) const {
+    return entry_.options_last > entry_.options_first && lua_type(L_, index) == LUA_TTABLE &&
+           !fits(p, index);
+}
+
+void Parser::read_options(int index, int given) {
+    const bool takes_options = entry_.options_last > entry_.options_first;
+    const int argument = index - (entry_.type ? 1 : 0);
+    for (int extra = takes_options ? index + 1 : index; extra <= given; ++extra) {
+        if (lua_isnil(L_, extra)) continue;
+        refuse({extra - (entry_.type ? 1 : 0), "", 0}, "no further argument",
+               push_description(L_, extra, ""));
+    }
+    if (!takes_options) return;
+    if (index <= given && !lua_isnil(L_, index)) {
+        if (lua_type(L_, index) != LUA_TTABLE) {
+            refuse({argument, "", 0}, "table of options", push_description(L_, index, ""));
+        }
+        read_table(index, entry_.options_first, entry_.options_last);
+    } else {
+        fill_defaults(entry_.options_first, entry_.options_last);
+    }
+    if (entry_.function->one_option) require_one_option();
+}
+
+void Parser::read_table(int index, int first, int last) {
+    lua_pushnil(L_);
+    while (lua_next(L_, index)) {
+        lua_pop(L_, 1);
+        check_key(first, last);
+    }
+    for (int slot = first; slot < last; ++slot) {
+        const Parameter& p = *entry_.slots[slot].parameter;
+        lua_pushstring(L_, p.name.c_str());
+        lua_rawget(L_, index);
+        const Place place{0, entry_.slots[slot].path.c_str(), 0};
+        Value& value = call_.values_[slot];
+        if (lua_isnil(L_, -1)) {
+            lua_pop(L_, 1);
+            if (p.required) refuse_missing(p, place);
+            fill_default(p, value);
+        } else if (p.kind == Kind::options) {
+            if (lua_type(L_, -1) != LUA_TTABLE) mismatch(p, lua_gettop(L_), place);
+            value.present = true;
+            value.kind = Kind::options;
+            read_table(lua_gettop(L_), entry_.slots[slot].first, entry_.slots[slot].last);
+        } else {
+            read(p, lua_gettop(L_), value, place);
+        }
+    }
+}
+
+void Parser::read_item(const Entry::Slot& slot, int table, const char* key) {
+    if (call_.item_top_ == 0) call_.item_top_ = lua_gettop(L_);
+    lua_settop(L_, call_.item_top_);
+    luaL_checkstack(L_, LUA_MINSTACK + 3 * (slot.last - slot.first), "too many options");
+    const char* name = call_.name_;
+    call_.name_ = lua_pushfstring(L_, "%s: %s", name, key);
+    lua_pushstring(L_, key);
+    lua_rawget(L_, table);
+    const int item = lua_gettop(L_);
+    if (lua_type(L_, item) != LUA_TTABLE) {
+        refuse({0, key, 0}, "table of options", push_description(L_, item, ""));
+    }
+    for (int i = slot.first; i < slot.last; ++i) call_.values_[i] = Value{};
+    read_table(item, slot.first, slot.last);
+    call_.name_ = name;
+}
+
+// Looks at the key on top of the stack.
+void Parser::check_key(int first, int last) {
+    const char* key = lua_type(L_, -1) == LUA_TSTRING ? lua_tostring(L_, -1) : nullptr;
+    for (int slot = first; key && slot < last; ++slot) {
+        if (entry_.slots[slot].parameter->name == key) return;
+    }
+    char text[kTextSize];
+    const char* shown = key ? key : push_description(L_, lua_gettop(L_), "");
+    compose_text(text, [&] {
+        const std::string& path = entry_.slots[first].path;
+        const std::string table = path.substr(0, path.rfind('.') + 1);
+        const auto names = slot_names(entry_, first, last);
+        return "unknown option '" + table + shown + "' of '" + call_.name_ + "'" +
+               name_hint(shown, names);
+    });
+    call_.raise(text);
+}
+
+void Parser::require_one_option() {
+    int count = 0;
+    for (int slot = 0; slot < entry_.options_last; ++slot) {
+        const bool alternative = slot < entry_.arguments || slot >= entry_.options_first;
+        if (alternative && call_.values_[slot].present) ++count;
+    }
+    if (count == 1) return;
+    char text[kTextSize];
+    compose_text(text, [&] {
+        std::vector<std::string> names;
+        for (const auto name : slot_names(entry_, entry_.options_first, entry_.options_last)) {
+            names.emplace_back(name);
+        }
+        const std::string argument =
+            entry_.arguments > 0 ? "a " + entry_.slots[0].path + " or " : "";
+        return "'" + std::string(call_.name_) + "' needs " + argument +
+               "exactly one of the options " + listed(names) + "; got " + std::to_string(count);
+    });
+    call_.raise(text);
+}
+
+void Parser::fill_default(const Parameter& p, Value& value) {
+    value.present = !std::holds_alternative<std::monostate>(p.default_value);
+    value.kind = p.kind;
+    if (const auto* flag = std::get_if<bool>(&p.default_value)) value.number = *flag ? 1.0 : 0.0;
+    if (const auto* number = std::get_if<double>(&p.default_value)) {
+        value.number = *number;
+        if (p.kind == Kind::either) value.kind = Kind::number;
+        for (double& coordinate : value.xyz) coordinate = *number;
+    }
+    if (const auto* text = std::get_if<std::string>(&p.default_value)) {
+        value.data = text->c_str();
+        value.size = text->size();
+        const auto found = std::find(p.choices.begin(), p.choices.end(), *text);
+        value.number = static_cast<double>(found - p.choices.begin());
+        if (p.kind == Kind::axis) set_axis(text->c_str(), value);
+    }
+}
+
+void Parser::fill_defaults(int first, int last) {
+    for (int slot = first; slot < last; ++slot) {
+        const Parameter& p = *entry_.slots[slot].parameter;
+        if (p.required) refuse_missing(p, {0, entry_.slots[slot].path.c_str(), 0});
+        fill_default(p, call_.values_[slot]);
+    }
+}
+
+void Parser::read(const Parameter& p, int index, Value& value, const Place& place) {
+    value.present = true;
+    value.kind = p.kind;
+    value.stack = index;
+    switch (p.kind) {
+        case Kind::boolean:
+            if (!lua_isboolean(L_, index)) mismatch(p, index, place);
+            value.number = lua_toboolean(L_, index);
+            return;
+        case Kind::integer:
+            value.number = read_whole(p, index, place);
+            return;
+        case Kind::id:
+            value.number = read_whole(p, index, place) - 1;
+            return;
+        case Kind::number:
+            value.number = read_number(p, index, place);
+            return;
+        case Kind::string:
+            if (lua_type(L_, index) != LUA_TSTRING) mismatch(p, index, place);
+            value.data = lua_tolstring(L_, index, &value.size);
+            return;
+        case Kind::choice:
+            return read_choice(p, index, value, place);
+        case Kind::vector:
+            return read_vector(p, index, value.xyz, place);
+        case Kind::factors:
+            return read_factors(p, index, value, place);
+        case Kind::axis:
+            return read_axis(p, index, value, place);
+        case Kind::affine:
+        case Kind::matrix3:
+            return read_matrix(p, index, value, place);
+        case Kind::ids:
+        case Kind::points:
+        case Kind::numbers:
+        case Kind::integers:
+        case Kind::strings:
+        case Kind::objects:
+            return read_list(p, index, value, place);
+        case Kind::id_lists:
+            return read_id_lists(p, index, value, place);
+        case Kind::object:
+            value.data = read_object(p, index, place);
+            return;
+        case Kind::function:
+            if (lua_type(L_, index) != LUA_TFUNCTION) mismatch(p, index, place);
+            return;
+        case Kind::options:
+        case Kind::option_map:
+        case Kind::table:
+            if (lua_type(L_, index) != LUA_TTABLE) mismatch(p, index, place);
+            return;
+        case Kind::either:
+            return read_alternative(p, index, value, place);
+    }
+}
+
+double Parser::read_number(const Parameter& p, int index, const Place& place) {
+    if (lua_type(L_, index) != LUA_TNUMBER) mismatch(p, index, place);
+    const double number = lua_tonumber(L_, index);
+    if (!in_range(p, number)) mismatch(p, index, place);
+    return number;
+}
+
+// An integer, or an id from 1.
+int Parser::read_whole(const Parameter& p, int index, const Place& place) {
+    const double number = read_number(p, index, place);
+    const bool is_id = p.kind != Kind::integer && p.kind != Kind::integers;
+    const double lowest = is_id ? 1.0 : std::numeric_limits<int>::min();
+    if (number != std::floor(number) || number < lowest ||
+        number > std::numeric_limits<int>::max()) {
+        mismatch(p, index, place);
+    }
+    return static_cast<int>(number);
+}
+
+void Parser::read_choice(const Parameter& p, int index, Value& value, const Place& place) {
+    if (lua_type(L_, index) != LUA_TSTRING) mismatch(p, index, place);
+    const char* given = lua_tolstring(L_, index, &value.size);
+    const auto found = std::find(p.choices.begin(), p.choices.end(), given);
+    if (found == p.choices.end()) mismatch(p, index, place);
+    value.data = given;
+    value.number = static_cast<double>(found - p.choices.begin());
+}
+
+Holder* Parser::read_object(const Parameter& p, int index, const Place& place) {
+    auto* holder = static_cast<Holder*>(luaL_testudata(L_, index, p.type_name.c_str()));
+    if (!holder || !holder->object) mismatch(p, index, place);
+    return holder;
+}
+
+double Parser::read_coordinate(const Parameter& p, int index, const Place& place) {
+    const double number = lua_tonumber(L_, index);
+    const bool usable = p.infinite ? !std::isnan(number) : std::isfinite(number);
+    if (lua_type(L_, index) != LUA_TNUMBER || !usable) mismatch(p, index, place);
+    return number;
+}
+
+void Parser::read_vector(const Parameter& p, int index, double* xyz, const Place& place) {
+    if (lua_type(L_, index) != LUA_TTABLE || raw_length(L_, index) != 3) mismatch(p, index, place);
+    for (int k = 0; k < 3; ++k) {
+        lua_rawgeti(L_, index, k + 1);
+        xyz[k] = read_coordinate(p, lua_gettop(L_), place);
+        lua_pop(L_, 1);
+    }
+}
+
+void Parser::read_factors(const Parameter& p, int index, Value& value, const Place& place) {
+    if (lua_type(L_, index) != LUA_TNUMBER) return read_vector(p, index, value.xyz, place);
+    const double factor = read_coordinate(p, index, place);
+    value.xyz[0] = value.xyz[1] = value.xyz[2] = factor;
+}
+
+void Parser::read_axis(const Parameter& p, int index, Value& value, const Place& place) {
+    if (lua_type(L_, index) != LUA_TSTRING) {
+        read_vector(p, index, value.xyz, place);
+        if (Vec3(value.xyz[0], value.xyz[1], value.xyz[2]).norm() == 0.0) mismatch(p, index, place);
+        return;
+    }
+    const char* name = lua_tostring(L_, index);
+    const bool is_name = name[0] >= 'x' && name[0] <= 'z' && name[1] == '\0';
+    if (!is_name) mismatch(p, index, place);
+    set_axis(name, value);
+}
+
+// Reads rows into a row-major list of numbers.
+void Parser::read_matrix(const Parameter& p, int index, Value& value, const Place& place) {
+    const int columns = p.kind == Kind::affine ? 4 : 3;
+    if (lua_type(L_, index) != LUA_TTABLE) mismatch(p, index, place);
+    const int rows = static_cast<int>(raw_length(L_, index));
+    if (rows != columns) mismatch(p, index, place);
+    auto* entries = call_.scratch<double>(static_cast<std::size_t>(rows) * columns);
+    for (int row = 0; row < rows; ++row) {
+        lua_rawgeti(L_, index, row + 1);
+        const int at = lua_gettop(L_);
+        if (lua_type(L_, at) != LUA_TTABLE || static_cast<int>(raw_length(L_, at)) != columns) {
+            mismatch(p, index, place);
+        }
+        for (int column = 0; column < columns; ++column) {
+            lua_rawgeti(L_, at, column + 1);
+            entries[row * columns + column] = read_coordinate(p, at + 1, place);
+            lua_pop(L_, 1);
+        }
+        lua_pop(L_, 1);
+    }
+    const double last_row[4] = {0.0, 0.0, 0.0, 1.0};
+    if (p.kind == Kind::affine && !std::equal(last_row, last_row + 4, entries + 12)) {
+        mismatch(p, index, place);
+    }
+    value.data = entries;
+}
+
+void Parser::read_list(const Parameter& p, int index, Value& value, const Place& place) {
+    if (lua_type(L_, index) != LUA_TTABLE) mismatch(p, index, place);
+    const std::size_t size = raw_length(L_, index);
+    if (size > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
+        refuse(place, "shorter list", "too many entries");
+    }
+    value.size = size;
+    switch (p.kind) {
+        case Kind::points: {
+            auto* xyz = call_.scratch<double>(3 * size);
+            for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
+                read_vector(p, at, xyz + 3 * i, item);
+            });
+            value.data = xyz;
+            return;
+        }
+        case Kind::numbers: {
+            auto* list = call_.scratch<double>(size);
+            for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
+                list[i] = read_number(p, at, item);
+            });
+            value.data = list;
+            return;
+        }
+        case Kind::strings: {
+            // The strings stay in the script's table, which stays on the stack.
+            auto** list = call_.scratch<const char*>(size);
+            for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
+                if (lua_type(L_, at) != LUA_TSTRING) mismatch(p, at, item);
+                list[i] = lua_tostring(L_, at);
+            });
+            value.data = list;
+            return;
+        }
+        case Kind::objects: {
+            auto** list = call_.scratch<Holder*>(size);
+            for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
+                list[i] = read_object(p, at, item);
+            });
+            value.data = list;
+            return;
+        }
+        default: {
+            auto* list = call_.scratch<Index>(size);
+            const int shift = p.kind == Kind::ids ? 1 : 0;
+            for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
+                list[i] = read_whole(p, at, item) - shift;
+            });
+            value.data = list;
+        }
+    }
+}
+
+template <typename Read>
+void Parser::for_each_item(int index, std::size_t size, const Place& place, const Read& read_item) {
+    for (std::size_t i = 0; i < size; ++i) {
+        lua_rawgeti(L_, index, static_cast<int>(i) + 1);
+        read_item(lua_gettop(L_), i, Place{place.argument, place.path, static_cast<int>(i) + 1});
+        lua_pop(L_, 1);
+    }
+}
+
+void Parser::read_id_lists(const Parameter& p, int index, Value& value, const Place& place) {
+    if (lua_type(L_, index) != LUA_TTABLE) mismatch(p, index, place);
+    const std::size_t size = raw_length(L_, index);
+    std::size_t total = 0;
+    for_each_item(index, size, place, [&](int at, std::size_t, const Place& item) {
+        if (lua_type(L_, at) != LUA_TTABLE) mismatch(p, at, item);
+        total += raw_length(L_, at);
+    });
+    if (size + total > static_cast<std::size_t>(std::numeric_limits<Index>::max()) - 1) {
+        refuse(place, "shorter list", "too many entries");
+    }
+    auto* offsets = call_.scratch<Index>(size + 1);
+    auto* ids = call_.scratch<Index>(total);
+    std::size_t filled = 0;
+    offsets[0] = 0;
+    for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
+        const std::size_t length = raw_length(L_, at);
+        for (std::size_t k = 0; k < length; ++k) {
+            lua_rawgeti(L_, at, static_cast<int>(k) + 1);
+            ids[filled++] = read_whole(p, lua_gettop(L_), item) - 1;
+            lua_pop(L_, 1);
+        }
+        offsets[i + 1] = static_cast<Index>(filled);
+    });
+    value.data = ids;
+    value.offsets = offsets;
+    value.size = size;
+}
+
+void Parser::read_alternative(const Parameter& p, int index, Value& value, const Place& place) {
+    for (const Parameter& alternative : p.alternatives) {
+        if (fits(alternative, index)) return read(alternative, index, value, place);
+    }
+    mismatch(p, index, place);
+}
+
+// Whether the value is of the Lua type that `p` wants; what it holds is checked later.
+bool Parser::fits(const Parameter& p, int index) const {
+    const int type = lua_type(L_, index);
+    switch (p.kind) {
+        case Kind::boolean:
+            return type == LUA_TBOOLEAN;
+        case Kind::integer:
+        case Kind::number:
+        case Kind::id:
+            return type == LUA_TNUMBER;
+        case Kind::string:
+        case Kind::choice:
+            return type == LUA_TSTRING;
+        case Kind::factors:
+            return type == LUA_TNUMBER || type == LUA_TTABLE;
+        case Kind::axis:
+            return type == LUA_TSTRING || type == LUA_TTABLE;
+        case Kind::object:
+            return luaL_testudata(L_, index, p.type_name.c_str()) != nullptr;
+        case Kind::function:
+            return type == LUA_TFUNCTION;
+        case Kind::strings:
+            return type == LUA_TTABLE && first_item_type(index) == LUA_TSTRING;
+        case Kind::points:
+        case Kind::id_lists:
+        case Kind::objects:
+            return type == LUA_TTABLE && first_item_type(index) != LUA_TNUMBER;
+        default:
+            return type == LUA_TTABLE;
+    }
+}
+
+int Parser::first_item_type(int index) const {
+    lua_rawgeti(L_, index, 1);
+    const int type = lua_type(L_, -1);
+    lua_pop(L_, 1);
+    return type;
+}
+
+void Parser::mismatch(const Parameter& p, int index, const Place& place) {
+    char expected[kTextSize];
+    compose_text(expected, [&] { return expectation(p); });
+    const bool is_choice = p.kind == Kind::choice && lua_type(L_, index) == LUA_TSTRING;
+    const char* got = push_description(L_, index, p.type_name.c_str());
+    if (!is_choice) refuse(place, expected, got);
+    char hinted[kTextSize];
+    const char* given = lua_tostring(L_, index);
+    compose_text(hinted, [&] {
+        const std::vector<std::string_view> names(p.choices.begin(), p.choices.end());
+        const std::string_view nearest = nearest_name(given, names);
+        return std::string(got) +
+               (nearest.empty() ? "" : ", did you mean \"" + std::string(nearest) + "\"?");
+    });
+    refuse(place, expected, hinted);
+}
+
+void Parser::refuse_missing(const Parameter& p, const Place& place) {
+    char text[kTextSize];
+    compose_text(text, [&] {
+        return "missing option '" + std::string(place.path) + "' of '" + call_.name_ + "' (" +
+               expectation(p) + ")";
+    });
+    call_.raise(text);
+}
+
+void Parser::refuse(const Place& place, const char* expected, const char* got) {
+    char text[kTextSize];
+    compose_text(text, [&] {
+        const std::string where = place.argument > 0
+                                      ? "bad argument #" + std::to_string(place.argument) + " to '"
+                                      : "bad option '" + std::string(place.path) + "' of '";
+        const std::string item = place.item > 0 ? " at [" + std::to_string(place.item) + "]" : "";
+        return where + call_.name_ + "' (" + expected + " expected" + item + ", got " + got + ")";
+    });
+    call_.raise(text);
+}
+
+}  // namespace lissom::lua

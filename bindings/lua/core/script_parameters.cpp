@@ -1,0 +1,227 @@
+#include "bindings/lua/core/script_parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <tuple>
+
+#include "bindings/lua/core/nearest.h"
+
+namespace lissom::lua {
+namespace {
+
+std::string plain_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.14g", value);
+    return text;
+}
+
+std::string value_text(const ParameterValue& value) {
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+    if (const auto* number = std::get_if<double>(&value)) return plain_number(*number);
+    return std::get<std::string>(value);
+}
+
+std::string with_dashes(std::string name) {
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name;
+}
+
+std::string with_underscores(std::string name) {
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+bool is_numeric(ParameterType type) {
+    return type == ParameterType::number || type == ParameterType::integer;
+}
+
+std::optional<bool> truth(const std::string& text) {
+    for (const char* word : {"true", "yes", "on", "1"}) {
+        if (text == word) return true;
+    }
+    for (const char* word : {"false", "no", "off", "0"}) {
+        if (text == word) return false;
+    }
+    return std::nullopt;
+}
+
+[[noreturn]] void refuse(const ScriptParameter& p, const std::string& given) {
+    std::string hint;
+    const std::vector<std::string_view> choices(p.choices.begin(), p.choices.end());
+    const std::string_view nearest = nearest_name(given, choices);
+    if (!nearest.empty()) hint = ", did you mean '" + std::string(nearest) + "'?";
+    throw ParameterError("parameter '" + p.name + "': " + p.accepted() + " expected, got '" +
+                         given + "'" + hint);
+}
+
+// A flag of a command line: --name, --name=value.
+struct Flag {
+    std::string name;
+    std::optional<std::string> value;
+
+    explicit Flag(const std::string& word) {
+        const std::size_t equals = word.find('=');
+        name = with_underscores(word.substr(2, equals == std::string::npos ? equals : equals - 2));
+        if (equals != std::string::npos) value = word.substr(equals + 1);
+    }
+};
+
+}  // namespace
+
+std::string_view type_name(ParameterType type) {
+    constexpr std::array<std::string_view, 6> names{"number", "integer", "boolean",
+                                                    "string", "choice",  "file"};
+    return names[static_cast<std::size_t>(type)];
+}
+
+std::string ScriptParameter::accepted() const {
+    if (type == ParameterType::boolean) return "true or false";
+    if (type == ParameterType::choice) {
+        std::string text;
+        for (std::size_t i = 0; i < choices.size(); ++i) {
+            if (i > 0) text += i + 1 == choices.size() ? " or " : ", ";
+            text += choices[i];
+        }
+        return text;
+    }
+    std::string text(type_name(type));
+    if (!is_numeric(type)) return text;
+    if (std::isfinite(min) && std::isfinite(max)) {
+        return text + " from " + plain_number(min) + " to " + plain_number(max);
+    }
+    if (std::isfinite(min)) return text + " of at least " + plain_number(min);
+    if (std::isfinite(max)) return text + " of at most " + plain_number(max);
+    return text;
+}
+
+ParameterValue ScriptParameter::from_text(const std::string& text) const {
+    ParameterValue converted = text;
+    if (is_numeric(type)) {
+        char* end = nullptr;
+        const double number = std::strtod(text.c_str(), &end);
+        if (text.empty() || *end != '\0') refuse(*this, text);
+        converted = number;
+    } else if (type == ParameterType::boolean) {
+        const std::optional<bool> flag = truth(text);
+        if (!flag) refuse(*this, text);
+        converted = *flag;
+    }
+    check(converted);
+    return converted;
+}
+
+void ScriptParameter::check(const ParameterValue& given) const {
+    bool fits = std::holds_alternative<std::string>(given);
+    if (type == ParameterType::boolean) {
+        fits = std::holds_alternative<bool>(given);
+    } else if (is_numeric(type)) {
+        const auto* number = std::get_if<double>(&given);
+        fits = number && std::isfinite(*number) && *number >= min && *number <= max &&
+               (type == ParameterType::number || *number == std::floor(*number));
+    } else if (type == ParameterType::choice && fits) {
+        fits = std::find(choices.begin(), choices.end(), std::get<std::string>(given)) !=
+               choices.end();
+    }
+    if (!fits) refuse(*this, value_text(given));
+}
+
+ScriptParameter* ParameterSet::find(std::string_view name) {
+    for (ScriptParameter& p : list) {
+        if (p.name == name) return &p;
+    }
+    return nullptr;
+}
+
+std::vector<std::string_view> ParameterSet::names() const {
+    std::vector<std::string_view> all;
+    for (const ScriptParameter& p : list) all.push_back(p.name);
+    return all;
+}
+
+void ParameterSet::sort() {
+    std::sort(list.begin(), list.end(), [](const ScriptParameter& a, const ScriptParameter& b) {
+        return std::tie(a.group, a.name) < std::tie(b.group, b.name);
+    });
+}
+
+std::vector<std::string> ParameterSet::take(const std::vector<std::string>& words) {
+    std::vector<std::string> rest;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const bool is_flag = words[i].size() > 2 && words[i].compare(0, 2, "--") == 0;
+        if (words[i] == "--") {
+            rest.insert(rest.end(), words.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                        words.end());
+            break;
+        }
+        if (!is_flag) {
+            rest.push_back(words[i]);
+            continue;
+        }
+        Flag flag(words[i]);
+        ScriptParameter* p = find(flag.name);
+        if (!p && flag.name.compare(0, 3, "no_") == 0 && !flag.value) {
+            p = find(flag.name.substr(3));
+            if (p && p->type == ParameterType::boolean) flag.value = "false";
+        }
+        if (!p) {
+            throw ParameterError("no parameter '--" + with_dashes(flag.name) + "'" +
+                                 name_hint(flag.name, names()));
+        }
+        if (!flag.value && p->type == ParameterType::boolean) flag.value = "true";
+        if (!flag.value) {
+            if (i + 1 == words.size()) throw ParameterError("a value must follow " + words[i]);
+            flag.value = words[++i];
+        }
+        p->value = p->from_text(*flag.value);
+    }
+    return rest;
+}
+
+void ParameterSet::require_values() const {
+    for (const ScriptParameter& p : list) {
+        if (p.value) continue;
+        throw ParameterError("parameter '" + p.name + "' needs a value: --" + with_dashes(p.name) +
+                             " (" + p.accepted() + ")");
+    }
+}
+
+namespace {
+
+std::string flag_text(const ScriptParameter& p) {
+    const std::string flag = "--" + with_dashes(p.name);
+    return p.type == ParameterType::boolean ? flag : flag + " " + std::string(type_name(p.type));
+}
+
+std::string help_line(const ScriptParameter& p) {
+    std::string text = p.help;
+    const std::string accepted = p.accepted();
+    if (accepted != type_name(p.type)) text += (text.empty() ? "" : "; ") + accepted;
+    if (!p.unit.empty()) text += (text.empty() ? "in " : ", in ") + p.unit;
+    if (!text.empty()) text += " ";
+    if (!p.default_value) return text + "(required)";
+    const std::string standard = value_text(*p.default_value);
+    return text + "(default: " + (standard.empty() ? "empty" : standard) + ")";
+}
+
+}  // namespace
+
+std::string ParameterSet::help_text(const std::string& script) const {
+    std::string text = "Usage: lissom run " + script + " [--name value ...]\n";
+    std::size_t width = 0;
+    for (const ScriptParameter& p : list) width = std::max(width, flag_text(p).size());
+    const std::string* group = nullptr;
+    for (const ScriptParameter& p : list) {
+        if (!group || *group != p.group) {
+            text += "\n" + (p.group.empty() ? std::string("Parameters") : p.group) + ":\n";
+        }
+        group = &p.group;
+        const std::string flag = flag_text(p);
+        text += "  " + flag + std::string(width - flag.size() + 2, ' ') + help_line(p) + "\n";
+    }
+    return text;
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,84 @@
+/// State: what the binding keeps for one Lua state. Nothing is shared between states.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bindings/lua/core/compat.h"
+#include "bindings/lua/core/failure.h"
+#include "bindings/lua/core/listeners.h"
+#include "bindings/lua/core/registry.h"
+#include "kernel/core/context.h"
+
+namespace lissom::lua {
+
+/// The command line of the script that runs, for lissom.params.
+struct ScriptArguments {
+    /// Name of the script, as messages and help texts show it; empty where no script runs.
+    std::string script;
+    /// What follows it on the command line.
+    std::vector<std::string> words;
+};
+
+/// What a host may set when it opens the binding. Every field is optional.
+struct HostOptions {
+    ContextOptions context = {};
+    /// What scripts can call; the kernel's library alone where it is null.
+    std::shared_ptr<const Registry> registry = {};
+    ScriptArguments arguments = {};
+    /// Called after every operation of the kernel, on the thread of the state.
+    std::function<void()> operation_ended = {};
+};
+
+struct ParameterSet;
+
+/// Why lissom.params ended the script: its help was asked for, or its command line is wrong. The
+/// text is the message of the Lua error that was raised.
+enum class ScriptEnd { none, help, usage };
+
+struct State {
+    explicit State(const HostOptions& options);
+    ~State();
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    /// After an operation, with no C++ object alive: tells the host, delivers log messages, and
+    /// raises the error of a listener as a Lua error.
+    void end_operation(lua_State* L);
+    /// Where Lua's registry keeps the weak table from objects to their userdata.
+    static const void* object_table_key();
+    /// Where it keeps the metatable of values held by a call.
+    static const void* held_metatable_key();
+
+    std::shared_ptr<Listeners> listeners = std::make_shared<Listeners>();
+    std::shared_ptr<const Registry> registry;
+    Context context;
+    HostOptions host;
+    /// What lissom.params declared last; null before.
+    std::shared_ptr<ParameterSet> parameters;
+    ScriptEnd script_end = ScriptEnd::none;
+    std::string script_end_text;
+
+    /// The last nil, message, code that a call returned, and the script's file and line of that
+    /// call.
+    Failure last_failure;
+    char last_failure_place[256] = {};
+    bool has_failed = false;
+
+    /// Native bytes that the collector has not been told of yet.
+    std::size_t uncharged_bytes = 0;
+};
+
+/// Opens the binding in `L`, or finds it opened, and pushes the table of the module. May raise a
+/// Lua error; `options` must outlive the call.
+void open(lua_State* L, const HostOptions& options);
+
+/// The binding's state, or null where it was not opened in `L`.
+State* find_state(lua_State* L);
+
+}  // namespace lissom::lua
+
+/// Opens the module with a context of its own: silent, serial, without limits.
+extern "C" int luaopen_lissom(lua_State* L);

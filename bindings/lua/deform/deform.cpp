@@ -1,0 +1,602 @@
+// lissom.deform: Deformation.
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/deform/deform_object.h"
+#include "bindings/lua/deform/deform_points.h"
+#include "bindings/lua/deform/deform_texts.h"
+#include "bindings/lua/mesh/buffer.h"
+#include "bindings/lua/mesh/path_object.h"
+#include "bindings/lua/mesh/transform_options.h"
+
+namespace lissom::lua {
+
+std::size_t DeformObject::memory_bytes() const {
+    if (!content) return 0;
+    return content->stats().factor_bytes + content->positions().size() * 4 * sizeof(Mat3);
+}
+
+Deformer& DeformObject::deformer() {
+    if (!content) {
+        throw Error(ErrorCode::handle_removed, "the deformation was closed; make a new one");
+    }
+    require_current(*mesh, topology, "the deformation");
+    return *content;
+}
+
+namespace {
+
+// ---- lissom.deform
+
+template <typename Enum>
+void take_choice(const Call& call, const char* path, Enum& target) {
+    if (call.has(path)) target = call.choice<Enum>(path);
+}
+
+void take_number(const Call& call, const char* path, double& target) {
+    if (call.has(path)) target = call.number(path);
+}
+
+// Options given together with a method that has no use for them.
+void refuse_options(const Call& call, DeformMethod method) {
+    if (method == DeformMethod::implicit) return;
+    const auto refuse = [&](const std::string& option) {
+        throw Error(ErrorCode::invalid_argument,
+                    "option '" + option + "' does not apply to method '" +
+                        std::string(method_name(method)) + "'; leave one of them out");
+    };
+    for (const char* option : {"local_size", "second", "coherence", "displacement",
+                               "degenerate_threshold", "refine", "refine_borders"}) {
+        if (call.has(option)) refuse(option);
+    }
+    if (call.integer("fidelity") == 1) refuse("fidelity");
+    if (method == DeformMethod::geodesic && call.has("weights")) refuse("weights");
+}
+
+DeformOptions deform_options(const Call& call) {
+    const bool thesis = call.integer("fidelity") == 1;
+    DeformOptions options = thesis ? DeformOptions::thesis() : DeformOptions{};
+    take_choice(call, "method", options.method);
+    take_choice(call, "second", options.second);
+    take_choice(call, "local_size", options.local_size);
+    take_choice(call, "weights", options.weights);
+    if (call.has("coherence")) options.coherence = call.integer("coherence");
+    if (call.has("refine")) options.refine = call.integer("refine");
+    if (call.has("refine_borders")) options.refine_borders = call.boolean("refine_borders");
+    take_number(call, "displacement", options.displacement);
+    options.transition = call.number("transition");
+    take_number(call, "degenerate_threshold", options.degenerate_threshold);
+    return options;
+}
+
+int deform_mesh(Call& call) {
+    const auto mesh = call.object<MeshObject>("mesh");
+    const bool whole = !call.has("region");
+    const auto region = call.object<RegionObject>("region");
+    const DeformOptions options = deform_options(call);
+    const auto result = call.create<DeformObject>();
+    const bool done = call.attempt([&] {
+        refuse_options(call, options.method);
+        const Region all = whole ? Region::all(mesh->mesh.shared_topology()) : region->current();
+        result.set(std::make_shared<DeformObject>(
+            mesh.share(), Deformer(mesh->mesh, all, options, call.context())));
+    });
+    if (!done) return call.fail();
+    call.charge(result);
+    return 1;
+}
+
+// ---- Deformation
+
+std::vector<MeshPoint> mesh_points(const DeformObject& edit, std::span<const PointSpec> specs) {
+    std::vector<MeshPoint> points;
+    for (const PointSpec& spec : specs) points.push_back(spec.point(*edit.topology));
+    return points;
+}
+
+MirrorPlane mirror_plane(const Call& call) {
+    return {call.vector("mirror.point"), call.vector("mirror.normal"),
+            call.has("mirror.tolerance") ? call.number("mirror.tolerance") : 0.0};
+}
+
+int add_handle(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const bool has_weight = call.has("weight"), has_points = call.kind("where") == Kind::table;
+    const bool on_path = luaL_testudata(call.lua(), 2, PathObject::kTypeName) != nullptr;
+    const auto region = call.object<RegionObject>("where");
+    const auto path = call.object<PathObject>("where");
+    const HandleOptions options{
+        call.boolean("position"), call.boolean("gradient"),
+        has_weight ? std::optional<double>(call.number("weight")) : std::nullopt,
+        call.number("falloff")};
+    const bool mirrors = call.has("mirror");
+    const MirrorPlane plane = mirrors ? mirror_plane(call) : MirrorPlane{};
+    const std::span<const PointSpec> points =
+        has_points ? read_points(call, "where") : std::span<const PointSpec>{};
+    const auto result = call.create<HandleObject>();
+    const bool done = call.attempt([&] {
+        Deformer& deformer = edit->deformer();
+        const auto add = [&]() -> HandleId {
+            if (has_points) return deformer.add_handle(mesh_points(*edit, points), options);
+            if (!on_path) return deformer.add_handle(region->current(), options);
+            return deformer.add_handle(
+                path_points(edit->mesh->mesh, path->current(), call.context()), options);
+        };
+        const HandleId id = add();
+        // A handle whose mirror image is refused is not made.
+        if (mirrors) {
+            try {
+                deformer.mirror_handle(id, plane);
+            } catch (...) {
+                deformer.remove_handle(id);
+                throw;
+            }
+        }
+        result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), id}));
+    });
+    return done ? 1 : call.fail();
+}
+
+int constrain(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const PointSpec point = read_point_options(call);
+    const bool has_position = call.has("position"), has_gradient = call.has("gradient");
+    const bool has_weight = call.has("weight");
+    const double weight = has_weight ? call.number("weight") : 1.0;
+    const Vec3 position = has_position ? call.vector("position") : Vec3(Vec3::Zero());
+    const Mat3 gradient = has_gradient ? call.matrix3("gradient") : Mat3(Mat3::Identity());
+    const bool done = call.attempt([&] {
+        PointConstraint constraint{point.point(*edit->topology)};
+        if (has_weight) constraint.weight = weight;
+        if (has_position) constraint.position = position;
+        if (has_gradient) constraint.gradient = gradient;
+        edit->deformer().constrain(constraint);
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+int set_stiffness(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const auto region = call.object<RegionObject>("region");
+    const double factor = call.number("factor");
+    const bool done =
+        call.attempt([&] { edit->deformer().set_stiffness(region->current(), factor); });
+    return done ? call.push_argument() : call.fail();
+}
+
+// Runs solve(Deformer&), writes the result into the mesh and returns it.
+template <typename Solve>
+int write_result(Call& call, const Solve& solve) {
+    const auto edit = call.self<DeformObject>();
+    const bool done = call.attempt([&] {
+        Deformer& deformer = edit->deformer();
+        solve(deformer);
+        deformer.apply_to(edit->mesh->mesh);
+        edit->mesh->changed();
+    });
+    if (!done) return call.fail();
+    call.charge(edit);
+    return call.push_shared(edit->mesh);
+}
+
+int preview(Call& call) {
+    return write_result(call, [&](Deformer& deformer) { deformer.preview(call.context()); });
+}
+
+int solve(Call& call) {
+    const bool draft = call.boolean("draft");
+    return write_result(call, [&](Deformer& deformer) {
+        draft ? deformer.solve_draft(call.context()) : deformer.solve(call.context());
+    });
+}
+
+int reset_all(Call& call) {
+    const int results = write_result(call, [](Deformer& deformer) { deformer.reset(); });
+    return results == 1 ? call.push_argument() : results;
+}
+
+int rebase(Call& call) {
+    const int results = write_result(call, [](Deformer& deformer) { deformer.rebase(); });
+    return results == 1 ? call.push_argument() : results;
+}
+
+int refined_mesh(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    return new_mesh(
+        call, [&] { return edit->deformer().refined_mesh(edit->mesh->mesh, call.context()); });
+}
+
+int stats(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    DeformStats s;
+    if (!call.attempt_quick([&] { s = edit->deformer().stats(); })) return call.fail();
+    const struct {
+        const char* name;
+        std::size_t value;
+    } counts[] = {{"region_vertices", static_cast<std::size_t>(s.region_vertices)},
+                  {"free_vertices", static_cast<std::size_t>(s.free_vertices)},
+                  {"constrained_vertices", static_cast<std::size_t>(s.constrained_vertices)},
+                  {"handles", static_cast<std::size_t>(s.handles)},
+                  {"displaced_vertices", static_cast<std::size_t>(s.displaced_vertices)},
+                  {"inserted_vertices", static_cast<std::size_t>(s.inserted_vertices)},
+                  {"refined_vertices", static_cast<std::size_t>(s.refined_vertices)},
+                  {"zero_area_faces", static_cast<std::size_t>(s.zero_area_faces)},
+                  {"first_nonzeros", s.first_nonzeros},
+                  {"second_nonzeros", s.second_nonzeros},
+                  {"factor_bytes", s.factor_bytes},
+                  {"factorizations", static_cast<std::size_t>(s.factorizations)}};
+    const struct {
+        const char* name;
+        double value;
+    } times[] = {{"assemble_seconds", s.assemble_seconds},
+                 {"first_factor_seconds", s.first_factor_seconds},
+                 {"second_factor_seconds", s.second_factor_seconds},
+                 {"basis_seconds", s.basis_seconds}};
+    lua_createtable(call.lua(), 0, 15);
+    for (const auto& count : counts) call.set_field(count.name, call.push_count(count.value));
+    for (const auto& time : times) call.set_field(time.name, call.push(time.value));
+    return 1;
+}
+
+// Pushes rows of N numbers as a buffer of its own.
+template <typename Row>
+bool push_rows(Call& call, const std::vector<Row>& rows) {
+    const auto result = call.create<BufferObject>();
+    const bool done = call.attempt_quick([&] {
+        auto buffer = std::make_shared<BufferObject>();
+        buffer->width = Row::RowsAtCompileTime;
+        for (const Row& row : rows) {
+            buffer->values.insert(buffer->values.end(), row.data(), row.data() + row.size());
+        }
+        result.set(std::move(buffer));
+    });
+    if (done) call.charge(result);
+    return done;
+}
+
+bool push_handle(Call& call, const Ref<DeformObject>& edit, HandleId id) {
+    const auto result = call.create<HandleObject>();
+    return call.attempt_quick([&] {
+        result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), id}));
+    });
+}
+
+int handles(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    auto& ids = call.hold<std::vector<HandleId>>();
+    if (!call.attempt_quick([&] { ids = edit->deformer().handles(); })) return call.fail();
+    lua_createtable(call.lua(), static_cast<int>(ids.size()), 0);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (!push_handle(call, edit, ids[i])) return call.fail();
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
+    return 1;
+}
+
+int basis(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    lua_State* L = call.lua();
+    auto& found = call.hold<HandleBasis>();
+    if (!call.attempt([&] { found = edit->deformer().basis(call.context()); })) return call.fail();
+    call.charge(edit);
+    lua_createtable(L, 0, 4);
+    call.set_field("vertices", call.push_ids(found.vertices));
+    lua_createtable(L, static_cast<int>(found.handles.size()), 0);
+    lua_createtable(L, static_cast<int>(found.handles.size()), 0);
+    for (std::size_t h = 0; h < found.handles.size(); ++h) {
+        if (!push_handle(call, edit, found.handles[h])) return call.fail();
+        lua_rawseti(L, -3, static_cast<int>(h) + 1);
+        if (!push_rows(call, found.weights[h])) return call.fail();
+        lua_rawseti(L, -2, static_cast<int>(h) + 1);
+    }
+    lua_setfield(L, -3, "weights");
+    lua_setfield(L, -2, "handles");
+    if (!push_rows(call, found.fixed)) return call.fail();
+    lua_setfield(L, -2, "fixed");
+    return 1;
+}
+
+int deformation_mesh(Call& call) {
+    return push_owner(call, call.self<DeformObject>()->mesh);
+}
+
+int deformation_region(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const auto result = call.create<RegionObject>();
+    const bool done = call.attempt_quick(
+        [&] { result.set(std::make_shared<RegionObject>(edit->mesh, edit->deformer().region())); });
+    return done ? 1 : call.fail();
+}
+
+int deformation_text(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    int vertices = 0, count = 0;
+    const bool current = call.attempt_quick([&] {
+        vertices = edit->deformer().region().size();
+        count = static_cast<int>(edit->deformer().handles().size());
+    });
+    if (!current) return call.push("lissom.Deformation (of an older topology)");
+    lua_pushfstring(call.lua(), "lissom.Deformation: %d vertices, %d handles", vertices, count);
+    return 1;
+}
+
+// ---- Descriptions
+
+const std::vector<ErrorCode> kSolveErrors = {
+    ErrorCode::unconstrained, ErrorCode::zero_area,         ErrorCode::not_positive_definite,
+    ErrorCode::memory_limit,  ErrorCode::topology_mismatch, ErrorCode::cancelled};
+const std::vector<ErrorCode> kBasisErrors = {
+    ErrorCode::unconstrained, ErrorCode::zero_area,         ErrorCode::not_positive_definite,
+    ErrorCode::memory_limit,  ErrorCode::topology_mismatch, ErrorCode::unsupported,
+    ErrorCode::cancelled};
+Parameter weight_option() {
+    return number("weight",
+                  "Draws instead of holding exactly: 1 is a compromise with the shape of the "
+                  "surface, 1e6 nearly exact. Depends on neither scale nor resolution.")
+        .above(0)
+        .optional("held exactly");
+}
+
+std::vector<Parameter> constraint_fields() {
+    std::vector<Parameter> fields = point_fields();
+    fields.push_back(vector("position", "Where it goes.").optional("free"));
+    fields.push_back(
+        matrix3("gradient", "Rows of its 3 x 3 deformation gradient.").optional("free"));
+    fields.push_back(weight_option());
+    return fields;
+}
+
+std::vector<Function> solving_methods() {
+    const std::vector<Result> mesh = {
+        {"lissom.Mesh", "mesh", "The mesh; nil, message, code where there is no solution."}};
+    return {
+        {.name = "preview",
+         .body = preview,
+         .summary =
+             "Solves the first system only and writes the result into the mesh: quick enough "
+             "to follow a drag, with some shear.",
+         .results = mesh,
+         .errors = kSolveErrors,
+         .example = kBar + "top:translate(1, 0, 0)\nedit:preview()"},
+        {.name = "solve",
+         .body = solve,
+         .summary =
+             "Solves both systems and writes the result into the mesh. Handles that are where "
+             "they began give the rest shape, to the bit.",
+         .options = {boolean("draft",
+                             "For the frames of a drag: about five digits in half the time. Solve "
+                             "once more when the drag ends.")
+                         .defaults(false)},
+         .results = mesh,
+         .errors = kSolveErrors,
+         .example = kBar + "top:rotate{ axis = 'z', angle = 60 }\nassert(edit:solve() == bar)"},
+        {.name = "reset",
+         .body = reset_all,
+         .summary =
+             "Handles and mesh go back to the rest shape, to the bit; vertex constraints go.",
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .errors = kEditErrors,
+         .example = kBar + R"(local before = bar:hash()
+top:translate(1, 0, 0)
+edit:solve()
+edit:reset()
+assert(bar:hash() == before))"},
+        {.name = "refined_mesh",
+         .body = refined_mesh,
+         .summary =
+             "The deformed mesh with the vertices that the deformation worked on where the border "
+             "of what is held is coarse beside the region: behind the mesh's own, on faces that "
+             "become triangles. Without such vertices it is a copy.",
+         .results = {{"lissom.Mesh", "refined", "A new mesh."}},
+         .errors = kEditErrors,
+         .example = kBar + R"(top:translate(1, 0, 0)
+edit:solve()
+local refined = edit:refined_mesh()
+assert(refined:vertex_count() == bar:vertex_count() + edit:stats().refined_vertices))"},
+        {.name = "apply",
+         .body = rebase,
+         .summary =
+             "Takes the last result as the new rest shape. Handles keep their vertices and hold "
+             "where they are now, with the identity as transform; constraints hold where their "
+             "points are now. Factors are rebuilt at the next solve, and reset returns to this "
+             "shape.",
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .errors = kEditErrors,
+         .example = kBar + R"(top:translate(1, 0, 0)
+edit:solve()
+edit:apply()
+assert(top:matrix()[1][4] == 0)
+top:translate(1, 0, 0)
+edit:solve())"},
+        {.name = "stats",
+         .body = stats,
+         .summary = "Sizes and times of the last preparation.",
+         .results = {{"lissom.DeformStats", "stats", "Times are in seconds, sizes in bytes."}},
+         .errors = kEditErrors,
+         .example = kBar + "edit:solve()\nassert(edit:stats().handles == 2)"},
+        {.name = "basis",
+         .body = basis,
+         .summary =
+             "The first system's solution as a linear function of the handles: what an engine "
+             "needs to follow a drag by itself.",
+         .results = {{"lissom.HandleBasis", "basis", "Weights of every vertex for every handle."}},
+         .errors = kBasisErrors,
+         .example = kBar + "assert(edit:basis().weights[1]:width() == 4)"}};
+}
+
+std::vector<Parameter> deform_parameters() {
+    const DeformOptions defaults;
+    const auto shown = [](double value) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%g", value);
+        return std::string(text);
+    };
+    return {
+        object("region", "lissom.Region", "What may move. Outside nothing does.").optional("all"),
+        choice(
+            "method",
+            {"implicit", "naive", "rotation_estimate", "similarity", "geodesic", "harmonic",
+             "frames"},
+            "implicit is this kernel's own method. The others are for comparison: Laplacian "
+            "coordinates as they are; turned by rotations estimated from that (Lipman 2004); by "
+            "similarities implicit in the positions (Sorkine 2004); handle rotations propagated "
+            "by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-"
+            "invariant coordinates (Lipman 2005). Of the other options they take `weights` only, "
+            "and geodesic not even that; they have no basis, and preview is as solve.")
+            .optional("\"implicit\""),
+        choice("local_size", {"keep", "scale"},
+               "Whether details keep their size or scale with the surface around them.")
+            .optional("\"keep\""),
+        choice(
+            "second", {"blend", "laplacian", "poisson"},
+            "The system that makes the shape from the rotations: blend is smooth at handles with "
+            "little distortion, laplacian is the thesis's, poisson has the least distortion.")
+            .optional("\"blend\""),
+        integer("coherence", "Rings of neighbours that turn alike.")
+            .between(1, 2)
+            .optional(std::to_string(defaults.coherence)),
+        choice("weights", {"cotangent", "uniform"}, "Weights of the Laplacian coordinates.")
+            .optional("\"cotangent\""),
+        integer("refine",
+                "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
+                "less distortion for half a frame each.")
+            .at_least(0)
+            .optional(std::to_string(defaults.refine)),
+        boolean("refine_borders",
+                "Works on a surface that is refined where the border of what is held is coarse "
+                "beside the region; the mesh keeps its faces.")
+            .optional("true"),
+        number("displacement", "How far degenerate vertices are displaced.")
+            .above(0)
+            .in("mean lengths of their edges")
+            .optional(shown(defaults.displacement)),
+        number("degenerate_threshold", "Condition number from which a vertex counts as degenerate.")
+            .above(1)
+            .optional(shown(defaults.degenerate_threshold)),
+        number("transition",
+               "Within this geodesic distance of the region's outline the deformation fades into "
+               "what stays.")
+            .at_least(0)
+            .in("mesh units")
+            .defaults(0.0),
+        choice("fidelity", {"default", "thesis"},
+               "thesis: coherence 2, second laplacian, and the weights and threshold of the thesis "
+               "where "
+               "no other option says otherwise.")
+            .defaults("default")};
+}
+
+}  // namespace
+
+Type deformation_type() {
+    Type type{
+        .name = "lissom.Deformation",
+        .summary =
+            "Deforms a region of a mesh by handles. Its rest shape is the mesh as it was when "
+            "the deformation was made; its factors are kept, so that moving a handle costs "
+            "no factorisation.",
+        .close = [](void* object) { static_cast<DeformObject*>(object)->content.reset(); }};
+    type.operators = {{"__tostring", deformation_text, "tostring(edit)", "its size"}};
+    type.methods = {
+        {.name = "handle",
+         .body = add_handle,
+         .summary =
+             "Makes a handle of some vertices of the region, of a path, or of points of faces and "
+             "edges. Points go exactly where the handle takes them: the points of the deformed "
+             "faces with the same weights do.",
+         .arguments = {either("where",
+                              {object("region", "lissom.Region", "Its vertices."),
+                               object("path", "lissom.Path", "Its vertices."),
+                               table("points",
+                                     "A list of {vertex=}, {edge={a, b}, at=}, {face=, bary=}, or "
+                                     "of what Mesh:nearest and Mesh:pick return.")},
+                              "What it holds.")},
+         .options =
+             {boolean("position", "Holds their positions.").defaults(HandleOptions{}.position),
+              boolean("gradient", "Holds their orientation and scale.")
+                  .defaults(HandleOptions{}.gradient),
+              weight_option(),
+              number("falloff",
+                     "Within this geodesic distance the surface follows softly, less and less.")
+                  .at_least(0)
+                  .in("mesh units")
+                  .defaults(0.0),
+              options("mirror",
+                      {vector("point", "A point of the plane."),
+                       vector("normal", "Its normal, of any length."),
+                       number("tolerance",
+                              "How far a vertex may lie from its counterpart's mirror image.")
+                           .above(0)
+                           .in("mesh units")
+                           .optional("a thousandth of the size")},
+                      "Adds a second handle, the mirror image, and moves it along: see mirrored.")
+                  .optional("none")},
+         .results = {{"lissom.Handle", "handle", "Where it is; move it and solve."}},
+         .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
+                    ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
+                    ErrorCode::invalid_argument, ErrorCode::out_of_range, ErrorCode::mesh_empty},
+         .example = kBar + R"(local side = edit:handle({ bar:nearest(0.5, 0, 0) }, { weight = 2 })
+side:translate(0.5, 0, 0)
+edit:solve())"},
+        {.name = "constrain",
+         .body = constrain,
+         .summary =
+             "Holds one vertex, or a point of an edge or face, in place of an earlier constraint; "
+             "without position and gradient it is free again. Returns the deformation.",
+         .options = constraint_fields(),
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .errors = {ErrorCode::out_of_range, ErrorCode::handle_outside_region,
+                    ErrorCode::handle_overlap, ErrorCode::invalid_argument,
+                    ErrorCode::topology_mismatch},
+         .example = kBar + R"(local v = bar:nearest(0.5, 0, 0).vertex
+edit:constrain{ vertex = v, position = { 1, 0, 0 } }
+edit:constrain{ face = 1, bary = { 0.4, 0.3, 0.2, 0.1 }, position = { 1, -2, 0 }, weight = 10 }
+edit:solve())"},
+        {.name = "stiffness",
+         .body = set_stiffness,
+         .summary =
+             "Sets how much a part of the surface resists being bent and stretched: stiff parts "
+             "move rigidly, soft ones take the bend.",
+         .arguments = {object("region", "lissom.Region", "The part."),
+                       number("factor", "1 is as usual.").above(0)},
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .errors = {ErrorCode::handle_outside_region, ErrorCode::topology_mismatch},
+         .example =
+             kBar +
+             R"(edit:stiffness(bar:region{ sphere = { center = { 0, 0, 0 }, radius = 0.8 } }, 100)
+top:rotate{ axis = "z", angle = 60 }
+edit:solve())"},
+        {.name = "handles",
+         .body = handles,
+         .summary = "Its handles.",
+         .results = {{"lissom.Handle[]", "handles", "In the order they were made."}},
+         .errors = kEditErrors,
+         .example = kBar + "assert(edit:handles()[2] == top)"},
+        {.name = "region",
+         .body = deformation_region,
+         .summary = "The region that may move.",
+         .results = {{"lissom.Region", "region", "The region."}},
+         .errors = kEditErrors,
+         .example = kBar + "assert(#edit:region() == #bar)"},
+        {.name = "mesh",
+         .body = deformation_mesh,
+         .summary = "The mesh that it deforms.",
+         .results = {{"lissom.Mesh", "mesh", "The mesh."}},
+         .example = kBar + "assert(edit:mesh() == bar)"}};
+    for (Function& method : solving_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : deform_engine_methods()) type.methods.push_back(std::move(method));
+    return type;
+}
+
+std::vector<Function> deform_functions() {
+    return {{.name = "deform",
+             .body = deform_mesh,
+             .summary = "Prepares the deformation of a mesh, or of a region of it, by handles.",
+             .arguments = {object("mesh", "lissom.Mesh", "The mesh, in its rest shape.")},
+             .options = deform_parameters(),
+             .results = {{"lissom.Deformation", "edit", "Give it handles, move them, solve."}},
+             .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
+                        ErrorCode::invalid_argument, ErrorCode::cancelled},
+             .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }:translate(1, -0.5, 0)
+edit:solve())"}};
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,288 @@
+// What leaves a deformation for engines: edit:save_basis and edit:bake.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/deform/deform_object.h"
+#include "kernel/io/basis_file.h"
+#include "kernel/io/morph_baker.h"
+#include "kernel/mesh/measure/directions.h"
+
+namespace lissom::lua {
+namespace {
+
+std::filesystem::path file_path(const char* text) {
+    const std::string bytes(text);
+    return std::filesystem::path(std::u8string(bytes.begin(), bytes.end()));
+}
+
+// A handle is called as the named region of the mesh that has its vertices.
+std::string region_name(const Mesh& mesh, const Region& handle) {
+    for (const auto& [name, region] : mesh.regions()) {
+        if (region == handle) return name;
+    }
+    return "";
+}
+
+std::vector<std::string> handle_names(const Call& call, const DeformObject& edit,
+                                      const Deformer& deformer) {
+    if (call.has("names")) {
+        const auto given = call.strings("names");
+        return {given.begin(), given.end()};
+    }
+    std::vector<std::string> names;
+    for (const HandleId id : deformer.handles()) {
+        names.push_back(region_name(edit.mesh->mesh, deformer.handle_region(id)));
+    }
+    return names;
+}
+
+int save_basis_file(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const char* path = call.string("path");
+    const bool done = call.attempt([&] {
+        Deformer& deformer = edit->deformer();
+        const std::vector<std::string> names = handle_names(call, *edit, deformer);
+        save_basis(make_engine_basis(deformer, names, call.context()), file_path(path),
+                   call.context());
+    });
+    if (!done) return call.fail();
+    call.charge(edit);
+    return call.push_argument();
+}
+
+// ---- edit:bake
+
+constexpr int kMaximumFrames = 10000;
+
+// How the handles and the mesh of a deformation stand, to be put back.
+class Standing {
+  public:
+    explicit Standing(DeformObject& edit)
+        : mesh_(edit.mesh->mesh),
+          revision_(edit.mesh->mesh.revision()),
+          poses_(edit.deformer().poses()) {}
+
+    const Mesh& mesh() const { return mesh_; }
+
+    void restore_handles(Deformer& deformer) const { deformer.restore(*poses_); }
+
+    void restore_mesh(MeshObject& object) const {
+        Mesh& mesh = object.mesh;
+        const bool same_faces = mesh.shared_topology() == mesh_.shared_topology();
+        if (object.closed || !same_faces || mesh.revision() == revision_) return;
+        mesh.set_positions({mesh_.positions().begin(), mesh_.positions().end()});
+        for (const Attribute& old : mesh_.attributes().all()) {
+            Attribute* now = is_direction(old) ? mesh.attributes().find(old.name) : nullptr;
+            if (now && now->values.size() == old.values.size()) now->values = old.values;
+        }
+        object.changed();
+    }
+
+  private:
+    Mesh mesh_;
+    std::uint64_t revision_;
+    std::shared_ptr<const HandlePoses> poses_;
+};
+
+// Everything that lives as long as one call of bake.
+struct Baking {
+    Baking(std::shared_ptr<DeformObject> owner, BakeOptions options, const Context& context)
+        : edit(std::move(owner)), standing(*edit), shape(standing.mesh()) {
+        edit->deformer().apply_rest_to(shape);
+        baker = std::make_unique<MorphBaker>(shape, edit->deformer().region(), std::move(options),
+                                             context);
+    }
+
+    void add_pose(double time, bool is_preview, const Context& context) {
+        Deformer& deformer = edit->deformer();
+        if (is_preview) {
+            deformer.preview(context);
+        } else {
+            deformer.solve(context);
+        }
+        deformer.apply_to(shape);
+        baker->add(time, shape);
+    }
+
+    // Whatever the script did to the deformation in the meantime.
+    void restore() const {
+        if (edit->content) standing.restore_handles(*edit->content);
+        standing.restore_mesh(*edit->mesh);
+    }
+
+    std::shared_ptr<DeformObject> edit;
+    Standing standing;
+    Mesh shape;
+    std::unique_ptr<MorphBaker> baker;
+};
+
+// What a call of bake asks for, as plain data.
+struct BakeRequest {
+    Call* call;
+    Baking* baking;
+    const double* times;
+    int count;
+    bool is_preview;
+    bool done;
+
+    static BakeRequest read(Call& call) {
+        const bool has_times = call.has("times"), has_duration = call.has("duration");
+        if (has_times == has_duration) call.raise("'bake' needs either 'duration' or 'times'");
+        BakeRequest request{&call, nullptr, nullptr, 0, call.boolean("preview"), false};
+        if (has_times) {
+            const auto times = call.numbers("times");
+            request.times = times.data();
+            request.count = static_cast<int>(times.size());
+            return request;
+        }
+        const double fps = call.number("fps"), frames = std::round(call.number("duration") * fps);
+        if (!(frames < kMaximumFrames)) call.reject("duration", "that is more than 10000 frames");
+        request.count = static_cast<int>(frames) + 1;
+        auto* times = call.scratch<double>(static_cast<std::size_t>(request.count));
+        for (int i = 0; i < request.count; ++i) times[i] = i / fps;
+        request.times = times;
+        return request;
+    }
+};
+
+// Runs inside lua_pcall, so that handles and mesh are put back whatever the script's function does:
+// (BakeRequest*, pose).
+int bake_frames(lua_State* L) {
+    auto& request = *static_cast<BakeRequest*>(lua_touserdata(L, 1));
+    Call& call = *request.call;
+    for (int i = 0; i < request.count; ++i) {
+        const double time = request.times[i];
+        Baking* const baking = request.baking;
+        if (!call.attempt_quick(
+                [&] { baking->standing.restore_handles(baking->edit->deformer()); })) {
+            return 0;
+        }
+        lua_pushvalue(L, 2);
+        lua_pushnumber(L, time);
+        lua_pushinteger(L, i + 1);
+        lua_call(L, 2, 0);
+        if (!call.attempt([&] { baking->add_pose(time, request.is_preview, call.context()); })) {
+            return 0;
+        }
+    }
+    request.done = true;
+    return 0;
+}
+
+int bake(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    lua_State* L = call.lua();
+    BakeRequest request = BakeRequest::read(call);
+    const char* name = call.string("name");
+    const auto interpolation = call.choice<KeyInterpolation>("interpolation");
+    const bool normals = call.boolean("normals");
+    auto& baking = call.hold<std::unique_ptr<Baking>>();
+    const auto result = call.create<MeshObject>();
+    const bool began = call.attempt([&] {
+        baking = std::make_unique<Baking>(edit.share(), BakeOptions{name, interpolation, normals},
+                                          call.context());
+    });
+    if (!began) return call.fail();
+
+    request.baking = baking.get();
+    lua_pushcfunction(L, bake_frames);
+    lua_pushlightuserdata(L, &request);
+    lua_pushvalue(L, call.stack_index("pose"));
+    const int status = lua_pcall(L, 2, 0, 0);
+    const bool restored = call.attempt_quick([&] { baking->restore(); });
+    if (status != 0) return lua_error(L);
+    if (!request.done || !restored) return call.fail();
+    const bool done =
+        call.attempt([&] { result.set(std::make_shared<MeshObject>(baking->baker->finish())); });
+    if (!done) return call.fail();
+    call.remember(result.get());
+    call.charge(result);
+    return 1;
+}
+
+}  // namespace
+
+std::vector<Function> deform_engine_methods() {
+    return {
+        {.name = "save_basis",
+         .body = save_basis_file,
+         .summary =
+             "Writes the basis to a file for a program without a solver: 4 floats a vertex and "
+             "handle, relative to the middle of the region. bindings/engine/lissom_basis.h, one C "
+             "header, describes the file and gives what preview gives.",
+         .arguments = {string("path", "The file.")},
+         .options = {strings("names",
+                             "Names of the handles, in the order of edit:handles(): a program "
+                             "finds them by these.")
+                         .optional("that of the mesh's region with the same vertices")},
+         .results = {{"lissom.Deformation", "edit",
+                      "The deformation itself; nil, message, code where there is no solution or "
+                      "the file could not be written."}},
+         .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
+                    ErrorCode::not_positive_definite, ErrorCode::memory_limit,
+                    ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
+                    ErrorCode::unsupported, ErrorCode::not_finite, ErrorCode::file_write_failed,
+                    ErrorCode::file_is_directory, ErrorCode::cancelled},
+         .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
+local edit = lissom.deform(bar)
+edit:handle(bar:region("bottom"))
+edit:handle(bar:region("top"))
+local path = os.tmpname()
+assert(edit:save_basis(path, { names = { "foot", "head" } }))
+os.remove(path))"},
+        {.name = "bake",
+         .body = bake,
+         .summary =
+             "Makes an animation of a sequence of poses: a new mesh with a morph target for each "
+             "different shape, which mesh:save writes as .glb or .gltf and any viewer of such "
+             "files plays. For each frame the handles stand where they stand now, the function "
+             "moves them, and the deformation is solved. Handles and mesh are afterwards as they "
+             "were, also where the function fails.",
+         .options =
+             {function("pose", "fun(time: number, frame: integer)",
+                       "Moves handles; called for each frame with its time and its number from "
+                       "1."),
+              number("duration",
+                     "Length of the animation; it starts at 0 and has a frame at its "
+                     "end.")
+                  .at_least(0)
+                  .in("seconds")
+                  .optional("times are given"),
+              number("fps", "Frames a second.").above(0).defaults(24.0),
+              numbers("times", "Time of each frame in seconds, ascending, instead of a duration.")
+                  .optional("duration is given"),
+              choice("interpolation", {"linear", "step"},
+                     "Between frames the surface moves along straight lines, or stays and then "
+                     "jumps.")
+                  .defaults("linear"),
+              boolean("preview", "Poses as preview makes them: the first system only.")
+                  .defaults(false),
+              boolean("normals",
+                      "Gives a mesh without normals those of its surface, so that light "
+                      "follows the motion.")
+                  .defaults(true),
+              string("name", "Name of the animation.").defaults("deformation")},
+         .results = {{"lissom.Mesh", "mesh",
+                      "The rest shape with its targets and the animation; nil, message, code where "
+                      "a pose has no solution."}},
+         .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
+                    ErrorCode::not_positive_definite, ErrorCode::memory_limit,
+                    ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
+                    ErrorCode::handle_removed, ErrorCode::unsupported, ErrorCode::cancelled},
+         .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
+local edit = lissom.deform(bar)
+edit:handle(bar:region("bottom"))
+local top = edit:handle(bar:region("top"))
+local wave = edit:bake{ duration = 1, fps = 8, pose = function(time)
+    top:set{ rotate = { axis = "z", angle = 60 * math.sin(2 * math.pi * time) } }
+end }
+local path = os.tmpname() .. ".glb"
+assert(wave:save(path))
+os.remove(path))"}};
+}
+
+}  // namespace lissom::lua

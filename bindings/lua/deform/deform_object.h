@@ -1,0 +1,40 @@
+/// A deformation of a script with the mesh that it deforms, and its handles.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "bindings/lua/mesh/mesh_object.h"
+#include "kernel/deform/deformer.h"
+
+namespace lissom::lua {
+
+struct DeformObject {
+    static constexpr const char* kTypeName = "lissom.Deformation";
+
+    DeformObject(std::shared_ptr<MeshObject> owner, Deformer made)
+        : mesh(std::move(owner)),
+          topology(mesh->mesh.shared_topology()),
+          content(std::move(made)) {}
+
+    std::shared_ptr<MeshObject> mesh;
+    std::shared_ptr<const Topology> topology;
+    /// Empty once it was closed.
+    std::optional<Deformer> content;
+    std::size_t charged_bytes = 0;
+
+    std::size_t memory_bytes() const;
+    /// Throws handle_removed where it was closed, topology_mismatch where the mesh has another
+    /// topology by now or was closed.
+    Deformer& deformer();
+};
+
+struct HandleObject {
+    static constexpr const char* kTypeName = "lissom.Handle";
+
+    std::shared_ptr<DeformObject> edit;
+    HandleId id;
+};
+
+}  // namespace lissom::lua

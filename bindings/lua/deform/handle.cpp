@@ -1,0 +1,271 @@
+// lissom.deform: Handle.
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/deform/deform_object.h"
+#include "bindings/lua/deform/deform_texts.h"
+#include "bindings/lua/mesh/transform_options.h"
+#include "kernel/deform/rotation/winding.h"
+
+namespace lissom::lua {
+namespace {
+
+// Sets the handle's transform to work(present transform, rest center), and returns the handle. The
+// transforms are about that center, so that a mesh far from the origin keeps its digits.
+template <typename Work>
+int move_handle(Call& call, const Work& work) {
+    const auto handle = call.self<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        Deformer& deformer = handle->edit->deformer();
+        const Vec3 center = deformer.handle_center(handle->id);
+        const Affine now = deformer.transform_about(handle->id, center);
+        deformer.set_transform(handle->id, work(now, center), center);
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+int translate_handle(Call& call) {
+    const Vec3 offset = call.vector("offset");
+    return move_handle(call,
+                       [&](const Affine& now, const Vec3&) { return translation(offset) * now; });
+}
+
+int rotate_handle(Call& call) {
+    const RotationOptions options = RotationOptions::read(call);
+    const auto handle = call.self<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        Deformer& deformer = handle->edit->deformer();
+        const Vec3 center = deformer.handle_center(handle->id);
+        const Affine now = deformer.transform_about(handle->id, center);
+        const Affine next = options.relative_to(center).map(now.translation) * now;
+        deformer.set_transform(handle->id, next, center,
+                               turned(deformer.turn(handle->id), options.turn()));
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+int scale_handle(Call& call) {
+    const Vec3 factors = call.vector("factor");
+    const bool has_about = call.has("about");
+    const Vec3 about = has_about ? call.vector("about") : Vec3(Vec3::Zero());
+    return move_handle(call, [&](const Affine& now, const Vec3& rest) {
+        return scaling(factors, has_about ? Vec3(about - rest) : now.translation) * now;
+    });
+}
+
+int set_handle(Call& call) {
+    const TransformOptions options = TransformOptions::read(call);
+    const auto handle = call.self<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        Deformer& deformer = handle->edit->deformer();
+        const Vec3 center = deformer.handle_center(handle->id);
+        const Affine map = options.relative_to(center).map(Vec3::Zero());
+        deformer.set_transform(handle->id, map, center, options.turn());
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+int set_handle_matrix(Call& call) {
+    const Affine map = call.affine("matrix");
+    const auto handle = call.self<HandleObject>();
+    const bool done =
+        call.attempt_quick([&] { handle->edit->deformer().set_transform(handle->id, map); });
+    return done ? call.push_argument() : call.fail();
+}
+
+int reset_handle(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        handle->edit->deformer().set_transform(handle->id, {}, Vec3::Zero(), Vec3::Zero());
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+int handle_matrix(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    Affine map;
+    const bool done =
+        call.attempt_quick([&] { map = handle->edit->deformer().transform(handle->id); });
+    return done ? call.push_affine(map) : call.fail();
+}
+
+int handle_center(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    Vec3 center = Vec3::Zero();
+    const bool done = call.attempt_quick([&] {
+        const Deformer& deformer = handle->edit->deformer();
+        center = deformer.handle_center(handle->id);
+        center += deformer.transform_about(handle->id, center).translation;
+    });
+    return done ? call.push_vector(center) : call.fail();
+}
+
+int handle_region(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    const auto result = call.create<RegionObject>();
+    const bool done = call.attempt_quick([&] {
+        DeformObject& edit = *handle->edit;
+        result.set(
+            std::make_shared<RegionObject>(edit.mesh, edit.deformer().handle_region(handle->id)));
+    });
+    return done ? 1 : call.fail();
+}
+
+int set_handle_region(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    const auto region = call.object<RegionObject>("region");
+    const bool done = call.attempt(
+        [&] { handle->edit->deformer().set_handle_region(handle->id, region->current()); });
+    return done ? call.push_argument() : call.fail();
+}
+
+int mirrored_handle(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    HandleId id;
+    const auto result = call.create<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        id = handle->edit->deformer().mirrored_handle(handle->id).value_or(HandleId{});
+        result.set(std::make_shared<HandleObject>(HandleObject{handle->edit, id}));
+    });
+    if (!done) return call.fail();
+    if (id == HandleId{}) lua_pushnil(call.lua());
+    return 1;
+}
+
+int remove_handle(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    const bool done =
+        call.attempt_quick([&] { handle->edit->deformer().remove_handle(handle->id); });
+    return done ? 0 : call.fail();
+}
+
+int equal_handles(Call& call) {
+    const auto a = call.self<HandleObject>(1), b = call.self<HandleObject>(2);
+    return call.push(a->edit == b->edit && a->id == b->id);
+}
+
+int handle_text(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    int vertices = 0;
+    const bool present = call.attempt_quick(
+        [&] { vertices = handle->edit->deformer().handle_region(handle->id).size(); });
+    if (!present) return call.push("lissom.Handle (removed)");
+    lua_pushfstring(call.lua(), "lissom.Handle: %d vertices", vertices);
+    return 1;
+}
+
+// ---- Descriptions
+
+const std::vector<ErrorCode> kHandleErrors = {
+    ErrorCode::handle_removed, ErrorCode::singular_transform, ErrorCode::topology_mismatch};
+std::vector<Function> handle_moves() {
+    const std::vector<Result> self = {{"lissom.Handle", "handle", "The handle itself."}};
+    const std::string center = "the handle's center where it is now";
+    return {{.name = "translate",
+             .body = translate_handle,
+             .summary = "Moves the handle on by an offset.",
+             .arguments = {vector("offset", "Three numbers or {x, y, z}.").in("mesh units")},
+             .results = self,
+             .errors = kHandleErrors,
+             .example = kBar + "top:translate(0, 1, 0):translate{ 0, 1, 0 }"},
+            {.name = "rotate",
+             .body = rotate_handle,
+             .summary = "Turns the handle on.",
+             .options = rotation_fields(center),
+             .results = self,
+             .errors = kHandleErrors,
+             .example = kBar + "top:rotate{ axis = 'z', angle = 45 }"},
+            {.name = "scale",
+             .body = scale_handle,
+             .summary = "Scales the handle on.",
+             .arguments = {factors("factor", "Factor for all axes, or one for each.")},
+             .options = {vector("about", "The point that stays.").optional(center)},
+             .results = self,
+             .errors = kHandleErrors,
+             .example = kBar + "top:scale(1.5)"},
+            {.name = "set",
+             .body = set_handle,
+             .summary =
+                 "Sets the whole transform: scales the rest shape, then rotates, then translates "
+                 "it. For sliders.",
+             .options = transform_fields("the handle's center at rest"),
+             .results = self,
+             .errors = kHandleErrors,
+             .example =
+                 kBar + "top:set{ translate = { 1, 0, 0 }, rotate = { axis = 'y', angle = 90 } }"},
+            {.name = "set_matrix",
+             .body = set_handle_matrix,
+             .summary = "Sets the whole transform as a matrix.",
+             .arguments = {affine("matrix",
+                                  "Rows of a 4 x 4 matrix; takes rest positions to where they "
+                                  "go.")},
+             .results = self,
+             .errors = kHandleErrors,
+             .example = kBar + "top:set_matrix(top:matrix())"},
+            {.name = "reset",
+             .body = reset_handle,
+             .summary = "The handle goes back to where it began.",
+             .results = self,
+             .errors = kHandleErrors,
+             .example = kBar + "top:translate(1, 0, 0):reset()"}};
+}
+
+}  // namespace
+
+Type handle_type() {
+    Type type{.name = "lissom.Handle",
+              .summary = "Vertices of a deformation that follow one transform."};
+    type.operators = {{"__tostring", handle_text, "tostring(handle)", "its size"},
+                      {"__eq", equal_handles, "a == b", "the same handle of the same deformation"}};
+    type.methods = handle_moves();
+    const std::vector<Function> queries = {
+        {.name = "matrix",
+         .body = handle_matrix,
+         .summary = "The transform so far.",
+         .results = {{"number[][]", "matrix", "Rows of a 4 x 4 matrix."}},
+         .errors = kEditErrors,
+         .example = kBar + "assert(top:matrix()[1][1] == 1)"},
+        {.name = "center",
+         .body = handle_center,
+         .summary = "The handle's center where it is now.",
+         .results = {{"lissom.Vector", "center", "{x, y, z}."}},
+         .errors = kEditErrors,
+         .example =
+             kBar + "top:translate(0, 1, 0)\nassert(math.abs(top:center()[2] - 3.5) < 1e-12)"},
+        {.name = "region",
+         .body = handle_region,
+         .summary = "The handle's vertices.",
+         .results = {{"lissom.Region", "region", "The region."}},
+         .errors = kEditErrors,
+         .example = kBar + "assert(top:region() == bar:region('top'))"},
+        {.name = "mirrored",
+         .body = mirrored_handle,
+         .summary = "Its mirror image, which moves along, or nil.",
+         .results = {{"lissom.Handle?", "image", "The other handle."}},
+         .errors = kEditErrors,
+         .example =
+             kBar +
+             R"(local side = bar:region{ box = { min = { 0.4, -0.5, -1 }, max = { 1, 0.5, 1 } } }
+local right = edit:handle(side, { mirror = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } })
+right:translate(0.5, 0, 0)
+assert(right:mirrored():matrix()[1][4] == -0.5)
+edit:solve())"},
+        {.name = "set_region",
+         .body = set_handle_region,
+         .summary =
+             "Gives the handle other vertices. Its transform stays, and the mesh keeps the old "
+             "result until the next solve.",
+         .arguments = {object("region", "lissom.Region", "Its new vertices.")},
+         .results = {{"lissom.Handle", "handle", "The handle itself."}},
+         .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
+                    ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
+                    ErrorCode::handle_removed},
+         .example = kBar + "top:set_region(bar:region('top'):grow(1)):translate(0, 1, 0)"},
+        {.name = "remove",
+         .body = remove_handle,
+         .summary = "Takes the handle out of the deformation; it cannot be used any more.",
+         .errors = kEditErrors,
+         .example = kBar + "top:remove()\nassert(#edit:handles() == 1)"}};
+    for (const Function& query : queries) type.methods.push_back(query);
+    return type;
+}
+
+}  // namespace lissom::lua

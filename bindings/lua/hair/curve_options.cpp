@@ -1,0 +1,310 @@
+// The options that describe style curves.
+#include <algorithm>
+#include <string>
+
+#include "bindings/lua/hair/hair_object.h"
+
+namespace lissom::lua {
+
+const std::string kStyle = R"(local head = lissom.shapes.head{ vertices = 3000 }
+local style = lissom.hairstyle(head, { resolution = 5000 })
+local points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
+                 (style:at{ azimuth = 70, elevation = 10, lift = 0.02 }) }
+local curve = style:stream{ points = points, name = "side" }
+)";
+
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+
+void take_length(const Call& call, const char* path, double& target) {
+    if (call.has(path)) target = call.number(path);
+}
+void take_length(const Call& call, const char* path, std::optional<double>& target) {
+    if (call.has(path)) target = call.number(path);
+}
+
+// {start, end} in degrees.
+void take_tilt(const Call& call, const char* path, DividingOptions::Tilt& target) {
+    if (!call.has(path)) return;
+    const auto degrees = call.numbers(path);
+    if (degrees.size() != 2) {
+        throw Error(ErrorCode::invalid_argument, "option '" + std::string(path) +
+                                                     "' takes two angles, that at the first point "
+                                                     "and that at the last");
+    }
+    target = {degrees[0] * kDegree, degrees[1] * kDegree};
+}
+
+void take_stop(const Call& call, double& target) {
+    if (!call.has("stop")) return;
+    if (call.kind("stop") == Kind::number) {
+        target = call.number("stop");
+    } else {
+        target = call.boolean("stop") ? StreamOptions{}.stop_length : 0.0;
+    }
+}
+
+std::vector<Vec3> in_metres(const Scalp& scalp, std::span<const Vec3> points) {
+    std::vector<Vec3> result(points.begin(), points.end());
+    for (Vec3& p : result) p = scalp.to_metres(p);
+    return result;
+}
+
+// Puts the point at place `i` of the list on top of the stack into `point`.
+bool read_point(lua_State* L, int i, Vec3& point) {
+    lua_rawgeti(L, -1, i);
+    bool fits = lua_istable(L, -1);
+    for (int axis = 0; fits && axis < 3; ++axis) {
+        lua_rawgeti(L, -1, axis + 1);
+        fits = lua_type(L, -1) == LUA_TNUMBER;
+        point[axis] = lua_tonumber(L, -1);
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+    return fits;
+}
+
+Parameter metres(const std::string& name, const std::string& help) {
+    return number(name, help).in("metres");
+}
+
+std::vector<Parameter> common_fields() {
+    return {string("name", "For people, and for groups of strands.").optional(),
+            boolean("enabled", "Curves that are not have no effect.").optional("true"),
+            number("weight", "How firmly the field is held to the curve (omega of the thesis).")
+                .above(0)
+                .optional("100")};
+}
+
+Parameter stop_field() {
+    return either("stop",
+                  {boolean("on", "Whether it does."),
+                   metres("length", "How far behind the end.").at_least(0)},
+                  "Keeps hair from growing on beyond the end of the curve, by vectors that vanish "
+                  "over a length.")
+        .optional("true, 0.04 metres");
+}
+
+std::vector<Parameter> own_stream_fields() {
+    return {stop_field(), metres("clearance", "The curve is moved out to this height.")
+                              .at_least(0)
+                              .optional("0.004")};
+}
+
+std::vector<Parameter> own_dividing_fields() {
+    return {numbers("tilt",
+                    "{at its first point, at its last}: by how much hair on both sides is turned "
+                    "towards the curve's end, in degrees.")
+                .optional("{0, 0}"),
+            numbers("left", "The same for one side, as seen along the curve from outside.")
+                .optional("tilt"),
+            numbers("right", "The same for the other.").optional("tilt"),
+            metres("sigma", "Distance from the line to the crest of the hair.")
+                .above(0)
+                .optional("a grid step"),
+            metres("height", "h of the thesis: the crest is 0.39 times as high.")
+                .at_least(0)
+                .optional("half a grid step"),
+            metres("reach", "How far from the line hair is shaped.").above(0).optional("2.5 sigma"),
+            metres("thickness", "How far above and below its line hair is shaped.")
+                .above(0)
+                .optional("0.8 grid steps"),
+            number("separation", "Magnitude of the vectors that keep both sides apart.")
+                .between(0, 1)
+                .optional("0.3"),
+            metres("wall_width", "How far from the line these stand.")
+                .above(0)
+                .optional("1.2 grid steps"),
+            metres("wall_height", "How high.").at_least(0).optional("2.6 grid steps"),
+            metres("ramp", "Nearer to the line, vectors away from it fade; 0 as in the thesis.")
+                .at_least(0)
+                .optional("0.87 grid steps"),
+            metres("gap", "Width of the bare skin along the line.").at_least(0).optional("0.0024")};
+}
+
+std::vector<Parameter> own_ponytail_fields() {
+    return {
+        metres("radius", "Of the tie, the first cross section.")
+            .above(0)
+            .optional("from section or profiles, else 1.5 grid steps"),
+        points("section", "A closed curve around the spine: the tie is as wide, and stands there.")
+            .optional(),
+        table("profiles",
+              "{a, b}: two lists of points along the spine on either side of the tail; its cross "
+              "sections reach between them, from their beginning to their end.")
+            .optional(),
+        number("share", "Without profiles: how much of the spine has cross sections.")
+            .between(0, 1)
+            .optional("0.7"),
+        number("fullness", "Without profiles: the tail swells to 1 + fullness radii.")
+            .at_least(0)
+            .optional("1"),
+        number("inner", "Hair is drawn into the tie from this many radii on (R1 of the thesis).")
+            .above(0)
+            .optional("1.3"),
+        number("outer", "And up to this many (R2).").above(0).optional("1.9"),
+        metres("ring", "It is at least so wide.").at_least(0).optional("2.5 grid steps"),
+        metres("free", "Nearer to the head than this the tail leaves hair alone.")
+            .at_least(0)
+            .optional("1.5 grid steps"),
+        metres("lead", "It begins so far in front of the tie.")
+            .at_least(0)
+            .optional("1.5 grid steps"),
+        number("grip",
+               "How strongly the tail holds its hair together: by how much vectors just "
+               "outside turn inward, a grid step. 0 as in the thesis.")
+            .at_least(0)
+            .optional("4"),
+        number("spread",
+               "How strongly hair spreads again behind the tie and fills the tail. 0 as in "
+               "the thesis.")
+            .at_least(0)
+            .optional("2"),
+        number("tightness", "Magnitude of the vectors that do so.").between(0, 1).optional("0.6"),
+        metres("tail_length", "Of the hair behind the tie.")
+            .at_least(0)
+            .optional("as long as the spine"),
+        number("ragged", "Share of that by which tips differ.").between(0, 1).optional("0.45")};
+}
+
+std::vector<Parameter> joined(std::vector<std::vector<Parameter>> lists) {
+    std::vector<Parameter> all;
+    for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+}
+
+}  // namespace
+
+std::vector<Parameter> stream_fields() {
+    return joined({{points("points",
+                           "From the root to the tip; the curve runs smoothly through "
+                           "them.")
+                        .in("mesh units")},
+                   own_stream_fields(),
+                   common_fields()});
+}
+
+std::vector<Parameter> dividing_fields() {
+    return joined({{points("points", "On the scalp, or near it.").in("mesh units")},
+                   own_dividing_fields(),
+                   common_fields()});
+}
+
+std::vector<Parameter> ponytail_fields() {
+    return joined({{points("spine", "From the tie to the tip of the tail.").in("mesh units")},
+                   {stop_field()},
+                   own_ponytail_fields(),
+                   common_fields()});
+}
+
+std::vector<Parameter> curve_fields() {
+    return joined({{points("points", "Of a stream or dividing curve.").optional(),
+                    points("spine", "Of a ponytail.").optional()},
+                   own_stream_fields(),
+                   own_dividing_fields(),
+                   own_ponytail_fields(),
+                   common_fields()});
+}
+
+CurveReader::CurveReader(Call& call, bool ponytails) : call_(call) {
+    if (ponytails && call.has("profiles")) read_profiles();
+}
+
+void CurveReader::read_profiles() {
+    lua_State* L = call_.lua();
+    for (int side = 0; side < 2; ++side) {
+        lua_rawgeti(L, call_.stack_index("profiles"), side + 1);
+        if (!lua_istable(L, -1)) call_.reject("profiles", "{points, points} expected");
+        const auto count = static_cast<int>(raw_length(L, -1));
+        auto* list = call_.scratch<Vec3>(static_cast<std::size_t>(count));
+        lua_insert(L, -2);
+        for (int i = 0; i < count; ++i) {
+            if (!read_point(L, i + 1, list[i])) {
+                call_.reject("profiles", "two lists of {x, y, z} expected");
+            }
+        }
+        lua_pop(L, 1);
+        profiles_[side] = {list, static_cast<std::size_t>(count)};
+    }
+}
+
+void CurveReader::read(const Scalp& scalp, StreamCurve& curve) const {
+    if (call_.has("points")) curve.points = in_metres(scalp, call_.points("points"));
+    take_stop(call_, curve.options.stop_length);
+    take_length(call_, "clearance", curve.clearance);
+    take_length(call_, "weight", curve.options.weight);
+}
+
+void CurveReader::read(const Scalp& scalp, DividingCurve& curve) const {
+    if (call_.has("points")) curve.points = in_metres(scalp, call_.points("points"));
+    DividingOptions& options = curve.options;
+    take_tilt(call_, "tilt", options.left);
+    take_tilt(call_, "tilt", options.right);
+    take_tilt(call_, "left", options.left);
+    take_tilt(call_, "right", options.right);
+    take_length(call_, "sigma", options.sigma);
+    take_length(call_, "height", options.height);
+    take_length(call_, "reach", options.reach);
+    take_length(call_, "thickness", options.thickness);
+    take_length(call_, "separation", options.separation);
+    take_length(call_, "wall_width", options.wall_width);
+    take_length(call_, "wall_height", options.wall_height);
+    take_length(call_, "ramp", options.ramp);
+    take_length(call_, "gap", curve.gap);
+    take_length(call_, "weight", options.weight);
+}
+
+void CurveReader::read(const Scalp& scalp, Ponytail& curve) const {
+    if (call_.has("spine")) curve.spine = in_metres(scalp, call_.points("spine"));
+    PonytailOptions& options = curve.options;
+    take_length(call_, "radius", options.radius);
+    if (call_.has("section")) options.section = in_metres(scalp, call_.points("section"));
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (call_.has("profiles")) options.profiles[side] = in_metres(scalp, profiles_[side]);
+    }
+    take_stop(call_, options.stop_length);
+    take_length(call_, "share", options.share);
+    take_length(call_, "fullness", options.fullness);
+    take_length(call_, "inner", options.inner);
+    take_length(call_, "outer", options.outer);
+    take_length(call_, "ring", options.ring);
+    take_length(call_, "free", options.clearance);
+    take_length(call_, "lead", options.lead);
+    take_length(call_, "grip", options.grip);
+    take_length(call_, "spread", options.spread);
+    take_length(call_, "tightness", options.tightness);
+    take_length(call_, "tail_length", curve.tail_length);
+    take_length(call_, "ragged", curve.ragged);
+    take_length(call_, "weight", options.weight);
+}
+
+void CurveReader::read(const Scalp& scalp, StyleCurve& curve) const {
+    if (call_.has("name")) curve.name = call_.string("name");
+    if (call_.has("enabled")) curve.enabled = call_.boolean("enabled");
+    std::visit([&](auto& shape) { read(scalp, shape); }, curve.shape);
+}
+
+void refuse_other_options(const Call& call, const StyleCurve& curve) {
+    const auto own = [&] {
+        switch (curve.shape.index()) {
+            case 0:
+                return stream_fields();
+            case 1:
+                return dividing_fields();
+            default:
+                return ponytail_fields();
+        }
+    }();
+    for (const Parameter& option : curve_fields()) {
+        const bool applies = std::any_of(own.begin(), own.end(), [&](const Parameter& field) {
+            return field.name == option.name;
+        });
+        if (applies || !call.has(option.name.c_str())) continue;
+        throw Error(ErrorCode::invalid_argument, "option '" + option.name +
+                                                     "' does not apply to a " +
+                                                     std::string(kind_name(curve)) + " curve");
+    }
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,91 @@
+/// Scalps, hairstyles and style curves of a script.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings/lua/mesh/mesh_object.h"
+#include "kernel/hair/hairstyle.h"
+
+namespace lissom::lua {
+
+struct ScalpObject {
+    static constexpr const char* kTypeName = "lissom.Scalp";
+
+    ScalpObject(std::shared_ptr<MeshObject> owner, std::shared_ptr<const Scalp> made)
+        : head(std::move(owner)), scalp(std::move(made)) {}
+
+    std::shared_ptr<MeshObject> head;
+    std::shared_ptr<const Scalp> scalp;
+};
+
+struct HairstyleObject {
+    static constexpr const char* kTypeName = "lissom.Hairstyle";
+
+    HairstyleObject(std::shared_ptr<MeshObject> owner, Hairstyle made)
+        : head(std::move(owner)), content(std::move(made)) {}
+
+    std::shared_ptr<MeshObject> head;
+    /// Empty once it was closed.
+    std::optional<Hairstyle> content;
+    std::size_t charged_bytes = 0;
+
+    std::size_t memory_bytes() const { return content ? content->memory_bytes() : 0; }
+    /// Throws handle_removed where it was closed.
+    Hairstyle& style();
+};
+
+struct CurveObject {
+    static constexpr const char* kTypeName = "lissom.Curve";
+
+    std::shared_ptr<HairstyleObject> owner;
+    CurveId id;
+};
+
+/// Reads the options that describe a curve; those that are absent leave it as it is. Points are in
+/// the unit of the mesh, those of `curve` in metres of the scalp's frame.
+class CurveReader {
+  public:
+    /// `ponytails`: the function has options of ponytails. Raises a Lua error for bad ones.
+    CurveReader(Call& call, bool ponytails);
+
+    /// Inside Call::attempt only. Throws invalid_argument.
+    void read(const Scalp& scalp, StyleCurve& curve) const;
+
+  private:
+    void read_profiles();
+    void read(const Scalp& scalp, StreamCurve& curve) const;
+    void read(const Scalp& scalp, DividingCurve& curve) const;
+    void read(const Scalp& scalp, Ponytail& curve) const;
+
+    Call& call_;
+    // The two lists of points of the option `profiles`.
+    std::span<const Vec3> profiles_[2];
+};
+
+/// Throws invalid_argument where a call that has the options of all kinds gives one that `curve`
+/// has no use for.
+void refuse_other_options(const Call& call, const StyleCurve& curve);
+
+/// Pushes a curve.
+bool push_curve(Call& call, const std::shared_ptr<HairstyleObject>& style, CurveId id);
+
+/// Options of each kind of curve, and all of them for changing one.
+std::vector<Parameter> stream_fields();
+std::vector<Parameter> dividing_fields();
+std::vector<Parameter> ponytail_fields();
+std::vector<Parameter> curve_fields();
+
+/// {azimuth=, elevation=, lift=} over a head, and what becomes of it.
+std::vector<Parameter> direction_fields();
+std::vector<Result> direction_results();
+/// Pushes the point and the normal of these options.
+int push_point_at(Call& call, const Scalp& scalp);
+
+/// Start of examples: a style with one stream curve on the generated head.
+extern const std::string kStyle;
+
+}  // namespace lissom::lua

@@ -1,0 +1,639 @@
+// lissom.Hairstyle: style curves, the field that they determine, and growth.
+#include <filesystem>
+#include <string>
+
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/hair/hair_object.h"
+#include "bindings/lua/hair/strands_object.h"
+#include "kernel/io/mesh_file.h"
+#include "kernel/io/stream/file.h"
+#include "kernel/io/style_file.h"
+
+namespace lissom::lua {
+
+Hairstyle& HairstyleObject::style() {
+    if (content) return *content;
+    throw Error(ErrorCode::handle_removed, "the hairstyle was closed; make a new one");
+}
+
+namespace {
+
+// ---- lissom.hairstyle
+
+HairstyleOptions style_options(const Call& call) {
+    HairstyleOptions options;
+    options.resolution = call.integer("resolution");
+    if (call.has("volume"))
+        options.volume = Box{call.vector("volume.min"), call.vector("volume.max")};
+    options.field.solver = call.choice<GridSolver>("solver");
+    options.field.boundary = call.choice<GridBoundary>("boundary");
+    options.field.tension = call.number("tension");
+    return options;
+}
+
+int make_hairstyle(Call& call) {
+    const auto head = call.object<MeshObject>("head");
+    const auto result = call.create<HairstyleObject>();
+    const bool done = call.attempt([&] {
+        const HairstyleOptions options = style_options(call);
+        const auto scalp = call.has("scalp") ? call.object<ScalpObject>("scalp")->scalp
+                                             : std::make_shared<const Scalp>(
+                                                   head->mesh, ScalpOptions{}, call.context());
+        Hairstyle style(head->mesh, scalp, options, call.context());
+        result.set(std::make_shared<HairstyleObject>(head.share(), std::move(style)));
+    });
+    if (!done) return call.fail();
+    call.remember(result.get());
+    call.charge(result);
+    return 1;
+}
+
+// ---- Files
+
+std::filesystem::path file_path(std::string_view text) {
+    return std::filesystem::path(std::u8string(text.begin(), text.end()));
+}
+
+int save_style(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    const char* path = call.string("path");
+    const char* head = call.has("head") ? call.string("head") : "";
+    const bool done = call.attempt([&] {
+        lissom::save_style(content_of(style->style(), head), file_path(path), call.context());
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+// The head that a style names, beside the style's file where its path is relative.
+std::shared_ptr<MeshObject> named_head(const std::filesystem::path& style,
+                                       const StyleContent& content, const Context& context) {
+    if (content.head.empty()) {
+        throw Error(ErrorCode::invalid_argument,
+                    display_name(style) + ": the style names no head; give one");
+    }
+    return std::make_shared<MeshObject>(
+        load_mesh(style.parent_path() / file_path(content.head), {}, context));
+}
+
+int load_style(Call& call) {
+    const std::string_view path = call.string("path");
+    const bool has_head = call.has("head"), has_scalp = call.has("scalp");
+    const auto head = call.object<MeshObject>("head");
+    const auto result = call.create<HairstyleObject>();
+    const bool done = call.attempt([&] {
+        const StyleContent content = lissom::load_style(file_path(path), call.context());
+        const auto mesh =
+            has_head ? head.share() : named_head(file_path(path), content, call.context());
+        const auto scalp =
+            has_scalp ? call.object<ScalpObject>("scalp")->scalp
+                      : std::make_shared<const Scalp>(mesh->mesh, ScalpOptions{}, call.context());
+        result.set(std::make_shared<HairstyleObject>(
+            mesh, make_style(content, mesh->mesh, scalp, call.context())));
+    });
+    if (!done) return call.fail();
+    call.remember(result.get());
+    call.charge(result);
+    return 1;
+}
+
+// ---- Curves
+
+template <typename Shape>
+int add_curve(Call& call, bool ponytails) {
+    const auto style = call.self<HairstyleObject>();
+    const CurveReader reader(call, ponytails);
+    const auto result = call.create<CurveObject>();
+    const bool done = call.attempt([&] {
+        StyleCurve curve{Shape{}};
+        reader.read(style->style().scalp(), curve);
+        const CurveId id = style->style().add(std::move(curve));
+        result.set(std::make_shared<CurveObject>(CurveObject{style.share(), id}));
+    });
+    return done ? 1 : call.fail();
+}
+
+int add_stream(Call& call) {
+    return add_curve<StreamCurve>(call, false);
+}
+int add_dividing(Call& call) {
+    return add_curve<DividingCurve>(call, false);
+}
+int add_ponytail(Call& call) {
+    return add_curve<Ponytail>(call, true);
+}
+
+int style_curves(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    auto& ids = call.hold<std::vector<CurveId>>();
+    auto& owner = call.hold<std::shared_ptr<HairstyleObject>>();
+    const bool done = call.attempt_quick([&] {
+        const auto all = style->style().curves();
+        ids.assign(all.begin(), all.end());
+        owner = style.share();
+    });
+    if (!done) return call.fail();
+    lua_createtable(call.lua(), static_cast<int>(ids.size()), 0);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (!push_curve(call, owner, ids[i])) return call.fail();
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
+    return 1;
+}
+
+// ---- The field
+
+// Runs work(Hairstyle&) and returns the style.
+template <typename Work>
+int change_style(Call& call, const Work& work) {
+    const auto style = call.self<HairstyleObject>();
+    if (!call.attempt([&] { work(style->style()); })) return call.fail();
+    call.charge(style);
+    return call.push_argument();
+}
+
+int solve_style(Call& call) {
+    return change_style(call, [&](Hairstyle& style) { style.solve(call.context()); });
+}
+
+int avoid_scalp(Call& call) {
+    const double magnitude = call.number("magnitude");
+    const bool has_band = call.has("band");
+    const double band = has_band ? call.number("band") : 0.0;
+    return change_style(call, [&](Hairstyle& style) {
+        ScalpStepOptions all;
+        all.magnitude = magnitude;
+        if (has_band) all.band = band;
+        style.avoid_scalp(all, call.context());
+    });
+}
+
+int forget_scalp(Call& call) {
+    return change_style(call, [](Hairstyle& style) { style.forget_scalp(); });
+}
+
+int style_field(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    const Vec3 point = call.vector("point");
+    Vec3 direction = Vec3::Zero();
+    double distance = 0.0;
+    const bool done = call.attempt([&] {
+        Hairstyle& own = style->style();
+        own.solve(call.context());
+        const HairField::Sample here = own.field().sample(own.scalp().to_metres(point));
+        direction = own.scalp().frame().axes * here.direction;
+        distance = here.distance * own.scalp().scale();
+    });
+    if (!done) return call.fail();
+    call.push_vector(direction);
+    call.push(distance);
+    return 2;
+}
+
+// ---- Growth
+
+// The first number of an attribute at every vertex.
+std::vector<double> attribute_factors(const Mesh& head, std::string_view name) {
+    const Attribute* found = head.attributes().find(name);
+    if (!found || found->domain != Domain::vertex) {
+        std::vector<std::string_view> names;
+        for (const Attribute& one : head.attributes().all()) {
+            if (one.domain == Domain::vertex) names.push_back(one.name);
+        }
+        refuse_absent("attribute of vertices", name, names);
+    }
+    std::vector<double> factors;
+    for (Index v = 0; v < head.vertex_count(); ++v) factors.push_back(found->at(v)[0]);
+    return factors;
+}
+
+// Factors for the vertices of the head: a list, the name of an attribute, or a function, which was
+// asked before.
+std::vector<double> vertex_factors(const Call& call, const char* path, const Mesh& head,
+                                   std::span<const double> asked) {
+    if (!call.has(path)) return {};
+    if (call.kind(path) == Kind::numbers) {
+        const auto given = call.numbers(path);
+        return {given.begin(), given.end()};
+    }
+    if (call.kind(path) == Kind::function) return {asked.begin(), asked.end()};
+    return attribute_factors(head, call.string(path));
+}
+
+// What the script's function says of every vertex; runs before any C++ object is alive.
+std::span<const double> ask_factors(Call& call, const char* path) {
+    if (!call.has(path) || call.kind(path) != Kind::function) return {};
+    lua_State* L = call.lua();
+    const auto style = call.self<HairstyleObject>();
+    const Index count = style->head->mesh.vertex_count();
+    auto* factors = call.scratch<double>(static_cast<std::size_t>(count));
+    for (Index v = 0; v < count; ++v) {
+        if (!style.get() || style->head->mesh.vertex_count() != count) {
+            call.raise("the function of a map must change neither the style nor its head");
+        }
+        lua_pushvalue(L, call.stack_index(path));
+        call.push_id(v);
+        call.push_coordinates(style->head->mesh.position(v));
+        lua_call(L, 4, 1);
+        if (lua_type(L, -1) != LUA_TNUMBER) call.raise("the function of a map must give a number");
+        factors[v] = lua_tonumber(L, -1);
+        lua_pop(L, 1);
+    }
+    if (!style.get()) call.raise("the function of a map must not close the style");
+    return {factors, static_cast<std::size_t>(count)};
+}
+
+void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
+    growth.seed = static_cast<std::uint64_t>(call.integer("seed"));
+    growth.length = call.number("length");
+    growth.variation = call.number("variation");
+    growth.segment = call.number("segment");
+    growth.least_speed = call.number("least_speed");
+    growth.lift = call.number("lift");
+    growth.avoid = call.boolean("avoid");
+    growth.clearance = call.number("clearance");
+    growth.layer = call.number("layer");
+    growth.ramp = call.number("ramp");
+    growth.most_segments = call.integer("most_segments");
+    if (call.has("cut")) {
+        HairCut cut;
+        cut.point = scalp.to_metres(call.vector("cut.point"));
+        if (call.has("cut.normal")) {
+            cut.normal = scalp.frame().axes.transpose() * call.vector("cut.normal");
+        }
+        cut.ragged = call.number("cut.ragged");
+        growth.cuts.push_back(cut);
+    }
+}
+
+int grow_hair(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    const auto density = ask_factors(call, "density");
+    const auto lengths = ask_factors(call, "lengths");
+    const bool reuse = call.has("into");
+    const auto result = reuse ? call.object<StrandsObject>("into") : call.create<StrandsObject>();
+    const bool done = call.attempt([&] {
+        Hairstyle& own = style->style();
+        HairOptions options;
+        options.roots.count = call.integer("count");
+        options.roots.seed = static_cast<std::uint64_t>(call.integer("seed"));
+        options.roots.pattern = call.choice<RootPattern>("roots");
+        options.roots.density = vertex_factors(call, "density", style->head->mesh, density);
+        read_growth(call, own.scalp(), options.growth);
+        options.growth.length_map = vertex_factors(call, "lengths", style->head->mesh, lengths);
+        if (!reuse) result.set(std::make_shared<StrandsObject>(Strands()));
+        own.grow(options, result->strands, call.context());
+    });
+    if (!done) return call.fail();
+    call.charge(result);
+    call.charge(style);
+    if (reuse) lua_pushvalue(call.lua(), call.stack_index("into"));
+    return 1;
+}
+
+// ---- The rest
+
+int style_at(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    const Scalp* scalp = nullptr;
+    if (!call.attempt_quick([&] { scalp = &style->style().scalp(); })) return call.fail();
+    return push_point_at(call, *scalp);
+}
+
+int style_scalp(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    const auto result = call.create<ScalpObject>();
+    const bool done = call.attempt_quick([&] {
+        result.set(std::make_shared<ScalpObject>(style->head, style->style().shared_scalp()));
+    });
+    return done ? 1 : call.fail();
+}
+
+int style_head(Call& call) {
+    return push_owner(call, call.self<HairstyleObject>()->head);
+}
+
+int style_stats(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    GridLayout layout;
+    int constraints = 0, curves = 0;
+    const bool done = call.attempt_quick([&] {
+        const Hairstyle& own = style->style();
+        layout = own.layout();
+        constraints = own.field().grid().constraint_count();
+        curves = static_cast<int>(own.curves().size());
+    });
+    if (!done) return call.fail();
+    lua_createtable(call.lua(), 0, 4);
+    call.set_field("curves", call.push(curves));
+    call.set_field("constraints", call.push(constraints));
+    call.set_field("grid_points", call.push(layout.size()));
+    call.set_field("step", call.push(layout.step));
+    return 1;
+}
+
+int style_text(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    int curves = 0, points = 0;
+    const bool open = call.attempt_quick([&] {
+        curves = static_cast<int>(style->style().curves().size());
+        points = style->style().layout().size();
+    });
+    if (!open) return call.push("lissom.Hairstyle (closed)");
+    lua_pushfstring(call.lua(), "lissom.Hairstyle: %d curves, %d grid points", curves, points);
+    return 1;
+}
+
+// ---- Descriptions
+
+const std::vector<ErrorCode> kCurveErrors = {ErrorCode::not_finite, ErrorCode::invalid_argument,
+                                             ErrorCode::out_of_range, ErrorCode::handle_removed,
+                                             ErrorCode::memory_limit};
+const std::vector<ErrorCode> kSolveErrors = {ErrorCode::not_positive_definite,
+                                             ErrorCode::memory_limit, ErrorCode::handle_removed,
+                                             ErrorCode::cancelled};
+const std::vector<Result> kSelf = {{"lissom.Hairstyle", "style", "The hairstyle itself."}};
+
+std::vector<Function> adding_methods() {
+    const std::vector<Result> curve = {{"lissom.Curve", "curve", "The curve, behind all others."}};
+    return {
+        {.name = "stream",
+         .body = add_stream,
+         .summary = "Adds a stream curve: hair flows along it.",
+         .options = stream_fields(),
+         .results = curve,
+         .errors = kCurveErrors,
+         .example = kStyle},
+        {.name = "dividing",
+         .body = add_dividing,
+         .summary = "Adds a dividing curve: hair parts along it. In a grid of more points the same "
+                    "lengths in metres mean the same style; the defaults follow the grid.",
+         .options = dividing_fields(),
+         .results = curve,
+         .errors = kCurveErrors,
+         .example = kStyle + R"(local parting = {}
+for i, elevation in ipairs{ 40, 60, 80 } do
+    parting[i] = style:at{ azimuth = 0, elevation = elevation }
+end
+style:dividing{ points = parting, tilt = { 20, 40 } })"},
+        {.name = "ponytail",
+         .body = add_ponytail,
+         .summary = "Adds a ponytail: hair is drawn into a tie and goes on along a spine.",
+         .options = ponytail_fields(),
+         .results = curve,
+         .errors = kCurveErrors,
+         .example =
+             kStyle + R"(local tie, out = style:at{ azimuth = 180, elevation = 25, lift = 0.02 }
+local spine = { tie }
+for i = 1, 3 do
+    spine[i + 1] = { tie[1], tie[2] - 0.02 * i * i, tie[3] + 0.04 * i * out[3] }
+end
+style:ponytail{ spine = spine, radius = 0.016 })"}};
+}
+
+std::vector<Function> field_methods() {
+    return {
+        {.name = "solve",
+         .body = solve_style,
+         .summary = "Brings the field up to date with the curves. `grow` and `field` do so by "
+                    "themselves.",
+         .results = kSelf,
+         .errors = kSolveErrors,
+         .example = kStyle + "style:solve()"},
+        {.name = "field",
+         .body = style_field,
+         .summary = "The field at a point: which way hair grows there.",
+         .arguments = {vector("point", "Three numbers or {x, y, z}.").in("mesh units")},
+         .results = {{"number[]", "direction", "{x, y, z}; of length 1 near curves."},
+                     {"number", "distance", "To the head, in mesh units; negative inside of it."}},
+         .errors = kSolveErrors,
+         .example = kStyle + "local v, d = style:field(curve:course()[2])\nassert(d > 0)"},
+        {.name = "avoid_scalp",
+         .body = avoid_scalp,
+         .summary = "Turns the field along the head wherever it points into it (section 4.6 "
+                    "of the thesis). For the end of a design: it stays as it is until it is "
+                    "done again. Hair that grows with `avoid` stays outside anyway.",
+         .options = {number("magnitude",
+                            "Length of the vectors that do so: small, so that they "
+                            "change little elsewhere.")
+                         .defaults(ScalpStepOptions{}.magnitude)
+                         .above(0)
+                         .between(0, 1),
+                     number("band", "Grid points nearer to the head than this, on either side.")
+                         .in("metres")
+                         .above(0)
+                         .optional("a grid step")},
+         .results = kSelf,
+         .errors = kSolveErrors,
+         .example = kStyle + "style:avoid_scalp()"},
+        {.name = "forget_scalp",
+         .body = forget_scalp,
+         .summary = "Takes back what avoid_scalp did.",
+         .results = kSelf,
+         .errors = {ErrorCode::handle_removed},
+         .example = kStyle + "style:avoid_scalp():forget_scalp()"}};
+}
+
+Parameter factors_option(const std::string& name, const std::string& help) {
+    return either(
+               name,
+               {numbers("list", "One for each vertex of the head."),
+                string("attribute", "Name of an attribute of vertices."),
+                function("factor", "fun(vertex: integer, x: number, y: number, z: number): number",
+                         "Asked for each vertex.")},
+               help)
+        .optional("1 everywhere");
+}
+
+Parameter metres(const std::string& name, double value, const std::string& help) {
+    return number(name, help).in("metres").defaults(value).at_least(0);
+}
+
+std::vector<Parameter> growth_fields() {
+    const GrowthOptions defaults;
+    return {
+        integer("count", "How many strands; the first n of more are the same.")
+            .defaults(100000)
+            .between(0, kMaximumRoots),
+        integer("seed", "Another seed gives other roots and other chance.").defaults(1).at_least(0),
+        metres("length", defaults.length, "Of a strand."),
+        number("variation", "Share by which strands are longer or shorter at most.")
+            .defaults(defaults.variation)
+            .between(0, 1),
+        choice("roots", {"poisson", "angles"},
+               "Evenly spread, or on the thesis's grid of polar angles.")
+            .defaults("poisson"),
+        factors_option("density", "Relative density of hair."),
+        factors_option("lengths", "Factors of the length."),
+        options("cut",
+                {vector("point", "A point of the plane.").in("mesh units"),
+                 vector("normal", "Points to where no hair is left.").optional("down"),
+                 metres("ragged", 0.006, "Strands meet the plane moved by this at most.")},
+                "Cuts hair off along a plane, but for tails.")
+            .optional(),
+        boolean("avoid", "Keeps strands outside the head while they grow.").defaults(true),
+        metres("clearance", defaults.clearance, "The lowest strands lie this high."),
+        metres("layer", defaults.layer, "The highest lie higher by this."),
+        metres("ramp", defaults.ramp, "Length over which strands rise to their height."),
+        number("lift", "Share of the normal of the head in the first segment.")
+            .defaults(defaults.lift)
+            .at_least(0),
+        number("segment", "Length of a segment, in steps of the grid.")
+            .defaults(defaults.segment)
+            .above(0),
+        number("least_speed", "A strand ends where the field is shorter than this.")
+            .defaults(defaults.least_speed)
+            .between(0, 0.99),
+        integer("most_segments", "A strand has no more segments.")
+            .defaults(static_cast<int>(defaults.most_segments))
+            .at_least(1),
+        object("into", "lissom.Strands", "Strands whose place the new ones take.")
+            .optional("new strands")};
+}
+
+std::vector<Function> growth_methods() {
+    return {{.name = "grow",
+             .body = grow_hair,
+             .summary =
+                 "Grows hair that follows the field from its roots on the scalp. Lengths are those "
+                 "of a style, in metres of an average head. Strands that pass through the tie of "
+                 "a ponytail are in the group of its name.",
+             .options = growth_fields(),
+             .results = {{"lissom.Strands", "hair", "The strands."}},
+             .errors = {ErrorCode::unconstrained, ErrorCode::invalid_argument,
+                        ErrorCode::region_empty, ErrorCode::not_positive_definite,
+                        ErrorCode::memory_limit, ErrorCode::handle_removed, ErrorCode::cancelled},
+             .example = kStyle + "local hair = style:grow{ count = 1000, length = 0.2 }\n"
+                                 "assert(#hair == 1000)"}};
+}
+
+std::vector<Function> plain_methods() {
+    return {
+        {.name = "at",
+         .body = style_at,
+         .summary =
+             "A point over the head, in a direction from the center of its frame. At the end "
+             "of a list of points write (style:at{...}), which is the point alone.",
+         .options = direction_fields(),
+         .results = direction_results(),
+         .errors = {ErrorCode::out_of_range, ErrorCode::handle_removed},
+         .example = kStyle + "local p, n = style:at{ azimuth = 90, elevation = 30 }"},
+        {.name = "curves",
+         .body = style_curves,
+         .summary = "Its curves in their order.",
+         .results = {{"lissom.Curve[]", "curves", "A list."}},
+         .errors = {ErrorCode::handle_removed},
+         .example = kStyle + "assert(style:curves()[1] == curve)"},
+        {.name = "scalp",
+         .body = style_scalp,
+         .summary = "The scalp that it was made for.",
+         .results = {{"lissom.Scalp", "scalp", "The scalp."}},
+         .errors = {ErrorCode::handle_removed},
+         .example = kStyle + "local center = style:scalp():center()"},
+        {.name = "head",
+         .body = style_head,
+         .summary = "The mesh of the head.",
+         .results = {{"lissom.Mesh", "head", "The mesh."}},
+         .errors = {ErrorCode::topology_mismatch},
+         .example = kStyle + "assert(style:head() == head)"},
+        {.name = "save",
+         .body = save_style,
+         .summary = "Writes curves and options as JSON that people can read and edit, in metres "
+                    "of an average head. See `lissom.load_style`.",
+         .arguments = {string("path", "The file.")},
+         .options = {string("head",
+                            "Path of the head's mesh as the file shall have it, best "
+                            "beside it.")
+                         .optional("none")},
+         .results = kSelf,
+         .errors = {ErrorCode::file_write_failed, ErrorCode::file_is_directory,
+                    ErrorCode::handle_removed, ErrorCode::cancelled},
+         .example = kStyle + "local path = os.tmpname()\nstyle:save(path)\nos.remove(path)"},
+        {.name = "stats",
+         .body = style_stats,
+         .summary = "Sizes of the grid and of the system.",
+         .results = {{"lissom.HairstyleStats", "stats", "Numbers."}},
+         .errors = {ErrorCode::handle_removed},
+         .example = kStyle + "assert(style:stats().curves == 1)"}};
+}
+
+std::vector<Parameter> style_fields() {
+    return {object("scalp", "lissom.Scalp", "Where hair grows.").optional("guessed"),
+            integer("resolution",
+                    "Grid points of the field. 25,000 do for smooth styles, 50,000 for ponytails.")
+                .defaults(static_cast<int>(HairstyleOptions{}.resolution))
+                .between(kMinimumResolution, kMaximumResolution),
+            options("volume", {vector("min", "A corner."), vector("max", "The opposite corner.")},
+                    "A box in metres of an average head, around the center of its frame: x to its "
+                    "left, y up, z to the front. Hair ends at its faces.")
+                .optional("around the head, down to the chest"),
+            choice("solver", {"dual", "cholesky"},
+                   "dual is fast; cholesky is the thesis's way, a reference.")
+                .defaults("dual"),
+            choice("boundary", {"zero_flux", "thesis"}, "How the field behaves at the box.")
+                .defaults("zero_flux"),
+            number("tension", "Keeps the field from growing far from the curves.")
+                .defaults(HairField::default_options().tension)
+                .at_least(0)};
+}
+
+}  // namespace
+
+Type hairstyle_type() {
+    Type type{
+        .name = "lissom.Hairstyle",
+        .summary =
+            "Style curves on a head, and the hair that follows them. It is made for "
+            "the shape that the head had then. Lengths among its options are in "
+            "metres of an average head, so that a style fits any head; points are in "
+            "mesh units.",
+        .close = [](void* object) { static_cast<HairstyleObject*>(object)->content.reset(); }};
+    for (const auto& list :
+         {plain_methods(), adding_methods(), field_methods(), growth_methods()}) {
+        type.methods.insert(type.methods.end(), list.begin(), list.end());
+    }
+    type.operators = {{"__tostring", style_text, "tostring(style)", "its size"}};
+    return type;
+}
+
+std::vector<Record> hairstyle_records() {
+    return {{"lissom.HairstyleStats",
+             "Sizes of a hairstyle.",
+             {{"integer", "curves", "Number of curves."},
+              {"integer", "constraints", "Constrained grid points of the last solve."},
+              {"integer", "grid_points", "Points of the grid."},
+              {"number", "step",
+               "Distance of neighbouring grid points, in metres of an average "
+               "head."}}}};
+}
+
+std::vector<Function> hairstyle_functions() {
+    return {
+        {.name = "load_style",
+         .body = load_style,
+         .summary = "Reads a style that `save` wrote.",
+         .arguments = {string("path", "The JSON file."),
+                       object("head", "lissom.Mesh", "The head that it goes on.")
+                           .optional("the one that the file names, beside it")},
+         .options = {object("scalp", "lissom.Scalp", "Where hair grows.").optional("guessed")},
+         .results = {{"lissom.Hairstyle", "style", "The hairstyle."}},
+         .errors = {ErrorCode::file_not_found, ErrorCode::file_is_directory, ErrorCode::file_empty,
+                    ErrorCode::file_unreadable, ErrorCode::file_syntax, ErrorCode::unsupported,
+                    ErrorCode::invalid_argument, ErrorCode::out_of_range, ErrorCode::mesh_empty,
+                    ErrorCode::memory_limit, ErrorCode::cancelled},
+         .example = kStyle + R"(local path = os.tmpname()
+style:save(path)
+local copy = lissom.load_style(path, head)
+assert(#copy:curves() == 1)
+os.remove(path))"},
+        {.name = "hairstyle",
+         .body = make_hairstyle,
+         .summary = "Starts a hairstyle without curves on a head.",
+         .arguments = {object("head", "lissom.Mesh", "The head; its shape is copied.")},
+         .options = style_fields(),
+         .results = {{"lissom.Hairstyle", "style", "The hairstyle."}},
+         .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument,
+                    ErrorCode::topology_mismatch, ErrorCode::memory_limit, ErrorCode::cancelled},
+         .example = kStyle}};
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,220 @@
+// lissom.Scalp: where hair grows on a head, and its frame.
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/hair/hair_object.h"
+
+namespace lissom::lua {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+
+const Scalp& own(const Call& call) {
+    return *call.self<ScalpObject>()->scalp;
+}
+
+int make_scalp(Call& call) {
+    const auto head = call.object<MeshObject>("head");
+    const auto result = call.create<ScalpObject>();
+    const bool done = call.attempt([&] {
+        ScalpOptions options;
+        if (call.has("region")) options.region = call.object<RegionObject>("region")->current();
+        if (call.has("up")) options.hints.up = call.vector("up");
+        if (call.has("front")) options.hints.front = call.vector("front");
+        if (call.has("unit")) options.unit = call.number("unit");
+        options.softness = call.number("softness");
+        auto scalp = std::make_shared<const Scalp>(head->mesh, options, call.context());
+        result.set(std::make_shared<ScalpObject>(head.share(), std::move(scalp)));
+    });
+    return done ? 1 : call.fail();
+}
+
+int scalp_at(Call& call) {
+    return push_point_at(call, own(call));
+}
+
+int scalp_region(Call& call) {
+    const auto scalp = call.self<ScalpObject>();
+    const auto result = call.create<RegionObject>();
+    const bool done = call.attempt_quick(
+        [&] { result.set(std::make_shared<RegionObject>(scalp->head, scalp->scalp->region())); });
+    return done ? 1 : call.fail();
+}
+
+int scalp_head(Call& call) {
+    return push_owner(call, call.self<ScalpObject>()->head);
+}
+
+int scalp_center(Call& call) {
+    return call.push_vector(own(call).frame().center);
+}
+int scalp_up(Call& call) {
+    return call.push_vector(own(call).frame().up());
+}
+int scalp_front(Call& call) {
+    return call.push_vector(own(call).frame().front());
+}
+int scalp_left(Call& call) {
+    return call.push_vector(own(call).frame().left());
+}
+int scalp_unit(Call& call) {
+    return call.push(own(call).unit());
+}
+int scalp_scale(Call& call) {
+    return call.push(own(call).scale());
+}
+int scalp_guessed(Call& call) {
+    return call.push(own(call).guessed());
+}
+
+int scalp_from_metres(Call& call) {
+    return call.push_vector(own(call).from_metres(call.vector("point")));
+}
+int scalp_to_metres(Call& call) {
+    return call.push_vector(own(call).to_metres(call.vector("point")));
+}
+
+int scalp_text(Call& call) {
+    const auto scalp = call.self<ScalpObject>();
+    lua_pushfstring(call.lua(), "lissom.Scalp: %d vertices, %s", scalp->scalp->region().size(),
+                    scalp->scalp->guessed() ? "guessed" : "given");
+    return 1;
+}
+
+const std::string kScalp = R"(local head = lissom.shapes.head{ vertices = 3000 }
+local scalp = lissom.scalp(head)
+)";
+
+std::vector<Function> scalp_methods() {
+    const std::vector<Result> direction = {{"number[]", "direction", "{x, y, z}, of length 1."}};
+    return {
+        {.name = "at",
+         .body = scalp_at,
+         .summary =
+             "A point over the head, in a direction from the center of its frame. At the end "
+             "of a list of points write (scalp:at{...}), which is the point alone.",
+         .options = direction_fields(),
+         .results = direction_results(),
+         .errors = {ErrorCode::out_of_range},
+         .example = kScalp + "local p, n = scalp:at{ azimuth = 90, elevation = 30 }"},
+        {.name = "region",
+         .body = scalp_region,
+         .summary = "Where hair grows.",
+         .results = {{"lissom.Region", "region", "Vertices of the head."}},
+         .example = kScalp + "assert(#scalp:region() > 0)"},
+        {.name = "head",
+         .body = scalp_head,
+         .summary = "The mesh of the head.",
+         .results = {{"lissom.Mesh", "head", "The mesh."}},
+         .errors = {ErrorCode::topology_mismatch},
+         .example = kScalp + "assert(scalp:head() == head)"},
+        {.name = "guessed",
+         .body = scalp_guessed,
+         .summary = "Whether the region was guessed from an average hairline.",
+         .results = {{"boolean", "guessed", "False where a region was given or named."}},
+         .example = kScalp + "assert(not scalp:guessed())"},
+        {.name = "center",
+         .body = scalp_center,
+         .summary = "The center of the frame, about the middle between the ears.",
+         .results = {{"number[]", "center", "{x, y, z}, in mesh units."}},
+         .example = kScalp + "assert(#scalp:center() == 3)"},
+        {.name = "up",
+         .body = scalp_up,
+         .summary = "Which way is up.",
+         .results = direction,
+         .example = kScalp + "assert(scalp:up()[2] > 0.99)"},
+        {.name = "front",
+         .body = scalp_front,
+         .summary = "Which way the head looks.",
+         .results = direction,
+         .example = kScalp + "assert(scalp:front()[3] > 0.99)"},
+        {.name = "left",
+         .body = scalp_left,
+         .summary = "The head's left.",
+         .results = direction,
+         .example = kScalp + "assert(scalp:left()[1] > 0.99)"},
+        {.name = "unit",
+         .body = scalp_unit,
+         .summary = "How long a unit of the mesh is.",
+         .results = {{"number", "unit", "Metres in one unit of the mesh."}},
+         .example = kScalp + "assert(scalp:unit() == 1)"},
+        {.name = "scale",
+         .body = scalp_scale,
+         .summary = "How large the head is: styles are made in metres of an average head.",
+         .results = {{"number", "scale", "Mesh units in one metre of a style."}},
+         .example = kScalp + "assert(scalp:scale() > 0.9 and scalp:scale() < 1.1)"},
+        {.name = "from_metres",
+         .body = scalp_from_metres,
+         .summary = "A point given in metres of an average head: x to the head's left, y up, z to "
+                    "the front of the center.",
+         .arguments = {vector("point", "Three numbers or {x, y, z}.").in("metres")},
+         .results = {{"number[]", "point", "{x, y, z}, in mesh units."}},
+         .example = kScalp + "local behind = scalp:from_metres(0, 0.02, -0.15)"},
+        {.name = "to_metres",
+         .body = scalp_to_metres,
+         .summary = "A point of the mesh in metres of an average head, from the center.",
+         .arguments = {vector("point", "Three numbers or {x, y, z}.").in("mesh units")},
+         .results = {{"number[]", "point", "{x, y, z}, in metres."}},
+         .example = kScalp + "assert(scalp:to_metres(scalp:center())[1] == 0)"}};
+}
+
+}  // namespace
+
+std::vector<Parameter> direction_fields() {
+    return {number("azimuth", "0 in front, 90 at the head's left, 180 behind.").in("degrees"),
+            number("elevation", "0 is level, 90 up.").in("degrees"),
+            number("lift", "How far above the head.").in("metres").defaults(0.0)};
+}
+
+std::vector<Result> direction_results() {
+    return {{"number[]", "point", "{x, y, z}, in mesh units."},
+            {"number[]", "normal", "Of the head, outward, of length 1."}};
+}
+
+int push_point_at(Call& call, const Scalp& scalp) {
+    const ScalpDirection direction{call.number("azimuth") * kDegree,
+                                   call.number("elevation") * kDegree};
+    ScalpPoint* found = call.scratch<ScalpPoint>(1);
+    if (!call.attempt_quick([&] { *found = scalp.at(direction, call.number("lift")); })) {
+        return call.fail();
+    }
+    call.push_vector(found->position);
+    call.push_vector(found->normal);
+    return 2;
+}
+
+Type scalp_type() {
+    return {.name = "lissom.Scalp",
+            .summary =
+                "Where hair grows on a head, and the frame in which styles fit any head. It is "
+                "that of the head's shape when it was made.",
+            .methods = scalp_methods(),
+            .operators = {{"__tostring", scalp_text, "tostring(scalp)", "its size"}}};
+}
+
+std::vector<Function> scalp_functions() {
+    return {{.name = "scalp",
+             .body = make_scalp,
+             .summary = "Finds the scalp of a bald head, bust or body, and which way it looks.",
+             .arguments = {object("head", "lissom.Mesh", "The head.")},
+             .options = {object("region", "lissom.Region", "Where hair grows.")
+                             .optional("the region \"scalp\", or what is above an average "
+                                       "hairline"),
+                         axis("up", "Which way is up.").optional("guessed"),
+                         axis("front", "Which way the head looks.").optional("guessed"),
+                         number("unit", "How long a unit of the mesh is.")
+                             .above(0)
+                             .in("metres")
+                             .optional("the usual unit that makes this the width of a head"),
+                         number("softness",
+                                "Width of the band over which hair thins out at the "
+                                "hairline.")
+                             .in("metres")
+                             .defaults(ScalpOptions{}.softness)
+                             .between(0, 0.1)},
+             .results = {{"lissom.Scalp", "scalp", "The scalp."}},
+             .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument,
+                        ErrorCode::topology_mismatch, ErrorCode::region_empty,
+                        ErrorCode::memory_limit, ErrorCode::cancelled},
+             .example = kScalp + "print(scalp:region())"}};
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,349 @@
+// lissom.merge: Merging.
+#include <algorithm>
+
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/merge/merge_object.h"
+
+namespace lissom::lua {
+
+Merge& MergingObject::merge() {
+    if (!content) throw Error(ErrorCode::handle_removed, "the merge was closed; make a new one");
+    return *content;
+}
+
+namespace {
+
+MergeOptions merge_options(const Call& call) {
+    MergeOptions options;
+    options.configuration = call.choice<Configuration>("configuration");
+    options.turn_frames = call.integer("frames") == 0;
+    options.seam = call.choice<SeamKind>("seam");
+    options.smooth = call.integer("smooth");
+    if (call.has("transition")) {
+        options.source_transition = call.number("transition.source");
+        options.target_transition = call.number("transition.target");
+        options.transition_weight = call.number("transition.weight");
+    }
+    options.trim = call.boolean("trim");
+    options.greatest_turn = call.number("greatest_turn") * kPi / 180.0;
+    options.refine = call.boolean("refine");
+    options.find_intersections = call.boolean("intersections");
+    options.thesis = call.integer("fidelity") == 1;
+    return options;
+}
+
+MeshObject& mesh_of(Holder* holder) {
+    return *Ref<PathObject>(holder)->mesh;
+}
+
+// The meshes that boundaries of joins belong to.
+struct MeshesOfJoins {
+    MeshObject* source = nullptr;
+    std::vector<MeshObject*> targets;
+
+    Index target_of(Holder* holder) const {
+        const auto at = std::find(targets.begin(), targets.end(), &mesh_of(holder));
+        return static_cast<Index>(at - targets.begin());
+    }
+};
+
+MeshesOfJoins meshes_of(std::span<const JoinSpec> joins) {
+    MeshesOfJoins meshes;
+    for (const JoinSpec& join : joins) {
+        MeshObject& source = mesh_of(join.source);
+        if (meshes.source && meshes.source != &source) {
+            throw Error(ErrorCode::invalid_argument,
+                        "the boundaries that joins call source lie on different meshes; append "
+                        "these to one first");
+        }
+        meshes.source = &source;
+        MeshObject* target = &mesh_of(join.target);
+        if (std::find(meshes.targets.begin(), meshes.targets.end(), target) ==
+            meshes.targets.end()) {
+            meshes.targets.push_back(target);
+        }
+    }
+    return meshes;
+}
+
+void require_named(const MeshObject* named, const std::vector<MeshObject*>& used,
+                   const char* side) {
+    if (!named || std::find(used.begin(), used.end(), named) != used.end()) return;
+    throw Error(ErrorCode::invalid_argument,
+                std::string("no join has a boundary of the ") + side +
+                    "; take boundaries from this mesh, or leave the option out");
+}
+
+std::vector<Join> joins_of(std::span<const JoinSpec> specs, const MeshesOfJoins& meshes) {
+    std::vector<Join> joins;
+    for (const JoinSpec& spec : specs) {
+        joins.push_back({Ref<PathObject>(spec.source)->current(),
+                         Ref<PathObject>(spec.target)->current(), meshes.target_of(spec.target),
+                         spec.key_pairs()});
+    }
+    return joins;
+}
+
+// What a call of lissom.merge or lissom.merging asks for, as plain data.
+struct MergeCall {
+    std::span<const JoinSpec> joins;
+    const MeshObject* source;
+    const MeshObject* const* targets;
+    std::size_t target_count;
+    const RegionObject* const* fixed;
+    std::size_t fixed_count;
+};
+
+MergeCall read_merge(const Call& call) {
+    MergeCall asked{read_joins(call, "joins"), nullptr, nullptr, 0, nullptr, 0};
+    if (call.has("source")) asked.source = call.object<MeshObject>("source").get();
+    if (call.has("target")) {
+        const bool list = call.kind("target") == Kind::objects;
+        asked.target_count = list ? call.object_count("target") : 1;
+        auto* targets = call.scratch<const MeshObject*>(asked.target_count + 1);
+        for (std::size_t i = 0; i < asked.target_count; ++i) {
+            targets[i] = list ? call.object_at<MeshObject>("target", i).get()
+                              : call.object<MeshObject>("target").get();
+        }
+        asked.targets = targets;
+    }
+    if (call.has("fixed")) {
+        asked.fixed_count = call.object_count("fixed");
+        auto* fixed = call.scratch<const RegionObject*>(asked.fixed_count + 1);
+        for (std::size_t i = 0; i < asked.fixed_count; ++i) {
+            fixed[i] = call.object_at<RegionObject>("fixed", i).get();
+        }
+        asked.fixed = fixed;
+    }
+    return asked;
+}
+
+std::shared_ptr<MergingObject> make_merging(const Call& call, const MergeCall& asked) {
+    MergeOptions options = merge_options(call);
+    if (call.has("reach")) options.reach = call.number("reach");
+    const MeshesOfJoins meshes = meshes_of(asked.joins);
+    require_named(asked.source, {meshes.source}, "source");
+    for (std::size_t i = 0; i < asked.target_count; ++i) {
+        require_named(asked.targets[i], meshes.targets, "target");
+    }
+    for (std::size_t i = 0; i < asked.fixed_count; ++i) {
+        options.fixed.push_back(asked.fixed[i]->current());
+    }
+    const auto merging = std::make_shared<MergingObject>();
+    std::vector<const Mesh*> targets;
+    for (const MeshObject* target : meshes.targets) targets.push_back(&target->mesh);
+    merging->content.emplace(meshes.source->mesh, targets, joins_of(asked.joins, meshes), options,
+                             call.context());
+    targets.push_back(&meshes.source->mesh);
+    for (const Mesh* mesh : targets) {
+        merging->inputs.vertices.push_back(mesh->vertex_count());
+        merging->inputs.faces.push_back(mesh->face_count());
+    }
+    merging->joins = static_cast<Index>(asked.joins.size());
+    return merging;
+}
+
+int merge_meshes(Call& call) {
+    const MergeCall asked = read_merge(call);
+    auto& merging = call.hold<std::shared_ptr<MergingObject>>();
+    auto& result = call.hold<std::unique_ptr<MergeResult>>();
+    const bool done = call.attempt([&] {
+        merging = make_merging(call, asked);
+        result = std::make_unique<MergeResult>(merging->merge().solve(call.context()));
+    });
+    return done ? push_merge_result(call, *result, merging->inputs) : call.fail();
+}
+
+int new_merging(Call& call) {
+    const MergeCall asked = read_merge(call);
+    const auto result = call.create<MergingObject>();
+    if (!call.attempt([&] { result.set(make_merging(call, asked)); })) return call.fail();
+    call.charge(result);
+    return 1;
+}
+
+// ---- Merging
+
+int set_merging_keys(Call& call) {
+    const auto merging = call.self<MergingObject>();
+    const Index join = call.id("join");
+    const JoinSpec keys = read_keys(call, "keys");
+    const bool done =
+        call.attempt_quick([&] { merging->merge().set_keys(join, keys.key_pairs()); });
+    return done ? call.push_argument() : call.fail();
+}
+
+int solve_merging(Call& call) {
+    const auto merging = call.self<MergingObject>();
+    auto& result = call.hold<std::unique_ptr<MergeResult>>();
+    const bool done = call.attempt(
+        [&] { result = std::make_unique<MergeResult>(merging->merge().solve(call.context())); });
+    return done ? push_merge_result(call, *result, merging->inputs) : call.fail();
+}
+
+void close_merging(void* object) {
+    static_cast<MergingObject*>(object)->content.reset();
+}
+
+// ---- Descriptions
+
+// A merge that is dragged leaves out what a frame has no time for.
+std::vector<Parameter> merge_parameters(bool intersections) {
+    return {
+        table("joins",
+              "List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which "
+              "boundaries meet, and points that do: vertices of the boundaries, or points {x, y, "
+              "z} on them, the source's first. Between keys arc length decides. Without keys the "
+              "best fit is taken, and the report says how certain it is. All sources lie on one "
+              "mesh; targets may lie on several, and each boundary is in one join."),
+        object("source", "lissom.Mesh", "The mesh that is deformed.")
+            .optional("the mesh of the joins' sources"),
+        either("target",
+               {object("target", "lissom.Mesh", ""), objects("target", "lissom.Mesh", "")},
+               "The mesh, or the meshes, that stay.")
+            .optional("the meshes of the joins' targets"),
+        choice("configuration", {"free", "fixed"},
+               "free: the source comes from wherever it lies, turned and scaled as fits (thesis "
+               "3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2).")
+            .defaults("free"),
+        objects("fixed", "lissom.Region",
+                "Regions of the source that keep their shape: in the free configuration each "
+                "moves as a whole, in the fixed one it stays.")
+            .optional("none"),
+        number("reach",
+               "fixed configuration: how far from its boundaries the source deforms, along edges.")
+            .above(0)
+            .in("units of the source")
+            .optional("all of it where `fixed` is given, else three radii of the boundary"),
+        choice("frames", {"turn", "keep"},
+               "fixed configuration: whether the surface at the boundary turns to meet the "
+               "target's, or keeps its directions as in the thesis, which leaves a crease.")
+            .defaults("turn"),
+        choice(
+            "seam", {"conform", "fair", "band"},
+            "conform: vertices of both boundaries are inserted into the faces of the other "
+            "side. fair: then the surface around the seam is bent smooth, unless a transition does "
+            "that. band: a band of the "
+            "target's faces is replaced, as in the thesis.")
+            .defaults("conform"),
+        integer("smooth", "Umbrella steps at the seam; with 0 no vertex of the target moves.")
+            .between(0, 1000)
+            .defaults(3),
+        options("transition",
+                {number("source", "Width on the source.")
+                     .at_least(0)
+                     .in("units of the source")
+                     .defaults(0.0),
+                 number("target", "Width on the target.")
+                     .at_least(0)
+                     .in("units of the target")
+                     .defaults(0.0),
+                 number("weight",
+                        "w_T of thesis 3.3.3, for fidelity = \"thesis\", which needs both widths.")
+                     .above(0)
+                     .defaults(0.1)},
+                "Bands on either side of the seam in which details of both fade into each other.")
+            .optional("none"),
+        boolean("trim",
+                "Boundaries with teeth are cut to smooth lines first, and the report says "
+                "so.")
+            .defaults(true),
+        number("greatest_turn",
+               "Mean turn of a boundary at its vertices above which it is trimmed.")
+            .between(0, 180)
+            .in("degrees")
+            .defaults(20.0),
+        boolean("refine",
+                "Faces of the source at a boundary are split once where its edges are "
+                "more than 1.5 times as long as those they meet.")
+            .defaults(true),
+        boolean("intersections",
+                "Looks for faces that run through one another and did not before, for the report.")
+            .defaults(intersections),
+        choice("fidelity", {"lissom", "thesis"},
+               "thesis: its frames, scales and systems to the letter, for comparison.")
+            .defaults("lissom")};
+}
+
+std::vector<ErrorCode> merge_errors() {
+    return {ErrorCode::not_a_boundary,   ErrorCode::boundary_conflict, ErrorCode::key_conflict,
+            ErrorCode::skin_mismatch,    ErrorCode::topology_mismatch, ErrorCode::handle_overlap,
+            ErrorCode::invalid_argument, ErrorCode::unconstrained,     ErrorCode::zero_area,
+            ErrorCode::nonmanifold_edge, ErrorCode::memory_limit,      ErrorCode::cancelled};
+}
+
+constexpr const char* kHalves = R"(local ball = lissom.shapes.sphere{ segments = 24 }
+local half = ball:cut{ plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } } }
+local bowl = half:copy():transform{ rotate = { axis = "x", angle = 180 }, scale = 3 }
+)";
+
+}  // namespace
+
+Type merging_type() {
+    const std::string halves = kHalves;
+    const std::string made = halves + R"(local merging = lissom.merging{
+    joins = { { source = half:boundaries()[1], target = bowl:boundaries()[1] } },
+}
+)";
+    return {
+        .name = "lissom.Merging",
+        .summary =
+            "A merge that is solved again, without factoring again, after its keys have "
+            "moved: what a tool keeps while the user drags a key.",
+        .methods = {{.name = "set_keys",
+                     .body = set_merging_keys,
+                     .summary = "Replaces the keys of one join, and returns the merge.",
+                     .arguments = {id("join", "Number of the join, from 1."),
+                                   table("keys", "List of { s, t }, as in lissom.merge.")},
+                     .results = {{"lissom.Merging", "merging", "The same merge."}},
+                     .errors = {ErrorCode::out_of_range, ErrorCode::handle_removed},
+                     .example = made + R"(local s, t = half:boundaries()[1], bowl:boundaries()[1]
+merging:set_keys(1, { { s:vertices()[1], t:vertices()[5] } })
+assert(merging:solve():is_closed()))"},
+                    {.name = "solve",
+                     .body = solve_merging,
+                     .summary = "Merges, and returns a new mesh and what was done.",
+                     .results = {{"lissom.Mesh", "mesh", "The merged mesh."},
+                                 {"lissom.MergeReport", "report", "What was found and done."}},
+                     .errors = merge_errors(),
+                     .example = made + R"(local mesh, report = merging:solve()
+assert(mesh:is_closed() and report.free_vertices > 0))"}},
+        .close = close_merging};
+}
+
+std::vector<Function> merge_functions() {
+    const std::string halves = kHalves;
+    return {
+        {.name = "merge",
+         .body = merge_meshes,
+         .summary =
+             "Joins a source to one or several targets along open boundaries, into a new mesh. The "
+             "source is deformed so that its boundaries meet those of the targets, wherever it "
+             "lies and whatever its size; the targets stay. Vertices and faces of the targets come "
+             "first, in their order, then those of the source; attributes, labels and regions of "
+             "all are kept.",
+         .options = merge_parameters(true),
+         .results = {{"lissom.Mesh", "mesh", "The merged mesh."},
+                     {"lissom.MergeReport", "report", "What was found and done."}},
+         .errors = merge_errors(),
+         .example = halves + R"(local mesh, report = lissom.merge{
+    source = half,
+    target = bowl,
+    joins = { { source = half:boundaries()[1], target = bowl:boundaries()[1] } },
+}
+assert(mesh:is_closed() and mesh:genus() == 0)
+assert(math.abs(report.joins[1].scale - 3) < 1e-6))"},
+        {.name = "merging",
+         .body = new_merging,
+         .summary = "As lissom.merge, but returns an object that keeps what was prepared, so that "
+                    "a moved key costs a fraction of the first merge.",
+         .options = merge_parameters(false),
+         .results = {{"lissom.Merging", "merging", "The merge, not solved yet."}},
+         .errors = merge_errors(),
+         .example = halves + R"(local merging = lissom.merging{
+    joins = { { source = half:boundaries()[1], target = bowl:boundaries()[1] } },
+}
+assert(merging:solve():is_closed()))"}};
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,72 @@
+/// A merge of a script, and where the elements of its result come from.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings/lua/mesh/mesh_object.h"
+#include "bindings/lua/mesh/path_object.h"
+#include "kernel/merge/merge.h"
+
+namespace lissom::lua {
+
+/// Numbers of vertices and faces of the meshes that went into a merge: the targets, then the
+/// source.
+struct MergeInputs {
+    std::vector<Index> vertices, faces;
+};
+
+struct MergingObject {
+    static constexpr const char* kTypeName = "lissom.Merging";
+
+    /// Empty once it was closed.
+    std::optional<Merge> content;
+    MergeInputs inputs;
+    Index joins = 0;
+    std::size_t charged_bytes = 0;
+
+    std::size_t memory_bytes() const { return content ? content->memory_bytes() : 0; }
+    /// Throws handle_removed where it was closed.
+    Merge& merge();
+};
+
+/// Where the elements of one merged mesh come from.
+struct ProvenanceObject {
+    static constexpr const char* kTypeName = "lissom.Provenance";
+
+    ElementMap vertices, faces;
+    MergeInputs inputs;
+    std::size_t charged_bytes = 0;
+
+    std::size_t memory_bytes() const;
+};
+
+/// A key of a join as a script gives it: a vertex, or a point.
+struct KeySpec {
+    Index vertex;
+    double point[3];
+
+    Key key() const;
+};
+
+/// One join as a script gives it; keys of source and target in turn.
+struct JoinSpec {
+    Holder* source;
+    Holder* target;
+    const KeySpec* keys;
+    std::size_t key_count;
+
+    std::vector<KeyPair> key_pairs() const;
+};
+
+/// Reads the list of joins in the option `path`. Raises a Lua error for bad ones.
+std::span<const JoinSpec> read_joins(const Call& call, const char* path);
+/// Reads a list of key pairs.
+JoinSpec read_keys(const Call& call, const char* path);
+
+/// Pushes the merged mesh and the report of `result`, which is moved from.
+int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs);
+
+}  // namespace lissom::lua

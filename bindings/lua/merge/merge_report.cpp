@@ -1,0 +1,334 @@
+// What a merge returns: the mesh, and a report with the provenance of its elements.
+#include <algorithm>
+
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/merge/merge_object.h"
+
+namespace lissom::lua {
+
+std::size_t ProvenanceObject::memory_bytes() const {
+    const auto count = static_cast<std::size_t>(vertices.size() + faces.size());
+    return count * (sizeof(std::size_t) + sizeof(ElementMap::Source));
+}
+
+namespace {
+
+constexpr double kDegrees = 180.0 / kPi;
+
+void push_quality(const Call& call, const SeamQuality& quality) {
+    lua_createtable(call.lua(), 0, 5);
+    call.set_field("greatest_dihedral", call.push(kDegrees * quality.greatest_dihedral));
+    call.set_field("rms_dihedral", call.push(kDegrees * quality.rms_dihedral));
+    call.set_field("greatest_near", call.push(kDegrees * quality.greatest_near));
+    call.set_field("smallest_angle", call.push(kDegrees * quality.smallest_angle));
+    call.set_field("low_angle", call.push(kDegrees * quality.low_angle));
+}
+
+void push_seam(const Call& call, const SewReport& seam) {
+    lua_createtable(call.lua(), 0, 8);
+    call.set_field("inserted_into_target", call.push(seam.inserted_into_target));
+    call.set_field("inserted_into_source", call.push(seam.inserted_into_source));
+    call.set_field("snapped", call.push(seam.snapped));
+    call.set_field("collapsed", call.push(seam.collapsed));
+    call.set_field("flipped", call.push(seam.flipped));
+    call.set_field("band_removed", call.push(seam.band_removed));
+    call.set_field("band_added", call.push(seam.band_added));
+    push_quality(call, seam.before);
+    call.set_field("before");
+    push_quality(call, seam.after);
+    call.set_field("after");
+}
+
+void push_join(const Call& call, const JoinReport& join) {
+    lua_createtable(call.lua(), 0, 10);
+    call.set_field("source_size", call.push(join.source_size));
+    call.set_field("target_size", call.push(join.target_size));
+    call.set_field("scale", call.push(join.scale));
+    call.set_field("guessed", call.push(join.guessed));
+    if (join.guessed) call.set_field("certainty", call.push(join.certainty));
+    call.set_field("source_turn", call.push(kDegrees * join.source_turn));
+    call.set_field("target_turn", call.push(kDegrees * join.target_turn));
+    call.set_field("source_trimmed", call.push(join.source_trimmed));
+    call.set_field("target_trimmed", call.push(join.target_trimmed));
+    call.set_field("refined", call.push(join.refined));
+}
+
+void push_joins(const Call& call, const std::vector<JoinReport>& joins) {
+    lua_createtable(call.lua(), static_cast<int>(joins.size()), 0);
+    for (std::size_t j = 0; j < joins.size(); ++j) {
+        push_join(call, joins[j]);
+        lua_rawseti(call.lua(), -2, static_cast<int>(j) + 1);
+    }
+}
+
+void push_texts(const Call& call, const std::vector<std::string>& texts) {
+    lua_createtable(call.lua(), static_cast<int>(texts.size()), 0);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        call.push(texts[i]);
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
+}
+
+void push_times(const Call& call, const MergeReport& report) {
+    call.set_field("free_vertices", call.push(report.deform.free_vertices));
+    call.set_field("displaced_vertices", call.push(report.deform.displaced_vertices));
+    call.set_field("first_factor_seconds", call.push(report.deform.first_factor_seconds));
+    call.set_field("second_factor_seconds", call.push(report.deform.second_factor_seconds));
+    call.set_field("prepare_seconds", call.push(report.prepare_seconds));
+    call.set_field("solve_seconds", call.push(report.solve_seconds));
+}
+
+// Vertices of faces that come from one side.
+Region side_region(const Mesh& mesh, const std::vector<SeamSide>& side_of_face, SeamSide side) {
+    std::vector<char> inside(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (side_of_face[f] != side) continue;
+        for (const Index v : mesh.topology().face(f)) inside[v] = 1;
+    }
+    std::vector<Index> vertices;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (inside[v]) vertices.push_back(v);
+    }
+    return Region(mesh.shared_topology(), std::move(vertices));
+}
+
+void push_flips(const Call& call, const MergeReport& report) {
+    lua_createtable(call.lua(), 0, 2);
+    call.set_field("source", call.push(report.source_flipped));
+    call.set_field("targets", call.push_ids(report.targets_flipped));
+}
+
+void push_intersections(const Call& call, const std::vector<FacePair>& pairs) {
+    lua_createtable(call.lua(), static_cast<int>(pairs.size()), 0);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const Index ids[] = {pairs[i].first, pairs[i].second};
+        call.push_ids(ids);
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
+}
+
+void push_band(const Call& call, const TransitionBand& band) {
+    lua_createtable(call.lua(), 0, 4);
+    call.set_field("width", call.push(band.width));
+    call.set_field("vertices", call.push(band.vertices));
+    call.set_field("flipped", call.push(band.flipped));
+    call.set_field("unmapped", call.push(band.unmapped));
+}
+
+// One pair of bands a seam; an empty list without a transition.
+void push_transition(const Call& call, const TransitionReport& transition) {
+    const std::size_t count = std::min(transition.source.size(), transition.target.size());
+    lua_createtable(call.lua(), static_cast<int>(count), 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        lua_createtable(call.lua(), 0, 2);
+        push_band(call, transition.source[i]);
+        call.set_field("source");
+        push_band(call, transition.target[i]);
+        call.set_field("target");
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
+}
+
+// ---- Provenance
+
+// Which mesh an element of all inputs together belongs to, and its number there.
+std::pair<std::size_t, Index> placed(const std::vector<Index>& counts, Index element) {
+    std::size_t mesh = 0;
+    while (mesh + 1 < counts.size() && element >= counts[mesh]) element -= counts[mesh++];
+    return {mesh, element};
+}
+
+int push_sources(const Call& call, std::span<const ElementMap::Source> sources,
+                 const std::vector<Index>& counts, const char* element) {
+    lua_createtable(call.lua(), static_cast<int>(sources.size()), 0);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const auto [mesh, id] = placed(counts, sources[i].element);
+        const bool from_source = mesh + 1 == counts.size();
+        lua_createtable(call.lua(), 0, 4);
+        call.set_field("side", call.push(from_source ? "source" : "target"));
+        if (!from_source) call.set_field("target", call.push(static_cast<int>(mesh) + 1));
+        call.set_field(element, call.push_id(id));
+        call.set_field("weight", call.push(sources[i].weight));
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
+    return 1;
+}
+
+int provenance_vertex(Call& call) {
+    const auto from = call.self<ProvenanceObject>();
+    const Index v = call.id("vertex");
+    if (!check_id(call, v, from->vertices.size(), ElementKind::vertex)) return call.fail();
+    return push_sources(call, from->vertices[v], from->inputs.vertices, "vertex");
+}
+
+int provenance_face(Call& call) {
+    const auto from = call.self<ProvenanceObject>();
+    const Index f = call.id("face");
+    if (!check_id(call, f, from->faces.size(), ElementKind::face)) return call.fail();
+    return push_sources(call, from->faces[f], from->inputs.faces, "face");
+}
+
+void close_provenance(void* object) {
+    auto& from = *static_cast<ProvenanceObject*>(object);
+    from.vertices = {};
+    from.faces = {};
+}
+
+constexpr const char* kMerged = R"(local ball = lissom.shapes.sphere{ segments = 24 }
+local half = ball:cut{ plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } } }
+local other = half:copy():transform{ rotate = { axis = "x", angle = 180 }, scale = 3 }
+local mesh, report = lissom.merge{
+    joins = { { source = half:boundaries()[1], target = other:boundaries()[1] } },
+}
+)";
+
+}  // namespace
+
+int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs) {
+    const auto mesh = call.create<MeshObject>();
+    const auto provenance = call.create<ProvenanceObject>();
+    const auto source = call.create<RegionObject>();
+    const auto target = call.create<RegionObject>();
+    auto& owner = call.hold<std::shared_ptr<MeshObject>>();
+    auto& seams = call.hold<std::vector<Path>>();
+    const bool done = call.attempt_quick([&] {
+        for (std::vector<Index>& seam : result.seams) {
+            seams.emplace_back(result.mesh.shared_topology(), std::move(seam), true);
+        }
+        Region from_source = side_region(result.mesh, result.side_of_face, SeamSide::source);
+        Region from_target = side_region(result.mesh, result.side_of_face, SeamSide::target);
+        owner = std::make_shared<MeshObject>(std::move(result.mesh));
+        mesh.set(owner);
+        source.set(std::make_shared<RegionObject>(owner, std::move(from_source)));
+        target.set(std::make_shared<RegionObject>(owner, std::move(from_target)));
+        const auto from = std::make_shared<ProvenanceObject>();
+        from->vertices = std::move(result.provenance.vertices);
+        from->faces = std::move(result.provenance.faces);
+        from->inputs = inputs;
+        provenance.set(from);
+    });
+    if (!done) return call.fail();
+    const int first = lua_gettop(call.lua()) - 5;
+    call.charge(mesh);
+    call.charge(provenance);
+    lua_pushvalue(call.lua(), first);
+    call.remember(owner.get());
+    lua_createtable(call.lua(), 0, 16);
+    push_joins(call, result.report.joins);
+    call.set_field("joins");
+    push_texts(call, result.report.warnings);
+    call.set_field("warnings");
+    push_flips(call, result.report);
+    call.set_field("flipped");
+    push_seam(call, result.report.seam);
+    call.set_field("seam");
+    push_transition(call, result.report.transition);
+    call.set_field("transition");
+    push_intersections(call, result.report.intersections);
+    call.set_field("intersections");
+    push_times(call, result.report);
+    if (push_paths(call, owner, seams) != 1) return call.fail();
+    call.set_field("seams");
+    lua_pushvalue(call.lua(), first + 1);
+    call.set_field("provenance");
+    lua_pushvalue(call.lua(), first + 2);
+    call.set_field("source");
+    lua_pushvalue(call.lua(), first + 3);
+    call.set_field("target");
+    return 2;
+}
+
+Type provenance_type() {
+    const std::string example = kMerged;
+    return {.name = "lissom.Provenance",
+            .summary =
+                "Where the elements of a merged mesh come from: elements of the source and "
+                "of the targets as they were given.",
+            .methods =
+                {{.name = "vertex",
+                  .body = provenance_vertex,
+                  .summary = "What a vertex is the weighted mean of, before it was moved: "
+                             "one vertex, or several where it was made on an edge; on a "
+                             "seam those of both sides.",
+                  .arguments = {id("vertex", "A vertex of the merged mesh.")},
+                  .results = {{"lissom.Origin[]", "origins", "With weights that sum to 1."}},
+                  .errors = {ErrorCode::out_of_range},
+                  .example = example + R"(local from = report.provenance:vertex(1)
+assert(from[1].side == "target" and from[1].vertex == 1))"},
+                 {.name = "face",
+                  .body = provenance_face,
+                  .summary = "The face that a face comes from.",
+                  .arguments = {id("face", "A face of the merged mesh.")},
+                  .results = {{"lissom.Origin[]", "origins", "With weights that sum to 1."}},
+                  .errors = {ErrorCode::out_of_range},
+                  .example =
+                      example +
+                      R"(assert(report.provenance:face(mesh:face_count())[1].side == "source"))"}},
+            .close = close_provenance};
+}
+
+std::vector<Record> merge_records() {
+    return {
+        {"lissom.Origin",
+         "An element that another comes from.",
+         {{"string", "side", "source or target."},
+          {"integer|nil", "target", "Which of the targets."},
+          {"integer|nil", "vertex", "A vertex of that mesh."},
+          {"integer|nil", "face", "A face of that mesh."},
+          {"number", "weight", "How much it counts."}}},
+        {"lissom.SeamQuality",
+         "How well seams are hidden; angles in degrees.",
+         {{"number", "greatest_dihedral", "The greatest angle between faces across a seam."},
+          {"number", "rms_dihedral", "Their root mean square, weighted by edge length."},
+          {"number", "greatest_near", "The greatest angle on and next to a seam."},
+          {"number", "smallest_angle",
+           "The smallest angle of a triangle at a seam; 0 without any."},
+          {"number", "low_angle", "The 5th percentile of the triangles' smallest angles."}}},
+        {"lissom.SeamReport",
+         "What was done to sew.",
+         {{"integer", "inserted_into_target", "Vertices of the source inserted into its faces."},
+          {"integer", "inserted_into_source", "The other way round."},
+          {"integer", "snapped", "Pairs of vertices that became one because they were close."},
+          {"integer", "collapsed", "Short edges of the source's boundary that became a vertex."},
+          {"integer", "flipped", "Edges flipped to avoid slivers."},
+          {"integer", "band_removed", "Faces of the target that the band replaced."},
+          {"integer", "band_added", "Faces that the band added."},
+          {"lissom.SeamQuality", "before", "Before smoothing."},
+          {"lissom.SeamQuality", "after", "As it is."}}},
+        {"lissom.JoinReport",
+         "What was found at one join; angles in degrees.",
+         {{"integer", "source_size", "Vertices of the source's boundary as it was joined."},
+          {"integer", "target_size", "Vertices of the target's."},
+          {"number", "scale", "How much the source grew there."},
+          {"boolean", "guessed", "No keys were given."},
+          {"number|nil", "certainty",
+           "Where it was guessed: how much worse the second best place is; below 1.5 give a key."},
+          {"number", "source_turn", "Mean turn of the source's boundary at a vertex, as given."},
+          {"number", "target_turn", "The same of the target's."},
+          {"boolean", "source_trimmed", "It was jagged and has been trimmed."},
+          {"boolean", "target_trimmed", "The same of the target's."},
+          {"boolean", "refined", "Faces of the source were split there."}}},
+        {"lissom.MergeReport",
+         "What a merge found and did.",
+         {{"lissom.JoinReport[]", "joins", "One a join."},
+          {"string[]", "warnings", "What to look at, in plain words."},
+          {"table", "flipped", "source and targets: what was inside out and has been turned over."},
+          {"lissom.SeamReport", "seam", "What was done to sew, and how well."},
+          {"table[]", "transition",
+           "For each seam source and target: width, vertices, and flipped and unmapped ones, of "
+           "its bands."},
+          {"integer[][]", "intersections",
+           "Pairs of faces that run through one another and come from faces that did not."},
+          {"lissom.Path[]", "seams", "The seams on the merged mesh."},
+          {"lissom.Region", "source", "The vertices of the merged mesh that are the source's."},
+          {"lissom.Region", "target", "Those that are the targets'."},
+          {"lissom.Provenance", "provenance", "Where every element comes from."},
+          {"integer", "free_vertices", "Vertices of the source that moved freely."},
+          {"integer", "displaced_vertices", "Degenerate vertices displaced."},
+          {"number", "first_factor_seconds", "Time to factor the first system."},
+          {"number", "second_factor_seconds", "Time to factor the second."},
+          {"number", "prepare_seconds", "Time to check, trim and factor."},
+          {"number", "solve_seconds", "Time to deform and sew."}}}};
+}
+
+}  // namespace lissom::lua

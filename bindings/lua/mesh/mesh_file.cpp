@@ -1,0 +1,126 @@
+// lissom.load and mesh:save.
+#include <filesystem>
+
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/mesh/mesh_object.h"
+#include "bindings/lua/mesh/weld_option.h"
+#include "kernel/io/mesh_file.h"
+
+namespace lissom::lua {
+namespace {
+
+// The choices of `up`, in this order; absent: as it is.
+UpAxis up_axis(const Call& call) {
+    if (!call.has("up")) return UpAxis::none;
+    return call.integer("up") == 0 ? UpAxis::y : UpAxis::z;
+}
+
+std::filesystem::path file_path(const char* text) {
+    const std::string bytes(text);
+    return std::filesystem::path(std::u8string(bytes.begin(), bytes.end()));
+}
+
+int load(Call& call) {
+    const char* path = call.string("path");
+    LoadOptions options;
+    options.up = up_axis(call);
+    options.unit = call.number("unit");
+    options.repair = call.boolean("repair");
+    if (call.has("weld")) options.weld = given_weld(call);
+    return new_mesh(call, [&] { return load_mesh(file_path(path), options, call.context()); });
+}
+
+int save(Call& call) {
+    const auto mesh = call.self<MeshObject>();
+    const char* path = call.string("path");
+    SaveOptions options;
+    options.up = up_axis(call);
+    options.unit = call.number("unit");
+    options.binary = call.boolean("binary");
+    options.endianness = call.choice<Endianness>("endianness");
+    const bool done =
+        call.attempt([&] { save_mesh(mesh->mesh, file_path(path), options, call.context()); });
+    return done ? call.push_argument() : call.fail();
+}
+
+Parameter up_option(const std::string& help) {
+    return choice("up", {"y", "z"}, help).optional("as it is");
+}
+
+Parameter unit_option(const std::string& help) {
+    return number("unit", help).defaults(1.0).above(0).in("mesh units");
+}
+
+}  // namespace
+
+std::vector<Function> mesh_file_functions() {
+    return {
+        {.name = "load",
+         .body = load,
+         .summary =
+             "Reads a mesh from an .obj, .ply, .off, .stl, .gltf or .glb file, with its groups, "
+             "materials, texture coordinates, normals, colours, skins and morph targets. It is "
+             "checked and repaired: mesh:report() says what was done.",
+         .arguments = {string("path", "The file; its extension names the format.")},
+         .options = {weld_option().optional("\"all\" for .stl, \"seams\" for others"),
+                     boolean("repair",
+                             "false makes each defect that would be mended, and each face without "
+                             "area, an error that names the elements.")
+                         .defaults(true),
+                     up_option("The file's up axis; z is turned to y, which is up here."),
+                     unit_option("Length of the file's unit in the unit of the mesh: positions are "
+                                 "multiplied by it.")},
+         .results = {{"lissom.Mesh", "mesh",
+                      "The mesh; nil, message, code where the file is at fault."}},
+         .errors = {ErrorCode::file_not_found,
+                    ErrorCode::file_is_directory,
+                    ErrorCode::file_empty,
+                    ErrorCode::file_unreadable,
+                    ErrorCode::file_syntax,
+                    ErrorCode::file_truncated,
+                    ErrorCode::file_too_large,
+                    ErrorCode::unknown_format,
+                    ErrorCode::unsafe_path,
+                    ErrorCode::unsupported,
+                    ErrorCode::not_finite,
+                    ErrorCode::face_index,
+                    ErrorCode::face_too_small,
+                    ErrorCode::repeated_vertex,
+                    ErrorCode::duplicate_face,
+                    ErrorCode::nonmanifold_edge,
+                    ErrorCode::inconsistent_orientation,
+                    ErrorCode::nonmanifold_vertex,
+                    ErrorCode::unreferenced_vertex,
+                    ErrorCode::zero_area,
+                    ErrorCode::memory_limit,
+                    ErrorCode::cancelled},
+         .example = R"(local mesh, message, code = lissom.load("missing.obj")
+assert(mesh == nil and code == "file_not_found"))"}};
+}
+
+std::vector<Function> mesh_file_methods() {
+    const SaveOptions defaults;
+    return {{.name = "save",
+             .body = save,
+             .summary = "Writes the mesh to a file, whole or not at all.",
+             .arguments = {string("path", "The file; its extension names the format.")},
+             .options =
+                 {up_option("The up axis that the file shall have."),
+                  unit_option("Length of the file's unit in the unit of the mesh: positions are "
+                              "divided by it."),
+                  boolean("binary", "Binary or text, for .ply and .stl.").defaults(defaults.binary),
+                  choice("endianness", {"little", "big"}, "Byte order of a binary .ply.")
+                      .defaults("little")},
+             .results = {{"lissom.Mesh", "mesh",
+                          "The mesh itself; nil, message, code where the file "
+                          "could not be written."}},
+             .errors = {ErrorCode::unknown_format, ErrorCode::file_write_failed,
+                        ErrorCode::file_is_directory, ErrorCode::not_finite, ErrorCode::cancelled},
+             .example = R"(local path = os.tmpname() .. ".obj"
+local mesh = lissom.shapes.box()
+assert(mesh:save(path))
+assert(assert(lissom.load(path)) == mesh)
+os.remove(path))"}};
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,31 @@
+/// A path or boundary of a script with the mesh that it runs on.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "bindings/lua/mesh/mesh_object.h"
+#include "kernel/mesh/query/path.h"
+
+namespace lissom::lua {
+
+struct PathObject {
+    static constexpr const char* kTypeName = "lissom.Path";
+
+    PathObject(std::shared_ptr<MeshObject> owner, Path content)
+        : mesh(std::move(owner)), path(std::move(content)) {}
+
+    std::shared_ptr<MeshObject> mesh;
+    Path path;
+    std::size_t charged_bytes = 0;
+
+    std::size_t memory_bytes() const { return path.vertices().size() * sizeof(Index); }
+    /// The path. Throws topology_mismatch where the mesh has another topology by now or was closed.
+    const Path& current() const;
+};
+
+/// Pushes a list of `paths` on `mesh`, which are moved from. Both are owned by more than a local.
+int push_paths(Call& call, const std::shared_ptr<MeshObject>& mesh, std::vector<Path>& paths);
+
+}  // namespace lissom::lua

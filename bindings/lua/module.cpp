@@ -1,7 +1,0 @@
-#include "bindings/lua/state.h"
-
-extern "C" int luaopen_lissom(lua_State* L) {
-    static const lissom::lua::HostOptions kSilent;
-    lissom::lua::open(L, kSilent);
-    return 1;
-}

@@ -1,0 +1,418 @@
+#include "bindings/lua/reference/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "bindings/lua/core/failure.h"
+#include "bindings/lua/core/parser.h"
+
+namespace lissom::lua {
+namespace {
+
+std::string plain_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.14g", value);
+    return text;
+}
+
+std::string default_text(const Parameter& p) {
+    if (const auto* flag = std::get_if<bool>(&p.default_value)) return *flag ? "true" : "false";
+    if (const auto* number = std::get_if<double>(&p.default_value)) return plain_number(*number);
+    if (const auto* text = std::get_if<std::string>(&p.default_value)) return '"' + *text + '"';
+    return p.default_text;
+}
+
+// "Passes; in degrees; default 10": all that a reader needs beside the type.
+std::string explanation(const Parameter& p) {
+    std::string text = p.help;
+    if (!p.unit.empty()) text += " In " + p.unit + ".";
+    const std::string standard = default_text(p);
+    if (!standard.empty()) text += " Default: " + standard + ".";
+    return text;
+}
+
+bool has_required(const std::vector<Parameter>& parameters) {
+    return std::any_of(parameters.begin(), parameters.end(),
+                       [](const Parameter& p) { return p.required; });
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& separator) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : separator) + words[i];
+    return text;
+}
+
+// ---- Annotations
+
+std::string capitalized(std::string text) {
+    if (!text.empty())
+        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+void add_fields(std::string& text, const std::vector<Parameter>& fields, const std::string& owner);
+
+// A class for the option table `owner`, after those of its nested tables.
+void add_option_class(std::string& text, const std::vector<Parameter>& fields,
+                      const std::string& owner) {
+    for (const Parameter& p : fields) {
+        if (!p.fields.empty()) add_option_class(text, p.fields, owner + "." + capitalized(p.name));
+    }
+    text += "---@class " + owner + "\n";
+    add_fields(text, fields, owner);
+    text += "\n";
+}
+
+std::string field_type(const Parameter& p, const std::string& owner) {
+    if (p.kind == Kind::options) return owner + "." + capitalized(p.name);
+    if (p.kind == Kind::option_map) {
+        return "table<string, " + owner + "." + capitalized(p.name) + ">";
+    }
+    return annotation_type(p);
+}
+
+void add_fields(std::string& text, const std::vector<Parameter>& fields, const std::string& owner) {
+    for (const Parameter& p : fields) {
+        text += "---@field " + p.name + (p.required ? " " : "? ") + field_type(p, owner) + " " +
+                explanation(p) + "\n";
+    }
+}
+
+std::string options_class(const std::string& owner, const Function& function) {
+    std::string name = function.name;
+    name = name.substr(name.rfind('.') + 1);
+    return owner + "." + capitalized(name) + "Options";
+}
+
+// "x: number, y: number, z: number" in place of a vector: the other way to call the function.
+std::string spread_parameters(const Function& function, const std::string& class_name) {
+    std::vector<std::string> words;
+    for (const Parameter& p : function.arguments) {
+        if (p.kind == Kind::vector) {
+            words.insert(words.end(), {"x: number", "y: number", "z: number"});
+        } else {
+            words.push_back(p.name + (p.required ? ": " : "?: ") + field_type(p, class_name));
+        }
+    }
+    if (!function.options.empty()) words.push_back("options?: " + class_name);
+    return joined(words, ", ");
+}
+
+// Adds ---@param lines and returns the names.
+std::vector<std::string> add_parameters(std::string& text, const Function& function,
+                                        const std::string& class_name) {
+    std::vector<std::string> names;
+    for (const Parameter& p : function.arguments) {
+        names.push_back(p.name);
+        text += "---@param " + p.name + (p.required ? " " : "? ") + field_type(p, class_name) +
+                " " + explanation(p) + "\n";
+    }
+    if (function.options.empty()) return names;
+    names.push_back("options");
+    const bool instead = function.one_option && !function.arguments.empty();
+    const bool required = (has_required(function.options) || function.one_option) && !instead;
+    text += "---@param options" + std::string(required ? " " : "? ") + class_name + "\n";
+    return names;
+}
+
+void add_results(std::string& text, const Function& function) {
+    for (const Result& r : function.results) {
+        text +=
+            "---@return " + r.type + " " + r.name + (r.help.empty() ? "" : " # " + r.help) + "\n";
+    }
+    const bool may_fail = std::any_of(function.errors.begin(), function.errors.end(),
+                                      [](ErrorCode code) { return !is_misuse(code); });
+    if (!may_fail || function.results.size() != 1) return;
+    text +=
+        "---@return string? message # What is wrong, where the first result is nil.\n"
+        "---@return string? code # Its code.\n"
+        "---@return lissom.Elements? elements # The elements concerned.\n";
+}
+
+void add_overload(std::string& text, const Function& function, const std::string& owner,
+                  const std::string& class_name, bool is_method) {
+    const bool has_vector = std::any_of(function.arguments.begin(), function.arguments.end(),
+                                        [](const Parameter& p) { return p.kind == Kind::vector; });
+    if (!has_vector || function.results.empty()) return;
+    text += "---@overload fun(" + (is_method ? "self: " + owner + ", " : "") +
+            spread_parameters(function, class_name) + "): " + function.results[0].type + "\n";
+}
+
+// `call` is how it is defined: "lissom.load" or "Mesh:smooth".
+void add_function(std::string& text, const Function& function, const std::string& owner,
+                  const std::string& call) {
+    const std::string class_name = options_class(owner, function);
+    for (const Parameter& p : function.arguments) {
+        if (!p.fields.empty())
+            add_option_class(text, p.fields, class_name + "." + capitalized(p.name));
+    }
+    if (!function.options.empty()) add_option_class(text, function.options, class_name);
+    text += "---" + function.summary + "\n";
+    const std::vector<std::string> names = add_parameters(text, function, class_name);
+    add_results(text, function);
+    add_overload(text, function, owner, class_name, call.find(':') != std::string::npos);
+    text += "function " + call + "(" + joined(names, ", ") + ") end\n\n";
+}
+
+void add_type(std::string& text, const Type& type) {
+    text += "---" + type.summary + "\n---@class " + type.name + "\n";
+    for (const Operator& op : type.operators) {
+        if (op.name == "__len") text += "---@operator len: integer\n";
+        if (op.name == "__index" && type.name == "lissom.Buffer")
+            text += "---@field [integer] number\n";
+        if (op.name == "__index" && type.name == "lissom.Params")
+            text += "---@field [string] any\n";
+    }
+    const std::string local = type.name.substr(type.name.rfind('.') + 1);
+    text += "local " + local + " = {}\n\n";
+    for (const Function& method : type.methods) {
+        add_function(text, method, type.name, local + ":" + method.name);
+    }
+    text +=
+        "---Frees what the object holds. It may be called again; any other use is an error then.\n"
+        "function " +
+        local + ":close() end\n\n";
+}
+
+void add_common_types(std::string& text) {
+    text +=
+        "---Three numbers: {x, y, z}.\n---@alias lissom.Vector number[]\n\n"
+        "---Elements that an error is about.\n---@class lissom.Elements\n"
+        "---@field kind string vertex, edge, face, corner, component or line.\n"
+        "---@field count integer How many there are.\n"
+        "---@field ids integer[]|integer[][] The first hundred; pairs of vertices for edges.\n\n";
+}
+
+// ---- The page
+
+std::string table_cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
+        text.insert(at, "\\");
+    }
+    return text;
+}
+
+void add_rows(std::string& text, const std::vector<Parameter>& parameters,
+              const std::string& prefix) {
+    for (const Parameter& p : parameters) {
+        std::string accepted = expectation(p);
+        std::string meaning = p.help;
+        if (!p.unit.empty()) meaning += " In " + p.unit + ".";
+        const std::string standard = p.required ? "required" : default_text(p);
+        text += "| `" + prefix + p.name + "` | " + table_cell(accepted) + " | " +
+                table_cell(standard) + " | " + table_cell(meaning) + " |\n";
+        const bool is_map = p.kind == Kind::option_map;
+        add_rows(text, p.fields, prefix + p.name + (is_map ? ".*." : "."));
+    }
+}
+
+std::string signature(const Function& function, const std::string& call) {
+    std::vector<std::string> words;
+    for (const Parameter& p : function.arguments) {
+        const std::string shown = p.kind == Kind::vector && function.arguments.size() <= 2 &&
+                                          (&p == &function.arguments.back())
+                                      ? "x, y, z"
+                                      : p.name;
+        words.push_back(p.required ? shown : "[" + shown + "]");
+    }
+    if (function.options.empty()) return call + "(" + joined(words, ", ") + ")";
+    if (words.empty()) return call + "{...}";
+    words.push_back(has_required(function.options) ? "{...}" : "[{...}]");
+    return call + "(" + joined(words, ", ") + ")";
+}
+
+void add_function_section(std::string& text, const Function& function, const std::string& call) {
+    text += "### `" + signature(function, call) + "`\n\n" + function.summary + "\n\n";
+    if (!function.arguments.empty() || !function.options.empty()) {
+        text += "| argument | accepts | default | meaning |\n|---|---|---|---|\n";
+        add_rows(text, function.arguments, "");
+        add_rows(text, function.options, "");
+        text += "\n";
+    }
+    for (const Result& r : function.results) {
+        text += "- returns `" + r.name + "` (" + r.type + ")" +
+                (r.help.empty() ? "" : ": " + r.help) + "\n";
+    }
+    if (!function.errors.empty()) {
+        text += "- errors:";
+        for (std::size_t i = 0; i < function.errors.size(); ++i) {
+            text += (i == 0 ? " " : ", ") + std::string(code_name(function.errors[i]));
+        }
+        text += "\n";
+    }
+    text +=
+        "\n```lua\n" + function.example + (function.example.back() == '\n' ? "" : "\n") + "```\n\n";
+}
+
+void add_type_section(std::string& text, const Type& type) {
+    const std::string local = type.name.substr(type.name.rfind('.') + 1);
+    std::string variable = local;
+    variable[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(variable[0])));
+    text += "## " + type.name + "\n\n" + type.summary + "\n\n";
+    for (const Operator& op : type.operators) {
+        text += "- `" + op.usage + "`: " + op.help + "\n";
+    }
+    text += "- `" + variable + ":close()`: frees what the object holds; it may be called again\n\n";
+    for (const Function& method : type.methods) {
+        add_function_section(text, method, variable + ":" + method.name);
+    }
+}
+
+void add_conventions(std::string& text) {
+    text +=
+        "- Vertices, faces and all other elements count from 1; angles are in degrees; lengths are "
+        "in "
+        "the mesh's own unit.\n"
+        "- An option that does not exist is an error, and so is any other misuse: its message "
+        "names the "
+        "file and the line.\n"
+        "- What the world does wrong (a file, a cancel, data that cannot be solved) gives `nil, "
+        "message, "
+        "code, elements`. `elements` is nil or `{kind=, count=, ids=}`: the elements concerned, at "
+        "most "
+        "a hundred ids, pairs of vertices for edges.\n"
+        "- Where `x, y, z` are arguments, one `{x, y, z}` will do.\n"
+        "- Verbs that change an object return it; those that make something return a new object.\n"
+        "- Objects are freed by the collector; `close()` or `local mesh <close> =` frees them "
+        "earlier.\n"
+        "- A name that the module does not have is an error: test for one with `rawget(lissom, "
+        "name)`.\n\n";
+}
+
+void add_codes(std::string& text) {
+    text += "## Error codes\n\n| code | how | meaning |\n|---|---|---|\n";
+    for (const ErrorCode code : all_codes()) {
+        text += "| " + std::string(code_name(code)) + " | " + (is_misuse(code) ? "error" : "nil") +
+                " | " + table_cell(std::string(code_explanation(code))) + " |\n";
+    }
+}
+
+void add_records(std::string& text, const std::vector<Record>& records) {
+    if (records.empty()) return;
+    text += "## Tables\n\n";
+    for (const Record& record : records) {
+        text += "### " + record.name + "\n\n" + record.summary + "\n\n";
+        for (const Result& field : record.fields) {
+            text += "- `" + field.name + "` (" + table_cell(field.type) + "): " + field.help + "\n";
+        }
+        text += "\n";
+    }
+}
+
+// Names of the tables below the module: "shapes".
+std::vector<std::string> subtables(const Library& library) {
+    std::vector<std::string> names;
+    for (const Function& function : library.functions) {
+        const std::size_t dot = function.name.find('.');
+        if (dot == std::string::npos) continue;
+        const std::string name = function.name.substr(0, dot);
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    return names;
+}
+
+constexpr const char* kKernelLibrary = "lissom";
+
+}  // namespace
+
+std::string annotation_type(const Parameter& p) {
+    switch (p.kind) {
+        case Kind::boolean:
+            return "boolean";
+        case Kind::integer:
+        case Kind::id:
+            return "integer";
+        case Kind::number:
+            return "number";
+        case Kind::string:
+            return "string";
+        case Kind::choice: {
+            std::vector<std::string> words;
+            for (const std::string& c : p.choices) words.push_back('"' + c + '"');
+            return joined(words, "|");
+        }
+        case Kind::vector:
+            return "lissom.Vector";
+        case Kind::factors:
+            return "number|lissom.Vector";
+        case Kind::axis:
+            return "\"x\"|\"y\"|\"z\"|lissom.Vector";
+        case Kind::affine:
+        case Kind::matrix3:
+            return "number[][]";
+        case Kind::ids:
+        case Kind::integers:
+            return "integer[]";
+        case Kind::id_lists:
+            return "integer[][]";
+        case Kind::points:
+            return "lissom.Vector[]";
+        case Kind::numbers:
+            return "number[]";
+        case Kind::strings:
+            return "string[]";
+        case Kind::object:
+            return p.type_name;
+        case Kind::objects:
+            return p.type_name + "[]";
+        case Kind::function:
+            return p.type_name;
+        case Kind::options:
+        case Kind::option_map:
+        case Kind::table:
+            return "table";
+        case Kind::either: {
+            std::vector<std::string> words;
+            for (const Parameter& alternative : p.alternatives) {
+                words.push_back(annotation_type(alternative));
+            }
+            return joined(words, "|");
+        }
+    }
+    return "any";
+}
+
+std::string annotations(const Library& library) {
+    std::string text = "---@meta lissom\n-- Made from the registration table; do not edit.\n\n";
+    if (library.name == kKernelLibrary) add_common_types(text);
+    for (const Record& record : library.records) {
+        text += "---" + record.summary + "\n---@class " + record.name + "\n";
+        for (const Result& field : record.fields) {
+            text += "---@field " + field.name + " " + field.type + " " + field.help + "\n";
+        }
+        text += "\n";
+    }
+    for (const Type& type : library.types) add_type(text, type);
+    text += "---" + library.summary + "\n---@class lissom\n";
+    for (const Constant& constant : library.constants) {
+        text += "---@field " + constant.name + " string " + constant.help + "\n";
+    }
+    text += "local lissom = {}\n\n";
+    for (const std::string& name : subtables(library)) text += "lissom." + name + " = {}\n\n";
+    for (const Function& function : library.functions) {
+        add_function(text, function, "lissom", "lissom." + function.name);
+    }
+    return text + "return lissom\n";
+}
+
+std::string reference_page(const Library& library) {
+    const bool is_kernel = library.name == kKernelLibrary;
+    std::string text = "# Lua reference" + (is_kernel ? "" : ": " + library.name) + "\n\n" +
+                       library.summary + "\n\nThis page is made from the registration table.\n\n";
+    if (is_kernel) add_conventions(text);
+    text += "## lissom\n\n";
+    for (const Constant& constant : library.constants) {
+        text += "- `lissom." + constant.name + "`: " + constant.help + "\n";
+    }
+    if (!library.constants.empty()) text += "\n";
+    for (const Function& function : library.functions) {
+        add_function_section(text, function, "lissom." + function.name);
+    }
+    for (const Type& type : library.types) add_type_section(text, type);
+    add_records(text, library.records);
+    if (is_kernel) add_codes(text);
+    return text;
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,491 @@
+#include "kernel/deform/boundary/boundary_deformer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "kernel/deform/holds/constraints.h"
+#include "kernel/deform/patch/working_patch.h"
+#include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/system/frame_blocks.h"
+#include "kernel/deform/system/gradient_residual.h"
+#include "kernel/deform/system/gradient_system.h"
+#include "kernel/deform/system/gradients.h"
+#include "kernel/deform/system/rotation_system.h"
+#include "kernel/solve/sparse/sparse_system.h"
+
+namespace lissom {
+namespace {
+
+// Rings around the region that the stencils of its vertices reach.
+constexpr Index kRings = 1;
+// Corrections of the first system by the residual of its energy.
+constexpr int kCorrections = 2;
+// Scales that differ by less are one scale.
+constexpr double kSameScale = 1e-12;
+// Weights of the harmonic interpolation are at least this, so that it never leaves the range of
+// what it interpolates.
+constexpr double kLeastWeight = 1e-3;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+DeformOptions deform_options(const BoundaryDeformOptions& options) {
+    DeformOptions result;
+    result.second = options.second;
+    result.local_size = LocalSize::scale;
+    result.weights = options.weights;
+    result.coherence = options.coherence;
+    result.coherence_weight = options.coherence_weight;
+    result.degenerate_threshold = options.degenerate_threshold;
+    result.displacement = options.displacement;
+    result.scale_free = options.scale_free;
+    result.refine_borders = false;
+    return result;
+}
+
+// The rest shape centred on the mean of what is held, in units of the RMS distance to it.
+struct Normalization {
+    Vec3 center = Vec3::Zero();
+    double unit = 1.0;
+
+    Normalization(const Mesh& mesh, const Region& region, const Region& held) {
+        const Vec3 first = mesh.position(held.vertices().front());
+        Vec3 sum = Vec3::Zero();
+        for (const Index v : held.vertices()) sum += mesh.position(v) - first;
+        center = first + sum / held.size();
+        double squares = 0.0;
+        for (const Index v : region.vertices()) {
+            squares += (mesh.position(v) - center).squaredNorm();
+        }
+        if (squares > 0.0) unit = std::sqrt(squares / region.size());
+    }
+
+    std::vector<Vec3> apply(std::span<const Vec3> positions) const {
+        std::vector<Vec3> result;
+        result.reserve(positions.size());
+        for (const Vec3& p : positions) result.push_back((p - center) / unit);
+        return result;
+    }
+};
+
+// The similarity that a solution deviates from: rest position q, normalised, goes to
+// center + length * (rotation q + deviation).
+struct Base {
+    Mat3 rotation = Mat3::Identity();
+    double scale = 1.0;
+    Vec3 center = Vec3::Zero();
+    double length = 1.0;
+};
+
+void require_values(std::span<const BoundaryValue> values, Index count) {
+    if (static_cast<Index>(values.size()) != count) {
+        throw Error(ErrorCode::invalid_argument,
+                    "give one value for each held vertex: " + std::to_string(count));
+    }
+    for (const BoundaryValue& value : values) {
+        if (!value.position.allFinite() || !value.rotation.allFinite()) {
+            throw Error(ErrorCode::not_finite, "values of held vertices must be finite");
+        }
+        if (!(value.scale > 0.0) || !std::isfinite(value.scale)) {
+            throw Error(ErrorCode::invalid_argument, "scales of held vertices must be above 0");
+        }
+    }
+}
+
+void require_inside(const Region& region, const Region& held) {
+    if (held.empty()) throw Error(ErrorCode::region_empty, "hold at least one vertex");
+    const Region outside = held.minus(region);
+    if (outside.empty()) return;
+    Elements vertices{ElementKind::vertex, 0, {}};
+    for (const Index v : outside.vertices()) vertices.add(v);
+    throw Error(ErrorCode::handle_outside_region,
+                describe(vertices) + " cannot be held: they lie outside the region", vertices);
+}
+
+}  // namespace
+
+BoundaryDeformOptions BoundaryDeformOptions::thesis() {
+    BoundaryDeformOptions options;
+    const DeformOptions literal = DeformOptions::thesis();
+    options.size = SizeField::gradient;
+    options.second = literal.second;
+    options.coherence = literal.coherence;
+    options.degenerate_threshold = literal.degenerate_threshold;
+    options.scale_free = literal.scale_free;
+    return options;
+}
+
+struct BoundaryDeformer::State {
+    State(const Mesh& mesh, const Region& given, const Region& fixed,
+          const BoundaryDeformOptions& chosen, const Context& context);
+
+    void find_knowledge();
+    void require_area() const;
+    void factor(const Context& context);
+    template <typename System>
+    void factor(System& system, const Context& context) const;
+
+    Base find_base(std::span<const BoundaryValue> values) const;
+    void place_held(std::span<const BoundaryValue> values, const Base& base);
+    void solve_first();
+    void correct_first();
+    Mat3 gathered(Index v, const Mat3& base) const;
+    std::vector<Mat3> gradients_of(const Base& base, const Context& context) const;
+    void find_sizes(const Context& context);
+    void interpolate_sizes(const Context& context);
+    void find_turns(const Base& base, const Context& context);
+    BoundaryDeformation result(std::span<const BoundaryValue> values, const Base& base) const;
+
+    Region region, held;
+    BoundaryDeformOptions asked;
+    DeformOptions options;
+    Normalization normal_form;
+    WorkingPatch work;
+    /// Local vertices of `held`, in its order, and whether anything else is fixed.
+    std::vector<Index> held_local;
+    bool surrounded = false;
+    Knowledge known;
+    GradientStencils stencils;
+    std::unique_ptr<GradientSystem> first;
+    std::unique_ptr<RotationSystem> second;
+    /// Null for the thesis's weights.
+    std::unique_ptr<GradientResidual> residual;
+    /// Harmonic interpolation over the vertices that are not held, made when scales first differ.
+    std::unique_ptr<SparseSystem> harmonic;
+    std::vector<Index> harmonic_row, harmonic_vertex;
+    DeformStats stats;
+
+    /// Of the present solve, relative to the base: deviations of positions and of known gradients,
+    /// scales, and transforms of the second system.
+    std::vector<Vec3> deviation;
+    std::vector<Mat3> known_turn;
+    std::vector<double> size;
+    std::vector<PaddedMat3> turns;
+};
+
+BoundaryDeformer::State::State(const Mesh& mesh, const Region& given, const Region& fixed,
+                               const BoundaryDeformOptions& chosen, const Context& context)
+    : region(given),
+      held(fixed),
+      asked(chosen),
+      options(deform_options(chosen)),
+      normal_form(mesh, given, fixed),
+      work(build_patch(given, normal_form.apply(mesh.positions()), kRings,
+                       near_order(given, kRings)),
+           options) {
+    Progress progress(context, "deform: prepare");
+    require_area();
+    find_knowledge();
+    require_constraints(work, known);
+    progress.step(0.3);
+    const auto start = Clock::now();
+    const Patch& patch = work.patch;
+    stencils = make_gradients(patch, work.rings, work.geometry, known, -patch.origin, options);
+    first = std::make_unique<GradientSystem>(work, stencils, known, options, context);
+    second = std::make_unique<RotationSystem>(work, known.position, options, context);
+    if (options.coherence == 1 && options.scale_free) {
+        residual =
+            std::make_unique<GradientResidual>(work, stencils, known, options.coherence_weight);
+    }
+    stats.assemble_seconds = seconds_since(start);
+    progress.step(0.7);
+    factor(context);
+}
+
+// Outside the region, and without faces, vertices stay; held ones go where they are told.
+void BoundaryDeformer::State::find_knowledge() {
+    const Patch& patch = work.patch;
+    const auto n = static_cast<std::size_t>(patch.vertex_count);
+    known = {std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 0)};
+    for (Index i = 0; i < patch.surface_count; ++i) {
+        const bool lonely = work.rings.count(i) == 0;
+        if (patch.in_region[i] && !lonely) continue;
+        known.position[i] = known.gradient[i] = 1;
+        surrounded = surrounded || !lonely;
+    }
+    const std::vector<Index>& ids = region.vertices();
+    for (const Index v : held.vertices()) {
+        const auto row = std::lower_bound(ids.begin(), ids.end(), v) - ids.begin();
+        held_local.push_back(patch.of_region[static_cast<std::size_t>(row)]);
+        known.position[held_local.back()] = known.gradient[held_local.back()] = 1;
+    }
+    for (Index i = 0; i < patch.surface_count; ++i) {
+        known.gradient_wanted[i] = !known.gradient[i] && work.rings.count(i) > 0;
+    }
+}
+
+void BoundaryDeformer::State::require_area() const {
+    const Elements& vertices = work.patch.zero_area_vertices;
+    if (vertices.count == 0) return;
+    throw Error(
+        ErrorCode::zero_area,
+        "all faces around " + describe(vertices) + " have no area; collapse those faces first",
+        vertices);
+}
+
+template <typename System>
+void BoundaryDeformer::State::factor(System& system, const Context& context) const {
+    if (!system.free_vertices().empty()) system.factor(context);
+}
+
+void BoundaryDeformer::State::factor(const Context& context) {
+    // The two do not depend on each other.
+    context.parallel_for(0, 2, 1, [&](Index begin, Index end) {
+        for (Index system = begin; system < end; ++system) {
+            system == 0 ? factor(*first, context) : factor(*second, context);
+        }
+    });
+    if (!second->free_vertices().empty()) second->finish(context);
+    const FactorStats &a = first->stats(), &b = second->stats();
+    stats.region_vertices = region.size();
+    stats.constrained_vertices = held.size();
+    stats.free_vertices = static_cast<Index>(second->free_vertices().size());
+    stats.displaced_vertices = static_cast<Index>(stencils.displaced.size());
+    stats.zero_area_faces = work.patch.zero_area_faces;
+    stats.first_nonzeros = a.factor_nonzeros;
+    stats.second_nonzeros = b.factor_nonzeros;
+    stats.factor_bytes = a.factor_bytes + b.factor_bytes;
+    stats.first_factor_seconds = a.analyze_seconds + a.factor_seconds;
+    stats.second_factor_seconds = b.analyze_seconds + b.factor_seconds;
+    stats.factorizations = 1;
+}
+
+// Where nothing else is fixed, the similarity that fits the values; else the rest shape itself.
+Base BoundaryDeformer::State::find_base(std::span<const BoundaryValue> values) const {
+    if (surrounded) return {Mat3::Identity(), 1.0, normal_form.center, normal_form.unit};
+    Base base;
+    Vec3 sum = Vec3::Zero();
+    double logs = 0.0;
+    for (const BoundaryValue& value : values) {
+        sum += value.position - values.front().position;
+        logs += std::log(value.scale);
+    }
+    const auto count = static_cast<double>(values.size());
+    base.center = values.front().position + sum / count;
+    base.scale = std::exp(logs / count);
+    base.length = base.scale * normal_form.unit;
+    Mat3 products = Mat3::Zero();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const Vec3 from = work.patch.rest[held_local[i]] + work.patch.origin;
+        products += (values[i].position - base.center) / base.length * from.transpose();
+        products += 1e-3 * values[i].rotation;
+    }
+    base.rotation = nearest_rotation(products);
+    return base;
+}
+
+void BoundaryDeformer::State::place_held(std::span<const BoundaryValue> values, const Base& base) {
+    const auto n = static_cast<std::size_t>(work.patch.vertex_count);
+    deviation.assign(n, Vec3::Zero());
+    known_turn.assign(n, Mat3::Zero());
+    size.assign(n, 1.0 / base.scale);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const Index v = held_local[i];
+        const Vec3 from = work.patch.rest[v] + work.patch.origin;
+        deviation[v] = (values[i].position - base.center) / base.length - base.rotation * from;
+        size[v] = values[i].scale / base.scale;
+        known_turn[v] = size[v] * values[i].rotation - base.rotation;
+    }
+}
+
+// Eq 2.8, for what deviates from the base: it is linear.
+void BoundaryDeformer::State::solve_first() {
+    const std::vector<Index>& free = first->free_vertices();
+    const std::size_t rows = free.size();
+    std::vector<long double> right(rows * 3);
+    for (int d = 0; d < 3; ++d) {
+        first->right_hand_side([&](Index k) { return deviation[k][d]; },
+                               [&](Index k) { return Vec3(known_turn[k].row(d)); },
+                               right.data() + static_cast<std::size_t>(d) * rows);
+    }
+    const std::vector<double> columns = first->solve(right, 3);
+    for (std::size_t r = 0; r < rows; ++r) {
+        deviation[free[r]] = {columns[r], columns[rows + r], columns[2 * rows + r]};
+    }
+    for (int step = 0; residual && step < kCorrections; ++step) correct_first();
+}
+
+// Takes out what rounding errors of the matrix have left.
+void BoundaryDeformer::State::correct_first() {
+    const std::vector<Index>& free = first->free_vertices();
+    const std::size_t rows = free.size();
+    const std::vector<Vec3> left = residual->find(deviation, known_turn);
+    std::vector<double> columns(rows * 3);
+    for (std::size_t r = 0; r < rows; ++r) {
+        for (std::size_t d = 0; d < 3; ++d) columns[d * rows + r] = left[free[r]][d];
+    }
+    first->solve_roughly(columns, columns, 3);
+    for (std::size_t r = 0; r < rows; ++r) {
+        deviation[free[r]] += Vec3(columns[r], columns[rows + r], columns[2 * rows + r]);
+    }
+}
+
+Mat3 BoundaryDeformer::State::gathered(Index v, const Mat3& base) const {
+    return known.gradient[v] ? Mat3(base + known_turn[v])
+                             : Mat3(base + stencils.gather(work.rings, deviation, v));
+}
+
+// M_i after the first system; where it does not exist, the mean of those around it.
+std::vector<Mat3> BoundaryDeformer::State::gradients_of(const Base& base,
+                                                        const Context& context) const {
+    const auto exists = [&](Index v) { return known.gradient[v] || stencils.defined[v]; };
+    std::vector<Mat3> m(static_cast<std::size_t>(work.patch.real_count), base.rotation);
+    for_each_block(context, work.patch.real_count, [&](Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) {
+            if (exists(v)) {
+                m[v] = gathered(v, base.rotation);
+                continue;
+            }
+            Mat3 sum = Mat3::Zero();
+            int count = 0;
+            for (const Index n : work.rings.ring(v)) {
+                if (!exists(n)) continue;
+                sum += gathered(n, base.rotation);
+                ++count;
+            }
+            if (count > 0) m[v] = sum / count;
+        }
+    });
+    return m;
+}
+
+void BoundaryDeformer::State::interpolate_sizes(const Context& context) {
+    const Index n = work.patch.surface_count;
+    const auto weight = [&](Index e) { return std::max(work.geometry.cotangent[e], kLeastWeight); };
+    if (!harmonic) {
+        harmonic_row.assign(static_cast<std::size_t>(n), kNoIndex);
+        for (Index v = 0; v < n; ++v) {
+            if (known.position[v]) continue;
+            harmonic_row[v] = static_cast<Index>(harmonic_vertex.size());
+            harmonic_vertex.push_back(v);
+        }
+        std::vector<Triplet> entries;
+        for (const Index v : harmonic_vertex) {
+            double sum = 0.0;
+            for (Index e = work.rings.begin[v]; e < work.rings.begin[v + 1]; ++e) {
+                const Index other = harmonic_row[work.rings.neighbor[e]];
+                sum += weight(e);
+                if (other != kNoIndex && other < harmonic_row[v]) {
+                    entries.push_back({harmonic_row[v], other, -weight(e)});
+                }
+            }
+            entries.push_back({harmonic_row[v], harmonic_row[v], sum});
+        }
+        const SymmetricMatrix matrix =
+            symmetric_from_triplets(static_cast<Index>(harmonic_vertex.size()), entries);
+        harmonic = std::make_unique<SparseSystem>();
+        harmonic->analyze(matrix, context);
+        harmonic->factor(matrix, context);
+    }
+    std::vector<double> b(harmonic_vertex.size(), 0.0);
+    for (std::size_t r = 0; r < b.size(); ++r) {
+        const Index v = harmonic_vertex[r];
+        for (Index e = work.rings.begin[v]; e < work.rings.begin[v + 1]; ++e) {
+            const Index u = work.rings.neighbor[e];
+            if (harmonic_row[u] == kNoIndex) b[r] += weight(e) * std::log(size[u]);
+        }
+    }
+    harmonic->solve(b, b, 1);
+    for (std::size_t r = 0; r < b.size(); ++r) size[harmonic_vertex[r]] = std::exp(b[r]);
+}
+
+// Of all vertices from those that are known.
+void BoundaryDeformer::State::find_sizes(const Context& context) {
+    double least = size[held_local.front()], most = least;
+    for (Index v = 0; v < work.patch.surface_count; ++v) {
+        if (!known.position[v] || work.rings.count(v) == 0) continue;
+        least = std::min(least, size[v]);
+        most = std::max(most, size[v]);
+    }
+    if (most > least * (1.0 + kSameScale)) {
+        if (!second->free_vertices().empty()) interpolate_sizes(context);
+        return;
+    }
+    for (Index v = 0; v < work.patch.surface_count; ++v) {
+        if (!known.position[v]) size[v] = least;
+    }
+}
+
+// S_i of the second system less the base's: rotations without shear, times the size.
+void BoundaryDeformer::State::find_turns(const Base& base, const Context& context) {
+    if (asked.size == SizeField::harmonic) find_sizes(context);
+    std::vector<Mat3> m = gradients_of(base, context);
+    if (asked.size == SizeField::gradient) {
+        for (Index v = 0; v < work.patch.real_count; ++v) {
+            if (!known.gradient[v]) size[v] = uniform_scale(m[v]);
+        }
+    }
+    nearest_rotations(m, m);
+    turns.resize(m.size());
+    for (std::size_t v = 0; v < m.size(); ++v) {
+        turns[v] = known.gradient[v] ? padded_columns(known_turn[v])
+                                     : padded_columns(size[v] * m[v] - base.rotation);
+    }
+}
+
+BoundaryDeformation BoundaryDeformer::State::result(std::span<const BoundaryValue> values,
+                                                    const Base& base) const {
+    BoundaryDeformation out;
+    const Patch& patch = work.patch;
+    for (const Index v : patch.of_region) {
+        const Vec3 at = base.rotation * (patch.rest[v] + patch.origin) + deviation[v];
+        out.positions.push_back(base.center + base.length * at);
+        out.transforms.push_back(base.scale * (base.rotation + turns[v].topRows<3>()));
+    }
+    const std::vector<Index>& ids = region.vertices();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto row = std::lower_bound(ids.begin(), ids.end(), held.vertices()[i]) - ids.begin();
+        out.positions[static_cast<std::size_t>(row)] = values[i].position;
+        out.transforms[static_cast<std::size_t>(row)] = values[i].scale * values[i].rotation;
+    }
+    return out;
+}
+
+BoundaryDeformer::BoundaryDeformer(const Mesh& mesh, const Region& region, const Region& held,
+                                   const BoundaryDeformOptions& options, const Context& context) {
+    require_same_topology(mesh, region.topology(), "the region");
+    require_same_topology(mesh, held.topology(), "the held vertices");
+    require_inside(region, held);
+    state_ = std::make_unique<State>(mesh, region, held, options, context);
+}
+
+BoundaryDeformer::~BoundaryDeformer() = default;
+BoundaryDeformer::BoundaryDeformer(BoundaryDeformer&&) noexcept = default;
+BoundaryDeformer& BoundaryDeformer::operator=(BoundaryDeformer&&) noexcept = default;
+
+const Region& BoundaryDeformer::region() const {
+    return state_->region;
+}
+const Region& BoundaryDeformer::held() const {
+    return state_->held;
+}
+const DeformStats& BoundaryDeformer::stats() const {
+    return state_->stats;
+}
+
+BoundaryDeformation BoundaryDeformer::solve(std::span<const BoundaryValue> values,
+                                            const Context& context) {
+    State& state = *state_;
+    require_values(values, state.held.size());
+    const Base base = state.find_base(values);
+    state.place_held(values, base);
+    const bool has_free = !state.second->free_vertices().empty();
+    if (has_free) state.solve_first();
+    context.checkpoint();
+    state.find_turns(base, context);
+    if (has_free) {
+        std::vector<Vec4> x;
+        for (const Vec3& d : state.deviation) x.push_back(padded(d));
+        state.second->solve(state.turns, x, false, context);
+        for (std::size_t v = 0; v < x.size(); ++v) state.deviation[v] = x[v].head<3>();
+    }
+    return state.result(values, base);
+}
+
+}  // namespace lissom

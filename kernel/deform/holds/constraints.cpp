@@ -1,0 +1,206 @@
+#include "kernel/deform/holds/constraints.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "kernel/deform/holds/boundary_refinement.h"
+
+namespace lissom {
+namespace {
+
+// Positions count as one plane where their covariance is flatter than this.
+constexpr double kFlat = 1e-10;
+
+// What holds one connected part of the patch.
+struct Part {
+    std::vector<Index> free;
+    bool has_gradient = false;
+    double positions = 0.0;
+    Vec3 sum = Vec3::Zero();
+    Mat3 products = Mat3::Zero();
+
+    bool spans_space() const {
+        if (positions < 4.0) return false;
+        const Mat3 covariance =
+            products / positions - sum * sum.transpose() / (positions * positions);
+        const Vec3 values =
+            Eigen::SelfAdjointEigenSolver<Mat3>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
+        return values[0] > kFlat * values[2];
+    }
+};
+
+// Which anchors each vertex is tied to, each counted at one vertex, and whether its gradient is.
+struct TiesOfVertices {
+    std::multimap<Index, Index> anchors;
+    std::set<Index> turned;
+
+    explicit TiesOfVertices(const WorkingPatch& work) {
+        for (Index t = 0; t < work.ties.size(); ++t) {
+            anchors.emplace(work.ties.row[t].front().first, work.ties.anchor[t]);
+        }
+        for (const GradientTie& tie : work.gradient_ties) turned.insert(tie.vertex);
+    }
+};
+
+void add_position(const Vec3& at, Part& part) {
+    part.positions += 1.0;
+    part.sum += at;
+    part.products += at * at.transpose();
+}
+
+void add_vertex(const Patch& patch, const TiesOfVertices& ties, const Knowledge& known, Index v,
+                Part& part) {
+    part.has_gradient = part.has_gradient || known.gradient[v] || ties.turned.count(v) > 0;
+    if (known.position[v]) {
+        add_position(patch.rest[v], part);
+    } else if (v < patch.mesh_count()) {
+        part.free.push_back(patch.mesh_vertex[v]);
+    }
+    const auto [first, last] = ties.anchors.equal_range(v);
+    for (auto tie = first; tie != last; ++tie) add_position(patch.rest[tie->second], part);
+}
+
+Part collect_part(const WorkingPatch& work, const TiesOfVertices& ties, const Knowledge& known,
+                  Index start, std::vector<char>& seen) {
+    Part part;
+    std::vector<Index> stack{start};
+    seen[start] = 1;
+    while (!stack.empty()) {
+        const Index v = stack.back();
+        stack.pop_back();
+        add_vertex(work.patch, ties, known, v, part);
+        for (const Index n : work.rings.ring(v)) {
+            if (!std::exchange(seen[n], 1)) stack.push_back(n);
+        }
+    }
+    return part;
+}
+
+void require_held(Part part) {
+    if (part.free.empty()) return;
+    if (part.positions > 0.0 && (part.has_gradient || part.spans_space())) return;
+    std::sort(part.free.begin(), part.free.end());
+    Elements vertices{ElementKind::vertex, 0, {}};
+    for (const Index v : part.free) vertices.add(v);
+    const std::string names = describe(vertices);
+    const std::string remedy =
+        part.positions == 0.0
+            ? "no position is prescribed; add a handle there, or leave a part out of the region"
+            : "its positions alone do not say how it turns; prescribe a gradient, or four "
+              "positions "
+              "that are not in one plane";
+    throw Error(ErrorCode::unconstrained,
+                "nothing holds the connected part of " + names + ": " + remedy,
+                std::move(vertices));
+}
+
+Holding known_nothing(const WorkingPatch& work) {
+    const auto n = static_cast<std::size_t>(work.patch.vertex_count);
+    const std::vector<char> none(n, 0);
+    Holding holding{std::vector<Index>(n, kFree), {none, none, none}, {}};
+    for (Index i = 0; i < work.patch.surface_count; ++i) {
+        if (work.patch.in_region[i] && work.rings.count(i) > 0) continue;
+        holding.owner[i] = kPinned;
+        holding.known.position[i] = holding.known.gradient[i] = 1;
+    }
+    return holding;
+}
+
+// Vertices without faces follow a soft handle as they follow a hard one.
+void hold_handle(const WorkingPatch& work, const HandleState& handle, Index h, Holding& holding) {
+    for (const Index v : handle.local) {
+        const bool isolated = work.rings.count(v) == 0;
+        if (handle.soft() && !isolated) continue;
+        holding.owner[v] = h;
+        holding.known.position[v] = handle.options.position || isolated;
+        holding.known.gradient[v] = handle.options.gradient;
+    }
+}
+
+// Vertices of a refinement between vertices of one holder are its own.
+void hold_inserted(const Patch& patch, Holding& holding) {
+    for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
+        const SparseRow& row = patch.inserted[static_cast<std::size_t>(v - patch.mesh_count())];
+        const Index holder = common_holder(row, holding), first = row.front().first;
+        if (holder == kFree) continue;
+        holding.owner[v] = holder;
+        holding.known.position[v] = 1;
+        holding.known.gradient[v] = holding.known.gradient[first];
+    }
+}
+
+// Gives free vertices around a point its gradient.
+void turn_around(const SparseRow& row, Index owner, Index point, Holding& holding) {
+    for (const auto& [v, c] : row) {
+        if (holding.owner[v] != kFree) continue;
+        holding.owner[v] = owner;
+        holding.known.gradient[v] = 1;
+        if (point != kNoIndex) holding.asked.emplace_back(v, point);
+    }
+}
+
+void hold_anchors(const WorkingPatch& work, Holding& holding) {
+    for (Index v = work.patch.surface_count; v < work.patch.vertex_count; ++v) {
+        const Index anchor = v - work.patch.surface_count;
+        holding.owner[v] = work.anchor_owner[anchor];
+        holding.known.position[v] = holding.known.gradient[v] = 1;
+        const Index point = work.anchor_point[anchor];
+        if (point != kNoIndex) holding.asked.emplace_back(v, point);
+    }
+}
+
+}  // namespace
+
+bool Holds::change_patch() const {
+    return !points.empty() || !stiffness.empty() || transition > 0.0 ||
+           std::any_of(handles.begin(), handles.end(), [](const auto& h) {
+               return !h.removed && (h.soft() || !h.points.empty() || h.options.falloff > 0.0);
+           });
+}
+
+Holding find_holding(const WorkingPatch& work, const Holds& holds) {
+    Holding holding = known_nothing(work);
+    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
+        if (!holds.handles[h].removed) {
+            hold_handle(work, holds.handles[h], static_cast<Index>(h), holding);
+        }
+    }
+    for (const auto& [v, constraint] : holds.constraints) {
+        holding.owner[v] = kConstrained;
+        holding.known.position[v] = constraint.position.has_value() || work.rings.count(v) == 0;
+        holding.known.gradient[v] = constraint.gradient.has_value();
+    }
+    hold_inserted(work.patch, holding);
+    // Points come last: vertices that are held keep their holder.
+    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
+        const HandleState& handle = holds.handles[h];
+        if (handle.removed || handle.soft() || !handle.options.gradient) continue;
+        for (const SparseRow& row : handle.points) {
+            turn_around(row, static_cast<Index>(h), kNoIndex, holding);
+        }
+    }
+    for (std::size_t p = 0; p < holds.points.size(); ++p) {
+        const PointConstraint& asked = holds.points[p].asked;
+        if (asked.weight || !asked.gradient) continue;
+        turn_around(holds.points[p].row, kConstrained, static_cast<Index>(p), holding);
+    }
+    for (Index i = 0; i < work.patch.surface_count; ++i) {
+        holding.known.gradient_wanted[i] = !holding.known.gradient[i] && work.rings.count(i) > 0;
+    }
+    hold_anchors(work, holding);
+    return holding;
+}
+
+void require_constraints(const WorkingPatch& work, const Knowledge& known) {
+    const TiesOfVertices ties(work);
+    std::vector<char> seen(static_cast<std::size_t>(work.patch.surface_count), 0);
+    for (Index v = 0; v < work.patch.surface_count; ++v) {
+        if (!seen[v]) require_held(collect_part(work, ties, known, v, seen));
+    }
+}
+
+}  // namespace lissom

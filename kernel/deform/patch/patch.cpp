@@ -1,0 +1,238 @@
+#include "kernel/deform/patch/patch.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+namespace lissom {
+namespace {
+
+// A quad with a corner flatter than this, relative to its area, counts as not convex.
+constexpr double kConvexRatio = 1e-3;
+
+// A triangle has no area where its height is below this fraction of its longest edge.
+constexpr double kZeroAreaRatio = 1e-12;
+
+// Faces around the vertices within `rings` rings of the region, ascending.
+std::vector<Index> faces_within(const Topology& topology, const Region& region, Index rings) {
+    std::vector<char> vertex_seen(static_cast<std::size_t>(topology.vertex_count()), 0);
+    std::vector<char> face_seen(static_cast<std::size_t>(topology.face_count()), 0);
+    std::vector<Index> front = region.vertices(), next, faces;
+    for (const Index v : front) vertex_seen[v] = 1;
+    for (Index ring = 0; ring <= rings; ++ring) {
+        next.clear();
+        for (const Index v : front) {
+            for (const Index f : topology.faces_around(v)) {
+                if (std::exchange(face_seen[f], 1)) continue;
+                faces.push_back(f);
+                for (const Index u : topology.face(f)) {
+                    if (!std::exchange(vertex_seen[u], 1)) next.push_back(u);
+                }
+            }
+        }
+        front.swap(next);
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+// Vertices of the faces and of the region (which may have vertices without faces), ascending.
+std::vector<Index> vertices_of(const Topology& topology, const std::vector<Index>& faces,
+                               const Region& region) {
+    std::vector<Index> vertices = region.vertices();
+    for (const Index f : faces) {
+        const std::span<const Index> face = topology.face(f);
+        vertices.insert(vertices.end(), face.begin(), face.end());
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
+
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double longest =
+        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return (b - a).cross(c - a).norm() > kZeroAreaRatio * longest;
+}
+
+void find_zero_areas(Patch& patch) {
+    std::vector<char> has(static_cast<std::size_t>(patch.real_count), 0);
+    std::vector<char> has_face(static_cast<std::size_t>(patch.real_count), 0);
+    for (const Triangle& t : patch.triangles.triangle) {
+        const bool positive = has_area(patch.rest[t[0]], patch.rest[t[1]], patch.rest[t[2]]);
+        patch.zero_area_faces += positive ? 0 : 1;
+        for (const Index v : t) {
+            has_face[v] = 1;
+            has[v] |= static_cast<char>(positive);
+        }
+    }
+    for (const Index v : patch.of_region) {
+        if (has_face[v] && !has[v]) patch.zero_area_vertices.add(patch.mesh_vertex[v]);
+    }
+}
+
+// Convex seen along its normal, with room to spare for both diagonals.
+bool is_convex_quad(std::span<const Vec3> positions, std::span<const Index> face) {
+    const Vec3 &a = positions[face[0]], &b = positions[face[1]];
+    const Vec3 &c = positions[face[2]], &d = positions[face[3]];
+    const Vec3 normal = (c - a).cross(d - b);
+    const double least = kConvexRatio * normal.squaredNorm();
+    const auto turns_left = [&](const Vec3& p, const Vec3& q, const Vec3& r) {
+        return (q - p).cross(r - p).dot(normal) > least;
+    };
+    return turns_left(a, b, c) && turns_left(b, c, d) && turns_left(c, d, a) && turns_left(d, a, b);
+}
+
+// Splits all triangles at the edge (a, b) at the local vertex `middle`; false where there are none.
+bool split_edge(WeightedTriangles& triangles, Index a, Index b, Index middle) {
+    const std::size_t count = triangles.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        Triangle first = triangles.triangle[i], second = first;
+        const auto at_a = std::find(first.begin(), first.end(), a);
+        const auto at_b = std::find(second.begin(), second.end(), b);
+        if (at_a == first.end() || at_b == second.end()) continue;
+        *at_a = *at_b = middle;
+        triangles.triangle[i] = first;
+        triangles.add(second, triangles.weight[i], triangles.face[i]);
+    }
+    return triangles.size() > count;
+}
+
+// The vertex of the region nearest to the mean of all. Positions relative to a vertex are exact
+// where coordinates are large, so that a mesh far from the origin of its coordinates has the same
+// patch as one that was brought back.
+Index middle_vertex(std::span<const Vec3> positions, const Region& region) {
+    const Vec3& first = positions[region.vertices().front()];
+    Vec3 mean = Vec3::Zero();
+    for (const Index v : region.vertices()) mean += (positions[v] - first) / region.size();
+    const auto distance = [&](Index v) { return (positions[v] - first - mean).squaredNorm(); };
+    Index middle = region.vertices().front();
+    for (const Index v : region.vertices()) {
+        if (distance(v) < distance(middle)) middle = v;
+    }
+    return middle;
+}
+
+}  // namespace
+
+Index Rings::entry(Index i, Index j) const {
+    const auto first = neighbor.begin() + begin[i], last = neighbor.begin() + begin[i + 1];
+    return static_cast<Index>(std::lower_bound(first, last, j) - neighbor.begin());
+}
+
+WeightedTriangles weighted_triangles(const Topology& topology, std::span<const Vec3> positions,
+                                     std::span<const Index> faces) {
+    WeightedTriangles result;
+    std::vector<Index> other;
+    for (const Index f : faces) {
+        const std::span<const Index> face = topology.face(f);
+        if (face.size() != 4 || !is_convex_quad(positions, face)) {
+            other.push_back(f);
+            continue;
+        }
+        for (int k = 0; k < 4; ++k) {
+            result.add({face[k], face[(k + 1) % 4], face[(k + 2) % 4]}, 0.5, f);
+        }
+    }
+    const Triangulation rest = triangulate_faces(topology, positions, other);
+    for (std::size_t t = 0; t < rest.triangles.size(); ++t) {
+        result.add(rest.triangles[t], 1.0, rest.face[t]);
+    }
+    return result;
+}
+
+Rings build_rings(Index vertex_count, const WeightedTriangles& triangles) {
+    // Every triangle offers both its edges at a vertex; repeats go after sorting each ring.
+    std::vector<Index> begin(static_cast<std::size_t>(vertex_count) + 1, 0);
+    for (const Triangle& t : triangles.triangle) {
+        for (const Index v : t) begin[v + 1] += 2;
+    }
+    for (Index v = 0; v < vertex_count; ++v) begin[v + 1] += begin[v];
+    std::vector<Index> offered(static_cast<std::size_t>(begin.back()));
+    std::vector<Index> fill(begin.begin(), begin.end() - 1);
+    for (const Triangle& t : triangles.triangle) {
+        for (int k = 0; k < 3; ++k) {
+            offered[fill[t[k]]++] = t[(k + 1) % 3];
+            offered[fill[t[k]]++] = t[(k + 2) % 3];
+        }
+    }
+    Rings rings;
+    rings.begin.reserve(begin.size());
+    rings.begin.push_back(0);
+    rings.neighbor.reserve(offered.size() / 2 + offered.size() / 16);
+    for (Index v = 0; v < vertex_count; ++v) {
+        const auto first = offered.begin() + begin[v], last = offered.begin() + begin[v + 1];
+        std::sort(first, last);
+        rings.neighbor.insert(rings.neighbor.end(), first, std::unique(first, last));
+        rings.begin.push_back(static_cast<Index>(rings.neighbor.size()));
+    }
+    return rings;
+}
+
+// Splits the edge opposite each boundary vertex of valence 2 in the region. One split may serve the
+// vertices on both sides.
+void insert_virtual_vertices(Patch& patch) {
+    const auto real = static_cast<std::size_t>(patch.real_count);
+    patch.rest.resize(real);
+    patch.in_region.resize(real);
+    patch.on_boundary.resize(real);
+    patch.vertex_count = patch.real_count;
+    patch.split_triangles = patch.triangles;
+    const Rings rings = build_rings(patch.real_count, patch.triangles);
+    for (Index v = 0; v < patch.real_count; ++v) {
+        if (!patch.in_region[v] || !patch.on_boundary[v] || rings.count(v) != 2) continue;
+        const Index a = rings.ring(v)[0], b = rings.ring(v)[1];
+        if (!split_edge(patch.split_triangles, a, b, patch.vertex_count)) continue;
+        ++patch.vertex_count;
+        patch.rest.push_back(0.5 * (patch.rest[a] + patch.rest[b]));
+        patch.in_region.push_back(1);
+        patch.on_boundary.push_back(0);
+    }
+    patch.surface_count = patch.vertex_count;
+}
+
+std::vector<Index> near_order(const Region& region, Index rings) {
+    const Topology& topology = *region.topology();
+    const std::vector<Index> vertices =
+        vertices_of(topology, faces_within(topology, region, rings), region);
+    std::vector<char> waiting(static_cast<std::size_t>(topology.vertex_count()), 0);
+    for (const Index v : vertices) waiting[v] = 1;
+    std::vector<Index> order;
+    order.reserve(vertices.size());
+    for (const Index start : vertices) {
+        if (std::exchange(waiting[start], 0)) order.push_back(start);
+        for (std::size_t next = order.size() - 1; next < order.size(); ++next) {
+            for (const Index n : topology.neighbors(order[next])) {
+                if (std::exchange(waiting[n], 0)) order.push_back(n);
+            }
+        }
+    }
+    return order;
+}
+
+Patch build_patch(const Region& region, std::span<const Vec3> positions, Index rings,
+                  std::vector<Index> order) {
+    const Topology& topology = *region.topology();
+    const std::vector<Index> faces = faces_within(topology, region, rings);
+    Patch patch;
+    patch.mesh_vertex = order.empty() ? vertices_of(topology, faces, region) : std::move(order);
+    patch.real_count = patch.mesh_count();
+
+    std::vector<Index> local(static_cast<std::size_t>(topology.vertex_count()), kNoIndex);
+    for (Index i = 0; i < patch.real_count; ++i) local[patch.mesh_vertex[i]] = i;
+    for (const Index v : region.vertices()) patch.of_region.push_back(local[v]);
+    patch.origin = positions[middle_vertex(positions, region)];
+    patch.in_region.assign(static_cast<std::size_t>(patch.real_count), 0);
+    for (const Index v : patch.of_region) patch.in_region[v] = 1;
+    for (const Index v : patch.mesh_vertex) {
+        patch.on_boundary.push_back(static_cast<char>(topology.is_boundary(v)));
+        patch.rest.push_back(positions[v] - patch.origin);
+    }
+    patch.triangles = weighted_triangles(topology, positions, faces);
+    for (Triangle& t : patch.triangles.triangle) t = {local[t[0]], local[t[1]], local[t[2]]};
+    find_zero_areas(patch);
+    insert_virtual_vertices(patch);
+    return patch;
+}
+
+}  // namespace lissom

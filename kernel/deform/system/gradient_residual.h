@@ -1,0 +1,43 @@
+/// The residual of the first system (Eq 2.8) from its energy instead of its matrix; private to
+/// kernel/deform.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/deform/patch/working_patch.h"
+#include "kernel/deform/system/gradients.h"
+
+namespace lissom {
+
+/// Half the downward gradient of E_L + E_R. The entries of the matrix are sums of products, whose
+/// rounding errors grow by its condition; terms of the energy are evaluated one by one here, and
+/// theirs by its square root only. For coherence 1, weights without unit, and a patch without ties
+/// or stiffness.
+class GradientResidual {
+  public:
+    /// All must live as long.
+    GradientResidual(const WorkingPatch& work, const GradientStencils& gradients,
+                     const Knowledge& known, double coherence_weight);
+
+    /// At positions `x` of all local vertices and gradients `m` of those where they are known; both
+    /// may be deviations from an affine map. One value a local vertex; meaningless where positions
+    /// are known.
+    std::vector<Vec3> find(std::span<const Vec3> x, std::span<const Mat3> m) const;
+
+  private:
+    bool has_gradient(Index v) const { return known_.gradient[v] || gradients_.defined[v]; }
+    std::vector<Mat3> all_gradients(std::span<const Vec3> x, std::span<const Mat3> m) const;
+    void add_laplacian_term(Index v, std::span<const Vec3> x, const Mat3& m,
+                            std::vector<Vec3>& residual, Mat3& pull) const;
+    void add_coherence_term(Index v, const std::vector<Mat3>& m, Mat3& pull) const;
+    void scatter(Index v, const Mat3& pull, std::vector<Vec3>& residual) const;
+
+    const WorkingPatch& work_;
+    const GradientStencils& gradients_;
+    const Knowledge& known_;
+    double coherence_weight_;
+    std::vector<Vec3> delta_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,317 @@
+#include "kernel/deform/system/gradient_system.h"
+
+#include <algorithm>
+#include <map>
+
+#include "kernel/deform/patch/row_accumulator.h"
+#include "kernel/deform/system/firm_factor.h"
+
+namespace lissom {
+namespace {
+
+// Few chunks, as each needs scratch rows of the full width.
+Index grain_of(Index size) {
+    return std::max<Index>(1024, (size + 15) / 16);
+}
+
+// Pairs two rings apart weigh as an edge between equilateral triangles.
+constexpr double kSecondRingCoherence = 0.57735026918962576;
+
+// sum_b w_ab (M_a - M_b) as coefficients of unknown or known positions, and of known gradients.
+struct CoherenceRows {
+    std::vector<Index> begin{0}, column;
+    std::vector<Vec3> value;
+    std::vector<Index> known_begin{0}, known_column;
+    std::vector<double> known_value;
+
+    void append(const CoherenceRows& part) {
+        append_rows(begin, column, value, part.begin, part.column, part.value);
+        append_rows(known_begin, known_column, known_value, part.known_begin, part.known_column,
+                    part.known_value);
+    }
+};
+
+// Rows of A and of both couplings for one chunk of free vertices.
+struct SystemRows {
+    std::vector<Index> matrix_begin{0}, matrix_column;
+    std::vector<double> matrix_value;
+    std::vector<Index> position_begin{0}, position_column;
+    std::vector<double> position_value;
+    std::vector<Index> gradient_begin{0}, gradient_column;
+    std::vector<Vec3> gradient_value;
+};
+
+class Assembler {
+  public:
+    Assembler(const WorkingPatch& work, const GradientStencils& gradients, const Knowledge& known,
+              const DeformOptions& options)
+        : work_(work),
+          rings_(work.rings),
+          geometry_(work.geometry),
+          laplacian_(work.laplacian),
+          gradients_(gradients),
+          known_(known),
+          options_(options),
+          delta_(static_cast<std::size_t>(rings_.size()), Vec3::Zero()),
+          row_of_(static_cast<std::size_t>(rings_.size()), kNoIndex) {
+        for (Index i = 0; i < rings_.size(); ++i) {
+            if (has_row(i)) delta_[i] = laplacian_.apply(rings_, gradients.displaced_rest, i);
+        }
+        for (const GradientTie& tie : work.gradient_ties) ties_of_.emplace(tie.vertex, &tie);
+    }
+
+    const std::vector<Index>& row_of() const { return row_of_; }
+
+    std::vector<Index> number_free_vertices() {
+        std::vector<Index> free;
+        for (Index i = 0; i < rings_.size(); ++i) {
+            if (known_.position[i]) continue;
+            row_of_[i] = static_cast<Index>(free.size());
+            free.push_back(i);
+        }
+        return free;
+    }
+
+    void build_coherence(const Context& context) {
+        const Index grain = grain_of(rings_.size());
+        std::vector<CoherenceRows> parts(chunk_count(rings_.size()));
+        context.parallel_for(0, rings_.size(), grain, [&](Index begin, Index end) {
+            parts[static_cast<std::size_t>(begin / grain)] = coherence_rows(begin, end);
+        });
+        for (const CoherenceRows& part : parts) coherence_.append(part);
+    }
+
+    std::vector<SystemRows> build_rows(const std::vector<Index>& free,
+                                       const Context& context) const {
+        const auto rows = static_cast<Index>(free.size());
+        const Index grain = grain_of(rows);
+        std::vector<SystemRows> parts(chunk_count(rows));
+        context.parallel_for(0, rows, grain, [&](Index begin, Index end) {
+            parts[static_cast<std::size_t>(begin / grain)] = system_rows(free, begin, end);
+        });
+        return parts;
+    }
+
+  private:
+    static std::size_t chunk_count(Index size) {
+        return static_cast<std::size_t>((size + grain_of(size) - 1) / grain_of(size));
+    }
+
+    bool has_gradient(Index i) const { return known_.gradient[i] || gradients_.defined[i]; }
+    bool has_row(Index i) const { return has_gradient(i) && laplacian_.weight[i] > 0.0; }
+
+    double edge_coherence(Index a, Index b, Index entry) const {
+        const double stiffness = work_.stiffness_between(a, b);
+        // Eq 2.7 counts every pair from both its ends.
+        if (!options_.scale_free) return 2.0 * stiffness;
+        return stiffness * std::max(geometry_.cotangent[entry], kSmallestCoherence);
+    }
+
+    // Calls use(b, weight) for every pair (a, b) of SF in Eq 2.7 where both have gradients.
+    template <typename Use>
+    void for_each_pair(Index a, RowAccumulator<double>& pairs, const Use& use) const {
+        if (options_.coherence == 2) {
+            const double second = options_.scale_free ? kSecondRingCoherence : 2.0;
+            for (const Index b : rings_.ring(a)) {
+                for (const Index c : rings_.ring(b)) {
+                    if (c != a && !is_neighbor(a, c)) pairs.add(c, 0.0);
+                }
+            }
+            pairs.drain([&](Index c, double) {
+                if (has_gradient(c)) use(c, second * work_.stiffness_between(a, c));
+            });
+        }
+        for (Index e = rings_.begin[a]; e < rings_.begin[a + 1]; ++e) {
+            const Index b = rings_.neighbor[e];
+            if (has_gradient(b)) use(b, edge_coherence(a, b, e));
+        }
+    }
+
+    bool is_neighbor(Index a, Index c) const {
+        const std::span<const Index> ring = rings_.ring(a);
+        return std::binary_search(ring.begin(), ring.end(), c);
+    }
+
+    CoherenceRows coherence_rows(Index begin, Index end) const {
+        CoherenceRows rows;
+        RowAccumulator<Vec3> row(rings_.size());
+        RowAccumulator<double> known_row(rings_.size()), pairs(rings_.size());
+        const auto add_gradient = [&](Index a, double weight) {
+            row.add(a, weight * gradients_.self[a]);
+            for (Index e = rings_.begin[a]; e < rings_.begin[a + 1]; ++e) {
+                row.add(rings_.neighbor[e], weight * gradients_.neighbor[e]);
+            }
+        };
+        const double tie_unit = work_.gradient_unit() / options_.coherence_weight;
+        for (Index a = begin; a < end; ++a) {
+            if (gradients_.defined[a] && !known_.gradient[a]) {
+                double total = 0.0;
+                for_each_pair(a, pairs, [&](Index b, double weight) {
+                    total += weight;
+                    if (known_.gradient[b]) {
+                        known_row.add(b, -weight);
+                    } else {
+                        add_gradient(b, -weight);
+                    }
+                });
+                const auto [first, last] = ties_of_.equal_range(a);
+                for (auto tie = first; tie != last; ++tie) {
+                    const double weight = tie->second->weight * tie_unit;
+                    total += weight;
+                    known_row.add(tie->second->anchor, -weight);
+                }
+                if (total > 0.0) add_gradient(a, total);
+            }
+            row.drain([&](Index c, const Vec3& v) {
+                rows.column.push_back(c);
+                rows.value.push_back(v);
+            });
+            known_row.drain([&](Index c, double v) {
+                rows.known_column.push_back(c);
+                rows.known_value.push_back(v);
+            });
+            rows.begin.push_back(static_cast<Index>(rows.column.size()));
+            rows.known_begin.push_back(static_cast<Index>(rows.known_column.size()));
+        }
+        return rows;
+    }
+
+    // Coefficient of neighbour `entry` of a, or of a itself, in the residual D(x)_a - M_a delta_a.
+    double residual_self(Index a) const {
+        const double l = laplacian_.self[a];
+        return known_.gradient[a] ? l : l - gradients_.self[a].dot(delta_[a]);
+    }
+    double residual_neighbor(Index a, Index entry) const {
+        const double l = laplacian_.neighbor[entry];
+        return known_.gradient[a] ? l : l - gradients_.neighbor[entry].dot(delta_[a]);
+    }
+
+    // Adds what the residual of Eq 2.6 at `a` gives to the row of a vertex with coefficient `f` in
+    // it.
+    void add_laplacian_term(Index a, double f, RowAccumulator<double>& row,
+                            RowAccumulator<Vec3>& gradient_row) const {
+        f *= laplacian_.weight[a];
+        row.add(a, f * residual_self(a));
+        for (Index e = rings_.begin[a]; e < rings_.begin[a + 1]; ++e) {
+            row.add(rings_.neighbor[e], f * residual_neighbor(a, e));
+        }
+        if (known_.gradient[a]) gradient_row.add(a, -f * delta_[a]);
+    }
+
+    // Adds what Eq 2.7 gives through M_a to the row of a vertex with coefficient `g` in M_a.
+    void add_coherence_term(Index a, const Vec3& g, RowAccumulator<double>& row,
+                            RowAccumulator<Vec3>& gradient_row) const {
+        const Vec3 scaled = options_.coherence_weight * g;
+        for (Index e = coherence_.begin[a]; e < coherence_.begin[a + 1]; ++e) {
+            row.add(coherence_.column[e], scaled.dot(coherence_.value[e]));
+        }
+        for (Index e = coherence_.known_begin[a]; e < coherence_.known_begin[a + 1]; ++e) {
+            gradient_row.add(coherence_.known_column[e], coherence_.known_value[e] * scaled);
+        }
+    }
+
+    SystemRows system_rows(const std::vector<Index>& free, Index begin, Index end) const {
+        SystemRows rows;
+        RowAccumulator<double> row(rings_.size());
+        RowAccumulator<Vec3> gradient_row(rings_.size());
+        const auto add_terms = [&](Index a, Index i) {
+            const Index entry = a == i ? kNoIndex : rings_.entry(a, i);
+            if (has_row(a)) {
+                const double f = a == i ? residual_self(a) : residual_neighbor(a, entry);
+                add_laplacian_term(a, f, row, gradient_row);
+            }
+            if (gradients_.defined[a] && !known_.gradient[a]) {
+                const Vec3& g = a == i ? gradients_.self[a] : gradients_.neighbor[entry];
+                add_coherence_term(a, g, row, gradient_row);
+            }
+        };
+        for (Index r = begin; r < end; ++r) {
+            const Index i = free[r];
+            row.add(i, 0.0);
+            add_terms(i, i);
+            for (const Index a : rings_.ring(i)) add_terms(a, i);
+            emit(r, row, gradient_row, rows);
+        }
+        return rows;
+    }
+
+    void emit(Index r, RowAccumulator<double>& row, RowAccumulator<Vec3>& gradient_row,
+              SystemRows& rows) const {
+        row.drain([&](Index k, double value) {
+            if (known_.position[k]) {
+                rows.position_column.push_back(k);
+                rows.position_value.push_back(value);
+            } else if (row_of_[k] >= r) {
+                rows.matrix_column.push_back(row_of_[k]);
+                rows.matrix_value.push_back(value);
+            }
+        });
+        gradient_row.drain([&](Index k, const Vec3& value) {
+            rows.gradient_column.push_back(k);
+            rows.gradient_value.push_back(value);
+        });
+        rows.matrix_begin.push_back(static_cast<Index>(rows.matrix_column.size()));
+        rows.position_begin.push_back(static_cast<Index>(rows.position_column.size()));
+        rows.gradient_begin.push_back(static_cast<Index>(rows.gradient_column.size()));
+    }
+
+    const WorkingPatch& work_;
+    const Rings& rings_;
+    const RingGeometry& geometry_;
+    const Laplacian& laplacian_;
+    const GradientStencils& gradients_;
+    const Knowledge& known_;
+    const DeformOptions& options_;
+    std::vector<Vec3> delta_;
+    std::vector<Index> row_of_;
+    std::multimap<Index, const GradientTie*> ties_of_;
+    CoherenceRows coherence_;
+};
+
+// Where `v` ends as a sum of solved positions: displaced vertices come back by v = M (v - v') + v'
+// (section 2.4.3).
+SparseRow final_position(const WorkingPatch& work, const GradientStencils& g, Index v) {
+    SparseRow row{{v, 1.0}};
+    const Vec3 back = work.patch.rest[v] - g.displaced_rest[v];
+    if (!g.defined[v] || back.isZero(0.0)) return row;
+    row.front().second += g.self[v].dot(back);
+    for (Index e = work.rings.begin[v]; e < work.rings.begin[v + 1]; ++e) {
+        row.emplace_back(work.rings.neighbor[e], g.neighbor[e].dot(back));
+    }
+    return row;
+}
+
+}  // namespace
+
+GradientSystem::GradientSystem(const WorkingPatch& work, const GradientStencils& gradients,
+                               const Knowledge& known, const DeformOptions& options,
+                               const Context& context) {
+    Assembler assembler(work, gradients, known, options);
+    free_ = assembler.number_free_vertices();
+    assembler.build_coherence(context);
+    positions_.columns = work.patch.vertex_count;
+    for (const SystemRows& part : assembler.build_rows(free_, context)) {
+        append_rows(matrix_.begin, matrix_.row, matrix_.value, part.matrix_begin,
+                    part.matrix_column, part.matrix_value);
+        append_rows(positions_.begin, positions_.column, positions_.value, part.position_begin,
+                    part.position_column, part.position_value);
+        append_rows(gradients_begin_, gradients_column_, gradients_value_, part.gradient_begin,
+                    part.gradient_column, part.gradient_value);
+    }
+    ties_ = TieRows(work.ties, assembler.row_of(), work.position_unit(),
+                    [&](Index v) { return final_position(work, gradients, v); });
+    ties_.add_to(matrix_);
+    tie_bytes_ = TieRows::response_bytes(work.ties, static_cast<Index>(free_.size()));
+}
+
+void GradientSystem::factor(const Context& context) {
+    factor_firmly(system_, matrix_, context);
+    ties_charge_ = context.charge(tie_bytes_, "points that are held");
+    ties_.prepare(static_cast<Index>(free_.size()),
+                  [&](std::span<const double> b, std::span<double> x, Index columns) {
+                      const std::vector<long double> exact(b.begin(), b.end());
+                      system_.solve_refined(matrix_, exact, x, columns);
+                  });
+}
+
+}  // namespace lissom

@@ -1,0 +1,89 @@
+/// The first system (Eq 2.6 to 2.8): positions from transformed Laplacian coordinates under
+/// coherence of the deformation gradients; private to kernel/deform.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/deform/patch/operators.h"
+#include "kernel/deform/patch/patch.h"
+#include "kernel/deform/patch/ties.h"
+#include "kernel/deform/patch/working_patch.h"
+#include "kernel/deform/system/gradients.h"
+#include "kernel/solve/sparse/sparse_system.h"
+
+namespace lissom {
+
+/// Coherence weights below this have no say but could make the weighted graph fall apart.
+inline constexpr double kSmallestCoherence = 1e-3;
+
+/// Normal equations of Eq 2.8 with the known quantities moved to the right-hand side:
+/// A x_free = - (known_positions X + known_gradients W). Rows are free vertices; columns of the two
+/// couplings are local vertices. Ties add their terms; anchors are known.
+class GradientSystem {
+  public:
+    /// Assembles A row by row, without forming products of sparse matrices.
+    GradientSystem(const WorkingPatch& work, const GradientStencils& gradients,
+                   const Knowledge& known, const DeformOptions& options, const Context& context);
+
+    /// Analyses and factors A, and prepares hard ties. Errors: not_positive_definite with rows as
+    /// elements; memory_limit.
+    void factor(const Context& context);
+
+    /// Local vertex of each row.
+    const std::vector<Index>& free_vertices() const { return free_; }
+    const FactorStats& stats() const { return system_.stats(); }
+
+    /// Right-hand side of one column, of length rows: `position(k)` is the coordinate of known
+    /// vertex k and `gradient(k)` the row of its known gradient that belongs to that coordinate.
+    template <typename Position, typename Gradient>
+    void right_hand_side(const Position& position, const Gradient& gradient, long double* b) const {
+        for (std::size_t row = 0; row < free_.size(); ++row) {
+            long double sum = 0.0L;
+            for (Index e = positions_.begin[row]; e < positions_.begin[row + 1]; ++e) {
+                sum -=
+                    static_cast<long double>(positions_.value[e]) * position(positions_.column[e]);
+            }
+            for (Index e = gradients_begin_[row]; e < gradients_begin_[row + 1]; ++e) {
+                const Vec3 known = gradient(gradients_column_[e]);
+                for (int d = 0; d < 3; ++d) {
+                    sum -= static_cast<long double>(gradients_value_[e][d]) * known[d];
+                }
+            }
+            b[row] = sum;
+        }
+        ties_.add_right_hand_side(position, b);
+    }
+
+    /// Moves a solution for known coordinates `position(k)` onto the hard ties.
+    template <typename Position>
+    void enforce_ties(const Position& position, std::span<double> x) const {
+        ties_.enforce(position, x);
+    }
+
+    /// Solves for `columns` right-hand sides, to nearly full precision.
+    std::vector<double> solve(std::span<const long double> b, Index columns) const {
+        std::vector<double> x(b.size());
+        system_.solve_refined(matrix_, b, x, columns);
+        return x;
+    }
+
+    /// As `solve`, without refinement.
+    void solve_roughly(std::span<const double> b, std::span<double> x, Index columns) const {
+        system_.solve(b, x, columns);
+    }
+
+  private:
+    std::vector<Index> free_;
+    SymmetricMatrix matrix_;
+    RowMatrix positions_;
+    std::vector<Index> gradients_begin_{0}, gradients_column_;
+    std::vector<Vec3> gradients_value_;
+    TieRows ties_;
+    MemoryCharge ties_charge_;
+    std::size_t tie_bytes_ = 0;
+    SparseSystem system_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,204 @@
+#include "kernel/deform/system/gradients.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace lissom {
+namespace {
+
+// Distances that differ by less than this fraction of the greatest are the same.
+constexpr double kSameDistance = 1e-9;
+
+class Displacer {
+  public:
+    Displacer(const Patch& patch, const Rings& rings, const RingGeometry& geometry,
+              const Knowledge& known, const Vec3& start, const DeformOptions& options)
+        : patch_(patch),
+          rings_(rings),
+          geometry_(geometry),
+          known_(known),
+          start_(start),
+          options_(options) {
+        result_.displaced_rest = patch.rest;
+        moved_.assign(patch.rest.size(), 0);
+    }
+
+    GradientStencils run() {
+        for (const std::vector<Index>& shell : shells(degenerate_vertices())) {
+            std::vector<Index> still;
+            std::copy_if(shell.begin(), shell.end(), std::back_inserter(still),
+                         [&](Index i) { return is_degenerate(i); });
+            for (const Index i : still) repair(i);
+        }
+        // What moved in unison, or was flattened by a neighbour that moved, is taken one by one.
+        std::fill(moved_.begin(), moved_.end(), char{0});
+        for (const Index i : degenerate_vertices()) {
+            if (is_degenerate(i)) repair(i);
+        }
+        for (Index i = 0; i < rings_.size(); ++i) {
+            if (result_.displaced_rest[i] != patch_.rest[i]) result_.displaced.push_back(i);
+        }
+        fill_stencils();
+        return std::move(result_);
+    }
+
+  private:
+    std::vector<Index> degenerate_vertices() const {
+        std::vector<Index> found;
+        for (Index i = 0; i < rings_.size(); ++i) {
+            if (known_.gradient_wanted[i] && !known_.position[i] && is_degenerate(i))
+                found.push_back(i);
+        }
+        return found;
+    }
+
+    // Groups vertices at the same distance from the start, nearest first. This order does not
+    // depend on the frame or on how vertices are numbered, and vertices that a symmetry exchanges
+    // stay together.
+    std::vector<std::vector<Index>> shells(const std::vector<Index>& vertices) const {
+        std::vector<std::pair<double, Index>> order;
+        for (const Index i : vertices) order.emplace_back((patch_.rest[i] - start_).norm(), i);
+        std::sort(order.begin(), order.end());
+        const double tolerance = order.empty() ? 0.0 : kSameDistance * order.back().first;
+        std::vector<std::vector<Index>> groups;
+        for (std::size_t n = 0; n < order.size(); ++n) {
+            if (n == 0 || order[n].first - order[n - 1].first > tolerance) groups.emplace_back();
+            groups.back().push_back(order[n].second);
+        }
+        return groups;
+    }
+
+    Vec3 ring_center(Index i) const {
+        Vec3 sum = Vec3::Zero();
+        for (const Index j : rings_.ring(i)) sum += result_.displaced_rest[j];
+        return sum / rings_.count(i);
+    }
+
+    // Sum of (v_j - c)(v_j - c)^T over the ring alone.
+    Mat3 ring_covariance(Index i, const Vec3& center) const {
+        Mat3 covariance = Mat3::Zero();
+        for (const Index j : rings_.ring(i)) {
+            const Vec3 d = result_.displaced_rest[j] - center;
+            covariance.noalias() += d * d.transpose();
+        }
+        return covariance;
+    }
+
+    // V_i V_i^T of Eq 2.5.
+    Mat3 stencil_covariance(Index i, const Vec3& center) const {
+        const Vec3 d = result_.displaced_rest[i] - center;
+        return ring_covariance(i, center) + d * d.transpose();
+    }
+
+    bool is_degenerate(Index i) const {
+        if (rings_.count(i) == 0) return true;
+        const Eigen::Vector3d values = eigenvalues(stencil_covariance(i, ring_center(i)));
+        return !(values[0] * options_.degenerate_threshold > values[2]);
+    }
+
+    bool has_collinear_ring(Index i) const {
+        const Eigen::Vector3d values = eigenvalues(ring_covariance(i, ring_center(i)));
+        return !(values[1] * options_.degenerate_threshold > values[2]);
+    }
+
+    static Eigen::Vector3d eigenvalues(const Mat3& covariance) {
+        Eigen::SelfAdjointEigenSolver<Mat3> solver;
+        solver.computeDirect(covariance, Eigen::EigenvaluesOnly);
+        return solver.eigenvalues();
+    }
+
+    // Eq 2.9, applied to `target`.
+    bool displace(Index target) {
+        if (moved_[target] || known_.position[target] || geometry_.normal[target].isZero())
+            return false;
+        double length = 0.0;
+        for (const Index j : rings_.ring(target))
+            length += (patch_.rest[target] - patch_.rest[j]).norm();
+        result_.displaced_rest[target] +=
+            options_.displacement * length / rings_.count(target) * geometry_.normal[target];
+        moved_[target] = 1;
+        return true;
+    }
+
+    // Where the ring is collinear, moving i itself leaves it degenerate: a neighbour moves, inner
+    // ones first.
+    void repair(Index i) {
+        if (rings_.count(i) == 0) return;
+        if (!has_collinear_ring(i)) {
+            displace(i);
+            return;
+        }
+        for (const bool boundary : {false, true}) {
+            for (const Index j : rings_.ring(i)) {
+                if (static_cast<bool>(patch_.on_boundary[j]) != boundary || !displace(j)) continue;
+                if (is_degenerate(i)) displace(i);
+                if (!is_degenerate(i)) return;
+            }
+        }
+    }
+
+    // p_k = (V V^T)^-1 (v_k - c); the mean over the ring is subtracted as c depends on the ring. In
+    // extended precision, as M_i must be the identity at rest however flat the ring is.
+    void fill_stencil(Index i) {
+        using Vector = Eigen::Matrix<long double, 3, 1>;
+        using Matrix = Eigen::Matrix<long double, 3, 3>;
+        const auto at = [&](Index k) -> Vector {
+            return result_.displaced_rest[k].cast<long double>();
+        };
+        Vector center = Vector::Zero();
+        for (const Index j : rings_.ring(i)) center += at(j) / rings_.count(i);
+        Matrix covariance = (at(i) - center) * (at(i) - center).transpose();
+        for (const Index j : rings_.ring(i)) {
+            covariance += (at(j) - center) * (at(j) - center).transpose();
+        }
+        const Matrix inverse = covariance.inverse();
+        const Vector own = inverse * (at(i) - center);
+        result_.self[i] = own.cast<double>();
+        for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
+            const Vector p = inverse * (at(rings_.neighbor[e]) - center);
+            result_.neighbor[e] = (p - own / rings_.count(i)).cast<double>();
+        }
+    }
+
+    void fill_stencils() {
+        result_.defined.assign(static_cast<std::size_t>(rings_.size()), 0);
+        result_.self.assign(static_cast<std::size_t>(rings_.size()), Vec3::Zero());
+        result_.neighbor.assign(rings_.neighbor.size(), Vec3::Zero());
+        for (Index i = 0; i < rings_.size(); ++i) {
+            if (!known_.gradient_wanted[i] || is_degenerate(i)) continue;
+            result_.defined[i] = 1;
+            fill_stencil(i);
+        }
+    }
+
+    const Patch& patch_;
+    const Rings& rings_;
+    const RingGeometry& geometry_;
+    const Knowledge& known_;
+    const Vec3& start_;
+    const DeformOptions& options_;
+    GradientStencils result_;
+    std::vector<char> moved_;
+};
+
+}  // namespace
+
+Mat3 GradientStencils::gather(const Rings& rings, std::span<const Vec3> x, Index i) const {
+    Mat3 m = x[i] * self[i].transpose();
+    for (Index e = rings.begin[i]; e < rings.begin[i + 1]; ++e) {
+        m.noalias() += x[rings.neighbor[e]] * neighbor[e].transpose();
+    }
+    return m;
+}
+
+GradientStencils make_gradients(const Patch& patch, const Rings& rings,
+                                const RingGeometry& geometry, const Knowledge& known,
+                                const Vec3& start, const DeformOptions& options) {
+    return Displacer(patch, rings, geometry, known, start, options).run();
+}
+
+}  // namespace lissom

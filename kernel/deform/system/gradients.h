@@ -1,0 +1,40 @@
+/// Deformation gradients as linear functions of positions (Eq 2.3 to 2.5), and the displacement of
+/// degenerate vertices that makes them exist (section 2.4.3, Eq 2.9); private to kernel/deform.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+#include "kernel/deform/patch/operators.h"
+#include "kernel/deform/patch/patch.h"
+
+namespace lissom {
+
+/// What is known of every local vertex. A vertex whose gradient is not needed has it neither known
+/// nor wanted: far outside, or without faces.
+struct Knowledge {
+    std::vector<char> position, gradient, gradient_wanted;
+};
+
+/// M_i = x_i self[i]^T + sum over the ring of x_j neighbor[entry]^T, where `defined`.
+struct GradientStencils {
+    std::vector<char> defined;
+    std::vector<Vec3> self, neighbor;
+    /// Rest positions with degenerate vertices displaced, and which those are, ascending.
+    std::vector<Vec3> displaced_rest;
+    std::vector<Index> displaced;
+
+    /// M_i of the positions x. Linear in x: of deviations from an affine image of the rest shape it
+    /// gives the deviation of M_i.
+    Mat3 gather(const Rings& rings, std::span<const Vec3> x, Index i) const;
+};
+
+/// Displaces degenerate vertices in sequence, each tested against neighbours as they stand by then:
+/// outward from `start`, vertices at the same distance together. Constrained vertices stay where
+/// they are, and go without a gradient where they are still degenerate at the end.
+GradientStencils make_gradients(const Patch& patch, const Rings& rings,
+                                const RingGeometry& geometry, const Knowledge& known,
+                                const Vec3& start, const DeformOptions& options);
+
+}  // namespace lissom

@@ -1,0 +1,187 @@
+#include "kernel/deform/system/linear_solution.h"
+
+#include <algorithm>
+
+#include "kernel/deform/system/frame_loops.h"
+
+namespace lissom {
+namespace {
+
+// Row of each local vertex in the system, or kNoIndex.
+std::vector<Index> rows_of(const LinearProblem& problem) {
+    std::vector<Index> row(static_cast<std::size_t>(problem.patch.vertex_count), kNoIndex);
+    const std::vector<Index>& free = problem.system.free_vertices();
+    for (std::size_t r = 0; r < free.size(); ++r) row[free[r]] = static_cast<Index>(r);
+    return row;
+}
+
+// M_i (v_i - v'_i) for each displaced free vertex, where `at(k)` is what stands at local vertex k.
+template <typename Value, typename At>
+std::vector<Value> folds(const LinearProblem& problem, const At& at) {
+    std::vector<Value> result;
+    const GradientStencils& g = problem.gradients;
+    for (const Index i : g.displaced) {
+        if (!g.defined[i]) {
+            result.push_back(Value::Zero());
+            continue;
+        }
+        const Vec3 back = problem.patch.rest[i] - g.displaced_rest[i];
+        Value sum = g.self[i].dot(back) * at(i);
+        for (Index e = problem.rings.begin[i]; e < problem.rings.begin[i + 1]; ++e) {
+            sum += g.neighbor[e].dot(back) * at(problem.rings.neighbor[e]);
+        }
+        result.push_back(sum);
+    }
+    return result;
+}
+
+}  // namespace
+
+Mat4 matrix_of(const Affine& transform) {
+    Mat4 m = Mat4::Zero();
+    m.topLeftCorner<3, 3>() = transform.linear;
+    m.topRightCorner<3, 1>() = transform.translation;
+    return m;
+}
+
+LinearSolution::LinearSolution(const LinearProblem& problem, const Context& context) {
+    const std::vector<Index>& free = problem.system.free_vertices();
+    for (const Index v : free) rest_.push_back(problem.patch.rest[v]);
+    const std::vector<Index> row = rows_of(problem);
+    fold_of_.assign(free.size(), kNoIndex);
+    for (std::size_t f = 0; f < problem.gradients.displaced.size(); ++f) {
+        fold_of_[row[problem.gradients.displaced[f]]] = static_cast<Index>(f);
+    }
+    choose_base(problem);
+    charge_ = context.charge(memory_bytes(), "the handle basis");
+    solve_handles(problem, context);
+    fold_back(problem);
+}
+
+// Vertices without faces are pinned too, but hold nothing.
+void LinearSolution::choose_base(const LinearProblem& problem) {
+    bool surrounded = false;
+    for (Index i = 0; i < problem.patch.vertex_count; ++i) {
+        const Index o = problem.owner[i];
+        const bool holds = problem.rings.count(i) > 0 || i >= problem.patch.surface_count;
+        surrounded = surrounded || ((o == kPinned || o == kConstrained) && holds);
+    }
+    for (std::size_t h = 0; h < problem.handles.size(); ++h) {
+        if (problem.handles[h].removed) continue;
+        if (!surrounded && base_ == kNoIndex) {
+            base_ = static_cast<Index>(h);
+        } else {
+            handles_.push_back(static_cast<Index>(h));
+        }
+    }
+}
+
+void LinearSolution::solve_handles(const LinearProblem& problem, const Context& context) {
+    const std::size_t rows = rest_.size();
+    std::vector<long double> right(rows * 4);
+    Progress progress(context, "deform: handle basis");
+    for (const Index h : handles_) {
+        const auto holds = [&](Index k) { return problem.owner[k] == h; };
+        const auto position = [&](int c, Index k) {
+            if (!holds(k)) return 0.0;
+            return c < 3 ? problem.patch.rest[k][c] : 1.0;
+        };
+        for (int c = 0; c < 4; ++c) {
+            problem.system.right_hand_side([&](Index k) { return position(c, k); },
+                                           [&](Index k) {
+                                               return holds(k) && c < 3 ? Vec3(Vec3::Unit(c))
+                                                                        : Vec3(Vec3::Zero());
+                                           },
+                                           right.data() + static_cast<std::size_t>(c) * rows);
+        }
+        std::vector<double> columns = problem.system.solve(right, 4);
+        for (int c = 0; c < 4; ++c) {
+            problem.system.enforce_ties([&](Index k) { return position(c, k); },
+                                        std::span(columns).subspan(c * rows, rows));
+        }
+        std::vector<Vec4>& weight = weight_.emplace_back(rows);
+        for (std::size_t r = 0; r < rows; ++r) {
+            weight[r] = {columns[r], columns[rows + r], columns[2 * rows + r],
+                         columns[3 * rows + r]};
+        }
+        progress.update(static_cast<double>(weight_.size()) / static_cast<double>(handles_.size()));
+    }
+}
+
+void LinearSolution::fold_back(const LinearProblem& problem) {
+    const std::vector<Index> row = rows_of(problem);
+    for (std::size_t n = 0; n < handles_.size(); ++n) {
+        fold_.push_back(folds<Vec4>(problem, [&](Index k) -> Vec4 {
+            if (row[k] != kNoIndex) return weight_[n][row[k]];
+            if (problem.owner[k] != handles_[n]) return Vec4::Zero();
+            return homogeneous(problem.patch.rest[k]);
+        }));
+    }
+}
+
+void LinearSolution::solve_fixed(const LinearProblem& problem,
+                                 const VertexConstraints& constraints) {
+    fixed_.clear();
+    fixed_fold_.clear();
+    if (constraints.empty()) return;
+    const std::size_t rows = rest_.size();
+    const auto shift = [&](Index k) -> Vec3 {
+        const auto found = constraints.find(k);
+        if (found == constraints.end() || !found->second.position) return Vec3::Zero();
+        return *found->second.position - problem.patch.origin - problem.patch.rest[k];
+    };
+    std::vector<long double> right(rows * 3);
+    for (int d = 0; d < 3; ++d) {
+        problem.system.right_hand_side(
+            [&](Index k) { return shift(k)[d]; },
+            [&](Index k) -> Vec3 {
+                const auto found = constraints.find(k);
+                if (found == constraints.end() || !found->second.gradient) return Vec3::Zero();
+                return found->second.gradient->row(d).transpose() - Vec3::Unit(d);
+            },
+            right.data() + static_cast<std::size_t>(d) * rows);
+    }
+    std::vector<double> columns = problem.system.solve(right, 3);
+    for (int d = 0; d < 3; ++d) {
+        problem.system.enforce_ties([&](Index k) { return shift(k)[d]; },
+                                    std::span(columns).subspan(d * rows, rows));
+    }
+    fixed_.resize(rows);
+    for (std::size_t r = 0; r < rows; ++r) {
+        fixed_[r] = {columns[r], columns[rows + r], columns[2 * rows + r]};
+    }
+    const std::vector<Index> row = rows_of(problem);
+    fixed_fold_ = folds<Vec3>(
+        problem, [&](Index k) -> Vec3 { return row[k] != kNoIndex ? fixed_[row[k]] : shift(k); });
+}
+
+void LinearSolution::deviations(std::span<const Mat4> differences, Vec4* x, Index begin,
+                                Index end) const {
+    std::vector<const Vec4*> weights;
+    for (const std::vector<Vec4>& weight : weight_) weights.push_back(weight.data());
+    const BasisLoop loop{differences.data(), weights.data(), weights.size()};
+    loop.evaluate(x, begin, end);
+    if (fixed_.empty()) return;
+    for (Index row = begin; row < end; ++row) x[row - begin].head<3>() += fixed_[row];
+}
+
+void LinearSolution::positions(const Mat4& shift, std::span<const Mat4> differences, Vec4* x,
+                               Index begin, Index end) const {
+    deviations(differences, x, begin, end);
+    const bool moved = !shift.isZero(0.0);
+    for (Index row = begin; row < end; ++row) {
+        Vec4& at = x[row - begin];
+        at.head<3>() += rest_[row];
+        if (moved) at += shift * homogeneous(rest_[row]);
+        const Index f = fold_of_[row];
+        if (f == kNoIndex) continue;
+        for (std::size_t h = 0; h < handles_.size(); ++h) at += differences[h] * fold_[h][f];
+        if (!fixed_fold_.empty()) at.head<3>() += fixed_fold_[f];
+    }
+}
+
+std::size_t LinearSolution::memory_bytes() const {
+    return rest_.size() * (sizeof(Vec3) + handles_.size() * sizeof(Vec4) + sizeof(Index));
+}
+
+}  // namespace lissom

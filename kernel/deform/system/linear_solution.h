@@ -1,0 +1,96 @@
+/// The solution of the first system as a linear function of the handles' transforms; private to
+/// kernel/deform.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/deform/holds/constraints.h"
+#include "kernel/deform/patch/patch.h"
+#include "kernel/deform/system/gradient_system.h"
+#include "kernel/deform/system/gradients.h"
+
+namespace lissom {
+
+/// [linear translation] over a row of zeros: a square matrix, so that products use whole registers.
+Mat4 matrix_of(const Affine& transform);
+
+/// (p, 1).
+inline Vec4 homogeneous(const Vec3& p) {
+    return {p.x(), p.y(), p.z(), 1.0};
+}
+
+/// Everything that a solution is built from; it outlives the call only.
+struct LinearProblem {
+    const Patch& patch;
+    const Rings& rings;
+    const GradientStencils& gradients;
+    const GradientSystem& system;
+    const std::vector<Index>& owner;
+    const std::vector<HandleState>& handles;
+};
+
+/// With T the transform of the base and D_h = T_h - T those of the other handles relative to it, a
+/// free vertex whose displaced rest position is v' lies at
+///   x' = T v' + fixed + sum over h of D_h weight_h.
+/// A displaced vertex comes back by M (v - v') (section 2.4.3), which is linear in the same
+/// quantities: `fold` is added to its weights and v' becomes v. The base is what surrounds the
+/// region, with T = I, or the first handle where nothing is fixed. Affine motions of all handles
+/// together are then exact.
+class LinearSolution {
+  public:
+    /// Solves for all handles at once.
+    LinearSolution(const LinearProblem& problem, const Context& context);
+
+    /// Solves for the part that vertex constraints add.
+    void solve_fixed(const LinearProblem& problem, const VertexConstraints& constraints);
+
+    /// Number of free vertices.
+    Index rows() const { return static_cast<Index>(rest_.size()); }
+    /// Handle whose transform is T, or kNoIndex where T is the identity.
+    Index base() const { return base_; }
+    /// Handles with weights of their own.
+    const std::vector<Index>& handles() const { return handles_; }
+
+    /// x' - T v' of the free vertices [begin, end): how far they deviate from the base transform.
+    void deviations(std::span<const Mat4> differences, Vec4* x, Index begin, Index end) const;
+    /// Positions of the free vertices [begin, end), for a base whose transform differs from the
+    /// identity by `shift`.
+    void positions(const Mat4& shift, std::span<const Mat4> differences, Vec4* x, Index begin,
+                   Index end) const;
+
+    /// The weight of the translation of handle number h of `handles()`, degenerate vertices
+    /// displaced, and what vertex constraints add.
+    double translation_weight(std::size_t h, Index row) const { return weight_[h][row][3]; }
+    Vec3 fixed_part(Index row) const { return fixed_.empty() ? Vec3(Vec3::Zero()) : fixed_[row]; }
+
+    /// Weight of handle number h of `handles()` in `position(row)`, and its fixed part.
+    Vec4 weight(std::size_t h, Index row) const {
+        const Index f = fold_of_[row];
+        return f == kNoIndex ? weight_[h][row] : Vec4(weight_[h][row] + fold_[h][f]);
+    }
+    Vec3 fixed(Index row) const {
+        const Index f = fold_of_[row];
+        if (fixed_.empty()) return Vec3::Zero();
+        return f == kNoIndex ? fixed_[row] : Vec3(fixed_[row] + fixed_fold_[f]);
+    }
+
+  private:
+    /// Bytes of the weights of all handles.
+    std::size_t memory_bytes() const;
+    void choose_base(const LinearProblem& problem);
+    void solve_handles(const LinearProblem& problem, const Context& context);
+    void fold_back(const LinearProblem& problem);
+
+    MemoryCharge charge_;
+    Index base_ = kNoIndex;
+    std::vector<Index> handles_;
+    std::vector<Vec3> rest_;
+    std::vector<std::vector<Vec4>> weight_, fold_;
+    std::vector<Vec3> fixed_, fixed_fold_;
+    /// Place of a displaced free vertex in the folds.
+    std::vector<Index> fold_of_;
+};
+
+}  // namespace lissom

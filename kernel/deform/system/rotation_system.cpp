@@ -1,0 +1,312 @@
+#include "kernel/deform/system/rotation_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kernel/deform/patch/patch_distance.h"
+#include "kernel/deform/patch/row_accumulator.h"
+#include "kernel/deform/system/firm_factor.h"
+#include "kernel/deform/system/frame_blocks.h"
+
+namespace lissom {
+namespace {
+
+// Few chunks in assembly, as each needs a scratch row of the full width.
+Index grain_of(Index size) {
+    return std::max<Index>(1024, (size + 15) / 16);
+}
+
+// A factor in single precision serves where one correction leaves less than this of the error;
+// corrections go on to this precision.
+constexpr double kLargestContraction = 0.02;
+constexpr double kPrecision = 1e-10;
+
+// The length below which `blend` follows Laplacian coordinates rather than edges: in radii of the
+// surface and, at least, in mean edge lengths.
+constexpr double kBlendRadii = 0.06;
+constexpr double kBlendEdges = 3.0;
+
+// That length is for the neighbourhood of held vertices, where edges alone would leave a crease. It
+// fades to a share of itself over this distance, in radii of the surface, as inside a part it would
+// resist twisting.
+constexpr double kInnerShare = 0.08;
+constexpr double kFadeRadii = 0.06;
+
+// Weight of squared lengths of a tie of weight 1 beside the edges.
+constexpr double kPositionUnit = 1.0;
+
+double laplacian_factor_of(const Patch& patch, const Rings& rings, SecondSystem second) {
+    if (second == SecondSystem::laplacian) return 1.0;
+    if (second == SecondSystem::poisson) return 0.0;
+    const double length = std::max(kBlendRadii * surface_radius_of(patch.triangles, patch.rest),
+                                   kBlendEdges * mean_edge_length_of(rings, patch.rest));
+    return length * length;
+}
+
+// Edge weights of a Laplacian that has to be positive definite by itself: cotangents from zero
+// upwards.
+std::vector<double> edge_weights(const RingGeometry& geometry, const DeformOptions& options) {
+    std::vector<double> weights = geometry.cotangent;
+    for (double& w : weights) {
+        w = options.weights == LaplacianWeights::uniform ? 1.0 : std::max(w, 0.0);
+        if (options.second == SecondSystem::laplacian) w = 0.0;
+    }
+    return weights;
+}
+
+// G of K = W + C G C for the rows of make_laplacian, where C has cotangents or ones.
+std::vector<double> row_weights(const Rings& rings, const RingGeometry& geometry,
+                                const DeformOptions& options, double factor) {
+    const bool uniform = options.weights == LaplacianWeights::uniform;
+    const bool literal = !options.scale_free && options.second == SecondSystem::laplacian;
+    const Laplacian laplacian = make_laplacian(rings, geometry, options.weights, !literal);
+    std::vector<double> weights(laplacian.weight);
+    for (Index i = 0; i < rings.size(); ++i) {
+        if (weights[i] == 0.0) continue;
+        const double scale =
+            uniform ? 1.0 / rings.count(i) : (literal ? 2.0 : 1.0) / geometry.area[i];
+        weights[i] *= factor * scale * scale;
+    }
+    return weights;
+}
+
+}  // namespace
+
+RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
+                               const DeformOptions& options, const Context& context)
+    : rings_(build_rings(work.patch.real_count, work.patch.triangles)),
+      vertex_count_(work.patch.vertex_count) {
+    const Patch& patch = work.patch;
+    const std::span<const Vec3> rest(patch.rest.data(), rings_.begin.size() - 1);
+    const RingGeometry geometry = ring_geometry(rings_, patch.triangles, rest);
+    const double factor = laplacian_factor_of(patch, rings_, options.second);
+    row_weight_ = row_weights(rings_, geometry, options, factor);
+    if (options.second == SecondSystem::blend) fade_laplacian(patch, position_known);
+    edge_weight_ = edge_weights(geometry, options);
+    coefficient_ = geometry.cotangent;
+    if (options.weights == LaplacianWeights::uniform) {
+        std::fill(coefficient_.begin(), coefficient_.end(), 1.0);
+    }
+    const bool lengths = options.second != SecondSystem::laplacian;
+    tie_unit_ = lengths ? kPositionUnit : work.position_unit();
+
+    laplacian_.assign(rest.size(), Vec4::Zero());
+    edge_sum_.assign(rest.size(), Vec4::Zero());
+    for (Index i = 0; i < patch.real_count; ++i) {
+        rest_.push_back(padded(rest[i]));
+        row_weight_[i] *= work.stiffness_between(i, i);
+        for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
+            const Vec4 edge = padded(rest[i] - rest[rings_.neighbor[e]]);
+            edge_weight_[e] *= work.stiffness_between(i, rings_.neighbor[e]);
+            laplacian_[i] += coefficient_[e] * edge;
+            edge_sum_[i] += 0.5 * edge_weight_[e] * edge;
+        }
+        if (!position_known[i]) free_.push_back(i);
+    }
+    assemble(position_known, context);
+    add_ties(work);
+}
+
+void RotationSystem::fade_laplacian(const Patch& patch, const std::vector<char>& position_known) {
+    const double reach = kFadeRadii * surface_radius_of(patch.triangles, patch.rest);
+    std::vector<std::pair<Index, double>> held;
+    for (Index i = 0; i < patch.real_count; ++i) {
+        if (position_known[i]) held.emplace_back(i, 0.0);
+    }
+    const std::vector<double> distance = patch_distances(patch, held, 3.0 * reach);
+    for (Index i = 0; i < patch.real_count; ++i) {
+        const double near = std::exp(-std::pow(distance[i] / reach, 2.0));
+        const double share = kInnerShare + (1.0 - kInnerShare) * near;
+        row_weight_[i] *= share * share;
+    }
+}
+
+void RotationSystem::add_ties(const WorkingPatch& work) {
+    std::vector<Index> row_of(static_cast<std::size_t>(vertex_count_), kNoIndex);
+    for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = static_cast<Index>(r);
+    ties_ = TieRows(work.ties, row_of, tie_unit_, [](Index v) { return SparseRow{{v, 1.0}}; });
+    ties_.add_to(matrix_);
+    tie_bytes_ = TieRows::response_bytes(work.ties, static_cast<Index>(free_.size()));
+}
+
+void RotationSystem::assemble(const std::vector<char>& position_known, const Context& context) {
+    std::vector<Index> row_of(rest_.size(), kNoIndex);
+    for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = static_cast<Index>(r);
+    std::vector<double> coefficient_sum(rest_.size(), 0.0);
+    for (Index i = 0; i < rings_.size(); ++i) {
+        for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
+            coefficient_sum[i] += coefficient_[e];
+        }
+    }
+    const auto count = static_cast<Index>(free_.size());
+    const Index grain = grain_of(count);
+    std::vector<SymmetricMatrix> parts(static_cast<std::size_t>((count + grain - 1) / grain));
+    context.parallel_for(0, count, grain, [&](Index begin, Index end) {
+        SymmetricMatrix& rows = parts[static_cast<std::size_t>(begin / grain)];
+        RowAccumulator<double> row(rings_.size());
+        // The row of a in C, times g_a and the coefficient of i in it. Below the diagonal the
+        // matrix is known from its upper part.
+        const auto add_laplacian = [&](Index a, double coefficient, Index i) {
+            const double f = row_weight_[a] * coefficient;
+            if (f == 0.0) return;
+            if (a >= i) row.add(a, f * coefficient_sum[a]);
+            for (Index e = rings_.begin[a]; e < rings_.begin[a + 1]; ++e) {
+                const Index k = rings_.neighbor[e];
+                if (k >= i) row.add(k, -f * coefficient_[e]);
+            }
+        };
+        for (Index r = begin; r < end; ++r) {
+            const Index i = free_[r];
+            row.add(i, 0.0);
+            add_laplacian(i, coefficient_sum[i], i);
+            for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
+                const Index j = rings_.neighbor[e];
+                add_laplacian(j, -coefficient_[e], i);
+                row.add(i, edge_weight_[e]);
+                if (j > i) row.add(j, -edge_weight_[e]);
+            }
+            row.drain([&](Index k, double value) {
+                if (position_known[k]) return;
+                rows.row.push_back(row_of[k]);
+                rows.value.push_back(value);
+            });
+            rows.begin.push_back(static_cast<Index>(rows.row.size()));
+        }
+    });
+    for (const SymmetricMatrix& part : parts) {
+        append_rows(matrix_.begin, matrix_.row, matrix_.value, part.begin, part.row, part.value);
+    }
+}
+
+void RotationSystem::factor(const Context& context) {
+    factor_firmly(system_, matrix_, context);
+    matrix_ = {};
+    stats_ = system_.stats();
+}
+
+void RotationSystem::finish(const Context& context) {
+    ties_charge_ = context.charge(tie_bytes_, "points that are held");
+    ties_.prepare(static_cast<Index>(free_.size()),
+                  [&](std::span<const double> b, std::span<double> x, Index columns) {
+                      system_.solve(b, x, columns);
+                  });
+    single_ = system_.single_factor(context);
+    const double contraction = measure_contraction(context);
+    if (contraction > kLargestContraction) {
+        single_ = {};
+        corrections_ = 1;
+        return;
+    }
+    system_ = {};
+    stats_.factor_bytes /= 2;
+    corrections_ =
+        static_cast<int>(std::ceil(std::log(kPrecision) / std::log(std::max(contraction, 1e-6))));
+}
+
+EnergyLoop RotationSystem::energy() const {
+    return {rings_.begin.data(), rings_.neighbor.data(), coefficient_.data(), edge_weight_.data(),
+            row_weight_.data(),  rest_.data(),           laplacian_.data(),   edge_sum_.data()};
+}
+
+// The factor by which one correction in single precision shortens the error, the worst of a smooth
+// solution and of two waves over the numbers of the vertices.
+double RotationSystem::measure_contraction(const Context& context) {
+    std::vector<Vec4> x(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
+    double size = 0.0;
+    for (const Index v : free_) size = std::max(size, rest_[v].cwiseAbs().maxCoeff());
+    for (const Index v : free_) {
+        x[v] = {rest_[v].sum() / size, std::cos(0.01 * v), std::cos(1.0 * v), 0.0};
+    }
+    find_residual(nullptr, x, residual_, context);
+    find_correction(context);
+    Vec3 error = Vec3::Zero(), whole = Vec3::Zero();
+    for (std::size_t r = 0; r < free_.size(); ++r) {
+        error += (correction_[r] + x[free_[r]].head<3>()).cwiseAbs2();
+        whole += x[free_[r]].head<3>().cwiseAbs2();
+    }
+    return std::sqrt((error.array() / whole.array().max(1e-300)).maxCoeff());
+}
+
+void RotationSystem::solve(std::span<const PaddedMat3> transforms, std::span<Vec4> x, bool draft,
+                           const Context& context) {
+    find_residual(transforms.data(), x, residual_, context);
+    find_correction(context);
+    add_correction(x);
+    for (int pass = 1; !draft && pass < corrections_; ++pass) {
+        // What the last correction leaves of the residual.
+        step_.assign(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
+        add_correction(step_);
+        find_residual(nullptr, step_, change_, context);
+        for (std::size_t r = 0; r < free_.size(); ++r) residual_[r] += change_[r];
+        find_correction(context);
+        add_correction(x);
+    }
+    if (ties_.has_hard()) enforce_ties(x);
+}
+
+void RotationSystem::add_correction(std::span<Vec4> x) const {
+    for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]].head<3>() += correction_[r];
+}
+
+void RotationSystem::bend(const PaddedMat3* transforms, std::span<const Vec4> x,
+                          const Context& context) {
+    const EnergyLoop loop = energy();
+    bent_.resize(rest_.size());
+    context.parallel_for(0, rings_.size(), kFrameGrain, [&](Index begin, Index end) {
+        loop.bend(transforms, x.data(), bent_.data(), begin, end);
+    });
+}
+
+Vec3 RotationSystem::force(const PaddedMat3* transforms, std::span<const Vec4> x,
+                           std::span<const Index> vertices, const Context& context) {
+    bend(transforms, x, context);
+    std::vector<Vec3> parts(vertices.size());
+    energy().descend(transforms, x.data(), bent_.data(), vertices.data(), parts.data(), 0,
+                     static_cast<Index>(vertices.size()));
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& part : parts) sum += part;
+    return sum;
+}
+
+// Right-hand side less what the matrix makes of x, without forming the matrix.
+void RotationSystem::find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
+                                   std::vector<Vec3>& residual, const Context& context) {
+    bend(transforms, x, context);
+    const EnergyLoop loop = energy();
+    residual.resize(free_.size());
+    const auto count = static_cast<Index>(free_.size());
+    context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
+        loop.descend(transforms, x.data(), bent_.data(), free_.data(), residual.data(), begin, end);
+    });
+    ties_.subtract_from(x, free_, residual);
+}
+
+void RotationSystem::find_correction(const Context& context) {
+    correction_.resize(free_.size());
+    if (single_.size() > 0) {
+        single_.solve(residual_, correction_, scratch_, context);
+        return;
+    }
+    const std::size_t rows = free_.size();
+    columns_.resize(3 * rows);
+    for (std::size_t r = 0; r < rows; ++r) {
+        for (std::size_t d = 0; d < 3; ++d) columns_[d * rows + r] = residual_[r][d];
+    }
+    system_.solve(columns_, columns_, 3);
+    for (std::size_t r = 0; r < rows; ++r) {
+        correction_[r] = {columns_[r], columns_[rows + r], columns_[2 * rows + r]};
+    }
+}
+
+void RotationSystem::enforce_ties(std::span<Vec4> x) {
+    if (!ties_.has_hard()) return;
+    columns_.resize(free_.size());
+    for (int d = 0; d < 3; ++d) {
+        for (std::size_t r = 0; r < free_.size(); ++r) columns_[r] = x[free_[r]][d];
+        ties_.enforce([&](Index v) { return x[v][d]; }, columns_);
+        for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]][d] = columns_[r];
+    }
+}
+
+}  // namespace lissom

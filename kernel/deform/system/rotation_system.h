@@ -1,0 +1,92 @@
+/// The second system: positions from the rotations, or rotations and scales, of the deformation
+/// gradients (section 2.4.4, Eq 2.10 and 2.11); private to kernel/deform.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/deform/patch/operators.h"
+#include "kernel/deform/patch/patch.h"
+#include "kernel/deform/patch/ties.h"
+#include "kernel/deform/patch/working_patch.h"
+#include "kernel/deform/system/frame_loops.h"
+#include "kernel/solve/sparse/single_factor.h"
+#include "kernel/solve/sparse/sparse_system.h"
+
+namespace lissom {
+
+/// Minimises, over the free positions x and on the undisplaced rest shape v,
+///   e  sum over edges of w_ij |(x_i - x_j) - (S_i + S_j) (v_i - v_j) / 2|^2
+/// + l2 sum over vertices of a_i |D(x)_i - S_i D(v)_i|^2
+/// with e = 0, l2 = 1 for `laplacian`; e = 1, l2 = 0 for `poisson`; and e = 1, l2 = (0.06 R)^2, at
+/// least (3 h)^2, near held vertices for `blend`, where R is the radius of the region's surface and
+/// h its mean edge length; away from them l fades to a twelfth. With D = -F C for a diagonal F and
+/// the Laplacian C of symmetric coefficients, its matrix is K = W + C G C, the Laplacian of edge
+/// weights and that of rows G = l2 A F^2.
+class RotationSystem {
+  public:
+    RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
+                   const DeformOptions& options, const Context& context);
+
+    /// Errors: not_positive_definite with rows as elements; memory_limit.
+    void factor(const Context& context);
+    /// Follows `factor`: keeps the factor in single precision, unless the system is too
+    /// ill-conditioned for that. Errors: memory_limit.
+    void finish(const Context& context);
+
+    const std::vector<Index>& free_vertices() const { return free_; }
+    const FactorStats& stats() const { return stats_; }
+    const Rings& rings() const { return rings_; }
+
+    /// Finds the free positions for the transforms S_i of all real vertices. `x` holds the known
+    /// positions, those of anchors among them, and a guess of the free ones. Linear in both:
+    /// deviations of S_i from one S give deviations of the positions from S v + t. With `draft`,
+    /// one correction of the guess, about five digits; else as many as nearly full precision takes.
+    /// No transforms stand for zeros.
+    void solve(std::span<const PaddedMat3> transforms, std::span<Vec4> x, bool draft,
+               const Context& context);
+
+    /// The sum over `vertices` of half the downward gradient of the energy without its ties, at
+    /// positions x. Null transforms stand for zeros.
+    Vec3 force(const PaddedMat3* transforms, std::span<const Vec4> x,
+               std::span<const Index> vertices, const Context& context);
+
+    /// The loops over its energy.
+    EnergyLoop energy() const;
+
+  private:
+    void assemble(const std::vector<char>& position_known, const Context& context);
+    void fade_laplacian(const Patch& patch, const std::vector<char>& position_known);
+    void add_ties(const WorkingPatch& work);
+    void bend(const PaddedMat3* transforms, std::span<const Vec4> x, const Context& context);
+    void find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
+                       std::vector<Vec3>& residual, const Context& context);
+    void find_correction(const Context& context);
+    void add_correction(std::span<Vec4> x) const;
+    void enforce_ties(std::span<Vec4> x);
+    double measure_contraction(const Context& context);
+
+    Rings rings_;
+    std::vector<double> coefficient_, edge_weight_, row_weight_;
+    std::vector<Vec4> rest_, laplacian_, edge_sum_;
+    std::vector<Index> free_;
+    Index vertex_count_ = 0;
+    SymmetricMatrix matrix_;
+    TieRows ties_;
+    MemoryCharge ties_charge_;
+    std::size_t tie_bytes_ = 0;
+    double tie_unit_ = 1.0;
+    /// One of the two holds the factor; corrections for a solution of nearly full precision.
+    SingleFactor single_;
+    SparseSystem system_;
+    int corrections_ = 1;
+    FactorStats stats_;
+    /// Scratch of a frame, kept because a frame is short beside the time to get fresh pages.
+    std::vector<Vec4> bent_, step_;
+    std::vector<Vec3> residual_, change_, correction_;
+    std::vector<double> columns_;
+    SingleFactor::Scratch scratch_;
+};
+
+}  // namespace lissom

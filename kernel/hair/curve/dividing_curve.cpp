@@ -1,0 +1,225 @@
+#include "kernel/hair/curve/dividing_curve.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernel/hair/curve/curve.h"
+#include "kernel/hair/curve/curve_foot.h"
+#include "kernel/hair/curve/grid_range.h"
+
+namespace lissom {
+namespace {
+
+// Nearer to the curve's plane than this, in steps, a point belongs to no side.
+constexpr double kOnPlane = 1e-3;
+// Points as far from the curve as the reach, as on a parting in the middle of a grid, are beyond it
+// on both sides, whatever the rounding.
+constexpr double kTie = 1e-9;
+// Beyond the curve's ends points still take constraints up to this, in steps.
+constexpr double kBeyond = 0.5;
+// Sine of the least angle between the curve and the scalp's normal.
+constexpr double kLeastSine = 1e-3;
+
+void require(bool holds, const char* message) {
+    if (!holds) throw Error(ErrorCode::invalid_argument, message);
+}
+
+// The options with all lengths known.
+struct Rule {
+    double step, sigma, height, reach, thickness, wall_width, wall_height, ramp;
+
+    Rule(const DividingOptions& o, double d)
+        : step(d),
+          sigma(o.sigma.value_or(1.0 * d)),
+          height(o.height.value_or(0.5 * d)),
+          reach(o.reach.value_or(2.5 * sigma)),
+          thickness(o.thickness.value_or(0.8 * d)),
+          wall_width(o.wall_width.value_or(1.2 * d)),
+          wall_height(o.wall_height.value_or(2.6 * d)),
+          ramp(o.ramp.value_or(0.87 * d)) {}
+
+    double bell(double u) const { return std::exp(-0.5 * std::pow((u - sigma) / sigma, 2)); }
+    double gaussian(double u) const { return height * (bell(u) - std::exp(-0.5)); }
+    double slope(double u) const { return -height * (u - sigma) / (sigma * sigma) * bell(u); }
+
+    double width() const { return std::max(reach, wall_width); }
+    /// Signed distances to the head that points with constraints have.
+    double lowest() const { return std::min(-height * std::exp(-0.5) - thickness, 0.0); }
+    double highest() const { return gaussian(sigma) + std::max(thickness, wall_height); }
+};
+
+void require_options(const DividingOptions& o, const Rule& rule) {
+    for (const auto& tilt : {o.left, o.right}) {
+        for (const double angle : {tilt.start, tilt.end}) {
+            require(std::abs(angle) <= 0.5 * kPi + 1e-9,
+                    "the tilt of a dividing curve must be from -90 to 90 degrees");
+        }
+    }
+    require(rule.sigma > 0.0 && std::isfinite(rule.sigma),
+            "sigma of a dividing curve must be above 0");
+    for (const double length :
+         {rule.height, rule.reach, rule.thickness, rule.wall_width, rule.wall_height, rule.ramp}) {
+        require(length >= 0.0 && std::isfinite(length),
+                "height, reach, thickness and the wall of a dividing curve must be 0 or more");
+    }
+    require(o.separation >= 0.0 && o.separation <= 1.0,
+            "separation of a dividing curve must be from 0 to 1");
+    require(o.weight > 0.0 && std::isfinite(o.weight), "the weight of a curve must be above 0");
+}
+
+using Cell = std::array<Index, 3>;
+
+// Outward normal of the surface of equal distance at a grid point, or zero.
+Vec3 outward(const DistanceGrid& distances, const Cell& at) {
+    Vec3 gradient = Vec3::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+        Cell low = at, high = at;
+        low[axis] = std::max(at[axis] - 1, 0);
+        high[axis] = std::min(at[axis] + 1, distances.layout().counts[axis] - 1);
+        const double change =
+            distances.at(high[0], high[1], high[2]) - distances.at(low[0], low[1], low[2]);
+        gradient[axis] = change / (high[axis] - low[axis]);
+    }
+    const double length = gradient.norm();
+    return length > 0.0 ? Vec3(gradient / length) : gradient;
+}
+
+// Vectors at grid points around one dividing curve.
+class Divider {
+  public:
+    Divider(const DistanceGrid& distances, const DividingLine& line, const DividingOptions& options,
+            const Rule& rule)
+        : distances_(distances), line_(line), options_(options), rule_(rule) {}
+
+    /// The vector of a grid point, or nothing.
+    std::optional<Vec3> vector_at(const Cell& cell) const {
+        const double v = distances_.at(cell[0], cell[1], cell[2]);
+        if (v < rule_.lowest() || v > rule_.highest()) return std::nullopt;
+        const DividingPlace place =
+            line_.place(distances_.layout().point(cell[0], cell[1], cell[2]));
+        const double u = std::abs(place.across);
+        if (u < kOnPlane * rule_.step || std::abs(place.beyond) > kBeyond * rule_.step) return {};
+        // The other side of the head, or a curve that is not on it.
+        if (std::abs(place.height - v) > u + rule_.step) return std::nullopt;
+        const double g = rule_.gaussian(u);
+        const bool along = u < (1.0 - kTie) * rule_.reach && std::abs(v - g) < rule_.thickness;
+        const bool above = u < rule_.wall_width && v > 0.0 && v < g + rule_.wall_height;
+        if (!along && !(above && options_.separation > 0.0)) return std::nullopt;
+
+        Vec3 normal = outward(distances_, cell);
+        if (normal.dot(place.normal) < 0.5) normal = place.normal;
+        const double tilt = tilt_at(place);
+        const Vec3 level = flow(place, tilt, normal);
+        if (!along) return faded(options_.separation * level, place);
+        return faded((level + rule_.slope(u) * std::cos(tilt) * normal).normalized(), place);
+    }
+
+  private:
+    double tilt_at(const DividingPlace& place) const {
+        const auto& tilt = place.across > 0.0 ? options_.right : options_.left;
+        return tilt.start + place.along * (tilt.end - tilt.start);
+    }
+
+    /// Away from the curve, turned by the tilt, in the plane that `normal` is normal to.
+    static Vec3 flow(const DividingPlace& place, double tilt, const Vec3& normal) {
+        const Vec3 away = place.across > 0.0 ? place.right : Vec3(-place.right);
+        const Vec3 turned = std::cos(tilt) * away + std::sin(tilt) * place.tangent;
+        const Vec3 level = turned - normal.dot(turned) * normal;
+        return level.normalized();
+    }
+
+    /// With the part across the curve growing evenly from the curve to the end of the ramp.
+    Vec3 faded(const Vec3& vector, const DividingPlace& place) const {
+        const double u = std::abs(place.across);
+        if (!(u < rule_.ramp)) return vector;
+        return vector - (1.0 - u / rule_.ramp) * vector.dot(place.right) * place.right;
+    }
+
+    const DistanceGrid& distances_;
+    const DividingLine& line_;
+    const DividingOptions& options_;
+    const Rule& rule_;
+};
+
+}  // namespace
+
+DividingLine::DividingLine(std::span<const Vec3> points, std::span<const Vec3> normals) {
+    require_curve(points);
+    require(points.size() == normals.size(), "a dividing curve needs one normal for each point");
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (i > 0 && points[i] == points[i - 1]) continue;
+        if (!normals[i].allFinite()) {
+            throw Error(ErrorCode::not_finite,
+                        "normal " + std::to_string(i) + " of the dividing curve is not finite");
+        }
+        points_.push_back(points[i]);
+        normals_.push_back(normals[i]);
+    }
+    tangents_ = curve_tangents(points_);
+    lengths_ = arc_lengths(points_);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        Vec3& normal = normals_[i];
+        const double length = normal.norm();
+        normal -= normal.dot(tangents_[i]) * tangents_[i];
+        if (i > 0) longest_segment_ = std::max(longest_segment_, lengths_[i] - lengths_[i - 1]);
+        require(normal.norm() > kLeastSine * length,
+                "a dividing curve runs along the scalp's normal; draw it on the scalp");
+        normal.normalize();
+    }
+}
+
+DividingPlace DividingLine::place(const Vec3& point) const {
+    const CurveFoot foot = foot_on_curve(points_, point);
+    const auto between = [&](const std::vector<Vec3>& values) -> Vec3 {
+        return (1.0 - foot.t) * values[foot.segment] + foot.t * values[foot.segment + 1];
+    };
+    DividingPlace place;
+    place.tangent = between(tangents_).normalized();
+    const Vec3 normal = between(normals_);
+    place.normal = (normal - normal.dot(place.tangent) * place.tangent).normalized();
+    place.right = place.tangent.cross(place.normal);
+    const Vec3 from = point - foot.point;
+    place.across = from.dot(place.right);
+    place.height = from.dot(place.normal);
+    place.beyond = foot.beyond;
+    place.along = arc_length_at(lengths_, foot) / lengths_.back();
+    return place;
+}
+
+double DividingLine::skin_distance(const Vec3& point) const {
+    const DividingPlace at = place(point);
+    // The skin may arch as high over a segment.
+    const double off = std::max(0.0, std::abs(at.height) - 0.5 * longest_segment_);
+    return std::hypot(at.across, at.beyond, off);
+}
+
+std::vector<GridConstraint> dividing_constraints(const DistanceGrid& distances,
+                                                 std::span<const Vec3> points,
+                                                 std::span<const Vec3> normals,
+                                                 const DividingOptions& options) {
+    const DividingLine line(points, normals);
+    const GridLayout& layout = distances.layout();
+    const Rule rule(options, layout.step);
+    require_options(options, rule);
+    const Divider divider(distances, line, options, rule);
+
+    Box box;
+    for (const Vec3& p : points) box.extend(p);
+    const Vec3 margin = Vec3::Constant(rule.width() + rule.highest() - rule.lowest());
+    std::vector<GridConstraint> result;
+    for_grid_points_in(layout, {box.min - margin, box.max + margin}, [&](const Cell& cell) {
+        const std::optional<Vec3> vector = divider.vector_at(cell);
+        if (!vector) return;
+        result.push_back({layout.index(cell[0], cell[1], cell[2]), *vector, options.weight});
+    });
+    if (result.empty()) {
+        throw Error(ErrorCode::out_of_range,
+                    "no point of the grid is near the dividing curve and the head; draw the curve "
+                    "on the scalp and longer than a step of the grid, or enlarge the volume");
+    }
+    return result;
+}
+
+}  // namespace lissom

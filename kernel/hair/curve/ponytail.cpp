@@ -1,0 +1,381 @@
+#include "kernel/hair/curve/ponytail.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "kernel/hair/curve/curve.h"
+#include "kernel/hair/curve/curve_foot.h"
+#include "kernel/hair/curve/grid_range.h"
+#include "kernel/hair/curve/stream_curve.h"
+
+namespace lissom {
+namespace {
+
+constexpr double kDefaultRadius = 1.5;     // in steps
+constexpr double kDefaultRing = 2.5;       // in steps
+constexpr double kDefaultClearance = 1.5;  // in steps
+constexpr double kDefaultLead = 1.5;       // in steps
+constexpr double kBehindTie = 0.5;         // the ring goes on behind C1, in steps
+constexpr double kSectionMargin = 0.6;     // beyond the radius of a cross section, in steps
+constexpr double kSpreading = 0.5;         // of the length from C1 to C2
+constexpr double kShortest = 1e-6;         // parts of a spine shorter than this many steps are none
+// The shape of a tail without profiles: it has swollen at this share of its length, and narrows
+// from that one on to this share of its radius.
+constexpr double kSwollen = 0.45, kNarrowing = 0.55, kNarrowed = 0.45;
+
+void require(bool holds, const char* message) {
+    if (!holds) throw Error(ErrorCode::invalid_argument, message);
+}
+
+bool is_length(double x) {
+    return x >= 0.0 && std::isfinite(x);
+}
+
+void require_options(const PonytailOptions& o) {
+    require(!o.radius || (*o.radius > 0.0 && std::isfinite(*o.radius)),
+            "the radius of a ponytail must be above 0");
+    require(o.share >= 0.0 && o.share <= 1.0, "share of a ponytail must be from 0 to 1");
+    require(o.fullness > -1.0 && std::isfinite(o.fullness),
+            "fullness of a ponytail must be above -1");
+    require(o.inner >= 0.0 && o.inner <= o.outer && std::isfinite(o.outer),
+            "inner and outer of a ponytail must be 0 or more, and inner no more than outer");
+    require(o.tightness >= 0.0 && o.tightness <= 1.0,
+            "tightness of a ponytail must be from 0 to 1");
+    require(is_length(o.ring.value_or(0.0)) && is_length(o.lead.value_or(0.0)) &&
+                is_length(o.clearance.value_or(0.0)) && is_length(o.stop_length),
+            "ring, lead, clearance and stop_length of a ponytail must be lengths of 0 or more");
+    require(std::isfinite(o.spread), "spread of a ponytail must be finite");
+    require(is_length(o.grip), "grip of a ponytail must be 0 or more");
+    require(o.weight > 0.0 && std::isfinite(o.weight), "the weight of a curve must be above 0");
+}
+
+double smooth_step(double from, double to, double x) {
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+// A spine and places on it by arc length.
+struct Spine {
+    std::vector<Vec3> points;
+    std::vector<double> lengths;
+
+    explicit Spine(std::span<const Vec3> given) {
+        require_curve(given);
+        points = without_repeated_points(given);
+        lengths = arc_lengths(points);
+    }
+    double length() const { return lengths.back(); }
+    double place_of(const CurveFoot& foot) const { return arc_length_at(lengths, foot); }
+
+    // From one arc length to another, in segments of about a step.
+    std::vector<Vec3> part(double from, double to, double step) const {
+        std::vector<Vec3> result{point_at_arc_length(points, lengths, from)};
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (lengths[i] > from && lengths[i] < to) result.push_back(points[i]);
+        }
+        result.push_back(point_at_arc_length(points, lengths, to));
+        return resampled_curve(result, step);
+    }
+};
+
+// The closed polyline that was drawn around a spine.
+struct DrawnSection {
+    Vec3 center = Vec3::Zero();
+    double radius = 0.0;
+};
+
+DrawnSection drawn_section(const std::vector<Vec3>& polyline) {
+    require_curve(polyline);
+    std::vector<Vec3> middles;
+    std::vector<double> weights;
+    double length = 0.0;
+    DrawnSection result;
+    for (std::size_t i = 0; i < polyline.size(); ++i) {
+        const Vec3 &a = polyline[i], &b = polyline[(i + 1) % polyline.size()];
+        middles.push_back(0.5 * (a + b));
+        weights.push_back((b - a).norm());
+        length += weights.back();
+        result.center += weights.back() * middles.back();
+    }
+    result.center /= length;
+    for (std::size_t i = 0; i < middles.size(); ++i) {
+        result.radius += weights[i] / length * (middles[i] - result.center).norm();
+    }
+    return result;
+}
+
+// Distances from a spine over the arc length along it.
+class Profile {
+  public:
+    Profile(const Spine& spine, const std::vector<Vec3>& drawn, double step) {
+        require_curve(drawn);
+        for (const Vec3& p : resampled_curve(drawn, 0.5 * step)) {
+            const CurveFoot foot = foot_on_curve(spine.points, p);
+            if (foot.beyond != 0.0) continue;
+            samples_.emplace_back(spine.place_of(foot), foot.distance);
+        }
+        require(samples_.size() > 1, "a profile of a ponytail must lie beside its spine");
+        std::stable_sort(samples_.begin(), samples_.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+    }
+
+    double begin() const { return samples_.front().first; }
+    double end() const { return samples_.back().first; }
+    double radius(double at) const {
+        const auto behind = std::upper_bound(
+            samples_.begin(), samples_.end(), at,
+            [](double x, const std::pair<double, double>& sample) { return x < sample.first; });
+        if (behind == samples_.begin()) return samples_.front().second;
+        if (behind == samples_.end()) return samples_.back().second;
+        const auto& [from, near] = *(behind - 1);
+        const auto& [to, far] = *behind;
+        return near + (at - from) / (to - from) * (far - near);
+    }
+
+  private:
+    std::vector<std::pair<double, double>> samples_;
+};
+
+std::vector<Profile> profiles_of(const Spine& spine, const PonytailOptions& options, double step) {
+    std::vector<Profile> result;
+    for (const std::vector<Vec3>& drawn : options.profiles) {
+        if (!drawn.empty()) result.emplace_back(spine, drawn, step);
+    }
+    return result;
+}
+
+template <typename Value>
+double mean(const std::vector<Profile>& profiles, const Value& value) {
+    double sum = 0.0;
+    for (const Profile& profile : profiles) sum += value(profile);
+    return sum / static_cast<double>(profiles.size());
+}
+
+// Where the cross sections of a spine are and how wide, by arc length.
+struct Outline {
+    double first = 0.0, last = 0.0;
+    double radius = 0.0;
+    double fullness = 0.0, length = 0.0;
+    std::vector<Profile> profiles;
+
+    double drawn(double at) const {
+        return mean(profiles, [at](const Profile& p) { return p.radius(at); });
+    }
+    double radius_at(double at) const {
+        if (!profiles.empty()) return radius * drawn(at) / drawn(first);
+        const double t = length > first ? (at - first) / (length - first) : 0.0;
+        return radius * (1.0 + fullness * smooth_step(0.0, kSwollen, t)) *
+               (1.0 - (1.0 - kNarrowed) * smooth_step(kNarrowing, 1.0, t));
+    }
+};
+
+// The arc length that a drawn section crosses the spine at.
+double place_of_section(const Spine& spine, const DrawnSection& section) {
+    const CurveFoot foot = foot_on_curve(spine.points, section.center);
+    require(foot.distance <= section.radius,
+            "the spine of the ponytail must pass through its cross section");
+    return spine.place_of(foot);
+}
+
+Outline outline_of(const Spine& spine, double step, const PonytailOptions& options) {
+    Outline outline;
+    outline.profiles = profiles_of(spine, options, step);
+    outline.length = spine.length();
+    outline.fullness = options.fullness;
+    const bool drawn = !outline.profiles.empty();
+    if (drawn) outline.first = mean(outline.profiles, [](const Profile& p) { return p.begin(); });
+    outline.radius = kDefaultRadius * step;
+    if (drawn) outline.radius = outline.drawn(outline.first);
+    if (!options.section.empty()) {
+        const DrawnSection section = drawn_section(options.section);
+        outline.first = place_of_section(spine, section);
+        outline.radius = section.radius;
+    }
+    if (options.radius) outline.radius = *options.radius;
+    outline.last = outline.first + options.share * (outline.length - outline.first);
+    if (drawn) outline.last = mean(outline.profiles, [](const Profile& p) { return p.end(); });
+
+    require(outline.last >= outline.first,
+            "the profiles of the ponytail end before its cross section");
+    require(outline.radius > 0.0 && (!drawn || outline.drawn(outline.first) > 0.0),
+            "the profiles of the ponytail must keep away from its spine at the tie");
+    return outline;
+}
+
+// What a ponytail says at the points of a grid.
+class Tail {
+  public:
+    Tail(const DistanceGrid& distances, const PonytailShape& shape, const PonytailOptions& options)
+        : distances_(distances),
+          layout_(distances.layout()),
+          shape_(shape),
+          options_(options),
+          clearance_(options.clearance.value_or(kDefaultClearance * layout_.step)),
+          lead_(options.lead.value_or(kDefaultLead * layout_.step)),
+          inner_(options.inner * shape.tie().radius),
+          outer_(std::max(options.outer * shape.tie().radius,
+                          inner_ + options.ring.value_or(kDefaultRing * layout_.step))) {
+        for (const PonytailSection& section : shape.sections) centers_.push_back(section.center);
+        lengths_ = arc_lengths(centers_);
+    }
+
+    // Holds all points that take vectors of the cross sections and of the ring.
+    Box box() const {
+        double reach = outer_;
+        Box box;
+        for (const PonytailSection& section : shape_.sections) {
+            reach = std::max(reach, section.radius);
+            box.extend(section.center);
+        }
+        const Vec3 margin = Vec3::Constant(reach + layout_.step);
+        return {box.min - margin, box.max + margin};
+    }
+
+    // Along the surface of revolution (purple).
+    std::optional<Vec3> longitudinal(const Vec3& point) const {
+        if (centers_.size() < 2) return std::nullopt;
+        const CurveFoot foot = foot_on_curve(centers_, point);
+        if (foot.beyond < 0.0 || foot.beyond > kBehindTie * layout_.step) return std::nullopt;
+        const PonytailSection &a = shape_.sections[foot.segment],
+                              &b = shape_.sections[foot.segment + 1];
+        const double radius = a.radius + foot.t * (b.radius - a.radius);
+        if (foot.distance > radius + kSectionMargin * layout_.step) return std::nullopt;
+        if (catches_hair(point, arc_length_at(lengths_, foot))) return std::nullopt;
+        const Vec3 direction = ((1.0 - foot.t) * a.direction + foot.t * b.direction).normalized();
+        const Vec3 from = point - foot.point;
+        const Vec3 outward = from - from.dot(direction) * direction;
+        double slope = (b.radius - a.radius) / (b.center - a.center).norm();
+        const double inside = 1.0 - outward.squaredNorm() / (radius * radius);
+        slope += std::max(0.0, inside) * radius * spreading(arc_length_at(lengths_, foot));
+        const double outside = std::max(0.0, outward.norm() - radius);
+        slope -= options_.grip * outside / layout_.step;
+        return (direction + slope / radius * outward).normalized();
+    }
+
+    // To the center of C1 (green).
+    std::optional<Vec3> centripetal(const Vec3& point) const {
+        if (!(options_.tightness > 0.0) || distances_.inside(point)) return std::nullopt;
+        const PonytailSection& tie = shape_.tie();
+        const Vec3 from = point - tie.center;
+        const double height = from.dot(tie.direction);
+        if (height < -lead_ || height > kBehindTie * layout_.step) return std::nullopt;
+        const double radius = (from - height * tie.direction).norm();
+        if (radius < inner_ || radius > outer_) return std::nullopt;
+        return -options_.tightness * from.normalized();
+    }
+
+    // Along the spine behind C2 (blue). Whether any of it is inside the grid.
+    bool splat_spine(VectorSplat& splat) const {
+        const std::vector<Vec3>& spine = shape_.spine;
+        bool inside = false;
+        double at = lengths_.empty() ? 0.0 : lengths_.back();
+        for (std::size_t i = shape_.last(); i + 1 < spine.size(); ++i) {
+            const Vec3 middle = 0.5 * (spine[i] + spine[i + 1]);
+            at += (spine[i + 1] - spine[i]).norm();
+            if (catches_hair(middle, at)) continue;
+            inside = splat.add(middle, (spine[i + 1] - spine[i]).normalized()) || inside;
+        }
+        const Vec3 tangent = (spine.back() - spine[spine.size() - 2]).normalized();
+        const double extra = std::ceil(options_.stop_length / layout_.step);
+        const double last = std::min(extra, steps_across(layout_));
+        for (double k = 1.0; k <= last; k += 1.0) {
+            const Vec3 middle = spine.back() + (k - 0.5) * layout_.step * tangent;
+            if (catches_hair(middle, at)) continue;
+            splat.add(middle, (1.0 - k / extra) * tangent);
+        }
+        return inside;
+    }
+
+  private:
+    // Growth of distances from the spine at an arc length behind C1, as a share a unit of length:
+    // a parabola, so that hair still closes up at the tie.
+    double spreading(double behind) const {
+        const double length = kSpreading * lengths_.back(), t = std::min(1.0, behind / length);
+        return 6.0 * options_.spread / length * t * (1.0 - t);
+    }
+
+    // Whether a point of the tail, this far behind C1, is where hair grows that is not in it yet.
+    bool catches_hair(const Vec3& point, double behind) const {
+        return behind > clearance_ && distances_.value(point) < clearance_;
+    }
+
+    const DistanceGrid& distances_;
+    const GridLayout& layout_;
+    const PonytailShape& shape_;
+    const PonytailOptions& options_;
+    double clearance_, lead_, inner_, outer_;
+    std::vector<Vec3> centers_;
+    std::vector<double> lengths_;
+};
+
+}  // namespace
+
+PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
+                             const PonytailOptions& options) {
+    const Spine whole(spine);
+    require(step > 0.0 && std::isfinite(step), "the step along a curve must be above 0");
+    require_options(options);
+    const Outline outline = outline_of(whole, step, options);
+    PonytailShape shape;
+    std::size_t last = 0;
+    const auto append = [&](double from, double to) {
+        if (to - from > kShortest * step) {
+            const std::vector<Vec3> part = whole.part(from, to, step);
+            if (!shape.spine.empty()) shape.spine.pop_back();
+            shape.spine.insert(shape.spine.end(), part.begin(), part.end());
+        }
+        return shape.spine.empty() ? 0 : shape.spine.size() - 1;
+    };
+    shape.first = append(0.0, outline.first);
+    last = append(outline.first, outline.last);
+    append(outline.last, whole.length());
+
+    const std::vector<Vec3> tangents = curve_tangents(shape.spine);
+    const std::vector<double> lengths = arc_lengths(shape.spine);
+    for (std::size_t i = shape.first; i <= last; ++i) {
+        const double share = last > shape.first ? (lengths[i] - lengths[shape.first]) /
+                                                      (lengths[last] - lengths[shape.first])
+                                                : 0.0;
+        const double at = outline.first + share * (outline.last - outline.first);
+        shape.sections.push_back({shape.spine[i], tangents[i], outline.radius_at(at)});
+    }
+    return shape;
+}
+
+std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
+                                                 const PonytailShape& shape,
+                                                 const PonytailOptions& options) {
+    require_options(options);
+    require(!shape.sections.empty() && shape.spine.size() > 1 && shape.last() < shape.spine.size(),
+            "the shape of a ponytail needs a spine with cross sections");
+    const GridLayout& layout = distances.layout();
+    const Tail tail(distances, shape, options);
+    // The first kind that names a point counts.
+    std::map<Index, Vec3> vectors;
+    const auto at_points = [&](const auto& rule) {
+        for_grid_points_in(layout, tail.box(), [&](const std::array<Index, 3>& at) {
+            const std::optional<Vec3> vector = rule(layout.point(at[0], at[1], at[2]));
+            if (vector) vectors.emplace(layout.index(at[0], at[1], at[2]), *vector);
+        });
+    };
+    at_points([&](const Vec3& point) { return tail.longitudinal(point); });
+    VectorSplat spine(layout);
+    if (!tail.splat_spine(spine) && vectors.empty()) {
+        throw Error(ErrorCode::out_of_range,
+                    "the ponytail lies outside the volume of the hairstyle; enlarge the volume, or "
+                    "draw its spine nearer to the head");
+    }
+    for (const GridConstraint& c : spine.constraints(options.weight)) {
+        vectors.emplace(c.point, c.value);
+    }
+    at_points([&](const Vec3& point) { return tail.centripetal(point); });
+
+    std::vector<GridConstraint> result;
+    for (const auto& [point, vector] : vectors) result.push_back({point, vector, options.weight});
+    return result;
+}
+
+}  // namespace lissom

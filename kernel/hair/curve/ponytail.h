@@ -1,0 +1,91 @@
+/// Ponytails: a spine with circles around it that hair is gathered into (thesis, section 4.5,
+/// Figure 4.5).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/hair/field/distance_grid.h"
+#include "kernel/solve/grid/grid_constraints.h"
+
+namespace lissom {
+
+/// Lengths are in the unit of the grid; those that are absent follow from its step.
+struct PonytailOptions {
+    /// Of the first cross section C1, the tie. Where absent, that of `section`, else the distance
+    /// of `profiles` from the spine at C1, else 1.5 steps.
+    std::optional<double> radius = std::nullopt;
+    /// A polyline drawn around the spine, closed by the way from its last point to its first. C1
+    /// lies where its center is nearest to the spine. Empty for none: C1 is at the beginning of the
+    /// profiles, else of the spine.
+    std::vector<Vec3> section;
+    /// Polylines along the spine, from which it has cross sections, C1 to C2; their radius is the
+    /// mean distance of the profiles at each place, in the ratio to that at C1. Empty for none; one
+    /// alone stands for both.
+    std::array<std::vector<Vec3>, 2> profiles;
+    /// Without profiles: C2 is at this share of the spine's length behind C1, 0 to 1, and the tail
+    /// swells to 1 + fullness radii over its first half, and narrows to its end.
+    double share = 0.7, fullness = 1.0;
+    /// Radii in multiples of that of C1: hair is drawn to the middle of C1 between them (R1 and R2
+    /// of the thesis), in a ring at least `ring` wide, as grids are coarse, and from `lead` in
+    /// front of C1 on. 2.5 and 1.5 steps.
+    double inner = 1.3, outer = 1.9;
+    std::optional<double> ring = std::nullopt, lead = std::nullopt;
+    /// Magnitude of the vectors in the ring, 0 to 1; 0 gives none.
+    double tightness = 0.6;
+    /// How the tail holds its hair: just outside its outline vectors turn inward by this slope a
+    /// step of the grid. 0 for not, as in the thesis.
+    double grip = 4.0;
+    /// Hair flows on towards the spine behind the tie. From there to half the way to C2 its
+    /// distances from the spine grow by exp(spread) more than the outline does. 0 for not, as in
+    /// the thesis.
+    double spread = 2.0;
+    /// The tail's vectors are left out at points nearer to the head than this, farther than that
+    /// from C1 and behind it: so a tail that falls along the neck does not catch the hair that
+    /// grows there. 0 leaves none out. 1.5 steps.
+    std::optional<double> clearance = std::nullopt;
+    /// As StreamOptions::stop_length: beyond the end of the spine.
+    double stop_length = 0.04;
+    /// omega of equation (4.2).
+    double weight = 100.0;
+};
+
+/// A circle around the spine.
+struct PonytailSection {
+    Vec3 center = Vec3::Zero();
+    /// Of the spine towards its end, of unit length.
+    Vec3 direction = Vec3::Zero();
+    double radius = 0.0;
+};
+
+struct PonytailShape {
+    /// From root to tip, in segments about as long as the step; the centers of C1 and C2 are two of
+    /// its points.
+    std::vector<Vec3> spine;
+    /// At every point of the spine from C1 to C2, which come first and last.
+    std::vector<PonytailSection> sections;
+    /// Place of C1 in `spine`; C2 is sections.size() - 1 behind it.
+    std::size_t first = 0;
+
+    const PonytailSection& tie() const { return sections.front(); }
+    std::size_t last() const { return first + sections.size() - 1; }
+};
+
+/// Errors: as require_curve for the spine, `section` and `profiles`; invalid_argument for options
+/// out of range, a section that the spine does not pass through, or profiles beyond its ends.
+PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
+                             const PonytailOptions& options = {});
+
+/// The constraints of a ponytail, ascending by point: near the cross sections the directions of the
+/// surface of revolution, between its spine and its outline (purple in the figure); along the rest
+/// of the spine those of a stream curve (blue); around C1, outside the head, vectors of length
+/// `tightness` to its center (green). Where kinds meet at a point the first of these counts.
+/// Errors: invalid_argument for options out of range; out_of_range where the whole spine lies
+/// outside the grid.
+std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
+                                                 const PonytailShape& shape,
+                                                 const PonytailOptions& options = {});
+
+}  // namespace lissom

@@ -1,0 +1,60 @@
+/// Stream curves: hair flows along them (thesis, section 4.5).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/hair/field/grid_layout.h"
+#include "kernel/solve/grid/grid_constraints.h"
+
+namespace lissom {
+
+/// Lengths are in the unit of the mesh.
+struct StreamOptions {
+    /// Keeps hair from growing on beyond the end of the curve: it goes on straight for this long,
+    /// with vectors that vanish on the way; 0 for not at all.
+    double stop_length = 0.04;
+    /// omega of equation (4.2).
+    double weight = 100.0;
+};
+
+/// The constraints of a stream curve of segments about as long as the grid's step, from root to
+/// tip: the corners of the cell that the middle of a segment lies in take its direction, of unit
+/// length; corners of several segments their mean, by the trilinear weights of the corners. Along
+/// the vanishing extension lengths fall evenly from 1 to 0. Corners outside the grid are left out.
+/// Errors: as require_curve; invalid_argument for options out of range; out_of_range where the
+/// whole curve lies outside the grid.
+std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
+                                               std::span<const Vec3> points,
+                                               const StreamOptions& options = {});
+
+/// A straight line of this many steps that begins in the grid ends outside.
+double steps_across(const GridLayout& layout);
+
+/// Collects vectors that are to stand at grid points: each point takes the mean of what it was
+/// given, by weight.
+class VectorSplat {
+  public:
+    explicit VectorSplat(const GridLayout& layout) : layout_(layout) {}
+
+    /// Gives `vector` to the corners of the cell that `point` lies in, by trilinear weights. False
+    /// where all of them are outside the grid.
+    bool add(const Vec3& point, const Vec3& vector);
+    /// Gives `vector` to one grid point.
+    void add_at(Index point, const Vec3& vector, double weight);
+
+    /// Ascending by point.
+    std::vector<GridConstraint> constraints(double weight) const;
+
+  private:
+    struct Given {
+        Index point = 0;
+        double weight = 0.0;
+        Vec3 sum = Vec3::Zero();
+    };
+
+    GridLayout layout_;
+    std::vector<Given> given_;
+};
+
+}  // namespace lissom

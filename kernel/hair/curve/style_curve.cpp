@@ -1,0 +1,29 @@
+#include "kernel/hair/curve/style_curve.h"
+
+#include <array>
+
+namespace lissom {
+namespace {
+
+struct DrawnPoints {
+    const std::vector<Vec3>& operator()(const StreamCurve& c) const { return c.points; }
+    const std::vector<Vec3>& operator()(const DividingCurve& c) const { return c.points; }
+    const std::vector<Vec3>& operator()(const Ponytail& c) const { return c.spine; }
+};
+
+}  // namespace
+
+std::string_view kind_name(const StyleCurve& curve) {
+    constexpr std::array<std::string_view, 3> kNames = {"stream", "dividing", "ponytail"};
+    return kNames[curve.shape.index()];
+}
+
+const std::vector<Vec3>& drawn_points(const StyleCurve& curve) {
+    return std::visit(DrawnPoints{}, curve.shape);
+}
+
+std::vector<Vec3>& drawn_points(StyleCurve& curve) {
+    return const_cast<std::vector<Vec3>&>(std::visit(DrawnPoints{}, curve.shape));
+}
+
+}  // namespace lissom

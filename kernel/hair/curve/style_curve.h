@@ -1,0 +1,61 @@
+/// Style curves: what an artist draws to say how hair flows (thesis, section 4.5). Points and
+/// lengths are in metres of the scalp's frame.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "kernel/hair/curve/dividing_curve.h"
+#include "kernel/hair/curve/ponytail.h"
+#include "kernel/hair/curve/stream_curve.h"
+
+namespace lissom {
+
+/// Hair flows along it.
+struct StreamCurve {
+    /// From the root to the tip; the curve runs smoothly through them.
+    std::vector<Vec3> points;
+    StreamOptions options = {};
+    /// The curve is moved outward to this height above the head.
+    double clearance = 0.004;
+};
+
+/// Hair parts along it.
+struct DividingCurve {
+    /// On the head or near it: the curve runs over the head through the nearest points.
+    std::vector<Vec3> points;
+    DividingOptions options = {};
+    /// Width of the bare skin along the line, on which no hair is rooted.
+    double gap = kPartingGap;
+};
+
+/// Hair gathers in a tie and goes on along a spine.
+struct Ponytail {
+    /// From the tie to the tip of the tail; the curve runs smoothly through them.
+    std::vector<Vec3> spine;
+    PonytailOptions options = {};
+    /// Of the hair behind the tie; absent: as long as the spine. A share of it that differs from
+    /// strand to strand, up to `ragged`, is missing at the tips.
+    std::optional<double> tail_length = std::nullopt;
+    double ragged = 0.45;
+};
+
+struct StyleCurve {
+    std::variant<StreamCurve, DividingCurve, Ponytail> shape = StreamCurve{};
+    /// For people and groups of strands; need not be unique.
+    std::string name = {};
+    /// Curves that are not have no effect.
+    bool enabled = true;
+};
+
+/// "stream", "dividing" or "ponytail".
+std::string_view kind_name(const StyleCurve& curve);
+
+/// The points or spine that the curve was drawn with.
+const std::vector<Vec3>& drawn_points(const StyleCurve& curve);
+std::vector<Vec3>& drawn_points(StyleCurve& curve);
+
+}  // namespace lissom

@@ -1,0 +1,80 @@
+#include "kernel/hair/field/hair_field.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace lissom {
+namespace {
+
+// Against overshoot far from the constraints.
+constexpr double kTension = 0.03;
+
+GridSize size_of(const GridLayout& layout) {
+    return {layout.counts[0], layout.counts[1], layout.counts[2]};
+}
+
+}  // namespace
+
+GridFieldOptions HairField::default_options() {
+    GridFieldOptions options;
+    options.tension = kTension;
+    return options;
+}
+
+HairField::HairField(DistanceGrid distances, const GridFieldOptions& options,
+                     const Context& context)
+    : distances_(std::move(distances)), field_(size_of(layout()), options, context) {
+    const std::size_t count = distances_.values().size();
+    charge_ = context.charge(4 * count * sizeof(float), "the direction field of a hairstyle");
+    values_.assign(4 * count, 0.0f);
+    for (std::size_t i = 0; i < count; ++i) values_[4 * i + 3] = distances_.values()[i];
+}
+
+void HairField::set_constraints(ConstraintOwner owner, std::vector<GridConstraint> constraints) {
+    field_.set_constraints(owner, std::move(constraints));
+}
+
+void HairField::solve(const Context& context) {
+    field_.solve(context);
+    field_.evaluate(values_, context);
+}
+
+bool HairField::contains(const Vec3& point) const {
+    const Box box = layout().box();
+    return (point.array() >= box.min.array()).all() && (point.array() <= box.max.array()).all();
+}
+
+HairField::Sample HairField::sample(const Vec3& point) const {
+    const GridLayout& grid = layout();
+    const Vec3 at = (point - grid.origin) / grid.step;
+    std::array<Index, 3> cell{};
+    Vec3 t;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double last = grid.counts[axis] - 1;
+        const double place = std::clamp(at[axis], 0.0, last);
+        cell[axis] = std::min(static_cast<Index>(place), grid.counts[axis] - 2);
+        t[axis] = place - cell[axis];
+    }
+    Sample result;
+    for (int corner = 0; corner < 8; ++corner) {
+        std::array<double, 3> weight{}, slope{};
+        std::array<Index, 3> index{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const int up = (corner >> axis) & 1;
+            index[axis] = cell[axis] + up;
+            weight[axis] = up ? t[axis] : 1.0 - t[axis];
+            slope[axis] = (up ? 1.0 : -1.0) / grid.step;
+        }
+        const float* v = values_.data() + 4 * grid.index(index[0], index[1], index[2]);
+        const double w = weight[0] * weight[1] * weight[2];
+        result.direction += w * Vec3(v[0], v[1], v[2]);
+        result.distance += w * v[3];
+        result.gradient +=
+            v[3] * Vec3(slope[0] * weight[1] * weight[2], weight[0] * slope[1] * weight[2],
+                        weight[0] * weight[1] * slope[2]);
+    }
+    return result;
+}
+
+}  // namespace lissom

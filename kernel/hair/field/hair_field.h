@@ -1,0 +1,55 @@
+/// HairField: which way hair grows at every point of the volume around a head.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/hair/field/distance_grid.h"
+#include "kernel/solve/field/grid_field.h"
+
+namespace lissom {
+
+/// The field that the constraints of style curves determine (sections 4.3 and 4.4), with the signed
+/// distance to the head beside it.
+class HairField {
+  public:
+    /// Errors: as GridField::GridField.
+    HairField(DistanceGrid distances, const GridFieldOptions& options = default_options(),
+              const Context& context = {});
+
+    /// Zero-flux boundary and a tension of 0.03, against overshoot far from the curves.
+    static GridFieldOptions default_options();
+
+    const DistanceGrid& distances() const { return distances_; }
+    const GridLayout& layout() const { return distances_.layout(); }
+
+    /// Replaces the constraints of one curve; none removes it. Takes effect with the next solve.
+    /// Errors: as GridField::set_constraints.
+    void set_constraints(ConstraintOwner owner, std::vector<GridConstraint> constraints);
+    /// Errors: as GridField::solve.
+    void solve(const Context& context = {});
+    const GridField& grid() const { return field_; }
+
+    /// For each grid point, x fastest: the vector of the last solve, and the signed distance.
+    std::span<const float> values() const { return values_; }
+
+    struct Sample {
+        Vec3 direction = Vec3::Zero();
+        /// Signed distance to the head, negative inside, and its derivative.
+        double distance = 0.0;
+        Vec3 gradient = Vec3::Zero();
+    };
+    /// Trilinear between grid points, at a point of the grid's box; elsewhere at its nearest point.
+    Sample sample(const Vec3& point) const;
+    bool contains(const Vec3& point) const;
+
+  private:
+    DistanceGrid distances_;
+    GridField field_;
+    std::vector<float> values_;
+    MemoryCharge charge_;
+};
+
+}  // namespace lissom

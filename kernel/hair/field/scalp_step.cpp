@@ -1,0 +1,84 @@
+#include "kernel/hair/field/scalp_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/core/error.h"
+
+namespace lissom {
+namespace {
+
+// Vectors shorter than this, as a share of their length before, have no direction worth keeping.
+constexpr double kLeastLength = 1e-3;
+
+void require(bool holds, const char* message) {
+    if (!holds) throw Error(ErrorCode::invalid_argument, message);
+}
+
+bool is_positive(double x) {
+    return x > 0.0 && std::isfinite(x);
+}
+
+void require_options(const ScalpStepOptions& options) {
+    require(!options.band || is_positive(*options.band),
+            "the band of the scalp step must be a length above 0");
+    require(is_positive(options.magnitude), "the magnitude of the scalp step must be above 0");
+    require(is_positive(options.weight), "the weight of the scalp step must be above 0");
+}
+
+// Which grid points have constraints.
+std::vector<bool> constrained_points(const GridField& grid) {
+    std::vector<bool> constrained(static_cast<std::size_t>(grid.size().count()), false);
+    for (const ConstraintOwner owner : grid.constraints().owners()) {
+        for (const GridConstraint& c : grid.constraints().of(owner)) {
+            constrained[static_cast<std::size_t>(c.point)] = true;
+        }
+    }
+    return constrained;
+}
+
+// Unit vector to where the distance grows, by differences between neighbours; zero where there is
+// none.
+Vec3 outward(const DistanceGrid& distances, const std::array<Index, 3>& point) {
+    const GridLayout& layout = distances.layout();
+    Vec3 gradient;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::array<Index, 3> low = point, high = point;
+        low[axis] = std::max(point[axis] - 1, 0);
+        high[axis] = std::min(point[axis] + 1, layout.counts[axis] - 1);
+        gradient[static_cast<Index>(axis)] =
+            (distances.at(high[0], high[1], high[2]) - distances.at(low[0], low[1], low[2])) /
+            (high[axis] - low[axis]);
+    }
+    return gradient.stableNormalized();
+}
+
+// v without the part that points inward; zero where hardly anything is left.
+Vec3 without_inward(const Vec3& v, const Vec3& normal) {
+    const double inward = std::min(0.0, v.dot(normal));
+    const Vec3 rest = v - inward * normal;
+    return rest.norm() > kLeastLength * v.norm() ? rest : Vec3::Zero();
+}
+
+}  // namespace
+
+std::vector<GridConstraint> scalp_step(const HairField& field, const ScalpStepOptions& options) {
+    require_options(options);
+    const GridLayout& layout = field.layout();
+    const double band = options.band.value_or(layout.step);
+    const std::vector<bool> constrained = constrained_points(field.grid());
+    std::vector<GridConstraint> result;
+    for (Index point = 0; point < layout.size(); ++point) {
+        const float* quad = field.values().data() + 4 * static_cast<std::size_t>(point);
+        if (!(std::abs(quad[3]) < band) || constrained[static_cast<std::size_t>(point)]) continue;
+        const GridPoint at = field.grid().size().point(point);
+        if (options.where && !options.where(layout.point(at.x, at.y, at.z))) continue;
+        const Vec3 normal = outward(field.distances(), {at.x, at.y, at.z});
+        const Vec3 direction = without_inward({quad[0], quad[1], quad[2]}, normal);
+        if (!(direction.norm() > 0.0)) continue;
+        result.push_back({point, options.magnitude * direction.normalized(), options.weight});
+    }
+    return result;
+}
+
+}  // namespace lissom

@@ -1,0 +1,321 @@
+#include "kernel/hair/growth/growth.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/hair/growth/growth_loops.h"
+#include "kernel/hair/growth/growth_roots.h"
+
+namespace lissom {
+namespace {
+
+// Strands that are grown by one thread into one list.
+constexpr Index kTuft = 256;
+static_assert(kGrowthWave % kTuft == 0);
+
+// Strands that are copied by one thread at a time.
+constexpr Index kCopied = 256;
+
+constexpr std::size_t kMostPoints = std::numeric_limits<Index>::max();
+
+// The least segment, as a share of the usual one, and in roundings of the greatest coordinate: so
+// its ends are different points.
+constexpr double kLeastSegment = 1e-3, kLeastRoundings = 8.0;
+
+// More room for points than the strands so far let expect.
+constexpr double kSlack = 1.02;
+
+void require(bool holds, const char* message) {
+    if (!holds) throw Error(ErrorCode::invalid_argument, message);
+}
+
+bool is_length(double x) {
+    return x >= 0.0 && std::isfinite(x);
+}
+
+bool is_share(double x) {
+    return x >= 0.0 && x <= 1.0;
+}
+
+bool is_direction(const Vec3& v) {
+    return v.allFinite() && v.norm() > 0.0;
+}
+
+void require_tie(const HairTie& tie) {
+    require(tie.center.allFinite() && is_direction(tie.direction),
+            "a tie needs a center and a direction of finite numbers, not of length 0");
+    require(is_length(tie.radius) && is_length(tie.tail_length),
+            "the radius and the tail of a tie must be lengths of 0 or more");
+    require(is_share(tie.ragged), "how ragged a tail is must be from 0 to 1");
+}
+
+void require_cut(const HairCut& cut) {
+    require(cut.point.allFinite() && is_direction(cut.normal),
+            "a cut needs a point and a normal of finite numbers, not of length 0");
+    require(is_length(cut.ragged), "how ragged a cut is must be a length of 0 or more");
+}
+
+void require_lengths(const GrowthOptions& o) {
+    require(is_length(o.length), "the length of hair must be 0 or more");
+    require(is_share(o.variation), "variation must be from 0 to 1");
+    require(o.segment > 0.0 && o.segment <= 10.0, "segment must be above 0 and at most 10 steps");
+    require(o.least_speed >= 0.0 && o.least_speed < 1.0, "least_speed must be from 0 to below 1");
+    require(o.most_segments >= 1, "most_segments must be at least 1");
+    require(is_length(o.lift), "lift must be 0 or more");
+    require(is_length(o.clearance) && is_length(o.layer) && is_length(o.ramp),
+            "clearance, layer and ramp must be lengths of 0 or more");
+}
+
+void require_options(const GrowthOptions& o, Index head_vertices) {
+    require_lengths(o);
+    require(o.placement.is_finite() && o.placement.linear.determinant() != 0.0,
+            "the placement of hair must be finite and must not flatten it");
+    require(o.length_map.empty() || o.length_map.size() == static_cast<std::size_t>(head_vertices),
+            "a length map needs one factor for every vertex of the head");
+    require(std::all_of(o.length_map.begin(), o.length_map.end(), is_length),
+            "factors of a length map must be finite and not negative");
+    for (const HairTie& tie : o.ties) require_tie(tie);
+    for (const HairCut& cut : o.cuts) require_cut(cut);
+}
+
+// The grid's cells to the coordinates of strands.
+Affine placement_of_cells(const GridLayout& layout, const Affine& placement) {
+    return placement * Affine{layout.step * Mat3::Identity(), layout.origin};
+}
+
+// The least length of a segment in cells.
+double least_move(const GridLayout& layout, const GrowthOptions& options) {
+    const Affine placed = placement_of_cells(layout, options.placement);
+    double farthest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        Vec3 cell;
+        for (int axis = 0; axis < 3; ++axis) {
+            cell[axis] = (corner >> axis) & 1 ? layout.counts[axis] : 0.0;
+        }
+        farthest = std::max(farthest, placed(cell).cwiseAbs().maxCoeff());
+    }
+    // At most how many cells one unit of the strands' coordinates is.
+    const double cells = placed.linear.inverse().norm();
+    const double rounding = farthest * std::numeric_limits<float>::epsilon() * cells;
+    return std::max(kLeastSegment * options.segment, kLeastRoundings * rounding);
+}
+
+TieRule tie_rule(const HairTie& tie, const GridLayout& layout) {
+    const double radius = tie.radius / layout.step;
+    return {((tie.center - layout.origin) / layout.step).cast<float>(),
+            tie.direction.normalized().cast<float>(), static_cast<float>(radius * radius),
+            static_cast<float>(tie.tail_length / layout.step), static_cast<float>(tie.ragged)};
+}
+
+CutRule cut_rule(const HairCut& cut, const GridLayout& layout) {
+    const Vec3 normal = cut.normal.normalized();
+    return {normal.cast<float>(),
+            static_cast<float>(normal.dot(cut.point - layout.origin) / layout.step),
+            static_cast<float>(cut.ragged / layout.step)};
+}
+
+GrowthRules rules_of(const GridLayout& layout, const GrowthOptions& options) {
+    GrowthRules rules{};
+    rules.segment = static_cast<float>(options.segment);
+    rules.least_speed = static_cast<float>(options.least_speed);
+    rules.least_move = static_cast<float>(least_move(layout, options));
+    rules.lift = static_cast<float>(options.lift);
+    rules.inverse_ramp = static_cast<float>(1.0 / std::max(options.ramp / layout.step, 1e-6));
+    rules.inverse_step = static_cast<float>(1.0 / layout.step);
+    rules.avoid = options.avoid;
+    rules.spare_tied = options.spare_tied;
+    rules.most_segments = options.most_segments;
+    for (const HairTie& tie : options.ties) rules.ties.push_back(tie_rule(tie, layout));
+    for (const HairCut& cut : options.cuts) rules.cuts.push_back(cut_rule(cut, layout));
+    const Affine placed = placement_of_cells(layout, options.placement);
+    rules.linear = placed.linear.cast<float>();
+    rules.translation = placed.translation.cast<float>();
+    return rules;
+}
+
+QuadGrid grid_of(const HairField& field) {
+    const std::array<Index, 3>& counts = field.layout().counts;
+    QuadGrid grid{field.values().data(), counts[0], counts[0] * counts[1], {}};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        grid.last[axis] = static_cast<float>(counts[axis] - 1);
+    }
+    return grid;
+}
+
+}  // namespace
+
+struct StrandGrower::State {
+    State(const Mesh& head, std::span<const Root> all, const Context& context)
+        : roots(head, all, context) {}
+
+    Seedling seedling(Index i, const GridLayout& layout, const GrowthOptions& options) const;
+
+    GrowthRoots roots;
+    // Scratch: the strands of one wave.
+    std::vector<Tuft> tufts;
+    std::vector<std::vector<Seedling>> seedlings;
+};
+
+Seedling StrandGrower::State::seedling(Index i, const GridLayout& layout,
+                                       const GrowthOptions& options) const {
+    const StrandChance& chance = roots.chance(i);
+    const double step = layout.step, u = chance.layer;
+    const double length =
+        options.length * roots.factor(i) * (1.0 + options.variation * chance.length);
+    return {((roots.position(i) - layout.origin) / step).cast<float>(),
+            roots.normal(i),
+            static_cast<float>(length / step),
+            static_cast<float>((options.clearance + options.layer * u * u) / step),
+            chance.cut,
+            chance.tail};
+}
+
+namespace {
+
+// Growth into one list of points, wave after wave.
+class Harvest {
+  public:
+    Harvest(Index strands, Strands& into, const Context& context)
+        : strands_(into), context_(context), count_(strands) {
+        strands_.release(points_, offsets_);
+        offsets_.resize(static_cast<std::size_t>(strands) + 1);
+        offsets_[0] = 0;
+    }
+
+    // Takes the strands of a wave that begins with root `first`.
+    void take(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts);
+    void finish(const StrandRoots& roots);
+
+    GrowthReport report;
+
+  private:
+    // Lists the strands of a wave, with the count of i as offset i + 1; returns the root behind its
+    // last.
+    Index list_wave(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts);
+    // Makes offsets of the counts.
+    void number_points(Index first, Index last);
+    void make_room(Index done);
+
+    Strands& strands_;
+    const Context& context_;
+    Index count_;
+    std::vector<float> points_;
+    std::vector<Index> offsets_;
+    // Where the points of each strand of a wave are, in the order of the roots: in that order they
+    // are copied fastest.
+    std::vector<const float*> wave_ = std::vector<const float*>(kGrowthWave);
+    MemoryCharge charge_;
+};
+
+Index Harvest::list_wave(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
+    Index next = first;
+    for (const Tuft& tuft : tufts) {
+        for (const Tuft::Shoot& shoot : tuft.shoots) {
+            const auto root = static_cast<std::size_t>(roots.number(next++));
+            wave_[root - static_cast<std::size_t>(first)] =
+                tuft.lists[shoot.list].data() + shoot.first;
+            offsets_[root + 1] = shoot.count;
+            ++report.ends[static_cast<std::size_t>(shoot.end)];
+            if (!report.ties.empty()) report.ties[root] = shoot.tie;
+        }
+    }
+    return next;
+}
+
+void Harvest::number_points(Index first, Index last) {
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+        const std::size_t end =
+            static_cast<std::size_t>(offsets_[i]) + static_cast<std::size_t>(offsets_[i + 1]);
+        require(end <= kMostPoints,
+                "hair has more points than can be numbered; grow fewer or shorter strands, or "
+                "longer segments");
+        offsets_[i + 1] = static_cast<Index>(end);
+    }
+}
+
+// Room for the first `done` strands, and for the others to come.
+void Harvest::make_room(Index done) {
+    const auto needed = 3 * static_cast<std::size_t>(offsets_[static_cast<std::size_t>(done)]);
+    if (needed <= points_.size()) return;
+    const double all = kSlack * static_cast<double>(needed) * count_ / done;
+    const std::size_t size = done == count_ ? needed : static_cast<std::size_t>(all);
+    charge_ = {};
+    charge_ = context_.charge(size * sizeof(float), "strands");
+    points_.resize(size);
+}
+
+void Harvest::take(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
+    const Index last = list_wave(roots, first, tufts);
+    number_points(first, last);
+    make_room(last);
+    context_.parallel_for(first, last, kCopied, [&](Index begin, Index end) {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            const auto from = static_cast<std::size_t>(offsets_[i]),
+                       to = static_cast<std::size_t>(offsets_[i + 1]);
+            std::copy_n(wave_[i - static_cast<std::size_t>(first)], 3 * (to - from),
+                        points_.data() + 3 * from);
+        }
+    });
+}
+
+void Harvest::finish(const StrandRoots& roots) {
+    points_.resize(3 * static_cast<std::size_t>(offsets_.back()));
+    strands_ = Strands(std::move(points_), std::move(offsets_));
+    strands_.set_roots(roots);
+}
+
+}  // namespace
+
+StrandGrower::StrandGrower(const Mesh& head, std::span<const Root> roots, const Context& context)
+    : state_(std::make_unique<State>(head, roots, context)) {}
+StrandGrower::~StrandGrower() = default;
+StrandGrower::StrandGrower(StrandGrower&&) noexcept = default;
+StrandGrower& StrandGrower::operator=(StrandGrower&&) noexcept = default;
+
+Index StrandGrower::size() const {
+    return state_->roots.size();
+}
+
+GrowthReport StrandGrower::grow(const HairField& field, const GrowthOptions& options,
+                                Strands& strands, const Context& context) {
+    GrowthRoots& roots = state_->roots;
+    Harvest harvest(size(), strands, context);
+    require_options(options, roots.head_vertices());
+    roots.set_seed(options.seed, context);
+    roots.set_length_map(options.length_map, context);
+    if (!options.ties.empty()) harvest.report.ties.resize(static_cast<std::size_t>(size()));
+
+    const GrowthRules rules = rules_of(field.layout(), options);
+    const QuadGrid grid = grid_of(field);
+    const GrowthLoop loop = best_growth_loop();
+    state_->tufts.resize(kGrowthWave / kTuft);
+    state_->seedlings.resize(kGrowthWave / kTuft);
+    for (Index first = 0; first < size(); first += kGrowthWave) {
+        const Index last = std::min(size(), first + kGrowthWave);
+        context.parallel_for(first, last, kTuft, [&](Index begin, Index end) {
+            const auto number = static_cast<std::size_t>((begin - first) / kTuft);
+            std::vector<Seedling>& seedlings = state_->seedlings[number];
+            seedlings.clear();
+            for (Index i = begin; i < end; ++i) {
+                seedlings.push_back(state_->seedling(i, field.layout(), options));
+            }
+            grow_tuft(grid, rules, seedlings, loop, state_->tufts[number]);
+        });
+        const auto grown = static_cast<std::size_t>((last - first + kTuft - 1) / kTuft);
+        harvest.take(roots, first, std::span(state_->tufts).first(grown));
+    }
+    harvest.finish(roots.strand_roots());
+    return std::move(harvest.report);
+}
+
+GrowthReport grow(const Mesh& head, const HairField& field, std::span<const Root> roots,
+                  const GrowthOptions& options, Strands& strands, const Context& context) {
+    return StrandGrower(head, roots, context).grow(field, options, strands, context);
+}
+
+}  // namespace lissom

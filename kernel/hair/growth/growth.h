@@ -1,0 +1,133 @@
+/// Growth: strands that follow the direction field from their roots.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/hair/field/hair_field.h"
+#include "kernel/hair/scalp/roots.h"
+#include "kernel/hair/strands/strands.h"
+
+namespace lissom {
+
+/// Gathers the strands that pass through a disc, as the first cross section of a ponytail does.
+struct HairTie {
+    Vec3 center = Vec3::Zero();
+    /// Strands are caught on their way through the disc in this direction, its normal; of any
+    /// length but 0.
+    Vec3 direction = Vec3::UnitY();
+    double radius = 0.0;
+    /// How much longer a strand grows once it is caught, by at most this share less: most tails are
+    /// nearly as long as this, few are much shorter, so that the end of a tail is not cut flat.
+    double tail_length = 0.25;
+    double ragged = 0.45;
+};
+
+/// Cuts hair along a plane.
+struct HairCut {
+    Vec3 point = Vec3::Zero();
+    /// Points to where no hair is left, so down for hair cut to one length; of any length but 0. A
+    /// strand ends where it first passes the plane in this direction; one that is rooted beyond the
+    /// plane is not cut before it has come back.
+    Vec3 normal = -Vec3::UnitY();
+    /// Each strand has a plane of its own, up to this far before or behind the given one.
+    double ragged = 0.0;
+};
+
+/// Lengths and points are those of the field's grid.
+struct GrowthOptions {
+    /// Length of a strand, and by which share of it at most each is longer or shorter.
+    double length = 0.25;
+    double variation = 0.1;
+    /// Factors of the length for every vertex of the head, interpolated at roots; finite and not
+    /// negative. Empty for none.
+    std::vector<double> length_map = {};
+    /// l of section 4.6, in steps of the grid: a segment is l v(p) long, where the length of v
+    /// counts as 1 at most.
+    double segment = 0.5;
+    /// A strand ends where the field is shorter than this.
+    double least_speed = 0.05;
+    /// Segments at most: flow lines around a ponytail may be closed.
+    Index most_segments = 400;
+    /// Share of the normal in the first segment, which never points inward.
+    double lift = 0.15;
+    /// Strands stay this far outside the head, and up to `layer` farther, most of them near it;
+    /// over the first `ramp` of their length the distance grows from nothing. Off: strands follow
+    /// the field into the head.
+    bool avoid = true;
+    double clearance = 0.002, layer = 0.012, ramp = 0.03;
+    /// A strand is caught by the first tie that it passes, and by no other.
+    std::vector<HairTie> ties = {};
+    /// Of several cuts a strand ends at the first that it reaches; with `spare_tied`, none cuts
+    /// strands that were caught by a tie.
+    std::vector<HairCut> cuts = {};
+    bool spare_tied = true;
+    /// From the coordinates of the field to those of the strands.
+    Affine placement = {};
+    std::uint64_t seed = 1;
+};
+
+/// What ended a strand.
+enum class StrandEnd {
+    length,     ///< it is as long as it should be
+    cut,        ///< a cut
+    slow,       ///< the field is shorter than least_speed
+    left_grid,  ///< it left the grid; its last point lies outside
+    turned,     ///< the next segment would have turned by more than 88 degrees, as about a sink
+    stuck,      ///< it was pushed back to where it came from
+    segments,   ///< it has as many segments as allowed
+};
+inline constexpr int kStrandEnds = 7;
+
+struct GrowthReport {
+    /// The tie that caught each strand, as its place in the options, or kNoIndex; empty where there
+    /// are no ties.
+    std::vector<Index> ties;
+    /// Numbers of strands, by what ended them.
+    std::array<Index, kStrandEnds> ends{};
+
+    Index ended_by(StrandEnd end) const { return ends[static_cast<std::size_t>(end)]; }
+};
+
+/// Grows strands from the same roots again and again, for instance while a curve is dragged: what
+/// depends on the roots alone is computed once, what depends on the seed or the length map when
+/// they change. Strands grow side by side, neighbours one after the other; the results are
+/// the same to the bit on any number of threads and with any vector instructions. For use by one
+/// thread at a time.
+class StrandGrower {
+  public:
+    /// Takes what it needs of `head`, which must be the mesh of the roots and in the coordinates of
+    /// the fields. Errors: invalid_argument for roots that are not of this mesh; not_finite;
+    /// memory_limit; cancelled.
+    StrandGrower(const Mesh& head, std::span<const Root> roots, const Context& context = {});
+    ~StrandGrower();
+    StrandGrower(StrandGrower&&) noexcept;
+    StrandGrower& operator=(StrandGrower&&) noexcept;
+
+    /// Number of roots.
+    Index size() const;
+
+    /// Grows a strand from every root into `strands`, which keeps its memory but nothing else, so
+    /// that growing into the same strands again is fast: strand i is that of root i, whatever other
+    /// roots there are. A strand that cannot grow is its root alone. No segment is shorter than a
+    /// thousandth of `segment`.
+    /// Errors: invalid_argument for options out of range, or a length map of the wrong size, or
+    /// more points than can be numbered; memory_limit; cancelled. After an error there are no
+    /// strands.
+    GrowthReport grow(const HairField& field, const GrowthOptions& options, Strands& strands,
+                      const Context& context = {});
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Grows strands once, as StrandGrower does.
+GrowthReport grow(const Mesh& head, const HairField& field, std::span<const Root> roots,
+                  const GrowthOptions& options, Strands& strands, const Context& context = {});
+
+}  // namespace lissom

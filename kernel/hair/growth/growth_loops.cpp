@@ -1,0 +1,35 @@
+#include "kernel/hair/growth/growth_loops.h"
+
+#include "kernel/hair/growth/lane_grower.h"
+
+namespace lissom {
+
+namespace {
+
+// What growth_lanes.h names as target.
+bool has_avx512() {
+#ifdef LISSOM_HAS_AVX2_PATH
+    return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#else
+    return false;
+#endif
+}
+
+}  // namespace
+
+GrowthLoop best_growth_loop() {
+    if (has_avx512()) return GrowthLoop::avx512;
+    return has_avx2() ? GrowthLoop::avx2 : GrowthLoop::anywhere;
+}
+
+void grow_tuft(const QuadGrid& grid, const GrowthRules& rules, std::span<const Seedling> seedlings,
+               [[maybe_unused]] GrowthLoop loop, Tuft& tuft) {
+#ifdef LISSOM_HAS_AVX2_PATH
+    if (loop == GrowthLoop::avx512) return grow_tuft_avx512(grid, rules, seedlings, tuft);
+    if (loop == GrowthLoop::avx2) return grow_tuft_avx2(grid, rules, seedlings, tuft);
+#endif
+    lanes_anywhere::LaneGrower(grid, rules, seedlings, tuft).run();
+}
+
+}  // namespace lissom

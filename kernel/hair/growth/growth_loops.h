@@ -1,0 +1,85 @@
+/// The loop in which strands grow; private to kernel/hair. Coordinates are those of the grid's
+/// cells, so that a step of the grid is one.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+#include "kernel/hair/growth/growth.h"
+
+namespace lissom {
+
+/// Three fields and the distance at the points of a grid.
+struct QuadGrid {
+    const float* values = nullptr;
+    Index nx = 0, nxy = 0;
+    /// The greatest coordinates.
+    std::array<float, 3> last{};
+};
+
+/// A strand before it grows.
+struct Seedling {
+    Eigen::Vector3f at, normal;
+    float length, floor;
+    /// Random numbers, as StrandChance.
+    float cut, tail;
+};
+
+struct TieRule {
+    Eigen::Vector3f center, direction;
+    float square_radius, tail_length, ragged;
+};
+
+/// Hair is left where normal . p <= offset + ragged x chance.
+struct CutRule {
+    Eigen::Vector3f normal;
+    float offset, ragged;
+};
+
+struct GrowthRules {
+    float segment, least_speed, least_move, lift, inverse_ramp;
+    /// Steps in a unit of the distances.
+    float inverse_step;
+    bool avoid, spare_tied;
+    Index most_segments;
+    std::vector<TieRule> ties;
+    std::vector<CutRule> cuts;
+    /// From cells to the coordinates of strands.
+    Eigen::Matrix3f linear;
+    Eigen::Vector3f translation;
+};
+
+/// Strands that were grown together; shoots[i] is that of seedling i.
+struct Tuft {
+    struct Shoot {
+        /// Which of the lists its points are in, where they begin, and how many it has.
+        std::size_t list, first;
+        Index count;
+        Index tie;
+        StrandEnd end;
+    };
+    /// Those that grew in one lane are in one list, with room behind them that is kept.
+    std::vector<std::vector<float>> lists;
+    std::vector<Shoot> shoots;
+};
+
+/// With which instructions strands grow; the results are the same to the bit. A processor that runs
+/// one runs those before.
+enum class GrowthLoop { anywhere, avx2, avx512 };
+/// The last that this processor runs.
+GrowthLoop best_growth_loop();
+
+/// Replaces what `tuft` holds. `loop` must be one that this processor runs.
+void grow_tuft(const QuadGrid& grid, const GrowthRules& rules, std::span<const Seedling> seedlings,
+               GrowthLoop loop, Tuft& tuft);
+
+/// grow_tuft on processors with AVX2, and with AVX-512; only where LISSOM_HAS_AVX2_PATH.
+void grow_tuft_avx2(const QuadGrid& grid, const GrowthRules& rules,
+                    std::span<const Seedling> seedlings, Tuft& tuft);
+void grow_tuft_avx512(const QuadGrid& grid, const GrowthRules& rules,
+                      std::span<const Seedling> seedlings, Tuft& tuft);
+
+}  // namespace lissom

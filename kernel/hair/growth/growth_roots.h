@@ -1,0 +1,72 @@
+/// GrowthRoots: what growth knows of roots before there is a field; private to kernel/hair.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/hair/scalp/roots.h"
+#include "kernel/hair/strands/strands.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// Strands that are grown together before they are put in order; within such a wave neighbours are
+/// grown one after the other, so that they read the same part of the field.
+inline constexpr Index kGrowthWave = 4096;
+
+/// Random numbers of a strand.
+struct StrandChance {
+    /// In [-1, 1): of the length, of the layer, and of the cut.
+    float length, layer, cut;
+    /// In [0, 1): of the tail.
+    float tail;
+};
+
+/// All roots in the order of growth, which keeps the waves: entry i is root number[i].
+class GrowthRoots {
+  public:
+    /// Errors: invalid_argument for roots that are not of `head`; not_finite; memory_limit;
+    /// cancelled.
+    GrowthRoots(const Mesh& head, std::span<const Root> roots, const Context& context);
+
+    Index size() const { return static_cast<Index>(numbers_.size()); }
+    Index number(Index i) const { return numbers_[at(i)]; }
+    const Vec3& position(Index i) const { return positions_[at(i)]; }
+    const Eigen::Vector3f& normal(Index i) const { return normals_[at(i)]; }
+    const StrandChance& chance(Index i) const { return chances_[at(i)]; }
+    /// Factor of the length.
+    float factor(Index i) const { return factors_.empty() ? 1.0f : factors_[at(i)]; }
+    /// In the order of the roots.
+    const StrandRoots& strand_roots() const { return strand_roots_; }
+    Index head_vertices() const { return head_vertices_; }
+
+    /// Draws the random numbers, where the seed is another than before.
+    void set_seed(std::uint64_t seed, const Context& context);
+    /// Interpolates the factors, where the map is another than before.
+    void set_length_map(const std::vector<double>& map, const Context& context);
+
+  private:
+    static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+    void put_in_order(std::span<const Root> roots, const Context& context);
+
+    Index head_vertices_ = 0;
+    MemoryCharge charge_;
+    std::vector<Index> numbers_;
+    std::vector<Vec3> positions_;
+    std::vector<Eigen::Vector3f> normals_;
+    std::vector<Triangle> triangles_;
+    std::vector<Eigen::Vector3f> barycentrics_;
+    StrandRoots strand_roots_;
+
+    std::optional<std::uint64_t> seed_;
+    std::vector<StrandChance> chances_;
+    std::vector<double> map_;
+    std::vector<float> factors_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,131 @@
+#include "kernel/hair/scalp/hairline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/mesh/query/distances.h"
+
+namespace lissom {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+constexpr double kMost = 1000.0;
+// Share of the band in which hair thins out that lies below the hairline.
+constexpr double kBelow = 1.0 / 6.0;
+
+// Ears lie between these azimuths, below the elevation, and stand out from the ellipse of the
+// head's slice by more than the share of its width.
+constexpr double kEarFront = 78.0 * kDegree, kEarBack = 122.0 * kDegree, kEarTop = 14.0 * kDegree;
+constexpr double kEarDepth = 4.0 / 155.0;
+// What is farther from the axis than this many ellipses, or lower than this many widths, is neck or
+// shoulder.
+constexpr double kReach = 1.3, kLowest = 0.75;
+
+double to_margin(double distance, double softness) {
+    if (softness > 0.0) return std::clamp(distance / softness + kBelow, -kMost, kMost);
+    return distance > 0.0 ? kMost : -kMost;
+}
+
+// Radius of a point across the axis of the head, in ellipses of its slice.
+double ellipses(const HeadFrame& frame, const Vec3& p) {
+    return 2.0 * std::hypot(p.x() / frame.width, p.z() / frame.length);
+}
+
+// How far inside the hairline a point is, in the mesh's unit, negative outside.
+double inside_hairline(const HairlineTest& test, const Vec3& p) {
+    const HeadFrame& frame = test.frame;
+    const double azimuth = std::abs(std::atan2(p.x(), p.z()));
+    const double elevation = std::atan2(p.y(), std::hypot(p.x(), p.z()));
+    double inside =
+        (elevation - hairline_elevation(test.hairline, azimuth)) * std::min(p.norm(), frame.width);
+    const double radius = ellipses(frame, p);
+    if (azimuth > kEarFront && azimuth < kEarBack && elevation < kEarTop) {
+        inside = std::min(inside, kEarDepth * frame.width - (radius - 1.0) * 0.5 * frame.width);
+    }
+    if (radius > kReach || p.y() < -kLowest * frame.width) inside = -frame.width;
+    return inside;
+}
+
+// Marks what can be reached from `start` over vertices whose flag is set.
+std::vector<char> reached(const Topology& topology, const std::vector<char>& flags, Index start) {
+    std::vector<char> found(flags.size(), 0);
+    std::vector<Index> open{start};
+    found[start] = 1;
+    while (!open.empty()) {
+        const Index v = open.back();
+        open.pop_back();
+        for (const Index n : topology.neighbors(v)) {
+            if (found[n] || !flags[n]) continue;
+            found[n] = 1;
+            open.push_back(n);
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+bool HairlineTest::inside(double margin) {
+    return margin > kBelow;
+}
+
+void require_hairline(const std::vector<HairlinePoint>& hairline) {
+    double last = -1.0;
+    for (const auto& [azimuth, elevation] : hairline) {
+        const bool good = azimuth > last && azimuth >= 0.0 && azimuth <= kPi * (1.0 + 1e-12) &&
+                          std::abs(elevation) <= 0.5 * kPi * (1.0 + 1e-12);
+        if (!good) {
+            throw Error(ErrorCode::invalid_argument,
+                        "the hairline's azimuths must ascend from 0 to at most 180 degrees, its "
+                        "elevations lie between -90 and 90");
+        }
+        last = azimuth;
+    }
+    if (hairline.empty()) {
+        throw Error(ErrorCode::invalid_argument, "the hairline has no points");
+    }
+}
+
+std::vector<double> margins_of_hairline(const Mesh& head, const std::vector<Vec3>& normals,
+                                        const HairlineTest& test) {
+    std::vector<double> margins(static_cast<std::size_t>(head.vertex_count()), -kMost);
+    std::vector<char> inside(margins.size(), 0);
+    Index top = kNoIndex;
+    double height = 0.0;
+    for (const Index v : largest_component(head)) {
+        const Vec3 p = test.frame.local(head.position(v));
+        if (normals[v].dot(head.position(v) - test.frame.center) <= 0.0) continue;
+        margins[v] = to_margin(inside_hairline(test, p), test.softness);
+        inside[v] = margins[v] > 0.0;
+        if (!inside[v] || (top != kNoIndex && p.y() <= height)) continue;
+        top = v;
+        height = p.y();
+    }
+    if (top == kNoIndex) return margins;
+    const std::vector<char> scalp = reached(head.topology(), inside, top);
+    for (std::size_t v = 0; v < margins.size(); ++v) {
+        if (inside[v] && !scalp[v]) margins[v] = -kMost;
+    }
+    return margins;
+}
+
+std::vector<double> margins_of_region(const Mesh& head, const Region& region, double softness) {
+    std::vector<double> margins(static_cast<std::size_t>(head.vertex_count()), -kMost);
+    const std::vector<char> in = region.mask();
+    std::vector<Index> outline;
+    for (const Index v : region.vertices()) {
+        const auto ring = head.topology().neighbors(v);
+        if (std::any_of(ring.begin(), ring.end(), [&](Index n) { return !in[n]; })) {
+            outline.push_back(v);
+        }
+        margins[v] = kMost;
+    }
+    if (outline.empty() || !(softness > 0.0)) return margins;
+    const std::vector<double> distance = edge_distances(head, outline, 4.0 * softness);
+    for (const Index v : region.vertices()) {
+        if (std::isfinite(distance[v])) margins[v] = distance[v] / softness;
+    }
+    return margins;
+}
+
+}  // namespace lissom

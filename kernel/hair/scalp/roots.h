@@ -1,0 +1,60 @@
+/// Roots: where strands grow from a scalp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kernel/hair/scalp/scalp.h"
+
+namespace lissom {
+
+enum class RootPattern {
+    /// Evenly spread: no two of the first n roots are nearer than 0.6 sqrt(a / n) on an open scalp
+    /// of area a, weighted with the density over the largest; where less room is left, a little
+    /// nearer.
+    poisson,
+    /// The cells of a grid of polar angles around the center of the frame, each with a root at a
+    /// random place (thesis, section 4.5). Roots are dense at the crown.
+    angles,
+};
+
+struct RootOptions {
+    /// 0 to kMaximumRoots.
+    Index count = 100000;
+    std::uint64_t seed = 1;
+    RootPattern pattern = RootPattern::poisson;
+    /// Relative density for every vertex of the head, finite and not negative; even where absent.
+    /// Multiplied by the thinning at the hairline. Only ratios count.
+    std::vector<double> density = {};
+
+    bool operator==(const RootOptions&) const = default;
+};
+
+inline constexpr Index kMaximumRoots = 10'000'000;
+
+struct Root {
+    /// Of the head, and the vertices of the triangle of it that the root lies in.
+    Index face = kNoIndex;
+    Triangle triangle{kNoIndex, kNoIndex, kNoIndex};
+    Vec3 barycentric = Vec3::Zero();
+    Vec3 position = Vec3::Zero();
+    /// Outward unit normal, interpolated from those of the vertices.
+    Vec3 normal = Vec3::Zero();
+};
+
+/// Roots in an order of which every beginning is spread alike: the first n of a larger count are
+/// those of count n, for a seed, on any number of threads.
+/// Darts are thrown at the scalp with a radius that shrinks as roots are added (McCool and Fiume
+/// 1992); where the density is lower they are wider. Time is about linear in the count.
+/// `head` must be the mesh that `scalp` was made for.
+/// Errors: out_of_range for a count; invalid_argument for a density of the wrong size; not_finite;
+/// region_empty where the density is 0 on the whole scalp; topology_mismatch; memory_limit;
+/// cancelled.
+std::vector<Root> make_roots(const Mesh& head, const Scalp& scalp, const RootOptions& options = {},
+                             const Context& context = {});
+
+/// Probability that hair grows at a root with the interpolated `margin` (Scalp::margins).
+double hairline_thinning(double margin);
+
+}  // namespace lissom

@@ -1,0 +1,154 @@
+#include "kernel/hair/scalp/scalp.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "kernel/hair/scalp/hairline.h"
+#include "kernel/mesh/measure/measures.h"
+
+namespace lissom {
+namespace {
+
+constexpr double kAverageWidth = 0.155;
+
+double guessed_unit(double width) {
+    // Metre, centimetre, millimetre, decimetre, inch, foot.
+    for (const double unit : {1.0, 0.01, 0.001, 0.1, 0.0254, 0.3048}) {
+        if (width * unit > 0.12 && width * unit < 0.2) return unit;
+    }
+    return kAverageWidth / width;
+}
+
+void require_options(const Mesh& head, const ScalpOptions& options) {
+    if (options.unit && !(*options.unit > 0.0 && std::isfinite(*options.unit))) {
+        throw Error(ErrorCode::invalid_argument, "unit must be a finite number of metres above 0");
+    }
+    if (!(options.softness >= 0.0 && options.softness <= 0.1)) {
+        throw Error(ErrorCode::invalid_argument, "softness must lie between 0 and 0.1 metres");
+    }
+    if (options.region) {
+        require_same_topology(head, options.region->topology(), "the scalp's region");
+    }
+    require_hairline(options.hairline);
+}
+
+HeadFrame checked_frame(const Mesh& head, const ScalpOptions& options, const Context& context) {
+    require_options(head, options);
+    return guess_head_frame(head, options.hints, context);
+}
+
+}  // namespace
+
+Scalp::Scalp(const Mesh& head, const ScalpOptions& options, const Context& context)
+    : frame_(checked_frame(head, options, context)),
+      scale_(frame_.width / kAverageWidth),
+      unit_(options.unit.value_or(guessed_unit(frame_.width))),
+      region_(Region::none(head.shared_topology())),
+      normals_(vertex_normals(head)),
+      tree_(head, context) {
+    charge_ = context.charge(
+        static_cast<std::size_t>(head.vertex_count()) * (sizeof(Vec3) + sizeof(double)),
+        "the scalp");
+    choose_region(head, options);
+    if (!region_.empty() && !root_faces_.empty()) return;
+    throw Error(ErrorCode::region_empty,
+                guessed_ ? "no face of the head lies above the hairline; give a region"
+                         : "the scalp's region holds no face of the head");
+}
+
+void Scalp::choose_region(const Mesh& head, const ScalpOptions& options) {
+    const Region* named = head.find_region("scalp");
+    guessed_ = !options.region && !named;
+    if (guessed_) {
+        guess_region(head, options);
+    } else {
+        set_given_region(head, options.region ? *options.region : *named, options.softness);
+    }
+}
+
+void Scalp::set_given_region(const Mesh& head, const Region& region, double softness) {
+    region_ = region;
+    root_faces_ = region.faces();
+    margins_ = margins_of_region(head, region, softness * scale_);
+}
+
+void Scalp::guess_region(const Mesh& head, const ScalpOptions& options) {
+    const HairlineTest test{frame_, options.hairline, options.softness * scale_};
+    margins_ = margins_of_hairline(head, normals_, test);
+    std::vector<Index> vertices;
+    for (Index v = 0; v < head.vertex_count(); ++v) {
+        if (test.inside(margins_[v])) vertices.push_back(v);
+    }
+    region_ = Region(head.shared_topology(), std::move(vertices));
+    for (Index f = 0; f < head.face_count(); ++f) {
+        const auto face = head.topology().face(f);
+        if (std::any_of(face.begin(), face.end(), [&](Index v) { return margins_[v] > 0.0; })) {
+            root_faces_.push_back(f);
+        }
+    }
+}
+
+Vec3 Scalp::vector_of(const ScalpDirection& direction) const {
+    const double flat = std::cos(direction.elevation);
+    return frame_.axes * Vec3(flat * std::sin(direction.azimuth), std::sin(direction.elevation),
+                              flat * std::cos(direction.azimuth));
+}
+
+ScalpDirection Scalp::direction_of(const Vec3& point) const {
+    const Vec3 p = frame_.local(point);
+    return {std::atan2(p.x(), p.z()), std::atan2(p.y(), std::hypot(p.x(), p.z()))};
+}
+
+Vec3 Scalp::normal_at(const Triangle& triangle, const Vec3& barycentric) const {
+    Vec3 sum = Vec3::Zero();
+    for (int corner = 0; corner < 3; ++corner) {
+        sum += barycentric[corner] * normals_[triangle[corner]];
+    }
+    const double length = sum.norm();
+    return length > 0.0 ? Vec3(sum / length) : Vec3::Zero();
+}
+
+std::optional<SurfacePoint> Scalp::surface_in(const ScalpDirection& direction) const {
+    const Vec3 ray = vector_of(direction);
+    const auto leaves = [&](const SurfacePoint& hit) { return hit.normal.dot(ray) > 0.0; };
+    const std::optional<SurfacePoint> first = tree_.pick(frame_.center, ray);
+    if (!first || leaves(*first)) return first;
+    const std::vector<SurfacePoint> hits = tree_.pick_all(frame_.center, ray);
+    const auto found = std::find_if(hits.begin(), hits.end(), leaves);
+    return found == hits.end() ? std::nullopt : std::optional(*found);
+}
+
+ScalpPoint Scalp::at(const ScalpDirection& direction, double lift) const {
+    if (!std::isfinite(direction.azimuth) || !std::isfinite(direction.elevation) ||
+        !std::isfinite(lift)) {
+        throw Error(ErrorCode::not_finite, "azimuth, elevation or lift is NaN or infinite");
+    }
+    if (const std::optional<SurfacePoint> hit = surface_in(direction)) {
+        const Vec3 normal = normal_at(hit->triangle, hit->barycentric);
+        return {hit->position + lift * scale_ * normal, normal, *hit};
+    }
+    const auto degrees = [](double angle) {
+        return std::to_string(std::lround(angle * 180.0 / kPi));
+    };
+    throw Error(ErrorCode::out_of_range, "the head has no surface at azimuth " +
+                                             degrees(direction.azimuth) + ", elevation " +
+                                             degrees(direction.elevation) + " degrees");
+}
+
+Box Scalp::default_box() const {
+    const Box metres = default_volume();
+    Box box;
+    for (int corner = 0; corner < 8; ++corner) {
+        Vec3 p = metres.min;
+        for (int axis = 0; axis < 3; ++axis) {
+            if ((corner >> axis) & 1) p[axis] = metres.max[axis];
+        }
+        box.extend(from_metres(p));
+    }
+    return box;
+}
+
+}  // namespace lissom

@@ -1,0 +1,63 @@
+/// Guides: the strands that others gather around, and the nearest of them; private to kernel/hair.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+#include "kernel/hair/strands/strands.h"
+
+namespace lissom {
+
+/// Place of a strand among others: its root, and how far the middle of its length lies from the
+/// root, so that neighbours that are combed to different sides of a parting are far apart.
+using GuideKey = Eigen::Matrix<double, 6, 1>;
+
+/// The key of a finite strand; `apart` weighs the second part.
+GuideKey guide_key(const StrandView& strand, double apart);
+
+/// A tree of keys that finds the nearest.
+class GuideTree {
+  public:
+    explicit GuideTree(std::vector<GuideKey> keys);
+
+    /// Number of the key nearest to `key`; of equal ones the first. kNoIndex where there are none.
+    Index nearest(const GuideKey& key) const;
+
+  private:
+    struct Best {
+        double distance;
+        Index guide;
+    };
+
+    void build(Index begin, Index end, int axis);
+    void search(const GuideKey& key, Index begin, Index end, int axis, Best& best) const;
+
+    std::vector<GuideKey> keys_;
+    /// Numbers of keys; the middle of a range splits the rest of it along one axis after the other.
+    std::vector<Index> order_;
+};
+
+/// A strand with a frame at each of its points that turns about it as little as possible.
+class GuideCurve {
+  public:
+    /// `strand` must be finite.
+    explicit GuideCurve(const StrandView& strand);
+
+    /// A point of the curve, with the normal, the binormal and the tangent there in the columns of
+    /// its frame; at the root the normal is arbitrary.
+    struct Point {
+        Vec3 position;
+        Mat3 frame;
+    };
+    /// At arc length fraction `t`.
+    Point at(double t) const;
+
+  private:
+    std::vector<double> t_;
+    std::vector<Vec3> points_;
+    std::vector<Mat3> frames_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,234 @@
+#include "kernel/hair/strands/strand_measures.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "kernel/hair/strands/strand_random.h"
+
+namespace lissom {
+namespace {
+
+constexpr Index kGrain = 256;
+
+Vec3 point(const StrandView& strand, Index k) {
+    return strand.col(k).cast<double>();
+}
+
+// Angle between two vectors that have a length; accurate near 0 and pi.
+double angle_between(const Vec3& a, const Vec3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+struct Shape {
+    double length = 0.0, turn = 0.0;
+    bool zero_segment = false;
+};
+
+Shape shape_of(const StrandView& strand) {
+    Shape shape;
+    Vec3 before = Vec3::Zero();
+    for (Index k = 1; k < strand.cols(); ++k) {
+        const Vec3 segment = point(strand, k) - point(strand, k - 1);
+        const double size = segment.norm();
+        if (size == 0.0) {
+            shape.zero_segment = true;
+            continue;
+        }
+        if (shape.length > 0.0) shape.turn = std::max(shape.turn, angle_between(before, segment));
+        shape.length += size;
+        before = segment;
+    }
+    return shape;
+}
+
+double depth_of(const StrandView& strand, const std::function<double(const Vec3&)>& distance) {
+    double least = std::numeric_limits<double>::infinity();
+    for (Index k = 0; k < strand.cols(); ++k) least = std::min(least, distance(point(strand, k)));
+    return -least;
+}
+
+// The statistics of a run of strands; lengths are summed in `mean_length`.
+class Collector {
+  public:
+    explicit Collector(const StrandStatisticsOptions& options) : options_(options) {}
+
+    void add(Index s, const StrandView& strand) {
+        StrandStatistics one;
+        one.strands = 1;
+        one.points = one.least_points = one.most_points = static_cast<Index>(strand.cols());
+        if (strand.allFinite()) {
+            measure(s, strand, one);
+        } else {
+            one.not_finite = 1;
+        }
+        add(one);
+    }
+
+    void add(const StrandStatistics& b) {
+        if (b.strands == 0) return;
+        StrandStatistics& a = sum_;
+        const bool first = a.strands == 0, first_finite = a.strands == a.not_finite;
+        a.least_points = first ? b.least_points : std::min(a.least_points, b.least_points);
+        a.most_points = std::max(a.most_points, b.most_points);
+        if (b.strands > b.not_finite) {
+            a.least_length =
+                first_finite ? b.least_length : std::min(a.least_length, b.least_length);
+            a.deepest = first_finite ? b.deepest : std::max(a.deepest, b.deepest);
+        }
+        a.most_length = std::max(a.most_length, b.most_length);
+        if (b.greatest_turn > a.greatest_turn) {
+            a.greatest_turn = b.greatest_turn;
+            a.greatest_turn_strand = b.greatest_turn_strand;
+        }
+        a.strands += b.strands;
+        a.points += b.points;
+        a.mean_length += b.mean_length;
+        a.sharp += b.sharp;
+        a.zero_length += b.zero_length;
+        a.zero_segments += b.zero_segments;
+        a.not_finite += b.not_finite;
+        a.penetrating += b.penetrating;
+    }
+
+    const StrandStatistics& sum() const { return sum_; }
+
+  private:
+    void measure(Index s, const StrandView& strand, StrandStatistics& one) const {
+        const Shape shape = shape_of(strand);
+        one.least_length = one.mean_length = one.most_length = shape.length;
+        one.greatest_turn = shape.turn;
+        one.greatest_turn_strand = s;
+        one.sharp = shape.turn > options_.sharp_turn ? 1 : 0;
+        one.zero_length = shape.length == 0.0 ? 1 : 0;
+        one.zero_segments = shape.zero_segment ? 1 : 0;
+        if (!options_.distance) return;
+        one.deepest = depth_of(strand, options_.distance);
+        one.penetrating = one.deepest > options_.depth ? 1 : 0;
+    }
+
+    const StrandStatisticsOptions& options_;
+    StrandStatistics sum_;
+};
+
+class Hasher {
+  public:
+    void add(std::uint64_t word) { state_ = mixed(state_ ^ word); }
+    void add(Index value) { add(std::uint64_t{static_cast<std::uint32_t>(value)}); }
+    void add(std::uint32_t value) { add(std::uint64_t{value}); }
+    // Every NaN counts as the same, since its payload differs between machines.
+    void add(float value) {
+        add(std::isnan(value) ? std::uint32_t{0x7fc00000} : std::bit_cast<std::uint32_t>(value));
+    }
+    template <int N>
+    void add(const Eigen::Matrix<float, N, 1>& vector) {
+        for (const float x : vector) add(x);
+    }
+    void add(std::string_view text) {
+        add(std::uint64_t{text.size()});
+        for (const char c : text) add(std::uint64_t{static_cast<unsigned char>(c)});
+    }
+    void add(const std::string& text) { add(std::string_view(text)); }
+    template <typename List>
+    void add_list(const List& list) {
+        add(std::uint64_t{list.size()});
+        for (const auto& value : list) add(value);
+    }
+    template <typename Value>
+    void add_values(const StrandValues<Value>& values) {
+        add(static_cast<Index>(values.domain));
+        add(values.common);
+        add_list(values.values);
+    }
+    std::uint64_t value() const { return state_; }
+
+  private:
+    std::uint64_t state_ = 0x6c6973736f6d0005ULL;
+};
+
+}  // namespace
+
+double length(const StrandView& strand) {
+    double sum = 0.0;
+    for (Index k = 1; k < strand.cols(); ++k)
+        sum += (point(strand, k) - point(strand, k - 1)).norm();
+    return sum;
+}
+
+void arc_fractions(const StrandView& strand, std::vector<double>& t) {
+    const auto count = static_cast<std::size_t>(strand.cols());
+    t.assign(count, 0.0);
+    for (std::size_t k = 1; k < count; ++k) {
+        const auto i = static_cast<Index>(k);
+        t[k] = t[k - 1] + (point(strand, i) - point(strand, i - 1)).norm();
+    }
+    const double whole = t.back();
+    for (std::size_t k = 1; k < count; ++k) {
+        t[k] = whole > 0.0 ? t[k] / whole : double(k) / double(count - 1);
+    }
+}
+
+void widths_of(const Strands& strands, Index s, std::vector<float>& widths) {
+    const StrandWidths& source = strands.widths();
+    const Index first = strands.first_point(s);
+    widths.resize(static_cast<std::size_t>(strands.point_count(s)));
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+        widths[k] = source.at(s, first + static_cast<Index>(k));
+    }
+    if (source.profile.empty()) return;
+    std::vector<double> t;
+    arc_fractions(strands.strand(s), t);
+    for (std::size_t k = 0; k < widths.size(); ++k) widths[k] *= source.factor(t[k]);
+}
+
+Box bounds(const Strands& strands) {
+    Box box;
+    const std::span<const float> points = strands.points();
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+        const Vec3 p(points[i], points[i + 1], points[i + 2]);
+        if (p.allFinite()) box.extend(p);
+    }
+    return box;
+}
+
+StrandStatistics strand_statistics(const Strands& strands, const StrandStatisticsOptions& options,
+                                   const Context& context) {
+    Progress progress(context, "measure strands");
+    const Index count = strands.size();
+    std::vector<StrandStatistics> parts(static_cast<std::size_t>((count + kGrain - 1) / kGrain));
+    context.parallel_for(0, count, kGrain, [&](Index begin, Index end) {
+        Collector part(options);
+        for (Index s = begin; s < end; ++s) part.add(s, strands.strand(s));
+        parts[static_cast<std::size_t>(begin / kGrain)] = part.sum();
+    });
+    Collector whole(options);
+    for (const StrandStatistics& part : parts) whole.add(part);
+    StrandStatistics result = whole.sum();
+    const Index finite = result.strands - result.not_finite;
+    if (finite > 0) result.mean_length /= finite;
+    return result;
+}
+
+std::uint64_t hash(const Strands& strands) {
+    Hasher hasher;
+    hasher.add_list(strands.offsets());
+    hasher.add_list(strands.points());
+    hasher.add_values(strands.widths());
+    hasher.add_list(strands.widths().profile);
+    hasher.add_list(strands.roots().faces);
+    hasher.add_list(strands.roots().barycentrics);
+    hasher.add_list(strands.roots().uvs);
+    hasher.add_list(strands.groups());
+    hasher.add_list(strands.group_names());
+    hasher.add_list(strands.ids());
+    hasher.add(Index{strands.colors() ? 1 : 0});
+    if (strands.colors()) hasher.add_values(*strands.colors());
+    hasher.add_values(strands.transparency());
+    hasher.add(strands.comment());
+    return hasher.value();
+}
+
+}  // namespace lissom

@@ -1,0 +1,116 @@
+#include "kernel/hair/strands/strand_operators.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "kernel/core/error.h"
+
+namespace lissom {
+namespace {
+
+constexpr Index kGrain = 64;
+// Steps of a profile: enough for any exponent to look smooth.
+constexpr std::size_t kProfileSamples = 33;
+
+std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
+
+void require(bool valid, const char* message) {
+    if (!valid) throw Error(ErrorCode::invalid_argument, message);
+}
+
+double taper_at(double t, const TaperOptions& options) {
+    const double along = std::max(0.0, (t - options.start) / (1.0 - options.start));
+    return 1.0 + (options.tip - 1.0) * std::pow(along, options.shape);
+}
+
+void smooth_once(double strength, std::vector<Vec3>& points) {
+    Vec3 before = points.front();
+    for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+        const Vec3 here = points[k];
+        points[k] += strength * (0.5 * (before + points[k + 1]) - here);
+        before = here;
+    }
+}
+
+void require_finite(const Strands& strands, const std::vector<float>& points) {
+    Elements bad{ElementKind::strand, 0, {}};
+    for (Index s = 0; s < strands.size(); ++s) {
+        const StrandView made(points.data() + 3 * at(strands.first_point(s)), 3,
+                              strands.point_count(s));
+        if (!made.allFinite() && strands.strand(s).allFinite()) bad.add(s);
+    }
+    if (bad.count == 0) return;
+    const std::string names = describe(bad);
+    throw Error(ErrorCode::not_finite, names + " would exceed the range of 32-bit numbers",
+                std::move(bad));
+}
+
+}  // namespace
+
+void taper(Strands& strands, const TaperOptions& options) {
+    require(options.tip > 0.0 && std::isfinite(options.tip), "the tip of a taper must be positive");
+    require(options.start >= 0.0 && options.start < 1.0,
+            "the start of a taper must be at least 0 and below 1");
+    require(options.shape > 0.0 && std::isfinite(options.shape),
+            "the shape of a taper must be positive");
+    StrandWidths widths = strands.widths();
+    std::vector<float> profile(std::max(kProfileSamples, widths.profile.size()));
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+        const double t = double(i) / double(profile.size() - 1);
+        profile[i] = static_cast<float>(widths.factor(t) * taper_at(t, options));
+    }
+    widths.profile = std::move(profile);
+    strands.set_widths(std::move(widths));
+}
+
+void smooth(Strands& strands, const StrandSmoothOptions& options, const Context& context) {
+    require(options.iterations >= 0, "the number of passes must not be negative");
+    require(options.strength > 0.0 && options.strength <= 1.0,
+            "the strength must be above 0 and at most 1");
+    Progress progress(context, "smooth strands");
+    const auto move = [&](Index, const StrandView& old, StrandEdit& made) {
+        std::vector<Vec3> points;
+        for (Index k = 0; k < old.cols(); ++k) points.push_back(old.col(k).cast<double>());
+        for (Index i = 0; i < options.iterations; ++i) smooth_once(options.strength, points);
+        for (Index k = 0; k < old.cols(); ++k) made.col(k) = points[at(k)].cast<float>();
+    };
+    move_points(strands, move, context);
+}
+
+void move_points(
+    Strands& strands,
+    const std::function<void(Index strand, const StrandView& old, StrandEdit& made)>& move,
+    const Context& context) {
+    const MemoryCharge charge = context.charge(strands.points().size_bytes(), "moving strands");
+    std::vector<float> points(strands.points().begin(), strands.points().end());
+    context.parallel_for(0, strands.size(), kGrain, [&](Index begin, Index end) {
+        for (Index s = begin; s < end; ++s) {
+            const StrandView old = strands.strand(s);
+            if (old.cols() < 2 || !old.allFinite()) continue;
+            StrandEdit made(points.data() + 3 * at(strands.first_point(s)), 3, old.cols());
+            move(s, old, made);
+            made.col(0) = old.col(0);
+        }
+    });
+    require_finite(strands, points);
+    std::copy(points.begin(), points.end(), strands.edit_points().begin());
+}
+
+void restore_lengths(const StrandView& old, StrandEdit& made) {
+    Vec3 before = old.col(0).cast<double>(), at_new = before;
+    for (Index k = 1; k < old.cols(); ++k) {
+        const Vec3 here = made.col(k).cast<double>();
+        const Vec3 was = (old.col(k) - old.col(k - 1)).cast<double>();
+        const Vec3 direction = here - before;
+        const double size = direction.norm();
+        at_new += size > 0.0 ? Vec3(direction * (was.norm() / size)) : was;
+        before = here;
+        made.col(k) = at_new.cast<float>();
+    }
+}
+
+}  // namespace lissom

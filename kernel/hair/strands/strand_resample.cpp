@@ -1,0 +1,197 @@
+#include "kernel/hair/strands/strand_resample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/hair/strands/strand_measures.h"
+
+namespace lissom {
+namespace {
+
+constexpr Index kGrain = 256;
+constexpr double kMostPoints = std::numeric_limits<Index>::max();
+
+std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
+
+[[noreturn]] void refuse_points() {
+    throw Error(ErrorCode::invalid_argument,
+                "there would be more points than can be numbered; take fewer points or a longer "
+                "step");
+}
+
+// Places on a run of strands, one strand after the other.
+struct Run {
+    std::vector<StrandPlace> places;
+    std::vector<Index> counts;
+};
+
+using Find = std::function<void(Index, std::vector<StrandPlace>&)>;
+
+std::vector<Run> find_runs(const Strands& strands, const Find& find, const Context& context) {
+    std::vector<Run> runs(at((strands.size() + kGrain - 1) / kGrain));
+    context.parallel_for(0, strands.size(), kGrain, [&](Index begin, Index end) {
+        Run& run = runs[at(begin / kGrain)];
+        std::vector<StrandPlace> places;
+        for (Index s = begin; s < end; ++s) {
+            places.clear();
+            find(s, places);
+            run.places.insert(run.places.end(), places.begin(), places.end());
+            run.counts.push_back(static_cast<Index>(places.size()));
+        }
+    });
+    return runs;
+}
+
+std::vector<Index> offsets_of(const std::vector<Run>& runs) {
+    std::vector<Index> offsets = {0};
+    std::int64_t total = 0;
+    for (const Run& run : runs) {
+        for (const Index count : run.counts) {
+            total += count;
+            if (total > std::numeric_limits<Index>::max()) {
+                refuse_points();
+            }
+            offsets.push_back(static_cast<Index>(total));
+        }
+    }
+    return offsets;
+}
+
+// Values of points at the places; `old` and `made` hold `width` numbers a point.
+void interpolate(const float* old, Index width, const Strands& strands,
+                 const std::vector<Index>& offsets, const std::vector<Run>& runs,
+                 const Context& context, float* made) {
+    context.parallel_for(0, strands.size(), kGrain, [&](Index begin, Index end) {
+        const StrandPlace* place = runs[at(begin / kGrain)].places.data();
+        for (Index s = begin; s < end; ++s) {
+            const Index last = strands.point_count(s) - 1;
+            for (Index k = offsets[at(s)]; k < offsets[at(s) + 1]; ++k, ++place) {
+                const Index next = std::min(place->below + 1, last);
+                const float* const a = old + at(strands.first_point(s) + place->below) * at(width);
+                const float* const b = old + at(strands.first_point(s) + next) * at(width);
+                for (std::size_t c = 0; c < at(width); ++c) {
+                    const double u = place->u;
+                    const double between = u == 0.0 ? a[c] : a[c] + u * (double(b[c]) - a[c]);
+                    made[at(k) * at(width) + c] = static_cast<float>(between);
+                }
+            }
+        }
+    });
+}
+
+// Copies all but the points; values of points are those at the places.
+template <typename Move>
+void copy_data(const Strands& strands, const Move& move, Strands& result) {
+    StrandWidths widths = strands.widths();
+    move(widths);
+    result.set_widths(std::move(widths));
+    StrandValues<float> transparency = strands.transparency();
+    move(transparency);
+    result.set_transparency(std::move(transparency));
+    if (strands.colors()) {
+        StrandValues<Eigen::Vector3f> colors = *strands.colors();
+        move(colors);
+        result.set_colors(std::move(colors));
+    }
+    result.set_roots(strands.roots());
+    result.set_groups(strands.groups(), strands.group_names());
+    result.set_ids(strands.ids());
+    result.set_comment(strands.comment());
+}
+
+float* numbers(std::vector<float>& values) {
+    return values.data();
+}
+float* numbers(std::vector<Eigen::Vector3f>& values) {
+    return values.empty() ? nullptr : values.front().data();
+}
+
+void require_options(const ResampleOptions& options) {
+    const bool by_count = options.count >= 2 && options.step == 0.0;
+    const bool by_step = options.count == 0 && options.step > 0.0 && std::isfinite(options.step);
+    if (by_count || by_step) return;
+    throw Error(ErrorCode::invalid_argument,
+                "resampling needs either a count of at least 2 points or a positive step");
+}
+
+// Segments of a strand of this length; one where it is not finite.
+double segments_for(double length, const ResampleOptions& options) {
+    if (options.count > 0) return options.count - 1;
+    const double segments = std::round(length / options.step);
+    return std::isfinite(segments) ? std::max(1.0, segments) : 1.0;
+}
+
+// Segments of each strand, once it is known that their points can be numbered.
+std::vector<Index> all_segments(const Strands& strands, const ResampleOptions& options) {
+    std::vector<Index> segments;
+    double points = 0.0;
+    for (Index s = 0; s < strands.size(); ++s) {
+        const bool is_root = strands.point_count(s) == 1;
+        const double count = is_root ? 0.0 : segments_for(length(strands.strand(s)), options);
+        points += count + 1.0;
+        if (points > kMostPoints) refuse_points();
+        segments.push_back(static_cast<Index>(count));
+    }
+    return segments;
+}
+
+}  // namespace
+
+Strands at_places(const Strands& strands, const Find& find, const Context& context) {
+    const std::vector<Run> runs = find_runs(strands, find, context);
+    std::vector<Index> offsets = offsets_of(runs);
+    const MemoryCharge charge =
+        context.charge(3 * sizeof(float) * at(offsets.back()), "points of strands");
+    std::vector<float> points(3 * at(offsets.back()));
+    interpolate(strands.points().data(), 3, strands, offsets, runs, context, points.data());
+    Strands result(std::move(points), offsets);
+    copy_data(
+        strands,
+        [&](auto& values) {
+            if (values.domain != StrandDomain::point) return;
+            auto old = std::move(values.values);
+            values.values.resize(at(offsets.back()), values.common);
+            constexpr Index kWidth = sizeof(values.common) / sizeof(float);
+            interpolate(numbers(old), kWidth, strands, offsets, runs, context,
+                        numbers(values.values));
+        },
+        result);
+    return result;
+}
+
+StrandPlace place_at(const std::vector<double>& fractions, double t) {
+    const auto above = std::upper_bound(fractions.begin() + 1, fractions.end() - 1, t);
+    const auto k = static_cast<std::size_t>(above - fractions.begin()) - 1;
+    const double size = fractions[k + 1] - fractions[k];
+    const double u = size > 0.0 ? std::clamp((t - fractions[k]) / size, 0.0, 1.0) : 0.0;
+    return {static_cast<Index>(k), static_cast<float>(u)};
+}
+
+Strands resample(const Strands& strands, const ResampleOptions& options, const Context& context) {
+    require_options(options);
+    Progress progress(context, "resample strands");
+    const std::vector<Index> segments = all_segments(strands, options);
+    const std::int64_t points = std::accumulate(segments.begin(), segments.end(), std::int64_t{0});
+    const MemoryCharge charge =
+        context.charge(sizeof(StrandPlace) * static_cast<std::size_t>(points), "places on strands");
+    const auto find = [&](Index s, std::vector<StrandPlace>& places) {
+        const StrandView strand = strands.strand(s);
+        const Index count = segments[at(s)];
+        places.push_back({0, 0.0f});
+        if (count == 0) return;
+        std::vector<double> fractions;
+        arc_fractions(strand, fractions);
+        for (Index k = 1; k < count; ++k) places.push_back(place_at(fractions, double(k) / count));
+        places.push_back({static_cast<Index>(strand.cols()) - 1, 0.0f});
+    };
+    return at_places(strands, find, context);
+}
+
+}  // namespace lissom

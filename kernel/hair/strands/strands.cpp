@@ -1,0 +1,144 @@
+#include "kernel/hair/strands/strands.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "kernel/core/error.h"
+
+namespace lissom {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message) {
+    throw Error(ErrorCode::invalid_argument, message);
+}
+
+void require_offsets(const std::vector<float>& points, const std::vector<Index>& offsets) {
+    constexpr std::size_t kMaximum = std::numeric_limits<Index>::max();
+    if (points.size() % 3 != 0) refuse("points need three numbers each");
+    if (points.size() / 3 > kMaximum || offsets.size() > kMaximum) {
+        refuse("there are more points or strands than can be numbered");
+    }
+    const auto count = static_cast<Index>(points.size() / 3);
+    if (offsets.empty() || offsets.front() != 0 || offsets.back() != count) {
+        refuse("offsets must begin with 0 and end with the number of points, " +
+               std::to_string(count));
+    }
+    const auto stuck = std::adjacent_find(offsets.begin(), offsets.end(), std::greater_equal<>());
+    if (stuck == offsets.end()) return;
+    throw Error(ErrorCode::invalid_argument,
+                "offsets must grow: every strand has at least one point",
+                {ElementKind::strand, 1, {static_cast<Index>(stuck - offsets.begin())}});
+}
+
+void require_length(std::size_t found, Index expected, const char* what) {
+    if (found == static_cast<std::size_t>(expected)) return;
+    refuse("there are " + std::to_string(found) + " " + what + " for " + std::to_string(expected) +
+           " elements");
+}
+
+template <typename Value>
+void require_values(const StrandValues<Value>& values, const Strands& strands, const char* what) {
+    const Index expected = values.domain == StrandDomain::all      ? 0
+                           : values.domain == StrandDomain::strand ? strands.size()
+                                                                   : strands.point_count();
+    require_length(values.values.size(), expected, what);
+}
+
+template <typename T>
+std::size_t bytes_of(const std::vector<T>& list) {
+    return list.capacity() * sizeof(T);
+}
+
+}  // namespace
+
+float StrandWidths::factor(double t) const {
+    if (profile.empty()) return 1.0f;
+    const double at = std::clamp(t, 0.0, 1.0) * static_cast<double>(profile.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(at), profile.size() - 1);
+    const std::size_t above = std::min(below + 1, profile.size() - 1);
+    const double u = at - static_cast<double>(below);
+    return static_cast<float>((1.0 - u) * profile[below] + u * profile[above]);
+}
+
+Strands::Strands(std::vector<float> points, std::vector<Index> offsets) {
+    require_offsets(points, offsets);
+    points_ = std::move(points);
+    offsets_ = std::move(offsets);
+}
+
+void Strands::release(std::vector<float>& points, std::vector<Index>& offsets) {
+    Strands old;
+    std::swap(*this, old);
+    points = std::move(old.points_);
+    offsets = std::move(old.offsets_);
+}
+
+Index Strands::find_group(std::string_view name) const {
+    const auto found = std::find(group_names_.begin(), group_names_.end(), name);
+    return found == group_names_.end() ? kNoIndex
+                                       : static_cast<Index>(found - group_names_.begin());
+}
+
+void Strands::set_widths(StrandWidths widths) {
+    require_values(widths, *this, "widths");
+    widths_ = std::move(widths);
+}
+
+void Strands::set_roots(StrandRoots roots) {
+    if (!roots.faces.empty()) require_length(roots.faces.size(), size(), "root faces");
+    require_length(roots.barycentrics.size(), static_cast<Index>(roots.faces.size()),
+                   "barycentric coordinates");
+    if (!roots.uvs.empty()) require_length(roots.uvs.size(), size(), "root uvs");
+    roots_ = std::move(roots);
+}
+
+void Strands::set_groups(std::vector<Index> groups, std::vector<std::string> names) {
+    if (!groups.empty()) require_length(groups.size(), size(), "groups");
+    const auto count = static_cast<Index>(names.size());
+    for (const Index group : groups) {
+        if (group < kNoIndex || group >= count) {
+            refuse("group " + std::to_string(group) + " is none of the " + std::to_string(count) +
+                   " that have names");
+        }
+    }
+    groups_ = std::move(groups);
+    group_names_ = std::move(names);
+}
+
+void Strands::set_ids(std::vector<std::uint32_t> ids) {
+    if (!ids.empty()) require_length(ids.size(), size(), "ids");
+    std::size_t number = 0;
+    const bool are_numbers =
+        std::all_of(ids.begin(), ids.end(), [&](std::uint32_t id) { return id == number++; });
+    if (are_numbers) ids.clear();
+    ids_ = std::move(ids);
+}
+
+void Strands::set_colors(StrandValues<Eigen::Vector3f> colors) {
+    require_values(colors, *this, "colours");
+    colors_ = std::move(colors);
+    has_colors_ = true;
+}
+
+void Strands::set_transparency(StrandValues<float> transparency) {
+    require_values(transparency, *this, "transparencies");
+    transparency_ = std::move(transparency);
+}
+
+std::size_t Strands::memory_bytes() const {
+    return bytes_of(points_) + bytes_of(offsets_) + bytes_of(widths_.values) +
+           bytes_of(roots_.faces) + bytes_of(roots_.barycentrics) + bytes_of(roots_.uvs) +
+           bytes_of(groups_) + bytes_of(ids_) + bytes_of(colors_.values) +
+           bytes_of(transparency_.values);
+}
+
+void require_strand(const Strands& strands, Index strand) {
+    if (strand >= 0 && strand < strands.size()) return;
+    throw Error(
+        ErrorCode::out_of_range,
+        "there is no strand " + std::to_string(strand) + " among " + std::to_string(strands.size()),
+        {ElementKind::strand, 1, {strand}});
+}
+
+}  // namespace lissom

@@ -1,0 +1,31 @@
+/// Adds an animation of morph targets to what a glTF file holds beside its surface; private to
+/// kernel/io and not installed.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernel/io/gltf/asset.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// One key after another: its time in seconds, and the one morph target, from 0, that has the
+/// weight 1 there, or kNoIndex.
+struct MorphKeys {
+    std::string name;
+    bool is_stepped = false;
+    std::vector<float> times;
+    std::vector<Index> targets;
+    Index target_count = 0;
+};
+
+/// The asset of `mesh`, or a new one, without its animations of morph targets and with this one: it
+/// moves every object that has a vertex with a flag in `moves`. Nodes are added for objects that
+/// have none.
+std::shared_ptr<const GltfAsset> with_morph_animation(const Mesh& mesh,
+                                                      const std::vector<char>& moves,
+                                                      const MorphKeys& keys);
+
+}  // namespace lissom

@@ -1,0 +1,280 @@
+#include "kernel/io/gltf/file/document.h"
+
+#include <algorithm>
+
+#include "kernel/io/gltf/file/container.h"
+#include "kernel/io/gltf/file/extensions.h"
+#include "kernel/io/stream/read_error.h"
+
+namespace lissom {
+namespace {
+
+constexpr std::size_t kLeastBudget = std::size_t{1} << 20;
+constexpr std::size_t kElementsPerByte = 16;
+
+// The parser puts a name and number of its own before its messages, in brackets.
+std::string without_tag(const std::string& message) {
+    const std::size_t end = message.find("] ");
+    return message.starts_with('[') && end != std::string::npos ? message.substr(end + 2) : message;
+}
+
+Json parse_json(std::string_view text) {
+    require_shallow(text);
+    // A GLB chunk may be padded with zeros by careless writers.
+    while (text.ends_with('\0')) text.remove_suffix(1);
+    try {
+        Json json = Json::parse(text);
+        if (json.is_object()) return json;
+    } catch (const Json::exception& error) {
+        refuse(ErrorCode::file_syntax, "the JSON cannot be read: " + without_tag(error.what()));
+    }
+    refuse(ErrorCode::file_syntax, "the JSON is not an object, as that of a glTF file is");
+}
+
+void require_version(const Json& json) {
+    const Json* asset = member(json, "asset");
+    const std::string version = asset ? text_member(*asset, "version") : "";
+    const std::string needed = asset ? text_member(*asset, "minVersion") : "";
+    // The first version had objects where the second has lists, and need not name itself.
+    const Json* meshes = member(json, "meshes");
+    const bool is_first =
+        version.starts_with("1.") || (version.empty() && meshes && meshes->is_object());
+    if (is_first) {
+        refuse(ErrorCode::unsupported,
+               "the file is glTF 1.0, but only glTF 2.0 is read; convert it first");
+    }
+    if (version.empty()) refuse(ErrorCode::file_syntax, "the version of glTF is not given");
+    const std::string& binding = needed.empty() ? version : needed;
+    const bool is_read = needed.empty() ? binding.starts_with("2.") : binding == "2.0";
+    if (!is_read) {
+        refuse(ErrorCode::unsupported,
+               "the file needs glTF " + binding + ", but only glTF 2.0 is read");
+    }
+}
+
+void require_lists(const Json& json) {
+    for (const char* key :
+         {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
+          "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
+        const Json* list = member(json, key);
+        if (!list) continue;
+        const bool is_list =
+            list->is_array() && std::all_of(list->begin(), list->end(),
+                                            [](const Json& item) { return item.is_object(); });
+        if (!is_list) {
+            refuse(ErrorCode::file_syntax, "'" + std::string(key) + "' is not a list of objects");
+        }
+    }
+    if (const Json* meshes = member(json, "meshes")) {
+        for (const Json& mesh : *meshes) {
+            const Json* primitives = member(mesh, "primitives");
+            if (primitives && primitives->is_array()) continue;
+            refuse(ErrorCode::file_syntax, "a mesh has no list of primitives");
+        }
+    }
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+        const Json* list = member(json, key);
+        if (list && !list->is_array()) {
+            refuse(ErrorCode::file_syntax, "'" + std::string(key) + "' is not a list");
+        }
+    }
+}
+
+// Opens the buffers and images of one document.
+class Loader {
+  public:
+    Loader(const FileInput& file, GltfDocument& document, Report& report)
+        : document_(document), folder_(file.folder), report_(report) {}
+
+    void load_buffers(std::optional<std::string_view> binary) {
+        Json* buffers = member(document_.json, "buffers");
+        for (std::size_t i = 0; buffers && i < buffers->size(); ++i) {
+            const bool is_chunk = i == 0 && binary && !(*buffers)[i].contains("uri");
+            document_.buffers.push_back(is_chunk ? part(*binary, length_of((*buffers)[i], i), i)
+                                                 : buffer((*buffers)[i], i));
+        }
+        document_.bytes_read += folder_.bytes_read();
+    }
+
+    void load_images() {
+        Json* images = member(document_.json, "images");
+        for (std::size_t i = 0; images && i < images->size(); ++i) {
+            document_.images.push_back(image((*images)[i], i));
+        }
+        if (!missing_.empty()) {
+            report_.add(FindingKind::files_missing, missing_count_, "images " + missing_);
+        }
+    }
+
+  private:
+    static std::size_t length_of(const Json& buffer, std::size_t number) {
+        const Json* length = member(buffer, "byteLength");
+        if (length && length->is_number_unsigned()) return length->get<std::size_t>();
+        refuse(ErrorCode::file_syntax, "buffer " + std::to_string(number) + " has no length");
+    }
+
+    static std::string_view part(std::string_view bytes, std::size_t length, std::size_t number) {
+        if (bytes.size() >= length) return bytes.substr(0, length);
+        refuse(ErrorCode::file_truncated, "buffer " + std::to_string(number) + " has " +
+                                              std::to_string(bytes.size()) + " of its " +
+                                              std::to_string(length) + " bytes");
+    }
+
+    std::string_view buffer(Json& json, std::size_t number) {
+        const std::size_t length = length_of(json, number);
+        const Json* uri = member(json, "uri");
+        if (!uri) return {};
+        if (!uri->is_string()) refuse(ErrorCode::file_syntax, "the URI of a buffer is not a text");
+        const std::string& text = uri->get_ref<const std::string&>();
+        SharedBytes content;
+        if (std::optional<UriData> data = decode_data_uri(text)) {
+            content = std::make_shared<const std::string>(std::move(data->bytes));
+        } else {
+            content = folder_.read(text, length);
+        }
+        json.erase("uri");
+        document_.owned.push_back(content);
+        return part(*content, length, number);
+    }
+
+    SharedBytes image(Json& json, std::size_t number) {
+        const int view = index_member(json, "bufferView", "image " + std::to_string(number));
+        if (view >= 0) return image_of_view(static_cast<std::size_t>(view));
+        const std::string uri = text_member(json, "uri");
+        if (uri.empty()) return nullptr;
+        if (std::optional<UriData> data = decode_data_uri(uri)) {
+            if (!json.contains("mimeType")) json["mimeType"] = data->media_type;
+            json.erase("uri");
+            return std::make_shared<const std::string>(std::move(data->bytes));
+        }
+        SharedBytes content = folder_.read_if_there(uri);
+        if (!content) {
+            ++missing_count_;
+            missing_ += (missing_.empty() ? "" : ", ") + in_quotes(uri);
+        }
+        return content;
+    }
+
+    SharedBytes image_of_view(std::size_t view) {
+        SharedBytes& content = image_of_view_[view];
+        if (!content) {
+            const std::string_view bytes = bytes_of_view(document_, view);
+            image_bytes_ += bytes.size();
+            if (image_bytes_ > 4 * document_.bytes_read) {
+                refuse(ErrorCode::file_too_large, "the images overlap in the file");
+            }
+            content = std::make_shared<const std::string>(bytes);
+        }
+        return content;
+    }
+
+    GltfDocument& document_;
+    GltfFolder folder_;
+    Report& report_;
+    std::map<std::size_t, SharedBytes> image_of_view_;
+    std::size_t image_bytes_ = 0, missing_count_ = 0;
+    std::string missing_;
+};
+
+// What tinygltf is given: all that refers to no bytes outside the text. Skins and animations are
+// not given to it either, because it refuses some that glTF allows.
+Json part_for_parser(Json json) {
+    for (const char* key : {"buffers", "images", "skins", "animations"}) json.erase(key);
+    return json;
+}
+
+// tinygltf refuses indices without a buffer view, which are zeros. Gives all accessors without one
+// a view that is added at the end, and returns which these are.
+std::vector<std::size_t> add_stand_in_view(Json& json) {
+    std::vector<std::size_t> without_view;
+    Json& views = json["bufferViews"];
+    if (views.is_null()) views = Json::array();
+    Json* accessors = member(json, "accessors");
+    for (std::size_t a = 0; accessors && a < accessors->size(); ++a) {
+        if ((*accessors)[a].contains("bufferView")) continue;
+        (*accessors)[a]["bufferView"] = views.size();
+        without_view.push_back(a);
+    }
+    views.push_back({{"buffer", 0}, {"byteLength", 1}});
+    return without_view;
+}
+
+void remove_stand_in_view(tinygltf::Model& model, const std::vector<std::size_t>& without_view) {
+    for (const std::size_t a : without_view) model.accessors[a].bufferView = -1;
+    model.bufferViews.pop_back();
+}
+
+std::string one_line_of(std::string text) {
+    while (text.ends_with('\n')) text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+tinygltf::Model parse_model(const Json& json) {
+    Json part = part_for_parser(json);
+    const std::vector<std::size_t> without_view = add_stand_in_view(part);
+    const std::string text = to_text(part);
+    tinygltf::Model model;
+    tinygltf::TinyGLTF parser;
+    std::string error, warning;
+    bool good = false;
+    try {
+        good = parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
+                                          static_cast<unsigned int>(text.size()), "");
+    } catch (const std::exception& exception) {
+        error = exception.what();
+    }
+    if (!good || !error.empty()) refuse(ErrorCode::file_syntax, one_line_of(error));
+    remove_stand_in_view(model, without_view);
+    return model;
+}
+
+}  // namespace
+
+GltfBudget::GltfBudget(std::size_t bytes_read)
+    : left_(std::max(kLeastBudget, kElementsPerByte * bytes_read)) {}
+
+void GltfBudget::require(std::size_t elements) const {
+    if (allows(elements)) return;
+    refuse(ErrorCode::file_too_large,
+           "the surface would be many times larger than the file; it repeats itself too often");
+}
+
+void GltfBudget::charge(std::size_t elements) {
+    require(elements);
+    left_ -= elements;
+}
+
+std::string_view bytes_of_view(const GltfDocument& document, std::size_t number) {
+    const std::string name = "buffer view " + std::to_string(number);
+    if (number >= document.model.bufferViews.size()) {
+        refuse(ErrorCode::file_syntax, name + " does not exist");
+    }
+    const tinygltf::BufferView& view = document.model.bufferViews[number];
+    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= document.buffers.size()) {
+        refuse(ErrorCode::file_syntax, name + " is in a buffer that does not exist");
+    }
+    const std::string_view buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
+    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
+        refuse(ErrorCode::file_syntax, name + " reaches beyond the end of its buffer");
+    }
+    return buffer.substr(view.byteOffset, view.byteLength);
+}
+
+GltfDocument open_gltf(const FileInput& file, Report& report, const Context& context) {
+    const GltfContainer container = open_gltf_container(file.bytes);
+    GltfDocument document;
+    document.json = parse_json(container.json);
+    document.bytes_read = file.bytes.size();
+    require_version(document.json);
+    require_lists(document.json);
+    require_supported_extensions(document.json);
+    Loader loader(file, document, report);
+    loader.load_buffers(container.binary);
+    document.charge = context.charge(2 * document.bytes_read, "the content of a glTF file");
+    document.model = parse_model(document.json);
+    loader.load_images();
+    return document;
+}
+
+}  // namespace lissom

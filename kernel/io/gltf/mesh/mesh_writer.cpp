@@ -1,0 +1,345 @@
+#include "kernel/io/gltf/mesh/mesh_writer.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "kernel/io/gltf/file/extras.h"
+#include "kernel/io/gltf/mesh/fans.h"
+
+namespace lissom {
+namespace {
+
+// Vertices of a pool that a primitive uses, each once.
+std::vector<Index> used_vertices(const std::vector<Index>& corners, std::size_t pool_size) {
+    std::vector<char> used(pool_size, 0);
+    for (const Index v : corners) used[v] = 1;
+    std::vector<Index> list;
+    for (std::size_t v = 0; v < pool_size; ++v) {
+        if (used[v]) list.push_back(static_cast<Index>(v));
+    }
+    return list;
+}
+
+// Numbers once written, by what they are.
+using Written = std::map<std::string, std::size_t>;
+
+}  // namespace
+
+// One mesh while it is written.
+class MeshWriter::Object {
+  public:
+    Object(MeshWriter& writer, const VertexPool& pool, const ObjectPlace& place)
+        : writer_(writer),
+          pool_(pool),
+          place_(place),
+          values_(writer.parts_.mesh(), pool, place.to_node) {
+        mesh_ = place.mesh;
+        kept_primitives_ = mesh_.value("primitives", Json::array());
+        mesh_["primitives"] = Json::array();
+        find_targets();
+        find_joints();
+    }
+
+    void add_primitive(const SurfacePrimitive& primitive, const VertexPools& pools,
+                       const PlacedMaterial& material) {
+        const FanWriter fans = triangulated(primitive, pools);
+        Json json = beside_surface(material.number);
+        if (material.number >= 0) json["material"] = material.number;
+        if (fans.has_polygons()) json["extensions"]["FB_ngon_encoding"] = Json::object();
+        const std::vector<Index> used = used_vertices(fans.corners(), pool_.size());
+        json["attributes"] = attributes_of(used, material.uv_count);
+        if (Json targets = targets_of(json["attributes"]); !targets.empty()) {
+            json["targets"] = std::move(targets);
+        }
+        json["indices"] = indices(fans.corners());
+        mesh_["primitives"].push_back(std::move(json));
+    }
+
+    void keep_objects(const FaceLabels& objects) { objects_ = &objects; }
+
+    void add_points() {
+        std::vector<Index> all;
+        for (std::size_t v = 0; v < pool_.size(); ++v) all.push_back(static_cast<Index>(v));
+        mesh_["primitives"].push_back(
+            {{"mode", TINYGLTF_MODE_POINTS}, {"attributes", attributes_of(all, 0)}});
+    }
+
+    Json finish() {
+        if (Json* weights = member(mesh_, "weights")) {
+            if (weights->size() != target_count_) mesh_.erase("weights");
+        }
+        put_extras(mesh_, extras(), pool_.size(), faces_.size());
+        return std::move(mesh_);
+    }
+
+  private:
+    bool has_value(const Attribute& attribute, const std::vector<Index>& vertices) const {
+        return std::any_of(vertices.begin(), vertices.end(), [&](Index v) {
+            return values_.has_value(attribute, static_cast<std::size_t>(v));
+        });
+    }
+
+    bool has_value(const Attribute& attribute) const {
+        for (std::size_t v = 0; v < pool_.size(); ++v) {
+            if (values_.has_value(attribute, v)) return true;
+        }
+        return false;
+    }
+
+    void find_targets() {
+        for (const WrittenMorph& morph : writer_.attributes_.morphs) {
+            if (!can_read(*morph.attribute) || !has_value(*morph.attribute)) continue;
+            target_count_ = std::max(target_count_, static_cast<std::size_t>(morph.name.target));
+            morphs_[static_cast<std::size_t>(morph.name.target)].push_back(&morph);
+        }
+    }
+
+    void find_joints() {
+        const WrittenAttributes& all = writer_.attributes_;
+        has_joints_ = all.joints && has_value(*all.joints);
+    }
+
+    // Points have no corners.
+    bool can_read(const Attribute& attribute) const {
+        return attribute.domain == Domain::vertex || pool_.size() == 0 ||
+               pool_.corners[0] != kNoIndex;
+    }
+
+    // What the primitive of this material had beside the surface.
+    Json beside_surface(int material) const {
+        for (const Json& kept : kept_primitives_) {
+            if (kept.value("material", -1) != material) continue;
+            Json json = kept;
+            json.erase("material");
+            return json;
+        }
+        return Json::object();
+    }
+
+    FanWriter triangulated(const SurfacePrimitive& primitive, const VertexPools& pools) {
+        const Mesh& mesh = writer_.parts_.mesh();
+        const Topology& topology = mesh.topology();
+        FanWriter fans;
+        if (std::any_of(primitive.faces.begin(), primitive.faces.end(),
+                        [&](Index f) { return topology.face(f).size() > 3; })) {
+            fans.expect_polygons();
+        }
+        std::vector<Index> vertices;
+        std::vector<Vec3> points;
+        for (const Index f : primitive.faces) {
+            vertices.clear();
+            points.clear();
+            for (const Index v : topology.face(f)) {
+                const auto k = static_cast<Index>(vertices.size());
+                vertices.push_back(pools.vertex_of_corner(topology.first_corner(f) + k));
+                points.push_back(mesh.position(v));
+            }
+            if (place_.to_node.mirrors()) {
+                std::reverse(vertices.begin() + 1, vertices.end());
+                std::reverse(points.begin() + 1, points.end());
+            }
+            FanWriter::Added added = fans.add(vertices, points);
+            if (place_.to_node.mirrors() && added.turn != 0) {
+                added.turn = static_cast<Index>(vertices.size()) - added.turn;
+            }
+            faces_.push_back(f);
+            turns_.push_back(added.turn);
+            parts_.push_back(added.parts);
+        }
+        return fans;
+    }
+
+    template <typename Make>
+    std::size_t once(const std::string& name, const Make& make, bool with_bounds = false) {
+        const auto known = written_.find(name);
+        if (known != written_.end()) return known->second;
+        const std::size_t number = writer_.binary_.add(make(), BufferUse::vertices, with_bounds);
+        written_[name] = number;
+        return number;
+    }
+
+    Json attributes_of(const std::vector<Index>& used, Index uv_count) {
+        Json json{{"POSITION", once(
+                                   "POSITION", [&] { return values_.positions(); }, true)}};
+        Index sets_of_uv = uv_count, sets_of_color = 0;
+        bool has_normal = false;
+        for (const WrittenAttribute& written : writer_.attributes_.plain) {
+            if (!can_read(*written.attribute) || !has_value(*written.attribute, used)) continue;
+            const GltfSemantic semantic = written.name.semantic;
+            if (semantic == GltfSemantic::uv)
+                sets_of_uv = std::max(sets_of_uv, written.name.set + 1);
+            if (semantic == GltfSemantic::color) {
+                sets_of_color = std::max(sets_of_color, written.name.set + 1);
+            }
+            has_normal = has_normal || semantic == GltfSemantic::normal;
+            const std::string name = gltf_attribute_name(written.name);
+            json[name] = once(name, [&] { return values_.attribute(written); });
+        }
+        fill_sets(json, "TEXCOORD_", sets_of_uv, 2);
+        fill_sets(json, "COLOR_", sets_of_color, 3);
+        // Tangents mean nothing without normals.
+        if (!has_normal && json.erase("TANGENT") > 0) ++writer_.lost_tangents_;
+        add_joints(json);
+        return json;
+    }
+
+    // Sets are numbered without gaps.
+    void fill_sets(Json& json, const std::string& prefix, Index count, Index width) {
+        for (Index set = 0; set < count; ++set) {
+            const std::string name = prefix + std::to_string(set);
+            if (json.contains(name)) continue;
+            json[name] = once(name, [&] {
+                WrittenNumbers numbers = values_.zeros(width);
+                if (width > 2) std::fill(numbers.values.begin(), numbers.values.end(), 1.0);
+                return numbers;
+            });
+        }
+    }
+
+    void add_joints(Json& json) {
+        if (!has_joints_) return;
+        if (joints_.empty()) {
+            const auto sets = values_.joint_sets(writer_.attributes_, place_.joint_count);
+            for (const PoolValues::JointSet& set : sets) {
+                joints_.emplace_back(writer_.binary_.add(set.joints, BufferUse::vertices),
+                                     writer_.binary_.add(set.weights, BufferUse::vertices));
+            }
+        }
+        for (std::size_t set = 0; set < joints_.size(); ++set) {
+            json["JOINTS_" + std::to_string(set)] = joints_[set].first;
+            json["WEIGHTS_" + std::to_string(set)] = joints_[set].second;
+        }
+    }
+
+    // As many for each primitive; a target that adds nothing adds zeros to the positions.
+    Json targets_of(const Json& attributes) {
+        Json targets = Json::array();
+        for (std::size_t t = 1; t <= target_count_; ++t) {
+            Json target = Json::object();
+            for (const WrittenMorph* morph : morphs_[t]) {
+                const std::string name =
+                    gltf_attribute_name({morph->name.semantic, 0, std::string()});
+                if (!attributes.contains(name)) continue;
+                target[name] = once(
+                    morph->attribute->name, [&] { return values_.morph(*morph); },
+                    morph->name.semantic == GltfSemantic::position);
+            }
+            if (target.empty()) {
+                target["POSITION"] = once(
+                    "nothing", [&] { return values_.zeros(3); }, true);
+            }
+            targets.push_back(std::move(target));
+        }
+        return targets;
+    }
+
+    std::size_t indices(const std::vector<Index>& corners) const {
+        // The largest number of a type may not be used.
+        const bool is_short = pool_.size() <= 0xffff;
+        WrittenNumbers numbers{1, is_short ? ScalarType::uint16 : ScalarType::uint32, false, {}};
+        numbers.values.assign(corners.begin(), corners.end());
+        return writer_.binary_.add(numbers, BufferUse::indices);
+    }
+
+    void add_labels(const std::string& kind, const FaceLabels& labels, MeshExtras& result) const {
+        std::map<Index, Index> numbers;
+        FaceLabels own;
+        for (const Index f : faces_) {
+            const Index label = labels.of_face[f];
+            if (label != kNoIndex && numbers.emplace(label, own.names.size()).second) {
+                own.names.push_back(labels.names[label]);
+            }
+            own.of_face.push_back(label == kNoIndex ? kNoIndex : numbers[label]);
+        }
+        if (!own.names.empty()) result.labels[kind] = std::move(own);
+    }
+
+    // How many vertices of the pool each vertex of the surface is.
+    std::vector<Index> copies() const {
+        std::vector<Index> result;
+        for (std::size_t i = 0; i < pool_.size(); ++i) {
+            if (i == 0 || pool_.vertices[i] != pool_.vertices[i - 1]) result.push_back(0);
+            ++result.back();
+        }
+        return result;
+    }
+
+    MeshExtras extras() const {
+        MeshExtras result;
+        for (const auto& [kind, labels] : writer_.labels_) add_labels(kind, *labels, result);
+        if (objects_) add_labels("object", *objects_, result);
+        for (const auto& [name, mask] : writer_.regions_) {
+            std::vector<Index> inside;
+            for (std::size_t i = 0; i < pool_.size(); ++i) {
+                if (mask[pool_.vertices[i]]) inside.push_back(static_cast<Index>(i));
+            }
+            if (!inside.empty()) result.regions[name] = std::move(inside);
+        }
+        if (std::any_of(turns_.begin(), turns_.end(), [](Index t) { return t != 0; })) {
+            result.turns = turns_;
+        }
+        if (std::any_of(parts_.begin(), parts_.end(), [](Index n) { return n != 1; })) {
+            result.parts = parts_;
+        }
+        if (writer_.states_copies && !faces_.empty()) result.copies = copies();
+        if (!faces_.empty()) {
+            for (const Attribute* attribute : writer_.attributes_.of_corners()) {
+                result.corners.push_back(attribute->name);
+            }
+        }
+        return result;
+    }
+
+    MeshWriter& writer_;
+    const VertexPool& pool_;
+    const ObjectPlace& place_;
+    PoolValues values_;
+    Json mesh_, kept_primitives_;
+    Written written_;
+    std::vector<std::pair<std::size_t, std::size_t>> joints_;
+    std::map<std::size_t, std::vector<const WrittenMorph*>> morphs_;
+    std::size_t target_count_ = 0;
+    bool has_joints_ = false;
+    // The face of the mesh that each polygon read back will be.
+    std::vector<Index> faces_;
+    // Where in that polygon its first corner is, and of how many faces it is put together.
+    std::vector<Index> turns_, parts_;
+    // Labels of the objects that the mesh is made of, where there are several.
+    const FaceLabels* objects_ = nullptr;
+};
+
+MeshWriter::MeshWriter(SavedParts& parts, const WrittenAttributes& attributes, GltfBinary& binary,
+                       const Context& context)
+    : parts_(parts), attributes_(attributes), binary_(binary), context_(context) {
+    for (const auto& [kind, labels] : parts.mesh().attributes().labels()) {
+        if (kind == "object" || kind == "material") continue;
+        labels_.emplace_back(kind, parts.take_labels(kind));
+    }
+    for (const auto& [name, region] : parts.take_regions()) {
+        regions_.emplace_back(name, region.mask());
+    }
+}
+
+Json MeshWriter::write(const SurfaceObject& object, const VertexPools& pools, Index number,
+                       const ObjectPlace& place, const std::vector<PlacedMaterial>& materials) {
+    Object writer(*this, pools.pool(number), place);
+    if (object.is_joined) writer.keep_objects(*parts_.take_labels("object"));
+    for (std::size_t p = 0; p < object.primitives.size(); ++p) {
+        context_.checkpoint();
+        writer.add_primitive(object.primitives[p], pools, materials[p]);
+    }
+    return writer.finish();
+}
+
+Json MeshWriter::write_points(const ObjectPlace& place) {
+    const VertexPool pool = pool_of_points(parts_.mesh());
+    Object writer(*this, pool, place);
+    writer.add_points();
+    return writer.finish();
+}
+
+}  // namespace lissom

@@ -1,0 +1,59 @@
+/// Writes the objects of a surface as meshes of glTF; private to kernel/io and not installed.
+#pragma once
+
+#include "kernel/io/gltf/file/binary.h"
+#include "kernel/io/gltf/mesh/surface.h"
+#include "kernel/io/gltf/mesh/transform.h"
+#include "kernel/io/gltf/mesh/values.h"
+
+namespace lissom {
+
+/// What the place of an object in the document asks of its mesh.
+struct ObjectPlace {
+    /// From the mesh to the object's node.
+    NodeTransform to_node{Affine()};
+    /// Joints of the node's skin, 0 where it has none.
+    std::size_t joint_count = 0;
+    /// Name, extras, extensions and weights; primitives with what they have beside the surface.
+    Json mesh = Json::object();
+};
+
+/// A material in the document.
+struct PlacedMaterial {
+    /// Its number, or -1 for none.
+    int number = -1;
+    /// Sets of texture coordinates that it reads.
+    Index uv_count = 0;
+};
+
+/// The mesh as JSON; numbers go to `binary`.
+class MeshWriter {
+  public:
+    MeshWriter(SavedParts& parts, const WrittenAttributes& attributes, GltfBinary& binary,
+               const Context& context);
+
+    /// The mesh of one object with pool `pools.pool(number)`. `materials` has an entry for each of
+    /// its primitives.
+    Json write(const SurfaceObject& object, const VertexPools& pools, Index number,
+               const ObjectPlace& place, const std::vector<PlacedMaterial>& materials);
+    /// The mesh of a surface that has only vertices.
+    Json write_points(const ObjectPlace& place);
+
+    /// Whether the meshes shall say which of their vertices are one.
+    bool states_copies = false;
+    /// Tangents that were left out for want of normals, in objects so far.
+    std::size_t lost_tangents() const { return lost_tangents_; }
+
+  private:
+    class Object;
+
+    SavedParts& parts_;
+    const WrittenAttributes& attributes_;
+    GltfBinary& binary_;
+    const Context& context_;
+    std::vector<std::pair<std::string, const FaceLabels*>> labels_;
+    std::vector<std::pair<std::string, std::vector<char>>> regions_;
+    std::size_t lost_tangents_ = 0;
+};
+
+}  // namespace lissom

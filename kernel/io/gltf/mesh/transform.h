@@ -1,0 +1,41 @@
+/// How vertex values turn with a node; private to kernel/io.
+#pragma once
+
+#include <span>
+
+#include "kernel/core/geometry.h"
+#include "kernel/io/gltf/mesh/names.h"
+
+namespace lissom {
+
+/// The transform of a node, applied to values of vertices in place. A value without numbers stays
+/// so.
+class NodeTransform {
+  public:
+    explicit NodeTransform(const Affine& transform);
+    /// The way back; of a transform that flattens, the least squares one.
+    NodeTransform inverse() const;
+
+    bool is_identity() const { return transform_.is_identity(); }
+    /// True where faces have to be turned over to keep their outside.
+    bool mirrors() const { return mirrors_; }
+    Vec3 position(const Vec3& p) const { return transform_(p); }
+    /// Unit again, or NaN where there is no direction.
+    void turn_normal(std::span<double> n) const;
+    /// Direction and handedness.
+    void turn_tangent(std::span<double> t) const;
+    /// What a morph target adds to a position, normal or tangent.
+    void turn_delta(GltfSemantic semantic, std::span<double> delta) const;
+
+  private:
+    NodeTransform(const Affine& transform, const Mat3& normals, double scale);
+
+    Affine transform_;
+    // For normals; has no scale where the transform has the same in all directions.
+    Mat3 normals_ = Mat3::Identity();
+    // Lengths along the transform, on average.
+    double scale_ = 1.0;
+    bool mirrors_ = false;
+};
+
+}  // namespace lissom

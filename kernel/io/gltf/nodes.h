@@ -1,0 +1,58 @@
+/// The nodes of a glTF file: where its meshes stand; private to kernel/io and not installed.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+#include "kernel/io/gltf/file/accessor.h"
+#include "kernel/io/gltf/file/json.h"
+#include "kernel/mesh/report.h"
+
+namespace lissom {
+
+/// Gives each thing a name of its own.
+class UniqueNames {
+  public:
+    /// `name`, with a number after it where it is taken.
+    std::string take(const std::string& name);
+
+  private:
+    std::unordered_set<std::string> taken_;
+    std::unordered_map<std::string, std::size_t> next_;
+};
+
+/// The transform of every node to the world. Errors: file_syntax naming nodes that do not exist,
+/// have two parents or are their own ancestors, are nested too deep, or have a transform that is
+/// none.
+std::vector<Affine> world_transforms(const Json& document);
+
+/// A mesh where it stands.
+struct GltfInstance {
+    int mesh = -1;
+    /// The node, or -1 for a mesh of a file without nodes.
+    int node = -1;
+    /// To the world; the identity for skinned meshes, which their joints place.
+    Affine transform;
+    std::string label;
+};
+
+/// The meshes of the default scene in the order of its nodes. Reports those that are not in it.
+/// Errors: file_syntax.
+std::vector<GltfInstance> find_instances(const Json& document, Report& report);
+
+/// Replaces nodes that EXT_mesh_gpu_instancing repeats by a child for each copy. Where the copies
+/// would be many times larger than the file, one is kept and the report says so.
+void expand_instancing(Json& document, const AccessorReader& accessors, GltfBudget& budget,
+                       Report& report);
+
+/// The scene that is shown first. A document without scenes gets one of all its root nodes, as it
+/// would be shown.
+Json& default_scene(Json& document);
+
+/// A name for each material, made unique.
+std::vector<std::string> material_names(const Json& document);
+
+}  // namespace lissom

@@ -1,0 +1,18 @@
+/// Hair as lines of glTF 2.0; private to kernel/io and not installed.
+#pragma once
+
+#include <string>
+
+#include "kernel/core/context.h"
+#include "kernel/hair/strands/strands.h"
+
+namespace lissom {
+
+/// Writes one mesh "Hair" of one LINES primitive with 32-bit indices, and COLOR_0 where there are
+/// colours, as a text with all data inside. glTF's lines have no width.
+void write_gltf_strands(const Strands& strands, std::string& bytes, const Context& context);
+
+/// As `write_gltf_strands`, as one binary file. Errors: file_too_large beyond 4 GiB.
+void write_glb_strands(const Strands& strands, std::string& bytes, const Context& context);
+
+}  // namespace lissom

@@ -1,0 +1,81 @@
+#include "kernel/io/hair/hair_salon.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "kernel/io/stream/ticker.h"
+
+namespace lissom {
+namespace {
+
+constexpr std::size_t kPointBytes = 12, kCountBytes = 4;
+
+std::size_t read_point_count(ByteSource& source) {
+    const auto count = source.read<std::int32_t>();
+    const std::size_t strand = source.tally.found;
+    const Place place{ElementKind::strand, strand};
+    if (count < 1) {
+        refuse(ErrorCode::file_syntax,
+               "strand " + std::to_string(strand) + " has " + std::to_string(count) + " points",
+               place);
+    }
+    if (static_cast<std::size_t>(count) > source.remaining() / kPointBytes) {
+        refuse(ErrorCode::file_truncated,
+               "strand " + std::to_string(strand) + " of " +
+                   std::to_string(source.tally.announced) + " has " + std::to_string(count) +
+                   " points, but the file ends before; copy or export it again",
+               place);
+    }
+    return static_cast<std::size_t>(count);
+}
+
+}  // namespace
+
+Strands read_hair_salon(ByteSource& source, const Context& context) {
+    source.tally = {"bytes of the header", source.size(), kCountBytes};
+    const std::size_t count =
+        checked_count(source.read<std::int32_t>(), source.size(), "strands", {});
+    source.tally = {"strands", 0, count};
+    source.require(count * (kCountBytes + kPointBytes));
+    Progress progress(context, "read strands");
+    Ticker ticker(progress);
+    const MemoryCharge charge = context.charge(source.remaining(), "reading strands");
+
+    const std::size_t most = (source.remaining() - count * kCountBytes) / kPointBytes;
+    std::vector<float> points(3 * most);
+    std::vector<Index> offsets = {0};
+    offsets.reserve(count + 1);
+    std::size_t total = 0;
+    for (; source.tally.found < count; ++source.tally.found) {
+        ticker.tick([&] { return 1.0 - double(source.remaining()) / double(source.size()); });
+        const std::size_t added = read_point_count(source);
+        if (added > most - total) refuse_truncated(source.tally);
+        const auto strand = std::span(points).subspan(3 * total, 3 * added);
+        source.read(strand);
+        require_finite(strand, 3, total, offsets);
+        total += added;
+        checked_count(static_cast<std::int64_t>(total), source.size(), "points", {});
+        offsets.push_back(static_cast<Index>(total));
+    }
+    points.resize(3 * total);
+    if (source.remaining() > 0) {
+        context.log(LogLevel::warning, std::to_string(source.remaining()) +
+                                           " bytes after the last strand were left out");
+    }
+    return {std::move(points), std::move(offsets)};
+}
+
+void write_hair_salon(const Strands& strands, std::string& bytes) {
+    const auto count = static_cast<std::size_t>(strands.size());
+    bytes.reserve(kCountBytes * (count + 1) + strands.points().size_bytes());
+    append_little_endian(bytes, static_cast<std::int32_t>(strands.size()));
+    for (Index s = 0; s < strands.size(); ++s) {
+        const StrandView strand = strands.strand(s);
+        append_little_endian(bytes, static_cast<std::int32_t>(strand.cols()));
+        append_little_endian(
+            bytes, std::span<const float>(strand.data(), static_cast<std::size_t>(strand.size())));
+    }
+}
+
+}  // namespace lissom

@@ -1,0 +1,33 @@
+/// The check of strands before they are written; private to kernel/io.
+#pragma once
+
+#include <optional>
+
+#include "kernel/core/context.h"
+#include "kernel/hair/strands/strands.h"
+#include "kernel/io/strand_file.h"
+
+namespace lissom {
+
+/// What files of a format can hold.
+struct StrandCapacity {
+    /// Fewest points of a strand.
+    Index least_points = 2;
+    bool widths = false, colors = false, transparency = false;
+    bool root_uvs = false, groups = false;
+    /// Ids, faces and barycentric coordinates of the roots.
+    bool origins = false;
+};
+
+/// Strands that are fit to be written; nothing where they are as they were.
+struct CheckedStrands {
+    std::optional<Strands> changed;
+    StrandReport report;
+};
+
+/// Checks what hair files are known to break on. Errors: with options.mend false, not_finite or
+/// invalid_argument naming the strands; cancelled, memory_limit.
+CheckedStrands check_strands(const Strands& strands, const StrandCapacity& capacity,
+                             const StrandSaveOptions& options, const Context& context);
+
+}  // namespace lissom

@@ -1,0 +1,28 @@
+/// STL; private to kernel/io.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "kernel/io/mesh_file.h"
+#include "kernel/io/record/mesh_data.h"
+#include "kernel/io/record/saved_parts.h"
+
+namespace lissom {
+
+/// Reads text and binary; which of them is told by the size, for binary files may begin with
+/// "solid" too. Each triangle has three vertices of its own (MeshData::faces_are_separate). The
+/// names of solids in text are face labels "object"; normals and attribute bytes are skipped.
+/// Errors: file_syntax, file_truncated, file_too_large, cancelled.
+MeshData read_stl(std::string_view bytes, const Context& context);
+
+/// True where the size of the data is exactly that of the binary STL which they would be.
+bool is_binary_stl(std::string_view bytes);
+
+/// Writes triangles (polygons are triangulated) with their normals; text has one solid for each run
+/// of faces of one object. Binary has 32-bit numbers. Errors: not_finite naming the vertices that
+/// are beyond the range of 32-bit numbers.
+void write_stl(SavedParts& parts, const SaveOptions& options, std::string& bytes,
+               const Context& context);
+
+}  // namespace lissom

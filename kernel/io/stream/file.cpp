@@ -1,0 +1,220 @@
+#include "kernel/io/stream/file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <system_error>
+#include <utility>
+
+#include "kernel/core/error.h"
+
+#ifdef _WIN32
+#include <io.h>
+#else
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
+namespace lissom {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Between two pieces of this size, reading and writing can be cancelled.
+constexpr std::size_t kPieceBytes = std::size_t{8} << 20;
+
+[[noreturn]] void refuse(ErrorCode code, const fs::path& path, const std::string& what) {
+    throw Error(code, display_name(path) + ": " + what);
+}
+
+[[noreturn]] void refuse_write(const fs::path& path, const std::error_code& reason) {
+    refuse(ErrorCode::file_write_failed, path,
+           "could not be written: " + reason.message() + "; what was there before is untouched");
+}
+
+std::error_code last_error() {
+    return {errno, std::generic_category()};
+}
+
+std::FILE* open_new(const fs::path& path) {
+#ifdef _WIN32
+    return _wfopen(path.c_str(), L"wbx");
+#else
+    return std::fopen(path.c_str(), "wbx");
+#endif
+}
+
+bool flush_to_disk(std::FILE* file) {
+    if (std::fflush(file) != 0) return false;
+#ifdef _WIN32
+    return _commit(_fileno(file)) == 0;
+#else
+    return fsync(fileno(file)) == 0;
+#endif
+}
+
+// Makes a rename in `folder` durable. Not every file system can; the new content is in place
+// anyway.
+void flush_folder([[maybe_unused]] const fs::path& folder) {
+#ifndef _WIN32
+    const int descriptor = open(folder.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    fsync(descriptor);
+    close(descriptor);
+#endif
+}
+
+fs::path folder_of(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+// A new file next to the one it shall replace. Unless it has replaced it, it is removed in the end.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(const fs::path& target) : target_(target) {
+        std::random_device random;
+        constexpr int kAttempts = 16;
+        for (int i = 0; i < kAttempts && !file_; ++i) {
+            const std::string name = ".lissom-" + std::to_string(random()) + ".tmp";
+            path_ = folder_of(target) / name;
+            file_ = open_new(path_);
+            if (!file_ && errno != EEXIST) break;
+        }
+        if (!file_) refuse_write(target_, last_error());
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        if (file_) std::fclose(file_);
+        std::error_code ignored;
+        if (!replaced_) fs::remove(path_, ignored);
+    }
+
+    void write(std::string_view bytes) {
+        if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(last_error());
+    }
+
+    void take_permissions(fs::perms permissions) {
+        std::error_code error;
+        fs::permissions(path_, permissions, error);
+        if (error) fail(error);
+    }
+
+    void replace_target() {
+        if (!flush_to_disk(file_)) fail(last_error());
+        if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(last_error());
+        std::error_code error;
+        fs::rename(path_, target_, error);
+        if (error) fail(error);
+        replaced_ = true;
+        flush_folder(folder_of(target_));
+    }
+
+  private:
+    [[noreturn]] void fail(const std::error_code& reason) const { refuse_write(target_, reason); }
+
+    fs::path target_, path_;
+    std::FILE* file_ = nullptr;
+    bool replaced_ = false;
+};
+
+std::size_t size_of_file(const fs::path& path) {
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    if (error) refuse(ErrorCode::file_unreadable, path, "cannot be read: " + error.message());
+    return static_cast<std::size_t>(size);
+}
+
+// The file that `path` stands for once symbolic links are followed; it need not exist.
+fs::path follow_links(fs::path path) {
+    constexpr int kMaximumLinks = 40;
+    std::error_code error;
+    for (int i = 0; i < kMaximumLinks; ++i) {
+        if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
+        const fs::path target = fs::read_symlink(path, error);
+        if (error) refuse_write(path, error);
+        path = target.is_absolute() ? target : path.parent_path() / target;
+    }
+    refuse_write(path, std::make_error_code(std::errc::too_many_symbolic_link_levels));
+}
+
+void require_replaceable(const fs::path& path, const fs::file_status& status) {
+    if (fs::is_directory(status)) {
+        refuse(ErrorCode::file_is_directory, path, "is a folder; add the file's name");
+    }
+    if (!fs::is_regular_file(status)) {
+        refuse(ErrorCode::file_write_failed, path, "is not a regular file, so it is not replaced");
+    }
+    constexpr fs::perms kAnyWrite =
+        fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+    if ((status.permissions() & kAnyWrite) == fs::perms::none) {
+        refuse(ErrorCode::file_write_failed, path, "is read-only, so it is not replaced");
+    }
+}
+
+}  // namespace
+
+std::string display_name(const fs::path& path) {
+    const auto utf8 = path.u8string();
+    return {utf8.begin(), utf8.end()};
+}
+
+void require_file(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) {
+        refuse(ErrorCode::file_not_found, path, "there is no such file");
+    }
+    if (fs::is_directory(status)) {
+        refuse(ErrorCode::file_is_directory, path, "is a folder; add the file's name");
+    }
+    if (error) refuse(ErrorCode::file_unreadable, path, "cannot be read: " + error.message());
+    if (!fs::is_regular_file(status)) {
+        refuse(ErrorCode::file_unreadable, path, "is not a regular file");
+    }
+    if (size_of_file(path) == 0) refuse(ErrorCode::file_empty, path, "the file is empty");
+}
+
+FileContent read_file(const fs::path& path, const Context& context) {
+    require_file(path);
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) {
+        refuse(ErrorCode::file_unreadable, path, "cannot be read: " + last_error().message());
+    }
+
+    const std::size_t size = size_of_file(path);
+    FileContent content;
+    content.charge = context.charge(size, "reading " + display_name(path));
+    content.bytes.resize(size);
+    for (std::size_t done = 0; done < size;) {
+        context.checkpoint();
+        const std::size_t piece = std::min(kPieceBytes, size - done);
+        if (!stream.read(content.bytes.data() + done, static_cast<std::streamsize>(piece))) {
+            refuse(ErrorCode::file_unreadable, path, "reading stopped before the end of the file");
+        }
+        done += piece;
+    }
+    return content;
+}
+
+void write_file_atomically(const fs::path& path, std::string_view bytes, const Context& context) {
+    const fs::path target = follow_links(path);
+    std::error_code ignored;
+    const fs::file_status status = fs::status(target, ignored);
+    const bool exists = fs::exists(status);
+    if (exists) require_replaceable(path, status);
+
+    // Permissions come first: what is private shall not be open to others while it is written.
+    TemporaryFile file(target);
+    if (exists) file.take_permissions(status.permissions());
+    for (std::size_t done = 0; done < bytes.size(); done += kPieceBytes) {
+        context.checkpoint();
+        file.write(bytes.substr(done, kPieceBytes));
+    }
+    context.checkpoint();
+    file.replace_target();
+}
+
+}  // namespace lissom

@@ -1,0 +1,77 @@
+#include "kernel/io/stream/read_error.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace lissom {
+namespace {
+
+constexpr std::size_t kMaximumElements = std::numeric_limits<Index>::max();
+
+// Bytes of the character of UTF-8 that begins `text`; 0 where none does or it cannot be printed.
+std::size_t printable_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+    };
+    const unsigned lead = byte(0), second = byte(1);
+    if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+    if (lead < 0xc2 || lead > 0xf4) return 0;
+    const std::size_t length = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xc0) != 0x80) return 0;
+    }
+    const bool is_control = lead == 0xc2 && second < 0xa0;
+    const bool is_overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
+    const bool is_no_character = (lead == 0xed && second > 0x9f) || (lead == 0xf4 && second > 0x8f);
+    return is_control || is_overlong || is_no_character ? 0 : length;
+}
+
+}  // namespace
+
+void refuse(ErrorCode code, const std::string& message, Place place) {
+    if (place.kind == ElementKind::none) throw Error(code, message);
+    const auto id = static_cast<Index>(std::min(place.id, kMaximumElements));
+    throw Error(code, message, {place.kind, 1, {id}});
+}
+
+void refuse_truncated(const Tally& tally) {
+    std::string found = std::to_string(tally.found);
+    if (tally.announced > 0) found += " of " + std::to_string(tally.announced);
+    refuse(ErrorCode::file_truncated, "the file ends after " + found + " " +
+                                          std::string(tally.elements) +
+                                          "; copy or export it again");
+}
+
+std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::string_view elements,
+                          Place place) {
+    const std::string what = std::to_string(count) + " " + std::string(elements);
+    if (count < 0) refuse(ErrorCode::file_syntax, "the header announces " + what, place);
+    const auto number = static_cast<std::size_t>(count);
+    if (number > file_bytes) {
+        refuse(ErrorCode::file_too_large,
+               "the header announces " + what + ", but the file has only " +
+                   std::to_string(file_bytes) + " bytes; it is damaged or cut short",
+               place);
+    }
+    if (number > kMaximumElements) {
+        refuse(ErrorCode::file_too_large,
+               "the header announces " + what + ", more than the " +
+                   std::to_string(kMaximumElements) + " that can be numbered; split the file",
+               place);
+    }
+    return number;
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t kShown = 40;
+    std::string shown;
+    std::size_t at = 0;
+    while (at < text.size() && shown.size() < kShown) {
+        const std::size_t length = printable_length(text.substr(at));
+        shown += length == 0 ? "?" : text.substr(at, length);
+        at += std::max<std::size_t>(1, length);
+    }
+    return "'" + shown + (at < text.size() ? "...'" : "'");
+}
+
+}  // namespace lissom

@@ -1,0 +1,38 @@
+/// Hair as BasisCurves of a USD layer in text form (.usda); private to kernel/io.
+///
+/// Widths are diameters. Root uvs are primvars:st, colours primvars:displayColor; groups are the
+/// indexed primvar "group", ids, root faces and their weights the primvars "strandId", "rootFace"
+/// and "rootBarycentrics", for which USD has no names of its own.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "kernel/core/context.h"
+#include "kernel/hair/strands/strands.h"
+#include "kernel/io/mesh_file.h"
+
+namespace lissom {
+
+/// What a layer holds.
+struct UsdaHair {
+    Strands strands;
+    /// Length of its unit in metres and its up axis, where it says so.
+    std::optional<double> meters_per_unit;
+    UpAxis up = UpAxis::none;
+    /// False where it says nothing of widths.
+    bool has_widths = false;
+};
+
+/// Reads all BasisCurves of a layer in the order of the file; where there are several without
+/// groups, each is a group by its name. Cubic curves become polylines. Other prims are passed over.
+/// Errors: file_syntax, file_truncated, not_finite with the line; unsupported for periodic curves,
+/// curves that change over time or stand under a transform; cancelled, memory_limit.
+UsdaHair read_usda(std::string_view bytes, const Context& context);
+
+/// Writes one BasisCurves "Hair", linear, with a width for each point where they differ.
+void write_usda(const Strands& strands, double meters_per_unit, UpAxis up, std::string& bytes,
+                const Context& context);
+
+}  // namespace lissom

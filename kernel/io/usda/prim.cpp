@@ -1,0 +1,161 @@
+#include "kernel/io/usda/prim.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace lissom {
+namespace {
+
+[[noreturn]] void refuse_prim(const CurvesPrim& prim, const std::string& what,
+                              ErrorCode code = ErrorCode::file_syntax) {
+    refuse(code, "BasisCurves " + in_quotes(prim.name) + ": " + what, prim.place);
+}
+
+bool is_whole(double x, double least, double most) {
+    return x >= least && x <= most && x == std::floor(x);
+}
+
+// A list of whole numbers, one a strand; empty where there are none.
+template <typename T>
+std::vector<T> whole_numbers(const CurvesPrim& prim, const std::vector<double>& numbers,
+                             std::size_t count, double least, const char* what) {
+    if (numbers.empty()) return {};
+    if (numbers.size() != count) {
+        refuse_prim(prim, std::to_string(numbers.size()) + " values of '" + what + "' for " +
+                              std::to_string(count) + " curves");
+    }
+    std::vector<T> result;
+    for (const double x : numbers) {
+        if (!is_whole(x, least, std::numeric_limits<T>::max())) {
+            refuse_prim(prim, std::string("a value of '") + what + "' is out of range");
+        }
+        result.push_back(static_cast<T>(x));
+    }
+    return result;
+}
+
+struct Counts {
+    std::size_t strands, points;
+};
+
+// The domain of values, once their number fits it.
+StrandDomain domain_of(const CurvesPrim& prim, const CurveValues& values, std::size_t width,
+                       const Counts& counts, const char* what) {
+    const CurveInterpolation kind = values.interpolation;
+    const StrandDomain domain = kind == CurveInterpolation::constant  ? StrandDomain::all
+                                : kind == CurveInterpolation::uniform ? StrandDomain::strand
+                                                                      : StrandDomain::point;
+    const std::size_t expected = domain == StrandDomain::all      ? 1
+                                 : domain == StrandDomain::strand ? counts.strands
+                                                                  : counts.points;
+    if (values.numbers.size() == width * expected) return domain;
+    refuse_prim(prim, std::to_string(values.numbers.size() / width) + " values of '" + what +
+                          "' where their interpolation needs " + std::to_string(expected));
+}
+
+void set_widths(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
+    if (!prim.widths.found) return;
+    StrandWidths widths;
+    widths.domain = domain_of(prim, prim.widths, 1, counts, "widths");
+    if (widths.domain == StrandDomain::all) {
+        widths.common = prim.widths.numbers.front();
+    } else {
+        widths.values = prim.widths.numbers;
+    }
+    strands.set_widths(std::move(widths));
+}
+
+void set_colors(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
+    if (!prim.colors.found) return;
+    StrandValues<Eigen::Vector3f> colors{Eigen::Vector3f::Zero()};
+    colors.domain = domain_of(prim, prim.colors, 3, counts, "displayColor");
+    for (std::size_t i = 0; i < prim.colors.numbers.size(); i += 3) {
+        colors.values.emplace_back(prim.colors.numbers.data() + i);
+    }
+    if (colors.domain == StrandDomain::all) {
+        colors.common = colors.values.front();
+        colors.values.clear();
+    }
+    strands.set_colors(std::move(colors));
+}
+
+void set_roots(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
+    StrandRoots roots;
+    if (prim.uvs.found) {
+        const StrandDomain domain = domain_of(prim, prim.uvs, 2, counts, "st");
+        for (std::size_t s = 0; s < counts.strands; ++s) {
+            const auto strand = static_cast<Index>(s);
+            const std::size_t i = domain == StrandDomain::all ? 0
+                                  : domain == StrandDomain::strand
+                                      ? s
+                                      : static_cast<std::size_t>(strands.first_point(strand));
+            roots.uvs.emplace_back(prim.uvs.numbers.data() + 2 * i);
+        }
+    }
+    roots.faces = whole_numbers<Index>(prim, prim.faces, counts.strands, kNoIndex, "rootFace");
+    if (prim.barycentrics.size() != 3 * roots.faces.size()) {
+        refuse_prim(prim, "'rootFace' and 'rootBarycentrics' do not fit each other");
+    }
+    for (std::size_t i = 0; i < prim.barycentrics.size(); i += 3) {
+        roots.barycentrics.emplace_back(prim.barycentrics.data() + i);
+    }
+    strands.set_roots(std::move(roots));
+}
+
+void set_groups(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
+    std::vector<Index> groups =
+        whole_numbers<Index>(prim, prim.groups, counts.strands, kNoIndex, "group:indices");
+    for (const Index group : groups) {
+        if (group < static_cast<Index>(prim.group_names.size())) continue;
+        refuse_prim(prim, "a value of 'group:indices' has no name");
+    }
+    strands.set_groups(std::move(groups), prim.group_names);
+}
+
+}  // namespace
+
+std::vector<Index> curve_counts(const CurvesPrim& prim) {
+    if (prim.points.size() % 3 != 0) refuse_prim(prim, "'points' do not come in threes");
+    std::vector<Index> counts;
+    const std::size_t points = prim.points.size() / 3;
+    std::size_t total = 0;
+    for (const double count : prim.counts) {
+        if (!is_whole(count, 1, static_cast<double>(points - total))) {
+            refuse_prim(prim, "'curveVertexCounts' do not add up to the " + std::to_string(points) +
+                                  " points");
+        }
+        counts.push_back(static_cast<Index>(count));
+        total += static_cast<std::size_t>(count);
+    }
+    if (total != points) {
+        refuse_prim(prim, "'curveVertexCounts' add up to " + std::to_string(total) +
+                              ", but there are " + std::to_string(points) + " points");
+    }
+    return counts;
+}
+
+Strands strands_of(CurvesPrim prim) {
+    if (prim.wrap == "periodic") {
+        refuse_prim(prim, "its curves are closed, which hair is not; set wrap to nonperiodic",
+                    ErrorCode::unsupported);
+    }
+    if (prim.type == "cubic") {
+        make_linear(prim);
+    } else if (prim.type != "linear") {
+        refuse_prim(prim, "its type " + in_quotes(prim.type) + " is neither linear nor cubic",
+                    ErrorCode::unsupported);
+    }
+    std::vector<Index> offsets = {0};
+    for (const Index count : curve_counts(prim)) offsets.push_back(offsets.back() + count);
+    const Counts counts{offsets.size() - 1, prim.points.size() / 3};
+    Strands strands(std::move(prim.points), std::move(offsets));
+    set_widths(prim, counts, strands);
+    set_colors(prim, counts, strands);
+    set_roots(prim, counts, strands);
+    set_groups(prim, counts, strands);
+    strands.set_ids(whole_numbers<std::uint32_t>(prim, prim.ids, counts.strands, 0, "strandId"));
+    return strands;
+}
+
+}  // namespace lissom

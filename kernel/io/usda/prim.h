@@ -1,0 +1,48 @@
+/// CurvesPrim: the attributes of one BasisCurves, and the strands they stand for; private to
+/// kernel/io.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernel/hair/strands/strands.h"
+#include "kernel/io/stream/read_error.h"
+
+namespace lissom {
+
+/// How values belong to curves.
+enum class CurveInterpolation { constant, uniform, varying, vertex };
+
+/// Numbers of an attribute, `width` of them a value.
+struct CurveValues {
+    std::vector<float> numbers;
+    CurveInterpolation interpolation = CurveInterpolation::vertex;
+    bool found = false;
+};
+
+/// What the file says; defaults are those of USD.
+struct CurvesPrim {
+    std::string name;
+    /// Where the prim begins.
+    Place place;
+    std::string type = "cubic", basis = "bezier", wrap = "nonperiodic";
+    std::vector<double> counts;
+    std::vector<float> points;
+    CurveValues widths, uvs, colors;
+    std::vector<std::string> group_names;
+    std::vector<double> groups, ids, faces;
+    std::vector<float> barycentrics;
+};
+
+/// The strands of a prim. Errors: file_syntax at the prim where its numbers contradict each other;
+/// unsupported for kinds of curves that are not known.
+Strands strands_of(CurvesPrim prim);
+
+/// Replaces the control points of cubic curves, and all values that go with them, by points on the
+/// curves; the type is linear then. Errors: as `strands_of`.
+void make_linear(CurvesPrim& prim);
+
+/// Number of points of each curve. Errors: file_syntax where they do not add up to the points.
+std::vector<Index> curve_counts(const CurvesPrim& prim);
+
+}  // namespace lissom

@@ -1,0 +1,187 @@
+#include <vector>
+
+#include "kernel/hair/strands/strand_measures.h"
+#include "kernel/io/stream/text_writer.h"
+#include "kernel/io/stream/ticker.h"
+#include "kernel/io/usda/curves.h"
+
+namespace lissom {
+namespace {
+
+// Lists are broken into lines, since editors choke on long ones.
+constexpr std::size_t kLineLength = 120;
+
+class LayerWriter {
+  public:
+    LayerWriter(const Strands& strands, std::string& text, const Context& context)
+        : strands_(strands), text_(text), context_(context) {}
+
+    void write(double meters_per_unit, UpAxis up) {
+        Progress progress(context_, "write strands");
+        text_ += "#usda 1.0\n(\n    defaultPrim = \"Hair\"\n    metersPerUnit = ";
+        append_number(text_, meters_per_unit);
+        text_ += std::string("\n    upAxis = \"") + (up == UpAxis::z ? "Z" : "Y") +
+                 "\"\n)\n\ndef BasisCurves \"Hair\"\n{\n    uniform token type = \"linear\"\n";
+        progress.update(0.05);
+        list("int[] curveVertexCounts", strands_.size(),
+             [&](Index s) { append_number(text_, strands_.point_count(s)); });
+        write_points(progress);
+        write_extent();
+        write_widths();
+        progress.update(0.8);
+        write_colors();
+        write_roots();
+        write_groups();
+        text_ += "}\n";
+    }
+
+  private:
+    // name = [item, item, ...], without the end of the line.
+    template <typename Item>
+    void open_list(const std::string& name, Index count, const Item& item) {
+        text_ += "    " + name + " = [";
+        std::size_t line = text_.size();
+        for (Index i = 0; i < count; ++i) {
+            if (i > 0) text_ += text_.size() - line > kLineLength ? ",\n        " : ", ";
+            if (text_.ends_with("\n        ")) line = text_.size();
+            item(i);
+        }
+        text_ += ']';
+    }
+    template <typename Item>
+    void list(const std::string& name, Index count, const Item& item,
+              const char* interpolation = nullptr) {
+        open_list(name, count, item);
+        if (interpolation) {
+            text_ += std::string(" (\n        interpolation = \"") + interpolation + "\"\n    )";
+        }
+        text_ += '\n';
+    }
+
+    void tuple(const float* values, int count) {
+        text_ += '(';
+        for (int c = 0; c < count; ++c) {
+            if (c > 0) text_ += ", ";
+            append_number(text_, values[c]);
+        }
+        text_ += ')';
+    }
+
+    void write_points(Progress& progress) {
+        Ticker ticker(progress);
+        const Index count = strands_.point_count();
+        list("point3f[] points", count, [&](Index p) {
+            ticker.tick([&] { return 0.1 + 0.6 * double(p) / double(count); });
+            tuple(strands_.points().data() + 3 * static_cast<std::size_t>(p), 3);
+        });
+    }
+
+    void write_extent() {
+        const Box box = bounds(strands_);
+        if (box.empty()) return;
+        const Eigen::Vector3f corners[] = {box.min.cast<float>(), box.max.cast<float>()};
+        list("float3[] extent", 2, [&](Index i) { tuple(corners[i].data(), 3); });
+    }
+
+    void write_widths() {
+        const StrandWidths& widths = strands_.widths();
+        if (!widths.profile.empty()) return write_point_widths();
+        const auto count = static_cast<Index>(widths.values.size());
+        if (widths.domain == StrandDomain::all) {
+            list(
+                "float[] widths", 1, [&](Index) { append_number(text_, widths.common); },
+                "constant");
+            return;
+        }
+        list(
+            "float[] widths", count,
+            [&](Index i) { append_number(text_, widths.values[static_cast<std::size_t>(i)]); },
+            interpolation(widths.domain));
+    }
+
+    void write_point_widths() {
+        std::vector<float> all, one;
+        all.reserve(static_cast<std::size_t>(strands_.point_count()));
+        for (Index s = 0; s < strands_.size(); ++s) {
+            widths_of(strands_, s, one);
+            all.insert(all.end(), one.begin(), one.end());
+        }
+        list(
+            "float[] widths", strands_.point_count(),
+            [&](Index p) { append_number(text_, all[static_cast<std::size_t>(p)]); }, "vertex");
+    }
+
+    void write_colors() {
+        const StrandValues<Eigen::Vector3f>* const colors = strands_.colors();
+        if (!colors) return;
+        if (colors->domain == StrandDomain::all) {
+            list(
+                "color3f[] primvars:displayColor", 1,
+                [&](Index) { tuple(colors->common.data(), 3); }, "constant");
+            return;
+        }
+        list(
+            "color3f[] primvars:displayColor", static_cast<Index>(colors->values.size()),
+            [&](Index i) { tuple(colors->values[static_cast<std::size_t>(i)].data(), 3); },
+            interpolation(colors->domain));
+    }
+
+    void write_roots() {
+        const StrandRoots& roots = strands_.roots();
+        const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+        if (!roots.uvs.empty()) {
+            list(
+                "texCoord2f[] primvars:st", strands_.size(),
+                [&](Index s) { tuple(roots.uvs[at(s)].data(), 2); }, "uniform");
+        }
+        if (!roots.faces.empty()) {
+            list(
+                "int[] primvars:rootFace", strands_.size(),
+                [&](Index s) { append_number(text_, roots.faces[at(s)]); }, "uniform");
+            list(
+                "float3[] primvars:rootBarycentrics", strands_.size(),
+                [&](Index s) { tuple(roots.barycentrics[at(s)].data(), 3); }, "uniform");
+        }
+        if (strands_.ids().empty()) return;
+        list(
+            "uint[] primvars:strandId", strands_.size(),
+            [&](Index s) { append_number(text_, strands_.ids()[at(s)]); }, "uniform");
+    }
+
+    void write_groups() {
+        if (strands_.groups().empty()) return;
+        const std::vector<std::string>& names = strands_.group_names();
+        list(
+            "string[] primvars:group", static_cast<Index>(names.size()),
+            [&](Index i) { append_text(names[static_cast<std::size_t>(i)]); }, "uniform");
+        list("int[] primvars:group:indices", strands_.size(),
+             [&](Index s) { append_number(text_, strands_.group(s)); });
+    }
+
+    // Quotes and backslashes are not escaped, for they would have to be read back.
+    void append_text(const std::string& name) {
+        std::string plain = one_line(name);
+        for (char& c : plain) {
+            if (c == '"' || c == '\\') c = '_';
+        }
+        text_ += '"' + plain + '"';
+    }
+
+    static const char* interpolation(StrandDomain domain) {
+        return domain == StrandDomain::strand ? "uniform" : "vertex";
+    }
+
+    const Strands& strands_;
+    std::string& text_;
+    const Context& context_;
+};
+
+}  // namespace
+
+void write_usda(const Strands& strands, double meters_per_unit, UpAxis up, std::string& bytes,
+                const Context& context) {
+    bytes.reserve(40 * static_cast<std::size_t>(strands.point_count()) + 1000);
+    LayerWriter(strands, bytes, context).write(meters_per_unit, up);
+}
+
+}  // namespace lissom

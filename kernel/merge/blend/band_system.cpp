@@ -1,0 +1,111 @@
+#include "kernel/merge/blend/band_system.h"
+
+#include <utility>
+
+#include "kernel/deform/patch/row_accumulator.h"
+#include "kernel/mesh/measure/directions.h"
+
+namespace lissom {
+namespace {
+
+constexpr Index kRowRings = 1;
+// Slivers along a seam would rule the energy; their angles count as at least this.
+constexpr double kLeastSeamAngle = 2.0 * kPi / 180.0;
+
+}  // namespace
+
+BandSystem::BandSystem(const Region& region, const Region& band, std::span<const Vec3> positions)
+    : patch_(build_patch(region, positions, kRowRings, near_order(region, kRowRings))),
+      rings_(build_rings(patch_.real_count, patch_.triangles)),
+      row_(static_cast<std::size_t>(patch_.real_count), 0),
+      unknown_(static_cast<std::size_t>(patch_.real_count), kNoIndex),
+      x_(patch_.rest.begin(), patch_.rest.begin() + patch_.real_count) {
+    for (Index i = 0; i < patch_.real_count; ++i) {
+        if (band.contains(mesh_vertex(i))) unknown_[i] = unknown_count_++;
+        if (!patch_.in_region[i]) continue;
+        row_[i] = 1;
+        for (const Index j : rings_.ring(i)) row_[j] = 1;
+    }
+    measure();
+}
+
+void BandSystem::measure() {
+    geometry_ = ring_geometry(rings_, patch_.triangles, x_, kLeastSeamAngle);
+    laplacian_ = make_laplacian(rings_, geometry_, LaplacianWeights::cotangent, true);
+}
+
+std::vector<double> BandSystem::curvatures() const {
+    std::vector<double> result(x_.size(), 0.0);
+    for (Index i = 0; i < vertex_count(); ++i) {
+        if (is_row(i)) result[i] = curvature(i);
+    }
+    return result;
+}
+
+// L^T A L between unknowns, column by column.
+SymmetricMatrix BandSystem::normal_matrix() const {
+    SymmetricMatrix matrix;
+    RowAccumulator<double> column(unknown_count_);
+    const auto add_row = [&](Index row, double scale) {
+        const auto add = [&](Index j, double value) {
+            if (unknown_[j] != kNoIndex) column.add(unknown_[j], scale * value);
+        };
+        add(row, laplacian_.self[row]);
+        for (Index e = rings_.begin[row]; e < rings_.begin[row + 1]; ++e) {
+            add(rings_.neighbor[e], laplacian_.neighbor[e]);
+        }
+    };
+    for (Index i = 0; i < patch_.real_count; ++i) {
+        if (!moves(i)) continue;
+        add_row(i, laplacian_.weight[i] * laplacian_.self[i]);
+        for (const Index j : rings_.ring(i)) {
+            add_row(j, laplacian_.weight[j] * laplacian_.neighbor[rings_.entry(j, i)]);
+        }
+        column.drain([&](Index j, double value) {
+            if (j < unknown_[i]) return;
+            matrix.row.push_back(j);
+            matrix.value.push_back(value);
+        });
+        matrix.begin.push_back(static_cast<Index>(matrix.row.size()));
+    }
+    return matrix;
+}
+
+// Solved for displacements, so that a band that has the wanted coordinates does not move.
+void BandSystem::bend(std::span<const Vec3> wanted, const Context& context) {
+    const SymmetricMatrix matrix = normal_matrix();
+    const auto n = static_cast<std::size_t>(matrix.size());
+    std::vector<double> b(3 * n, 0.0);
+    for (Index i = 0; i < patch_.real_count; ++i) {
+        if (!is_row(i)) continue;
+        const Vec3 missing = laplacian_.weight[i] * (wanted[i] - coordinates(i));
+        const auto add = [&](Index j, double value) {
+            if (unknown_[j] == kNoIndex) return;
+            for (std::size_t k = 0; k < 3; ++k) b[k * n + unknown_[j]] += value * missing[k];
+        };
+        add(i, laplacian_.self[i]);
+        for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
+            add(rings_.neighbor[e], laplacian_.neighbor[e]);
+        }
+    }
+    if (system_.size() == 0) system_.analyze(matrix, context);
+    system_.factor(matrix, context);
+    system_.solve(b, b, 3);
+    for (Index i = 0; i < patch_.real_count; ++i) {
+        if (!moves(i)) continue;
+        for (std::size_t k = 0; k < 3; ++k) x_[i][k] += b[k * n + unknown_[i]];
+    }
+    measure();
+}
+
+void BandSystem::write(Mesh& mesh) const {
+    const DirectionCarrier directions(mesh);
+    std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
+    for (Index i = 0; i < vertex_count(); ++i) {
+        if (moves(i)) positions[mesh_vertex(i)] = x_[i] + patch_.origin;
+    }
+    mesh.set_positions(std::move(positions));
+    directions.follow(mesh);
+}
+
+}  // namespace lissom

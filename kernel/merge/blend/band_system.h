@@ -1,0 +1,80 @@
+/// The band of a surface that seam fairing and transitions bend, and the system that bends it;
+/// private to kernel/merge.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/deform/patch/operators.h"
+#include "kernel/deform/patch/patch.h"
+#include "kernel/mesh/region.h"
+#include "kernel/solve/sparse/sparse_system.h"
+
+namespace lissom {
+
+/// A band takes the shape whose Laplacian coordinates are nearest to wanted ones, in the least
+/// squares weighted by area: min over x of sum A_i |L x - d_i|^2, with the pointwise cotangent
+/// Laplacian L. All vertices outside the band stay. Its size and work follow the band, not the
+/// mesh.
+///
+/// Local vertices are those of a region and of two rings around it. Rows are those of the region
+/// and of one ring around it: what the operators are known at, and the energy has terms for.
+class BandSystem {
+  public:
+    /// The vertices of `band`, which must be some of `region`, move; each connected part of them
+    /// needs a neighbour that does not.
+    BandSystem(const Region& region, const Region& band, std::span<const Vec3> positions);
+
+    Index vertex_count() const { return patch_.real_count; }
+    Index mesh_vertex(Index i) const { return patch_.mesh_vertex[i]; }
+    bool moves(Index i) const { return unknown_[i] != kNoIndex; }
+    bool is_row(Index i) const { return row_[i] != 0; }
+    bool on_boundary(Index i) const { return patch_.on_boundary[i] != 0; }
+    std::span<const Index> ring(Index i) const { return rings_.ring(i); }
+    /// (cot a + cot b) / 2 of the edge to each vertex of the ring.
+    std::span<const double> cotangents(Index i) const {
+        return {geometry_.cotangent.data() + rings_.begin[i],
+                static_cast<std::size_t>(rings_.count(i))};
+    }
+
+    /// Position relative to a vertex of the band. After a change, `measure` brings the operators up
+    /// to date.
+    const Vec3& position(Index i) const { return x_[i]; }
+    void set_position(Index i, const Vec3& x) { x_[i] = x; }
+
+    /// Takes the operators from the present shape.
+    void measure();
+    /// Laplacian coordinates, unit normal and signed mean curvature (the part of the coordinates
+    /// along the normal) of a row in the shape last measured.
+    Vec3 coordinates(Index i) const { return laplacian_.apply(rings_, x_, i); }
+    const Vec3& normal(Index i) const { return geometry_.normal[i]; }
+    double curvature(Index i) const { return coordinates(i).dot(normal(i)); }
+    /// The curvature of every row, 0 for other local vertices.
+    std::vector<double> curvatures() const;
+
+    /// Moves the band to the wanted coordinates, one for each local vertex, of which those of rows
+    /// count, and measures it.
+    /// Errors: not_positive_definite; memory_limit; cancelled: the shape is then as before.
+    void bend(std::span<const Vec3> wanted, const Context& context);
+
+    /// Gives the mesh the positions of the band; all others stay to the bit. "normal" attributes
+    /// turn with the surface.
+    void write(Mesh& mesh) const;
+
+  private:
+    SymmetricMatrix normal_matrix() const;
+
+    Patch patch_;
+    Rings rings_;
+    std::vector<char> row_;
+    // Unknown of each local vertex, or kNoIndex; numbered in their order.
+    std::vector<Index> unknown_;
+    std::vector<Vec3> x_;
+    RingGeometry geometry_;
+    Laplacian laplacian_;
+    Index unknown_count_ = 0;
+    SparseSystem system_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,44 @@
+#include "kernel/merge/blend/fair_seam.h"
+
+#include "kernel/core/error.h"
+#include "kernel/merge/blend/band_system.h"
+#include "kernel/merge/blend/seam_core.h"
+
+namespace lissom {
+namespace {
+
+void check(const SeamFairing& options) {
+    if (options.rings < 1 || options.core < 1 || options.core > options.rings) {
+        throw Error(ErrorCode::invalid_argument,
+                    "a seam is faired over 1 ring or more, with a core of 1 ring at least and all "
+                    "of them at most");
+    }
+    if (options.umbrella < 0 || options.passes < 1) {
+        throw Error(ErrorCode::invalid_argument,
+                    "fairing a seam needs 0 umbrella steps or more and 1 pass or more");
+    }
+}
+
+}  // namespace
+
+std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> seams,
+                             const SeamFairing& options, const Context& context) {
+    check(options);
+    for (const std::vector<Index>& seam : seams) require_vertices(mesh.topology(), seam);
+    const std::vector<Index> rings = seam_rings(mesh.topology(), seams, options.rings);
+    const Region region = seam_band(mesh.shared_topology(), rings);
+    if (region.empty()) return {};
+
+    Progress progress(context, "fair the seam");
+    BandSystem band(region, region, mesh.positions());
+    const SeamCore core(band, rings, options.core);
+    for (Index i = 0; i < options.umbrella; ++i) core.umbrella(band);
+    for (Index pass = 0; pass < options.passes; ++pass) {
+        progress.update(static_cast<double>(pass) / options.passes);
+        band.bend(core.relaxed(band, band.curvatures(), context), context);
+    }
+    band.write(mesh);
+    return region.vertices();
+}
+
+}  // namespace lissom

@@ -1,0 +1,57 @@
+/// The rings of vertices next to a seam, where the shape is that of neither side; private to
+/// kernel/merge.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/merge/blend/band_system.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+/// Number of edges from each vertex to the nearest of `seams`: 0 on them; kNoIndex beyond `limit`.
+std::vector<Index> seam_rings(const Topology& topology, std::span<const std::vector<Index>> seams,
+                              Index limit);
+
+/// The vertices with a ring number that may move. Those on open boundaries stay; where all of a
+/// component has numbers, those farthest from its seams stay too, for nothing else would hold it.
+Region seam_band(const std::shared_ptr<const Topology>& topology, std::span<const Index> rings);
+
+/// The core of a band: the rows on a seam, and those within some rings of it that move. Rows on
+/// open boundaries are none of it.
+class SeamCore {
+  public:
+    /// `rings` of the mesh's vertices; those below `width` are core.
+    SeamCore(const BandSystem& band, std::span<const Index> rings, Index width);
+
+    bool contains(Index local) const { return unknown_[local] != kNoIndex; }
+
+    /// One umbrella step within the tangent planes of the shape last measured: the core moves
+    /// towards the mean of its neighbours, all at once, half the way on the seam and less in each
+    /// ring away from it. Along the normal it would sink, and take with it the curvature that is
+    /// to be kept around it.
+    void umbrella(BandSystem& band) const;
+
+    /// Laplacian coordinates for `band` to bend to, one for each local vertex: those of the shape
+    /// last measured, with the mean curvature given for every row. In the core the curvature and
+    /// the normals are filled harmonically from around it, and there is nothing along the surface.
+    std::vector<Vec3> relaxed(const BandSystem& band, std::span<const double> curvature,
+                              const Context& context) const;
+    /// The given curvatures with those of the core filled.
+    std::vector<double> filled(const BandSystem& band, std::span<const double> curvature,
+                               const Context& context) const;
+
+  private:
+    std::vector<Vec4> fill(const BandSystem& band, std::vector<Vec4> values,
+                           const Context& context) const;
+    std::vector<Index> vertices_;
+    // Unknown of each local vertex in `fill`, or kNoIndex where it is not of the core.
+    std::vector<Index> unknown_;
+    // How much of the way an umbrella step goes, for each vertex of the core.
+    std::vector<double> strength_;
+};
+
+}  // namespace lissom

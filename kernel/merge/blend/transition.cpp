@@ -1,0 +1,232 @@
+#include "kernel/merge/blend/transition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/merge/blend/band_chart.h"
+#include "kernel/merge/blend/band_map.h"
+#include "kernel/merge/blend/band_system.h"
+#include "kernel/merge/blend/seam_core.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+namespace {
+
+// Parts of the room on a side that a band may take: bands of two seams must not meet, and of a
+// side that a band would cover the end stays.
+constexpr double kShareBetweenSeams = 0.5;
+constexpr double kShareOfSide = 0.9;
+
+void check(const Sewn& sewn, std::span<const TransitionWidths> widths,
+           const TransitionOptions& options) {
+    if (widths.size() != sewn.seams.size()) {
+        throw Error(ErrorCode::invalid_argument,
+                    "a transition needs one pair of widths for each seam");
+    }
+    for (const TransitionWidths& w : widths) {
+        for (const double width : {w.target, w.source}) {
+            if (width >= 0.0 && std::isfinite(width)) continue;
+            throw Error(ErrorCode::invalid_argument,
+                        "the width of a transition must be 0 or a finite length above it");
+        }
+    }
+    if (options.core < 1 || options.umbrella < 0 || options.passes < 1) {
+        throw Error(ErrorCode::invalid_argument,
+                    "a transition needs a core of 1 ring or more, 0 umbrella steps or more and "
+                    "1 pass or more");
+    }
+}
+
+double smoothstep(double t) {
+    t = std::clamp(t, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+// One side of a seam.
+struct Side {
+    BandChart chart;
+    // How far details are read and how far vertices move: 0, or the same.
+    double read = 0.0, width = 0.0;
+};
+
+// Both sides of one seam.
+struct Transition {
+    Side target, source;
+
+    bool moves_seam() const { return target.width > 0.0 && source.width > 0.0; }
+    // Share that a vertex on the seam has in its own curvature.
+    double own_share() const { return moves_seam() ? 0.5 : 0.0; }
+};
+
+// Number of the seam at each vertex, or kNoIndex.
+std::vector<Index> seams_at(const Sewn& sewn) {
+    std::vector<Index> seam_at(static_cast<std::size_t>(sewn.mesh.vertex_count()), kNoIndex);
+    for (std::size_t k = 0; k < sewn.seams.size(); ++k) {
+        for (const Index v : sewn.seams[k]) seam_at[v] = static_cast<Index>(k);
+    }
+    return seam_at;
+}
+
+double room_on(const BandChart& chart, Index seam, std::span<const Index> seam_at) {
+    double room = std::min(kShareOfSide * chart.farthest, chart.end);
+    for (std::size_t i = 0; i < chart.vertex.size(); ++i) {
+        const Index other = seam_at[chart.vertex[i]];
+        if (other == kNoIndex || other == seam) continue;
+        room = std::min(room, kShareBetweenSeams * chart.distance[i]);
+    }
+    return room;
+}
+
+Transition make_transition(const Sewn& sewn, Index seam, const TransitionWidths& widths,
+                           std::span<const Index> seam_at, const Context& context) {
+    const auto make_side = [&](SeamSide side, double width, double otherwise) {
+        Side result;
+        if (!(width > 0.0 || otherwise > 0.0)) return result;
+        const double read = width > 0.0 ? width : otherwise;
+        result.chart = make_band_chart(sewn, sewn.seams[seam], side, read, context);
+        result.read = std::min(read, room_on(result.chart, seam, seam_at));
+        result.width = width > 0.0 ? result.read : 0.0;
+        return result;
+    };
+    return {make_side(SeamSide::target, widths.target, widths.source),
+            make_side(SeamSide::source, widths.source, widths.target)};
+}
+
+// Vertices up to `reach` on a side.
+template <typename Use>
+void for_each_within(const Side& side, double reach, const Use& use) {
+    for (std::size_t i = 0; i < side.chart.vertex.size(); ++i) {
+        if (side.chart.distance[i] < reach) use(i, side.chart.vertex[i]);
+    }
+}
+
+// The vertices that details are read at, or that move.
+Region region_of(const Sewn& sewn, std::span<const Transition> transitions, double Side::*reach) {
+    std::vector<Index> vertices;
+    for (const Transition& t : transitions) {
+        for (const Side* side : {&t.target, &t.source}) {
+            for_each_within(*side, side->*reach,
+                            [&](std::size_t, Index v) { vertices.push_back(v); });
+        }
+    }
+    return {sewn.mesh.shared_topology(), std::move(vertices)};
+}
+
+// Without the seams of which a side stays, and without open boundaries.
+Region moving_region(const Sewn& sewn, std::span<const Transition> transitions) {
+    std::vector<Index> fixed;
+    for (std::size_t k = 0; k < transitions.size(); ++k) {
+        if (transitions[k].moves_seam()) continue;
+        fixed.insert(fixed.end(), sewn.seams[k].begin(), sewn.seams[k].end());
+    }
+    for (const std::vector<Index>& loop : sewn.mesh.topology().boundary_loops()) {
+        fixed.insert(fixed.end(), loop.begin(), loop.end());
+    }
+    return region_of(sewn, transitions, &Side::width)
+        .minus(Region(sewn.mesh.shared_topology(), std::move(fixed)));
+}
+
+// Reads curvatures, given for the local vertices of a band system, on one side of a seam.
+class CurvatureReader {
+  public:
+    CurvatureReader(const Side& side, std::span<const Index> local, std::span<const double> values)
+        : map_(side.chart, side.read), local_(local), values_(values) {}
+
+    Index flipped() const { return map_.flipped(); }
+
+    // The value at coordinates, or `own` where there is nothing to read.
+    double at(double angle, double distance, double own, Index& unmapped) const {
+        std::optional<BandPlace> place = map_.locate(angle, distance);
+        unmapped += place ? 0 : 1;
+        if (!place) place = map_.nearest(angle, distance);
+        if (!place) return own;
+        double sum = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum += place->weights[k] * values_[local_[place->vertices[k]]];
+        }
+        return sum;
+    }
+
+  private:
+    BandMap map_;
+    std::span<const Index> local_;
+    std::span<const double> values_;
+};
+
+// The curvatures of one side towards those of the other.
+TransitionBand blend_side(const Side& side, const Side& across, double own_share,
+                          std::span<const Index> local, std::span<const double> values,
+                          std::vector<double>& blended) {
+    TransitionBand result{side.width};
+    if (!(side.width > 0.0)) return result;
+    if (across.read > 0.0) {
+        const CurvatureReader other(across, local, values);
+        for_each_within(side, side.width, [&](std::size_t i, Index v) {
+            const double way = side.chart.distance[i] / side.width;
+            const double share = own_share + (1.0 - own_share) * smoothstep(way);
+            const double own = values[local[v]];
+            blended[local[v]] = share * own + (1.0 - share) * other.at(side.chart.angle[i], way,
+                                                                       own, result.unmapped);
+            ++result.vertices;
+        });
+    }
+    result.flipped = BandMap(side.chart, side.read).flipped();
+    return result;
+}
+
+std::vector<Index> local_numbers(const BandSystem& band, Index vertex_count) {
+    std::vector<Index> local(static_cast<std::size_t>(vertex_count), kNoIndex);
+    for (Index i = 0; i < band.vertex_count(); ++i) local[band.mesh_vertex(i)] = i;
+    return local;
+}
+
+}  // namespace
+
+TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> widths,
+                                  const TransitionOptions& options, const Context& context) {
+    check(sewn, widths, options);
+    Progress progress(context, "blend the transition");
+    progress.step(0.5);
+    const std::vector<Index> seam_at = seams_at(sewn);
+    std::vector<Transition> transitions;
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+        transitions.push_back(
+            make_transition(sewn, static_cast<Index>(k), widths[k], seam_at, context));
+    }
+    TransitionReport report;
+    const Region moving = moving_region(sewn, transitions);
+    report.moved = moving.vertices();
+
+    progress.step(0.5);
+    const Region read = region_of(sewn, transitions, &Side::read);
+    if (read.empty()) {
+        report.target.resize(widths.size());
+        report.source.resize(widths.size());
+        return report;
+    }
+    const std::vector<Index> rings = seam_rings(sewn.mesh.topology(), sewn.seams, options.core);
+    BandSystem band(read, moving, sewn.mesh.positions());
+    const SeamCore core(band, rings, options.core);
+    const std::vector<double> curvature = core.filled(band, band.curvatures(), context);
+    const std::vector<Index> local = local_numbers(band, sewn.mesh.vertex_count());
+    std::vector<double> blended = curvature;
+    for (const Transition& t : transitions) {
+        const auto blend = [&](const Side& side, const Side& across) {
+            return blend_side(side, across, t.own_share(), local, curvature, blended);
+        };
+        report.target.push_back(blend(t.target, t.source));
+        report.source.push_back(blend(t.source, t.target));
+    }
+    if (moving.empty()) return report;
+    for (Index i = 0; i < options.umbrella; ++i) core.umbrella(band);
+    for (Index pass = 0; pass < options.passes; ++pass) {
+        band.bend(core.relaxed(band, blended, context), context);
+    }
+    band.write(sewn.mesh);
+    return report;
+}
+
+}  // namespace lissom

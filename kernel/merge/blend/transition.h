@@ -1,0 +1,66 @@
+/// Transition regions: bands on both sides of a seam whose details cross-fade into each other
+/// (thesis section 3.3.3).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/merge/sew/sew.h"
+
+namespace lissom {
+
+/// How far a transition reaches from one seam, in geodesic distance on the merged mesh: a width of
+/// the source is in the merged mesh's unit too, which is the source's times the scale of its join.
+/// A side of width 0 does not move; then the other one takes over all of its shape at the seam,
+/// read from a band as wide as its own.
+struct TransitionWidths {
+    double target = 0.0, source = 0.0;
+};
+
+struct TransitionOptions {
+    /// The core of the seam, as SeamFairing: rings whose curvature continues what is around them,
+    /// at least 1, umbrella steps within it, 0 or more, and times that the bands are bent, at
+    /// least 1.
+    Index core = 3;
+    Index umbrella = 1;
+    Index passes = 2;
+};
+
+/// What became of the band on one side of a seam.
+struct TransitionBand {
+    /// Width used: that asked for, or less where the surface has no room for it. The most are half
+    /// the distance to the nearest other seam, the distance to an open boundary that goes around
+    /// the band, and nine tenths of the greatest distance on the side.
+    double width = 0.0;
+    /// Vertices within it.
+    Index vertices = 0;
+    /// Triangles that the band's coordinates turn over, and vertices without a counterpart in the
+    /// other band, which took that with the nearest coordinates. Both are 0 unless the band has
+    /// folds or holes.
+    Index flipped = 0, unmapped = 0;
+};
+
+/// What a transition did.
+struct TransitionReport {
+    /// The bands of each seam, in the order of Sewn::seams.
+    std::vector<TransitionBand> target, source;
+    /// Vertices that were free to move, ascending.
+    std::vector<Index> moved;
+};
+
+/// Blends the two sides of every seam of `sewn` within bands beside it, in place. A vertex of one
+/// band corresponds to the point of the other one with the same coordinates (band_chart.h: angle
+/// around the seam, distance over width). Its mean curvature becomes a mean of its own and of its
+/// counterpart's, half of either at the seam and all its own at the end of the band (smoothstep);
+/// in the core of the seam what continues that around it. The bands take the shape with these
+/// curvatures in the least squares, weighted by area; everything else stays to the bit, open
+/// boundaries included. "normal" attributes turn with the surface.
+/// Errors: invalid_argument for a number of widths other than that of seams, widths that are
+/// negative or not finite, and options out of range; not_positive_definite; memory_limit;
+/// cancelled. The mesh is then unchanged.
+TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> widths,
+                                  const TransitionOptions& options = {},
+                                  const Context& context = {});
+
+}  // namespace lissom

@@ -1,0 +1,246 @@
+#include "kernel/merge/loop/loop.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/merge/loop/face_angles.h"
+#include "kernel/mesh/measure/triangulation.h"
+
+namespace lissom {
+namespace {
+
+// Smoothing under which arc length is measured, in loop lengths.
+constexpr double kLengthSigma = 0.03;
+// A Gaussian ends at this many sigmas.
+constexpr double kReach = 3.0;
+// Vertices inside must be this many times as far from the boundary as what its own normal stands
+// for, to tell how it turns; and it turns on by no more than this, in radians.
+constexpr double kLeastReach = 1.5;
+constexpr double kMostTurn = 0.35;
+
+// The normal of the triangles around a vertex, weighted by angle, and how far from the vertex they
+// stand for in the mean: their middles by the same weights.
+struct FanNormal {
+    Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
+};
+
+FanNormal fan_normal(const Mesh& mesh, Index v) {
+    FanNormal fan;
+    double total = 0.0;
+    const Triangulation around =
+        triangulate_faces(mesh.topology(), mesh.positions(), mesh.topology().faces_around(v));
+    for (const Triangle& t : around.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            if (t[k] != v) continue;
+            const Vec3 a = mesh.position(t[(k + 1) % 3]) - mesh.position(v);
+            const Vec3 b = mesh.position(t[(k + 2) % 3]) - mesh.position(v);
+            const double angle = angle_between(a, b);
+            fan.normal += angle * a.cross(b).normalized();
+            fan.middle += angle * (a + b) / 3.0;
+            total += angle;
+        }
+    }
+    if (total > 0.0) fan.middle /= total;
+    fan.normal.normalize();
+    return fan;
+}
+
+// The normal of the surface on the boundary itself: that of the faces there is one a little inside,
+// and goes on as it turned from the vertices within to there. Without it a surface that bends
+// across the seam would be straightened.
+Vec3 boundary_normal(const Mesh& mesh, Index v) {
+    const FanNormal at = fan_normal(mesh, v);
+    Vec3 inner = Vec3::Zero(), arm = Vec3::Zero();
+    double count = 0.0;
+    for (const Index n : mesh.topology().neighbors(v)) {
+        if (mesh.topology().is_boundary(n)) continue;
+        inner += fan_normal(mesh, n).normal;
+        arm += mesh.position(n) - mesh.position(v);
+        count += 1.0;
+    }
+    if (count == 0.0) return at.normal;
+    inner.normalize();
+    const double near = at.middle.norm(), far = at.middle.normalized().dot(arm) / count;
+    if (!(far > kLeastReach * near)) return at.normal;
+    const Vec3 beyond = near / (far - near) * (at.normal - inner);
+    return (at.normal + std::min(1.0, kMostTurn / std::max(beyond.norm(), 1e-12)) * beyond)
+        .normalized();
+}
+
+std::vector<Vec3> normals_at(const Mesh& mesh, std::span<const Index> vertices) {
+    std::vector<Vec3> normals;
+    for (const Index v : vertices) normals.push_back(boundary_normal(mesh, v));
+    return normals;
+}
+
+Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
+    const double length = v.norm();
+    return length > 0.0 ? Vec3(v / length) : otherwise;
+}
+
+// A unit vector across `v`.
+Vec3 across(const Vec3& v) {
+    Index least = 0;
+    v.cwiseAbs().minCoeff(&least);
+    return v.cross(Vec3(Vec3::Unit(least))).normalized();
+}
+
+}  // namespace
+
+Loop::Loop(const Mesh& mesh, std::vector<Index> vertices) : vertices_(std::move(vertices)) {
+    const auto refuse = [&](const char* why) {
+        Elements elements{ElementKind::vertex, 0, {}};
+        for (const Index v : vertices_) elements.add(v);
+        throw Error(ErrorCode::boundary_conflict, "the boundary at " + describe(elements) + why,
+                    elements);
+    };
+    if (size() < 3) refuse(" has fewer than 3 vertices and cannot be joined; cut the mesh there");
+    for (const Index v : vertices_) points_.push_back(mesh.position(v));
+    for (Index k = 0; k < size(); ++k) {
+        arc_.push_back(length_);
+        edges_.push_back((points_[(k + 1) % size()] - points_[k]).norm());
+        length_ += edges_.back();
+    }
+    if (!(length_ > 0.0)) refuse(" has no length; cut the mesh there");
+    normals_ = normals_at(mesh, vertices_);
+    find_moments();
+    find_parameters();
+    if (!(radius_ > 1e-9 * length_)) refuse(" encloses nothing; cut the mesh there");
+}
+
+void Loop::find_moments() {
+    const auto exactly = [&](const auto& of_edge) {
+        for (Index k = 0; k < size(); ++k) of_edge(points_[k], points_[(k + 1) % size()], edge(k));
+    };
+    const Vec3 first = points_.front();
+    Vec3 sum = Vec3::Zero();
+    exactly(
+        [&](const Vec3& a, const Vec3& b, double l) { sum += 0.5 * l * (a + b - 2.0 * first); });
+    center_ = first + sum / length_;
+    double squares = 0.0;
+    exactly([&](const Vec3& a, const Vec3& b, double l) {
+        const Vec3 p = a - center_, q = b - center_;
+        squares += l / 3.0 * (p.squaredNorm() + q.squaredNorm() + p.dot(q));
+    });
+    radius_ = std::sqrt(squares / length_);
+}
+
+// Gaussian along the true arc length; a vertex counts as much as half the edges at it.
+std::vector<Vec3> Loop::smoothed(std::span<const Vec3> values, double sigma) const {
+    const double reach = kReach * sigma * length_;
+    std::vector<Vec3> result;
+    const auto mass = [&](Index k) { return 0.5 * (edge(k) + edge((k + size() - 1) % size())); };
+    for (Index k = 0; k < size(); ++k) {
+        double total = mass(k);
+        Vec3 sum = total * values[k];
+        const auto add = [&](Index other, double distance) {
+            const double x = distance / (sigma * length_);
+            const double weight = mass(other) * std::exp(-0.5 * x * x);
+            total += weight;
+            sum += weight * values[other];
+        };
+        double ahead = edge(k), behind = edge((k + size() - 1) % size());
+        for (Index n = 1; n < size() && ahead < std::min(reach, 0.5 * length_); ++n) {
+            add((k + n) % size(), ahead);
+            ahead += edge((k + n) % size());
+        }
+        for (Index n = 1; n < size() && behind < std::min(reach, 0.5 * length_); ++n) {
+            add((k + size() - n) % size(), behind);
+            behind += edge((k + 2 * size() - n - 1) % size());
+        }
+        result.push_back(total > 0.0 ? Vec3(sum / total) : values[k]);
+    }
+    return result;
+}
+
+// A little of the true length keeps parameters apart where smoothing brings points together.
+void Loop::find_parameters() {
+    const std::vector<Vec3> curve = smoothed(points_, kLengthSigma);
+    double total = 0.0;
+    for (Index k = 0; k < size(); ++k) {
+        parameters_.push_back(total);
+        total += (curve[(k + 1) % size()] - curve[k]).norm() + 1e-3 * edge(k);
+    }
+    for (double& u : parameters_) u /= total;
+}
+
+double Loop::parameter_of(const LoopPoint& place) const {
+    const double from = parameters_[place.segment];
+    const double to = place.segment + 1 < size() ? parameters_[place.segment + 1] : 1.0;
+    return from + place.t * (to - from);
+}
+
+LoopPoint Loop::place_at(double parameter) const {
+    double u = parameter - std::floor(parameter);
+    if (u >= 1.0) u = 0.0;
+    const auto after = std::upper_bound(parameters_.begin(), parameters_.end(), u);
+    const auto k = static_cast<Index>(after - parameters_.begin()) - 1;
+    const double to = k + 1 < size() ? parameters_[k + 1] : 1.0;
+    const double width = to - parameters_[k];
+    const double t = width > 0.0 ? (u - parameters_[k]) / width : 0.0;
+    return t < 1.0 ? LoopPoint{k, t} : LoopPoint{(k + 1) % size(), 0.0};
+}
+
+LoopPoint Loop::nearest(const Vec3& point, double& distance) const {
+    LoopPoint best;
+    distance = std::numeric_limits<double>::infinity();
+    for (Index k = 0; k < size(); ++k) {
+        const Vec3& a = points_[k];
+        const Vec3 side = points_[(k + 1) % size()] - a;
+        const double squared = side.squaredNorm();
+        const double t =
+            squared > 0.0 ? std::clamp((point - a).dot(side) / squared, 0.0, 1.0) : 0.0;
+        const double d = (point - a - t * side).norm();
+        if (d >= distance) continue;
+        distance = d;
+        best = t < 1.0 ? LoopPoint{k, t} : LoopPoint{(k + 1) % size(), 0.0};
+    }
+    return best;
+}
+
+std::vector<double> Loop::tangent_lengths() const {
+    std::vector<double> result;
+    for (Index k = 0; k < size(); ++k) {
+        result.push_back(0.5 *
+                         (points_[(k + 1) % size()] - points_[(k + size() - 1) % size()]).norm());
+    }
+    return result;
+}
+
+std::vector<Mat3> Loop::frames(double sigma) const {
+    std::vector<Vec3> tangents, normals = normals_;
+    for (Index k = 0; k < size(); ++k) {
+        const Vec3 chord = points_[(k + 1) % size()] - points_[(k + size() - 1) % size()];
+        tangents.push_back(unit_or(chord, Vec3::Zero()));
+    }
+    if (sigma > 0.0) {
+        tangents = smoothed(tangents, sigma);
+        normals = smoothed(normals, sigma);
+    }
+    std::vector<Mat3> frames;
+    Vec3 last = Vec3::UnitX();
+    for (Index k = 0; k < size(); ++k) {
+        const Vec3 t = unit_or(tangents[k], last);
+        last = t;
+        const Vec3 n = unit_or(normals[k] - normals[k].dot(t) * t, across(t));
+        Mat3 frame;
+        frame << t, n, t.cross(n);
+        frames.push_back(frame);
+    }
+    return frames;
+}
+
+double Loop::mean_turn() const {
+    double sum = 0.0;
+    for (Index k = 0; k < size(); ++k) {
+        const Vec3 before = points_[k] - points_[(k + size() - 1) % size()];
+        sum += angle_between(before, points_[(k + 1) % size()] - points_[k]);
+    }
+    return sum / size();
+}
+
+}  // namespace lissom

@@ -1,0 +1,151 @@
+// From a sewn patch to the mesh.
+
+#include <map>
+#include <utility>
+
+#include "kernel/merge/sew/seam_umbrella.h"
+#include "kernel/merge/sew/seam_work.h"
+
+namespace lissom {
+namespace {
+
+// The vertices of a loop that a place lies on or between.
+std::vector<ElementMap::Source> sources_at(std::span<const Index> loop, Index offset,
+                                           const LoopPoint& place) {
+    const Index from = loop[place.segment] + offset;
+    if (place.t == 0.0) return {{from, 1.0}};
+    const std::size_t next = (static_cast<std::size_t>(place.segment) + 1) % loop.size();
+    return {{from, 1.0 - place.t}, {loop[next] + offset, place.t}};
+}
+
+// For each vertex of the unconnected mesh its number in the result, or kNoIndex.
+std::vector<Index> numbered(const SeamWork& work) {
+    std::vector<Index> number;
+    Index next = 0;
+    for (Index v = 0; v < work.both.vertex_count(); ++v) {
+        number.push_back(work.gone.contains(v) ? kNoIndex : next++);
+    }
+    return number;
+}
+
+// The elements of the result in their order.
+class Assembly {
+  public:
+    Assembly(const SeamWork& work, std::span<const Index> number) : work_(work), number_(number) {
+        add_vertices();
+        std::map<Index, std::vector<const SeamFace*>> of_origin;
+        for (const Index f : work.patch.origins()) of_origin[f];
+        for (const SeamFace& face : work.patch.faces()) {
+            if (!face.corners.empty()) of_origin[face.origin].push_back(&face);
+        }
+        auto next = of_origin.begin();
+        for (Index f = 0; f < work.both.face_count(); ++f) {
+            if (next == of_origin.end() || next->first != f) {
+                add_old(f);
+                continue;
+            }
+            for (const SeamFace* face : next->second) add_sewn(*face);
+            ++next;
+        }
+    }
+
+    FaceList faces;
+    MeshMap map;
+    std::vector<SeamSide> sides;
+    std::vector<Vec3> positions;
+
+  private:
+    void add_vertices() {
+        for (Index v = 0; v < work_.both.vertex_count(); ++v) {
+            if (number_[v] == kNoIndex) continue;
+            positions.push_back(work_.both.position(v));
+            const auto seam = work_.sources.find(v);
+            if (seam == work_.sources.end()) {
+                map.vertices.add_copy(v);
+            } else {
+                map.vertices.add_blend(seam->second.blend());
+            }
+        }
+        for (const auto& [v, position] : work_.patch.moved()) {
+            if (number_[v] != kNoIndex) positions[number_[v]] = position;
+        }
+    }
+
+    void add_face(Index origin) {
+        faces.add(vertices_);
+        map.faces.add_copy(origin);
+        sides.push_back(origin < work_.first_source_face ? SeamSide::target : SeamSide::source);
+        vertices_.clear();
+    }
+
+    void add_old(Index f) {
+        Index corner = work_.both.topology().first_corner(f);
+        for (const Index v : work_.both.topology().face(f)) {
+            vertices_.push_back(number_[v]);
+            map.corners.add_copy(corner++);
+        }
+        add_face(f);
+    }
+
+    void add_sewn(const SeamFace& face) {
+        for (const SeamCorner& corner : face.corners) {
+            vertices_.push_back(number_[corner.vertex]);
+            if (corner.second == kNoIndex) {
+                map.corners.add_copy(corner.first);
+                continue;
+            }
+            const ElementMap::Source ends[] = {{corner.first, 1.0 - corner.t},
+                                               {corner.second, corner.t}};
+            map.corners.add_blend(ends);
+        }
+        add_face(face.origin);
+    }
+
+    const SeamWork& work_;
+    std::span<const Index> number_;
+    std::vector<Index> vertices_;
+};
+
+void smooth(SeamWork& work, std::span<const Index> number, Index times, Sewn& sewn) {
+    smooth_seams(work.patch, times);
+    std::vector<std::pair<Index, Vec3>> moved;
+    for (const auto& [v, position] : work.patch.moved()) {
+        const bool moves = number[v] != kNoIndex && sewn.mesh.position(number[v]) != position;
+        if (moves) moved.emplace_back(number[v], position);
+    }
+    std::vector<Index> vertices;
+    for (const auto& [v, position] : moved) vertices.push_back(v);
+    SeamNormals normals(sewn.mesh, std::move(vertices));
+    for (const auto& [v, position] : moved) sewn.mesh.set_position(v, position);
+    normals.follow(sewn.seams);
+}
+
+}  // namespace
+
+SeamSources sources_of(const SeamWork& work, const LoopPair& join, const LoopPoint& on_target,
+                       const LoopPoint& on_source) {
+    return {sources_at(join.target, 0, on_target),
+            sources_at(join.source, work.first_source_vertex, on_source)};
+}
+
+Sewn finish(SeamWork& work, const SewOptions& options, const Context& context) {
+    const std::vector<Index> number = numbered(work);
+    Assembly assembly(work, number);
+    Sewn sewn;
+    sewn.mesh = derive(work.both, std::move(assembly.positions), std::move(assembly.faces),
+                       assembly.map, context);
+    sewn.map = std::move(assembly.map);
+    sewn.side_of_face = std::move(assembly.sides);
+    carry_seam_regions(work.both, work.sources, number, sewn.mesh);
+    for (const std::vector<Index>& seam : work.seams) {
+        sewn.seams.emplace_back();
+        for (const Index v : seam) sewn.seams.back().push_back(number[v]);
+    }
+    work.report.before = seam_quality(sewn.mesh, sewn.seams);
+    smooth(work, number, options.smooth, sewn);
+    work.report.after = seam_quality(sewn.mesh, sewn.seams);
+    sewn.report = work.report;
+    return sewn;
+}
+
+}  // namespace lissom

@@ -1,0 +1,43 @@
+/// A seam while it is made; private to kernel/merge.
+#pragma once
+
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "kernel/merge/sew/seam_attributes.h"
+#include "kernel/merge/sew/seam_patch.h"
+#include "kernel/merge/sew/sew.h"
+
+namespace lissom {
+
+/// Two meshes that are being sewn. Elements have the numbers of the unconnected mesh `both`: those
+/// of the target, then those of the source.
+struct SeamWork {
+    const Mesh& both;
+    Index first_source_vertex = 0, first_source_face = 0;
+    SeamPatch patch;
+    /// The vertices of each seam, in the order of the target's loop.
+    std::vector<std::vector<Index>> seams;
+    /// What the seams' vertices are made of.
+    std::unordered_map<Index, SeamSources> sources;
+    /// Vertices that are no longer used.
+    std::unordered_set<Index> gone;
+    SewReport report;
+};
+
+/// Sews one join with the vertices of both loops on the seam.
+void sew_conforming(SeamWork& work, const LoopPair& join, const SewOptions& options);
+
+/// Sews one join with a band of new triangles in the place of the target's faces along its loop.
+/// Errors: boundary_conflict where those faces do not leave one simple loop.
+void sew_band(SeamWork& work, const LoopPair& join, const Context& context);
+
+/// Adds what the vertices of a seam at the given places are made of.
+SeamSources sources_of(const SeamWork& work, const LoopPair& join, const LoopPoint& on_target,
+                       const LoopPoint& on_source);
+
+/// Smooths the seams and makes the mesh.
+Sewn finish(SeamWork& work, const SewOptions& options, const Context& context);
+
+}  // namespace lissom

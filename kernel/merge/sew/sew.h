@@ -1,0 +1,99 @@
+/// Sewing: a source mesh, whose boundary has been brought onto that of a target, and the target
+/// become one watertight mesh (thesis section 3.3.1, last step).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/merge/loop/loop_pair.h"
+#include "kernel/merge/sew/seam_quality.h"
+#include "kernel/mesh/derive.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// The side of a seam that a face comes from.
+enum class SeamSide : char { target, source };
+
+/// How two meshes meet at a seam.
+enum class SeamKind {
+    /// The seam runs along the target's loop: vertices of either loop are inserted into the faces
+    /// of the other side.
+    conform,
+    /// As `conform`; the caller bends the surface around the seam afterwards.
+    fair,
+    /// One band of target faces along the loop is replaced by triangles of least area between the
+    /// rest of the target and the source's loop, which becomes the seam (the thesis's).
+    band,
+};
+
+struct SewOptions {
+    SeamKind kind = SeamKind::conform;
+    /// Times that the umbrella operator moves the seam and, half as far, the vertices next to it; 0
+    /// leaves every position of the target as it is, to the bit.
+    Index smooth = 3;
+    /// Neighbours on the seam that are closer than this many mean seam edges become one vertex, 0
+    /// to 1: that of the target, if one is. Two of the target stay apart. `band` does not use it.
+    double snap = 0.5;
+    /// Flips edges within two rings of the seam that make slivers.
+    bool flip = true;
+};
+
+/// What was done to sew two meshes.
+struct SewReport {
+    /// Vertices of the source's loops that were inserted into faces of the target, and the other
+    /// way round, over all joins.
+    Index inserted_into_target = 0, inserted_into_source = 0;
+    /// Vertices of the source's loops that became one with a vertex of the target, and that were
+    /// drawn into another of the source, because they were close.
+    Index snapped = 0, collapsed = 0;
+    Index flipped = 0;
+    /// Faces of the target that `band` removed, and those it made.
+    Index band_removed = 0, band_added = 0;
+    /// The seam before and after smoothing.
+    SeamQuality before, after;
+};
+
+/// One mesh made of two.
+struct Sewn {
+    Mesh mesh;
+    /// Where its elements come from. Elements of the target keep their numbers, those of the source
+    /// are numbered after them, as `append` does.
+    MeshMap map;
+    std::vector<SeamSide> side_of_face;
+    /// The vertices of each seam, in the order of the target's loop; consecutive ones share an
+    /// edge.
+    std::vector<std::vector<Index>> seams;
+    SewReport report;
+};
+
+/// Sews `source` to `target` along all `joins`. Both may be polygon meshes of any genus; boundaries
+/// that no join names stay open. Vertices of the source's loops are put at their places on the
+/// target's, where the caller has brought them.
+///
+/// The result has the surviving vertices of the target in their order, then those of the source,
+/// and the same of faces; faces that get seam vertices become triangles in their place. Away from
+/// the seam (two rings where edges flip or the seam is smoothed) everything is kept to the bit:
+/// - attributes of vertices on the seam are blended half and half from both sides, or are those of
+///   the side that has any. Those of corners are interpolated in their own face, so that each side
+///   keeps its values along the seam. Texture coordinates and tangents of vertices become those of
+///   corners before;
+/// - what a side does not have at all is NaN there, as `append` does. glTF files get white, zeros
+///   or the surface's normals in its place, OBJ files leave such colors out, others say nan;
+/// - a seam vertex is in the regions that it lies in on either side;
+/// - normals are those of the surface on the seam, and turn with the vertices that were smoothed;
+/// - "joints" and "weights" are blended by joint where both sides have the same joints: the names
+///   that the assets tell at the loops must agree, or the meshes must have the same asset or none.
+///   Where one side alone has a skin, the other gets the weights of the seam, continued by a
+///   harmonic function, and in an asset the object of that skin. What "morph" attributes add is
+///   blended as it is: the caller has turned the source's with the source.
+///
+/// Errors: invalid_argument for options out of range, for no joins, or where a join's counts
+/// differ; out_of_range; not_a_boundary; boundary_conflict (two joins on one boundary, places that
+/// do not follow each other around a loop); nonmanifold_edge where both sides join two seam
+/// vertices by an inner edge that cannot be flipped; skin_mismatch; cancelled.
+Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
+         const SewOptions& options = {}, const Context& context = {});
+
+}  // namespace lissom

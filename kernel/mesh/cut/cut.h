@@ -1,0 +1,142 @@
+/// Cutting: a mesh becomes two along a smooth line that runs through its faces.
+///
+/// Triangles on the line are divided, polygons on it triangulated; all others stay as they are, to
+/// the bit and in their order. A vertex closer to the line than `slide` of an edge is moved along
+/// that edge onto it instead, so that no slivers appear. Attributes are interpolated, labels and
+/// named regions carried, as `derive` does. Both parts have the same points along the line, to the
+/// bit, so that together they are as watertight as before.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kernel/mesh/derive.h"
+#include "kernel/mesh/query/path.h"
+
+namespace lissom {
+
+/// Which of the lines in which a plane crosses a mesh are cut.
+enum class CutLoops {
+    /// The one nearest to the picked point; where the plane crosses elsewhere the mesh stays whole.
+    nearest,
+    /// All of them.
+    all,
+};
+
+struct CutOptions {
+    CutLoops loops = CutLoops::nearest;
+    /// A vertex slides onto the line where that crosses one of its edges within this fraction of
+    /// the edge's length; 0 to 0.45.
+    double slide = 0.25;
+};
+
+struct CutPlane {
+    Vec3 point = Vec3::Zero();
+    /// Towards the part that is kept; of any length.
+    Vec3 normal = Vec3::UnitY();
+    /// A point on or near the part to keep, instead of the side that the normal points to.
+    std::optional<Vec3> seed{};
+    /// What the nearest line is nearest to; `point` where absent.
+    std::optional<Vec3> near{};
+};
+
+/// A closed line to cut along.
+struct CutPath {
+    /// Through vertices, or free points near the surface; the cut follows the shortest ways along
+    /// edges between them, smoothed.
+    Path path;
+    /// A point on or near the part to keep, instead of the part on the left of the path.
+    std::optional<Vec3> seed{};
+    /// The line is smoothed over two edges around, but over no more than this fraction of its
+    /// length; above 0, at most 0.1.
+    double smoothing = 0.04;
+};
+
+/// A region to cut out along its outlines, all of them at once.
+struct CutRegion {
+    Region region;
+    /// As CutPath::smoothing.
+    double smoothing = 0.04;
+};
+
+/// Why the result of a cut may not be what was wanted.
+enum class CutConcern {
+    /// A line ends at an open boundary, which now belongs to both parts in pieces.
+    touches_boundary,
+    /// A line is much more folded than its convex outline, as one around a body and its fins is.
+    folded_line,
+    /// The plane crosses the mesh not far from the line that was cut too.
+    lines_nearby,
+};
+
+struct CutWarning {
+    CutConcern concern = CutConcern::touches_boundary;
+    /// What was found and what to do about it.
+    std::string message;
+    /// Old vertices where it was found.
+    Elements elements;
+};
+
+struct CutReport {
+    std::vector<CutWarning> warnings;
+    /// Open boundaries that lines end at: numbers in `boundaries` of the old mesh, ascending.
+    std::vector<Index> touched_boundaries;
+    /// Lines in which the plane crosses the mesh and which were not cut.
+    Index lines_left = 0;
+    /// Components without a cut, which went to one part as a whole.
+    Index whole_components = 0;
+    /// Old vertices that slid onto a line, ascending.
+    std::vector<Index> slid_vertices;
+    /// Old faces that were divided.
+    Index divided_faces = 0;
+};
+
+/// A part of a mesh and where its elements come from in the old one.
+struct CutPiece {
+    Mesh mesh;
+    MeshMap map;
+};
+
+/// One line of a cut on both parts, each with its surface on the left: `rest` starts at the same
+/// point as `kept` and runs the other way. Closed, unless it ends at open boundaries.
+struct CutLine {
+    Path kept, rest;
+};
+
+struct Cut {
+    CutPiece kept, rest;
+    std::vector<CutLine> lines;
+    CutReport report;
+};
+
+/// Cuts by a plane. Of the lines in which it crosses the mesh the one nearest to the picked point
+/// is cut, so that a plane through a neck leaves the legs alone; everything connected to either
+/// side of it goes there whole. Components that are not cut go to the side of the plane on which
+/// the mean of their vertices lies. A plane that only touches the surface does not cross it.
+/// Errors: mesh_empty; invalid_argument for a normal without length, options out of range, or a
+/// plane that does not cross the mesh; not_finite; boundary_conflict where the line does not
+/// separate the mesh, because both sides are connected elsewhere; nonmanifold_edge; cancelled.
+Cut cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options = {},
+        const Context& context = {});
+
+/// Cuts along a closed path: on a smooth line near it rather than along its edges. It passes the
+/// picked points within about an edge. The part on the left of the path, seen from outside, is
+/// kept. Components that are not cut go to the side of the nearest point of the path.
+/// Errors: mesh_empty; topology_mismatch; invalid_argument for an open path, one that visits a
+/// vertex twice, or options out of range; boundary_conflict where the smooth line meets an open
+/// boundary or does not separate the mesh; nonmanifold_edge; cancelled.
+Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options = {},
+        const Context& context = {});
+
+/// Cuts along the outlines of a region and keeps the region. Outlines that are open boundaries of
+/// the mesh are no cuts. Components that are not cut go with most of their vertices.
+/// Errors: mesh_empty; topology_mismatch; region_empty where the region holds no face;
+/// invalid_argument for options out of range or a region without an outline to cut;
+/// boundary_conflict naming vertices where an outline or its smooth line runs into an open boundary
+/// or another outline; nonmanifold_edge; cancelled.
+Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options = {},
+        const Context& context = {});
+
+}  // namespace lissom

@@ -1,0 +1,19 @@
+/// What a user should know about the lines of a cut; private to kernel/mesh.
+#pragma once
+
+#include <vector>
+
+#include "kernel/mesh/cut/contour.h"
+#include "kernel/mesh/cut/cut.h"
+
+namespace lissom {
+
+/// Adds to the report which open boundaries the lines end at and which lines are folded.
+void add_concerns(const Mesh& mesh, const std::vector<ContourLine>& lines, CutReport& report);
+
+/// Area of a closed polyline as a fraction of that of its convex outline, both seen along the
+/// polyline's mean normal: 1 for a convex one, less for one with deep folds. 0 where it has no
+/// area.
+double fullness(const std::vector<Vec3>& points);
+
+}  // namespace lissom

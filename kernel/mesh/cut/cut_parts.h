@@ -1,0 +1,33 @@
+/// What the ways of cutting share once they know the lines to cut along; private to kernel/mesh.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "kernel/mesh/cut/contour.h"
+#include "kernel/mesh/cut/cut.h"
+
+namespace lissom {
+
+/// Errors: mesh_empty; invalid_argument.
+void require_cuttable(const Mesh& mesh, const CutOptions& options);
+
+/// The side of the lines that each vertex is on: 1 or -1, and 0 in components without a line.
+/// Errors: boundary_conflict where the sides are connected.
+std::vector<signed char> sides_of(const Mesh& mesh, const std::vector<ContourLine>& lines);
+
+/// Gives components that no line crosses the side that `side_of` names for their vertices, and
+/// returns how many there are.
+using SideOfComponent = std::function<signed char(const std::vector<Index>& vertices)>;
+Index assign_whole_components(const Mesh& mesh, std::vector<signed char>& side,
+                              const SideOfComponent& side_of);
+
+/// The side of the vertex nearest to `seed` among those that have one.
+signed char side_near(const Mesh& mesh, const std::vector<signed char>& side, const Vec3& seed);
+
+/// Divides the mesh; the part on `kept_side` is kept. `report` holds what is known by then.
+Cut cut_along(const Mesh& mesh, std::vector<ContourLine> lines, std::vector<signed char> side,
+              signed char kept_side, const CutOptions& options, CutReport report,
+              const Context& context);
+
+}  // namespace lissom

@@ -1,0 +1,47 @@
+/// Filling of holes.
+#pragma once
+
+#include <vector>
+
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/query/path.h"
+
+namespace lissom {
+
+struct FillOptions {
+    /// Inserts vertices until the patch is as dense as the mesh around the hole.
+    bool refine = true;
+    /// Moves the inserted vertices so that the patch continues the surface smoothly (a bi-Laplacian
+    /// system over them); without it they stay in the flat pieces of the coarse patch.
+    bool fair = true;
+    /// Vertices that refinement may insert at most; it stops there and the report says so.
+    Index maximum_vertices = 200000;
+};
+
+/// What was done to close a hole. Old ids stay; new ones follow them.
+struct FillReport {
+    /// Vertices around the hole.
+    Index loop_size = 0;
+    /// Ids added: vertices [first_vertex, first_vertex + vertex_count), faces alike.
+    Index first_vertex = 0, vertex_count = 0;
+    Index first_face = 0, face_count = 0;
+    /// Parts that the loop was divided into before each was triangulated by dynamic programming.
+    Index parts = 1;
+    /// True where refinement ended at `maximum_vertices`.
+    bool limit_reached = false;
+    /// Edges of the patch whose faces turn by more than 150 degrees, its seam included.
+    Index folded_edges = 0;
+};
+
+/// Closes one open boundary of `mesh`, in place, by triangles: minimum-weight triangulation (Liepa
+/// 2003: least largest dihedral angle, then least area), refinement, fairing. The dynamic programme
+/// is cubic: a loop of more than 300 edges is first divided by short chords. The topology is a new
+/// one; named regions move to it, and a new vertex is in those that its sources are all in. Vertex
+/// attributes of new vertices are blended from the loop; corner and face attributes of new faces
+/// are NaN and their labels none.
+/// Errors: topology_mismatch; invalid_argument where `boundary` is not an open boundary of the
+/// mesh; memory_limit; cancelled. The mesh is then unchanged.
+FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options = {},
+                const Context& context = {});
+
+}  // namespace lissom

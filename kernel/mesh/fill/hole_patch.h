@@ -1,0 +1,70 @@
+/// The triangles that close a hole, while they are made; private to kernel/mesh.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "kernel/mesh/derive.h"
+#include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// A patch of triangles over vertices of a mesh and new ones, which are numbered after those of the
+/// mesh. Invariant: with the mesh's faces, the triangles form a manifold wherever both are
+/// complete; no edge is added that the mesh or the patch has.
+class HolePatch {
+  public:
+    explicit HolePatch(const Mesh& mesh) : mesh_(mesh) {}
+
+    const Mesh& mesh() const { return mesh_; }
+    const std::vector<Triangle>& triangles() const { return triangles_; }
+    Index new_vertex_count() const { return static_cast<Index>(new_positions_.size()); }
+    const std::vector<Vec3>& new_positions() const { return new_positions_; }
+    /// Mesh vertices that a new vertex blends, with weights.
+    const std::vector<ElementMap::Source>& sources(Index new_vertex) const {
+        return sources_[new_vertex];
+    }
+    const Vec3& position(Index v) const {
+        return v < mesh_.vertex_count() ? mesh_.position(v)
+                                        : new_positions_[v - mesh_.vertex_count()];
+    }
+
+    void add_triangle(Index a, Index b, Index c);
+    /// A new vertex in the middle of `around`, which may be old and new ones. Returns its id.
+    Index add_middle_vertex(std::span<const Index> around);
+    /// True where the mesh or the patch has an edge between `a` and `b`.
+    bool has_edge(Index a, Index b) const;
+    Vec3 normal(Index triangle) const;
+
+    /// Splits triangles at their centers and flips edges until the patch is as dense as the mesh
+    /// around `loop` (Liepa 2003, section 4). Returns false where it stopped at `maximum_vertices`.
+    bool refine(std::span<const Index> loop, Index maximum_vertices, const Context& context);
+
+  private:
+    bool split_large_triangles(Index maximum_vertices);
+    void split(Index triangle);
+    void relax(std::vector<std::pair<Index, Index>> edges);
+    bool flip_if_better(Index a, Index b);
+    void set_triangle(Index triangle, const Triangle& vertices);
+    Index triangle_at(Index from, Index to) const;
+    double& spacing(Index v) { return spacing_[v]; }
+    double mean_edge_length(Index v) const;
+
+    static std::uint64_t key(Index from, Index to) {
+        return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32) |
+               static_cast<std::uint32_t>(to);
+    }
+
+    const Mesh& mesh_;
+    std::vector<Triangle> triangles_;
+    std::vector<Vec3> new_positions_;
+    std::vector<std::vector<ElementMap::Source>> sources_;
+    // The triangle on the left of each directed edge.
+    std::unordered_map<std::uint64_t, Index> left_;
+    // Length of edges wanted at a vertex.
+    std::unordered_map<Index, double> spacing_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,327 @@
+#include "kernel/mesh/measure/measures.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string_view>
+
+#include "kernel/mesh/measure/triangulation.h"
+
+namespace lissom {
+namespace {
+
+// A face is flat where its area is below this fraction of its longest edge squared.
+constexpr double kFlat = 1e-14;
+
+Vec3 mean(std::span<const Vec3> points) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : points) sum += p;
+    return points.empty() ? sum : Vec3(sum / static_cast<double>(points.size()));
+}
+
+// Half the sum of cross products around a face: its normal times its area where it is planar.
+Vec3 vector_area(const Mesh& mesh, Index f) {
+    const std::span<const Index> face = mesh.topology().face(f);
+    const Vec3& origin = mesh.position(face[0]);
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 1; k + 1 < face.size(); ++k) {
+        sum += (mesh.position(face[k]) - origin).cross(mesh.position(face[k + 1]) - origin);
+    }
+    return 0.5 * sum;
+}
+
+double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return 0.5 * (b - a).cross(c - a).norm();
+}
+
+double longest_edge_squared(const Mesh& mesh, Index f) {
+    const std::span<const Index> face = mesh.topology().face(f);
+    double longest = 0.0;
+    Index last = face.back();
+    for (const Index v : face) {
+        longest = std::max(longest, (mesh.position(v) - mesh.position(last)).squaredNorm());
+        last = v;
+    }
+    return longest;
+}
+
+// Areas of faces: of the triangles that they are split into.
+class FaceArea {
+  public:
+    explicit FaceArea(const Mesh& mesh) : mesh_(mesh) {}
+
+    double of(Index f) {
+        const std::span<const Index> face = mesh_.topology().face(f);
+        if (face.size() == 3) return triangle(face, {0, 1, 2});
+        points_.clear();
+        triangles_.clear();
+        for (const Index v : face) points_.push_back(mesh_.position(v));
+        triangulate_polygon(points_, triangles_);
+        double sum = 0.0;
+        for (const Triangle& t : triangles_) sum += triangle(face, t);
+        return sum;
+    }
+
+  private:
+    double triangle(std::span<const Index> face, const Triangle& t) const {
+        return triangle_area(mesh_.position(face[t[0]]), mesh_.position(face[t[1]]),
+                             mesh_.position(face[t[2]]));
+    }
+
+    const Mesh& mesh_;
+    std::vector<Vec3> points_;
+    std::vector<Triangle> triangles_;
+};
+
+struct Surface {
+    double area = 0.0;
+    Vec3 centroid = Vec3::Zero();
+};
+
+// Moments are taken about a point of the mesh, so that a far offset from the origin costs no
+// digits.
+Surface surface_of(const Mesh& mesh, const Triangulation& surface) {
+    Surface result;
+    const Vec3 origin = mesh.position(0);
+    for (const Triangle& t : surface.triangles) {
+        const Vec3 a = mesh.position(t[0]) - origin, b = mesh.position(t[1]) - origin,
+                   c = mesh.position(t[2]) - origin;
+        const double weight = triangle_area(a, b, c);
+        result.area += weight;
+        result.centroid += weight / 3.0 * (a + b + c);
+    }
+    if (result.area > 0.0) {
+        result.centroid = origin + result.centroid / result.area;
+    } else {
+        result.centroid = mean(mesh.positions());
+    }
+    return result;
+}
+
+// Mixes 64-bit words one by one (the finalizer of splitmix64); no byte order enters.
+class Hasher {
+  public:
+    void add(std::uint64_t word) {
+        state_ = (state_ ^ word) + 0x9e3779b97f4a7c15ULL;
+        state_ = (state_ ^ (state_ >> 30)) * 0xbf58476d1ce4e5b9ULL;
+        state_ = (state_ ^ (state_ >> 27)) * 0x94d049bb133111ebULL;
+        state_ ^= state_ >> 31;
+    }
+    void add(Index value) { add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(value))); }
+    // Every NaN counts as the same, since its payload differs between machines.
+    void add(double value) {
+        add(std::isnan(value) ? std::uint64_t{0x7ff8000000000000}
+                              : std::bit_cast<std::uint64_t>(value));
+    }
+    void add(std::string_view text) {
+        add(static_cast<std::uint64_t>(text.size()));
+        for (const char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+    }
+    template <typename T>
+    void add(const std::vector<T>& values) {
+        add(static_cast<std::uint64_t>(values.size()));
+        for (const T& value : values) add(value);
+    }
+    std::uint64_t value() const { return state_; }
+
+  private:
+    std::uint64_t state_ = 0x6c6973736f6d0001ULL;
+};
+
+}  // namespace
+
+Box bounds(const Mesh& mesh) {
+    Box box;
+    for (const Vec3& p : mesh.positions()) box.extend(p);
+    return box;
+}
+
+Box bounds(const Mesh& mesh, const Region& region) {
+    require_same_topology(mesh, region.topology(), "the region");
+    Box box;
+    for (const Index v : region.vertices()) box.extend(mesh.position(v));
+    return box;
+}
+
+Vec3 center(const Mesh& mesh, const Region& region) {
+    require_same_topology(mesh, region.topology(), "the region");
+    if (region.empty()) {
+        throw Error(ErrorCode::region_empty, "a region without vertices has no center");
+    }
+    Vec3 sum = Vec3::Zero();
+    for (const Index v : region.vertices()) sum += mesh.position(v);
+    return sum / static_cast<double>(region.size());
+}
+
+Vec3 surface_centroid(const Mesh& mesh) {
+    if (mesh.vertex_count() == 0) return Vec3::Zero();
+    return surface_of(mesh, triangulate_faces(mesh.topology(), mesh.positions())).centroid;
+}
+
+double surface_radius(const Mesh& mesh) {
+    if (mesh.vertex_count() == 0) return 0.0;
+    const Triangulation triangulation = triangulate_faces(mesh.topology(), mesh.positions());
+    const auto [area, centroid] = surface_of(mesh, triangulation);
+    double sum = 0.0;
+    if (area > 0.0) {
+        for (const Triangle& t : triangulation.triangles) {
+            const Vec3 a = mesh.position(t[0]) - centroid, b = mesh.position(t[1]) - centroid,
+                       c = mesh.position(t[2]) - centroid;
+            // The integral of |x|^2 over a triangle is area / 6 times the sum over pairs of
+            // corners, which equals area / 12 times the following.
+            sum +=
+                triangle_area(a, b, c) / 12.0 *
+                (a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + (a + b + c).squaredNorm());
+        }
+        return std::sqrt(sum / area);
+    }
+    for (const Vec3& p : mesh.positions()) sum += (p - centroid).squaredNorm();
+    return std::sqrt(sum / static_cast<double>(mesh.vertex_count()));
+}
+
+std::vector<double> face_areas(const Mesh& mesh) {
+    std::vector<double> areas;
+    areas.reserve(static_cast<std::size_t>(mesh.face_count()));
+    FaceArea area(mesh);
+    for (Index f = 0; f < mesh.face_count(); ++f) areas.push_back(area.of(f));
+    return areas;
+}
+
+double area(const Mesh& mesh) {
+    double sum = 0.0;
+    for (const double face : face_areas(mesh)) sum += face;
+    return sum;
+}
+
+double volume(const Mesh& mesh) {
+    if (mesh.vertex_count() == 0) return 0.0;
+    const Vec3 origin = bounds(mesh).center();
+    const auto cone = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        return (a - origin).dot((b - origin).cross(c - origin)) / 6.0;
+    };
+    double sum = 0.0;
+    for (const Triangle& t : triangulate_faces(mesh.topology(), mesh.positions()).triangles) {
+        sum += cone(mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2]));
+    }
+    for (const std::vector<Index>& loop : mesh.topology().boundary_loops()) {
+        Vec3 apex = Vec3::Zero();
+        for (const Index v : loop) apex += mesh.position(v) / static_cast<double>(loop.size());
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Index next = loop[(i + 1) % loop.size()];
+            sum += cone(mesh.position(next), mesh.position(loop[i]), apex);
+        }
+    }
+    return sum;
+}
+
+Index euler_characteristic(const Topology& topology) {
+    Index used = 0;
+    for (Index v = 0; v < topology.vertex_count(); ++v) used += topology.is_isolated(v) ? 0 : 1;
+    return used - topology.edge_count() + topology.face_count();
+}
+
+Index genus(const Topology& topology) {
+    Index components = topology.component_count();
+    for (Index v = 0; v < topology.vertex_count(); ++v)
+        components -= topology.is_isolated(v) ? 1 : 0;
+    const auto loops = static_cast<Index>(topology.boundary_loops().size());
+    return (2 * components - loops - euler_characteristic(topology)) / 2;
+}
+
+std::vector<Vec3> face_normals(const Mesh& mesh) {
+    std::vector<Vec3> normals(static_cast<std::size_t>(mesh.face_count()), Vec3::Zero());
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const Vec3 area = vector_area(mesh, f);
+        const double size = area.norm();
+        if (size > kFlat * longest_edge_squared(mesh, f)) normals[f] = area / size;
+    }
+    return normals;
+}
+
+std::vector<Vec3> vertex_normals(const Mesh& mesh) {
+    std::vector<Vec3> normals(static_cast<std::size_t>(mesh.vertex_count()), Vec3::Zero());
+    const std::vector<Vec3> of_face = face_normals(mesh);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const std::span<const Index> face = mesh.topology().face(f);
+        const std::size_t n = face.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            const Vec3& here = mesh.position(face[k]);
+            const Vec3 a = mesh.position(face[(k + 1) % n]) - here;
+            const Vec3 b = mesh.position(face[(k + n - 1) % n]) - here;
+            // The angle from a to b about the face's normal, so that reflex corners count in full.
+            double angle = std::atan2(a.cross(b).dot(of_face[f]), a.dot(b));
+            if (angle < 0.0) angle += 2.0 * kPi;
+            normals[face[k]] += angle * of_face[f];
+        }
+    }
+    for (Vec3& n : normals) {
+        const double length = n.norm();
+        n = length > 0.0 ? Vec3(n / length) : Vec3::Zero();
+    }
+    return normals;
+}
+
+double mean_edge_length(const Mesh& mesh) {
+    const Topology& topology = mesh.topology();
+    if (topology.edge_count() == 0) return 0.0;
+    double sum = 0.0;
+    for (Index e = 0; e < topology.edge_count(); ++e) {
+        const auto [a, b] = topology.edge(e);
+        sum += (mesh.position(a) - mesh.position(b)).norm();
+    }
+    return sum / topology.edge_count();
+}
+
+std::vector<Index> zero_area_faces(const Mesh& mesh) {
+    std::vector<Index> flat;
+    FaceArea area(mesh);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (area.of(f) <= kFlat * longest_edge_squared(mesh, f)) flat.push_back(f);
+    }
+    return flat;
+}
+
+namespace {
+
+// The order in which attributes were added is not content.
+std::vector<const Attribute*> by_name(const AttributeSet& attributes) {
+    std::vector<const Attribute*> list;
+    for (const Attribute& a : attributes.all()) list.push_back(&a);
+    std::sort(list.begin(), list.end(),
+              [](const Attribute* a, const Attribute* b) { return a->name < b->name; });
+    return list;
+}
+
+}  // namespace
+
+std::uint64_t hash(const Mesh& mesh) {
+    Hasher hasher;
+    hasher.add(mesh.vertex_count());
+    for (const Vec3& p : mesh.positions()) {
+        for (int k = 0; k < 3; ++k) hasher.add(p[k]);
+    }
+    hasher.add(mesh.topology().faces().offsets);
+    hasher.add(mesh.topology().faces().vertices);
+    for (const Attribute* a : by_name(mesh.attributes())) {
+        hasher.add(std::string_view(a->name));
+        hasher.add(static_cast<Index>(a->domain));
+        hasher.add(a->width);
+        hasher.add(static_cast<Index>(a->type));
+        hasher.add(a->values);
+    }
+    for (const auto& [kind, labels] : mesh.attributes().labels()) {
+        hasher.add(std::string_view(kind));
+        hasher.add(static_cast<std::uint64_t>(labels.names.size()));
+        for (const std::string& name : labels.names) hasher.add(std::string_view(name));
+        hasher.add(labels.of_face);
+    }
+    for (const auto& [name, region] : mesh.regions()) {
+        hasher.add(std::string_view(name));
+        hasher.add(region.vertices());
+    }
+    for (const std::string& file : mesh.material_libraries()) hasher.add(std::string_view(file));
+    return hasher.value();
+}
+
+}  // namespace lissom

@@ -1,0 +1,261 @@
+#include "kernel/mesh/measure/triangulation.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+
+namespace lissom {
+namespace {
+
+// Diagonals whose lengths differ by less than this fraction count as equal, so that rounding in a
+// moved or turned copy of a mesh does not change the choice.
+constexpr double kDiagonalTolerance = 1e-6;
+
+// A triangle is flat where its area is below this fraction of its longest side squared.
+constexpr double kFlat = 1e-9;
+
+// Polygons of more corners are clipped without looking for the best ear each time.
+constexpr std::size_t kLargestByQuality = 32;
+
+// Unit normal of the mean plane; zero where there is none.
+Vec3 mean_normal(std::span<const Vec3> points) {
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        normal += (points[i] - points[0]).cross(points[i + 1] - points[0]);
+    }
+    const double length = normal.norm();
+    return length > 0.0 ? Vec3(normal / length) : normal;
+}
+
+double longest_side_squared(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+}
+
+// Twice the area of a triangle seen along the unit normal.
+double signed_area(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+    return (b - a).cross(c - a).dot(normal);
+}
+
+void triangulate_quad(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
+    const Vec3 normal = mean_normal(points);
+    const auto convex = [&](int a, int b, int c) {
+        const double flat = kFlat * longest_side_squared(points[a], points[b], points[c]);
+        return signed_area(points[a], points[b], points[c], normal) > flat;
+    };
+    const bool first_valid = convex(0, 1, 2) && convex(0, 2, 3);
+    const bool second_valid = convex(1, 2, 3) && convex(1, 3, 0);
+    const double first = (points[2] - points[0]).squaredNorm();
+    const double second = (points[3] - points[1]).squaredNorm();
+    const bool second_shorter = second < first * (1.0 - kDiagonalTolerance);
+    if (second_valid && (!first_valid || second_shorter)) {
+        triangles.push_back({0, 1, 3});
+        triangles.push_back({1, 2, 3});
+    } else {
+        triangles.push_back({0, 1, 2});
+        triangles.push_back({0, 2, 3});
+    }
+}
+
+// How good it is to cut off the corner `at`: the triangle's area over its longest side squared. A
+// corner in line with its neighbours is worse than any, a reflex one or one whose triangle covers
+// another vertex worse still. Vertices that lie on the triangle, up to rounding, count as covered.
+double ear_quality(std::span<const Vec3> points, const std::vector<Index>& loop, std::size_t at,
+                   const Vec3& normal) {
+    constexpr double kInLine = -0.5, kInvalid = -1.0;
+    const std::size_t n = loop.size();
+    const Index before = loop[(at + n - 1) % n], here = loop[at], after = loop[(at + 1) % n];
+    const Vec3 &a = points[before], &b = points[here], &c = points[after];
+    const double longest = longest_side_squared(a, b, c), flat = kFlat * longest;
+    const double area = signed_area(a, b, c, normal);
+    if (area < -flat) return kInvalid;
+    if (area <= flat) return kInLine;
+    for (const Index other : loop) {
+        const Vec3& p = points[other];
+        // Another vertex at the same place as a corner, where an outline touches itself, does not
+        // count.
+        if (p == a || p == b || p == c) continue;
+        const bool covered = signed_area(a, b, p, normal) >= -flat &&
+                             signed_area(b, c, p, normal) >= -flat &&
+                             signed_area(c, a, p, normal) >= -flat;
+        if (covered) return kInvalid;
+    }
+    return area / longest;
+}
+
+void clip_ears(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
+    std::vector<Index> loop(points.size());
+    std::iota(loop.begin(), loop.end(), 0);
+    const Vec3 normal = mean_normal(points);
+    while (loop.size() > 3) {
+        std::size_t best = 0;
+        double best_quality = -2.0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const double quality = ear_quality(points, loop, i, normal);
+            if (quality <= best_quality + kDiagonalTolerance) continue;
+            best_quality = quality;
+            best = i;
+        }
+        const std::size_t n = loop.size();
+        triangles.push_back({loop[(best + n - 1) % n], loop[best], loop[(best + 1) % n]});
+        loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(best));
+    }
+    triangles.push_back({loop[0], loop[1], loop[2]});
+}
+
+// Clips the ears of large polygons as they come, going around, in time that grows as the number of
+// corners: looking for the best one each time would take its cube.
+class EarWalk {
+  public:
+    EarWalk(std::span<const Vec3> points, std::vector<Triangle>& triangles)
+        : points_(points),
+          triangles_(triangles),
+          normal_(mean_normal(points)),
+          left_(points.size()),
+          tests_left_(kTestsPerCorner * points.size()),
+          before_(points.size()),
+          after_(points.size()),
+          is_obstacle_(points.size(), false) {
+        const auto n = static_cast<Index>(points.size());
+        for (Index i = 0; i < n; ++i) {
+            before_[i] = (i + n - 1) % n;
+            after_[i] = (i + 1) % n;
+        }
+        for (Index i = 0; i < n; ++i) note_obstacle(i);
+    }
+
+    void clip_all() {
+        int tolerance = 0;
+        while (left_ > 3) {
+            const std::size_t clipped = clip_one_round(tolerance);
+            tolerance = clipped > 0 ? 0 : tolerance + 1;
+        }
+        triangles_.push_back({before_[at_], at_, after_[at_]});
+    }
+
+  private:
+    // Enough for any outline that is drawn, and a bound for those that are made to be slow.
+    static constexpr std::size_t kTestsPerCorner = 5000;
+
+    enum Shape { convex, in_line, reflex };
+
+    Shape shape(Index i) const {
+        const Vec3 &a = points_[before_[i]], &b = points_[i], &c = points_[after_[i]];
+        const double flat = kFlat * longest_side_squared(a, b, c);
+        const double area = signed_area(a, b, c, normal_);
+        return area > flat ? convex : area < -flat ? reflex : in_line;
+    }
+
+    // Only corners that are not convex can lie in an ear.
+    void note_obstacle(Index i) {
+        const bool is_obstacle = shape(i) != convex;
+        if (is_obstacle && !is_obstacle_[i]) obstacles_.push_back(i);
+        is_obstacle_[i] = is_obstacle;
+    }
+
+    bool is_covered(Index i) {
+        const Vec3 &a = points_[before_[i]], &b = points_[i], &c = points_[after_[i]];
+        const double flat = kFlat * longest_side_squared(a, b, c);
+        for (std::size_t k = 0; k < obstacles_.size() && tests_left_ > 0; ++k, --tests_left_) {
+            while (k < obstacles_.size() && !is_obstacle_[obstacles_[k]]) {
+                obstacles_[k] = obstacles_.back();
+                obstacles_.pop_back();
+            }
+            if (k == obstacles_.size()) break;
+            const Vec3& p = points_[obstacles_[k]];
+            if (p == a || p == b || p == c) continue;
+            const bool covered = signed_area(a, b, p, normal_) >= -flat &&
+                                 signed_area(b, c, p, normal_) >= -flat &&
+                                 signed_area(c, a, p, normal_) >= -flat;
+            if (covered) return true;
+        }
+        return false;
+    }
+
+    // At first only proper ears are clipped; where there is none, corners in line; then convex
+    // ones; then any.
+    bool may_clip(Index i, int tolerance) {
+        const Shape found = shape(i);
+        if (tolerance >= 3 || tests_left_ == 0) return true;
+        if (found == in_line) return tolerance >= 1;
+        return found == convex && (tolerance >= 2 || !is_covered(i));
+    }
+
+    std::size_t clip_one_round(int tolerance) {
+        const std::size_t corners = left_;
+        std::size_t clipped = 0;
+        for (std::size_t i = 0; i < corners && left_ > 3; ++i) {
+            tests_left_ -= tests_left_ > 0 ? 1 : 0;
+            if (may_clip(at_, tolerance)) {
+                clip(at_);
+                ++clipped;
+            }
+            at_ = after_[at_];
+        }
+        return clipped;
+    }
+
+    void clip(Index i) {
+        const Index a = before_[i], c = after_[i];
+        triangles_.push_back({a, i, c});
+        after_[a] = c;
+        before_[c] = a;
+        is_obstacle_[i] = false;
+        --left_;
+        note_obstacle(a);
+        note_obstacle(c);
+        at_ = c;
+    }
+
+    std::span<const Vec3> points_;
+    std::vector<Triangle>& triangles_;
+    Vec3 normal_;
+    std::size_t left_, tests_left_;
+    std::vector<Index> before_, after_;
+    std::vector<bool> is_obstacle_;
+    std::vector<Index> obstacles_;
+    Index at_ = 0;
+};
+
+}  // namespace
+
+void triangulate_polygon(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
+    if (points.size() == 3) {
+        triangles.push_back({0, 1, 2});
+    } else if (points.size() == 4) {
+        triangulate_quad(points, triangles);
+    } else if (points.size() <= kLargestByQuality) {
+        clip_ears(points, triangles);
+    } else {
+        EarWalk(points, triangles).clip_all();
+    }
+}
+
+Triangulation triangulate_faces(const Topology& topology, std::span<const Vec3> positions,
+                                std::span<const Index> faces) {
+    Triangulation result;
+    result.triangles.reserve(faces.size());
+    std::vector<Vec3> points;
+    std::vector<Triangle> local;
+    for (const Index f : faces) {
+        const std::span<const Index> face = topology.face(f);
+        points.clear();
+        local.clear();
+        for (const Index v : face) points.push_back(positions[v]);
+        triangulate_polygon(points, local);
+        const Index first = topology.first_corner(f);
+        for (const Triangle& t : local) {
+            result.triangles.push_back({face[t[0]], face[t[1]], face[t[2]]});
+            result.corners.push_back({first + t[0], first + t[1], first + t[2]});
+            result.face.push_back(f);
+        }
+    }
+    return result;
+}
+
+Triangulation triangulate_faces(const Topology& topology, std::span<const Vec3> positions) {
+    std::vector<Index> all(static_cast<std::size_t>(topology.face_count()));
+    std::iota(all.begin(), all.end(), 0);
+    return triangulate_faces(topology, positions, all);
+}
+
+}  // namespace lissom

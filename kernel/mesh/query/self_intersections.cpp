@@ -1,0 +1,203 @@
+#include "kernel/mesh/query/self_intersections.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/query/triangle_intersection.h"
+
+namespace lissom {
+namespace {
+
+constexpr Index kLeafSize = 4;
+constexpr Index kGrain = 1024;
+
+bool overlap(const Box& a, const Box& b) {
+    return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
+// A hierarchy of boxes over some triangles, halved along the longest side.
+class BoxTree {
+  public:
+    BoxTree(std::span<const Box> boxes, std::vector<Index> items)
+        : boxes_(boxes), items_(std::move(items)) {
+        if (!items_.empty()) build(0, static_cast<Index>(items_.size()));
+    }
+
+    // Calls visit(item) for the items whose boxes overlap `box`.
+    template <typename Visit>
+    void visit(const Box& box, const Visit& visit) const {
+        if (!nodes_.empty()) descend(0, box, visit);
+    }
+
+  private:
+    // The first child of an inner node follows it; `second` is 0 in a leaf.
+    struct Node {
+        Box box;
+        Index begin, end, second = 0;
+    };
+
+    Index build(Index begin, Index end) {
+        const auto at = static_cast<Index>(nodes_.size());
+        nodes_.push_back({{}, begin, end});
+        Box box, centers;
+        for (Index i = begin; i < end; ++i) {
+            box.extend(boxes_[items_[i]].min);
+            box.extend(boxes_[items_[i]].max);
+            centers.extend(boxes_[items_[i]].center());
+        }
+        nodes_[at].box = box;
+        if (end - begin <= kLeafSize) return at;
+        int axis = 0;
+        (centers.max - centers.min).maxCoeff(&axis);
+        const Index middle = begin + (end - begin) / 2;
+        std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
+                         [&](Index a, Index b) {
+                             const double x = boxes_[a].center()[axis];
+                             const double y = boxes_[b].center()[axis];
+                             return x != y ? x < y : a < b;
+                         });
+        build(begin, middle);
+        const Index second = build(middle, end);
+        nodes_[at].second = second;
+        return at;
+    }
+
+    template <typename Visit>
+    void descend(Index at, const Box& box, const Visit& visit) const {
+        const Node& node = nodes_[at];
+        if (!overlap(node.box, box)) return;
+        if (node.second > 0) {
+            descend(at + 1, box, visit);
+            descend(node.second, box, visit);
+            return;
+        }
+        for (Index i = node.begin; i < node.end; ++i) {
+            if (overlap(boxes_[items_[i]], box)) visit(items_[i]);
+        }
+    }
+
+    std::span<const Box> boxes_;
+    std::vector<Index> items_;
+    std::vector<Node> nodes_;
+};
+
+// For each vertex the first one at the same place.
+std::vector<Index> vertices_by_place(std::span<const Vec3> positions) {
+    std::vector<Index> order(positions.size()), first(positions.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto less = [&](Index a, Index b) {
+        const Vec3 &p = positions[a], &q = positions[b];
+        return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+    };
+    std::stable_sort(order.begin(), order.end(), less);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool same = i > 0 && positions[order[i - 1]] == positions[order[i]];
+        first[order[i]] = same ? first[order[i - 1]] : order[i];
+    }
+    return first;
+}
+
+class Search {
+  public:
+    Search(const Mesh& mesh, const SelfIntersectionOptions& options)
+        : mesh_(mesh),
+          tolerance_(options.tolerance),
+          place_(vertices_by_place(mesh.positions())),
+          in_faces_(flags(options.faces)),
+          in_against_(flags(options.against)),
+          triangulation_(triangulate_faces(mesh.topology(), mesh.positions())) {
+        for (const Triangle& t : triangulation_.triangles) {
+            Box box;
+            for (const Index v : t) box.extend(mesh.position(v));
+            const Vec3 margin = Vec3::Constant(tolerance_ * box.diagonal());
+            boxes_.push_back({box.min - margin, box.max + margin});
+        }
+    }
+
+    std::vector<FacePair> find(const Context& context) const {
+        std::vector<Index> first = chosen(in_faces_), second = chosen(in_against_);
+        if (first.size() > second.size()) std::swap(first, second);
+        const BoxTree tree(boxes_, std::move(first));
+        const auto count = static_cast<Index>(second.size());
+        std::vector<std::vector<FacePair>> found(
+            static_cast<std::size_t>((count + kGrain - 1) / kGrain));
+        context.parallel_for(0, count, kGrain, [&](Index begin, Index end) {
+            context.checkpoint();
+            for (Index i = begin; i < end; ++i) {
+                tree.visit(boxes_[second[i]],
+                           [&](Index other) { test(second[i], other, found[begin / kGrain]); });
+            }
+        });
+        std::vector<FacePair> pairs;
+        for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
+        std::sort(pairs.begin(), pairs.end());
+        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+        return pairs;
+    }
+
+  private:
+    std::vector<char> flags(const std::optional<std::vector<Index>>& faces) const {
+        const auto count = static_cast<std::size_t>(mesh_.face_count());
+        if (!faces) return std::vector<char>(count, 1);
+        require_faces(mesh_.topology(), *faces);
+        std::vector<char> chosen(count, 0);
+        for (const Index f : *faces) chosen[f] = 1;
+        return chosen;
+    }
+
+    std::vector<Index> chosen(const std::vector<char>& face_chosen) const {
+        std::vector<Index> triangles;
+        for (std::size_t t = 0; t < triangulation_.triangles.size(); ++t) {
+            if (face_chosen[triangulation_.face[t]]) triangles.push_back(static_cast<Index>(t));
+        }
+        return triangles;
+    }
+
+    void test(Index t, Index u, std::vector<FacePair>& found) const {
+        const Index f = triangulation_.face[t], g = triangulation_.face[u];
+        if (f == g) return;
+        // A pair that both triangles will be asked about is tested once.
+        const bool twice = in_faces_[f] && in_faces_[g] && in_against_[f] && in_against_[g];
+        if (twice && t > u) return;
+        Triangle a = triangulation_.triangles[t], b = triangulation_.triangles[u];
+        std::array<Vec3, 3> p, q;
+        double longest = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            p[k] = mesh_.position(a[k]);
+            q[k] = mesh_.position(b[k]);
+            a[k] = place_[a[k]];
+            b[k] = place_[b[k]];
+        }
+        for (int k = 0; k < 3; ++k) {
+            longest =
+                std::max({longest, (p[k] - p[(k + 1) % 3]).norm(), (q[k] - q[(k + 1) % 3]).norm()});
+        }
+        if (triangles_intersect(a, p, b, q, tolerance_ * longest)) {
+            found.push_back({std::min(f, g), std::max(f, g)});
+        }
+    }
+
+    const Mesh& mesh_;
+    double tolerance_;
+    std::vector<Index> place_;
+    std::vector<char> in_faces_, in_against_;
+    Triangulation triangulation_;
+    std::vector<Box> boxes_;
+};
+
+}  // namespace
+
+std::vector<FacePair> self_intersections(const Mesh& mesh, const SelfIntersectionOptions& options,
+                                         const Context& context) {
+    if (!(options.tolerance >= 0.0 && options.tolerance <= 1.0)) {
+        throw Error(ErrorCode::invalid_argument, "tolerance must lie between 0 and 1");
+    }
+    Progress progress(context, "self-intersections");
+    return Search(mesh, options).find(context);
+}
+
+}  // namespace lissom

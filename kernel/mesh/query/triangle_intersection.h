@@ -1,0 +1,17 @@
+/// Whether two triangles meet elsewhere than at their common vertices; private to kernel/mesh.
+#pragma once
+
+#include <array>
+
+#include "kernel/core/geometry.h"
+#include "kernel/mesh/measure/triangulation.h"
+
+namespace lissom {
+
+/// True where the triangles `a` and `b` with the given corners have a point in common that is not
+/// on a vertex or edge both have; equal numbers mean one vertex. Points closer than `tolerance`
+/// (a length) touch.
+bool triangles_intersect(const Triangle& a, const std::array<Vec3, 3>& a_corners, const Triangle& b,
+                         const std::array<Vec3, 3>& b_corners, double tolerance);
+
+}  // namespace lissom

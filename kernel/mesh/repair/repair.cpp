@@ -1,0 +1,246 @@
+#include "kernel/mesh/repair/repair.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "kernel/mesh/corner_faces.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/orientation.h"
+#include "kernel/mesh/repair/carry_soup.h"
+#include "kernel/mesh/repair/face_cleaning.h"
+#include "kernel/mesh/repair/gluing.h"
+#include "kernel/mesh/repair/quality.h"
+#include "kernel/mesh/topology_check.h"
+#include "kernel/mesh/value_pool.h"
+
+namespace lissom {
+namespace {
+
+[[noreturn]] void refuse(ErrorCode code, Elements elements, const std::string& what,
+                         const std::string& remedy) {
+    const std::string names = describe(elements);
+    throw Error(code, what + " " + names + "; " + remedy, std::move(elements));
+}
+
+void require_indices(const Soup& soup) {
+    const auto count = static_cast<Index>(soup.positions.size());
+    Elements bad{ElementKind::face, 0, {}};
+    for (Index f = 0; f < soup.faces.size(); ++f) {
+        const std::span<const Index> face = soup.faces[f];
+        if (std::any_of(face.begin(), face.end(), [&](Index v) { return v < 0 || v >= count; }))
+            bad.add(f);
+    }
+    if (bad.count == 0) return;
+    refuse(ErrorCode::face_index, std::move(bad),
+           "vertices outside the " + std::to_string(count) + " of the file are used by",
+           "correct the indices");
+}
+
+void require_finite(const Soup& soup) {
+    Elements bad{ElementKind::vertex, 0, {}};
+    for (std::size_t v = 0; v < soup.positions.size(); ++v) {
+        if (!soup.positions[v].allFinite()) bad.add(static_cast<Index>(v));
+    }
+    if (bad.count == 0) return;
+    refuse(ErrorCode::not_finite, std::move(bad), "NaN or infinite are the positions of",
+           "correct them where they come from");
+}
+
+// Lets every face use the first of the vertices that lie at one place.
+void weld_all(Soup& soup) {
+    ValuePool<3> places;
+    std::vector<Index> first_at, first(soup.positions.size());
+    for (std::size_t v = 0; v < soup.positions.size(); ++v) {
+        const Vec3& p = soup.positions[v];
+        const Index place = places.add({p.x(), p.y(), p.z()});
+        if (place == static_cast<Index>(first_at.size())) first_at.push_back(static_cast<Index>(v));
+        first[v] = first_at[place];
+    }
+    for (Index& v : soup.faces.vertices) v = first[v];
+}
+
+// Joins the vertices of which the file says that they are one.
+void weld_known(Soup& soup) {
+    if (soup.same_as.empty()) return;
+    for (Index& v : soup.faces.vertices) v = soup.same_as[v];
+}
+
+// A face that shares no vertex with another has no seam along which it could be welded where its
+// own corners coincide. Its coincident corners become one here, which shows it as collapsed.
+void weld_within_loose_faces(Soup& soup) {
+    std::vector<Index> uses(soup.positions.size(), 0);
+    for (const Index v : soup.faces.vertices) ++uses[v];
+    for (Index f = 0; f < soup.faces.size(); ++f) {
+        const auto begin = soup.faces.vertices.begin() + soup.faces.offsets[f];
+        const auto end = soup.faces.vertices.begin() + soup.faces.offsets[f + 1];
+        if (std::any_of(begin, end, [&](Index v) { return uses[v] > 1; })) continue;
+        for (auto v = begin; v != end; ++v) {
+            const auto next = v + 1 == end ? begin : v + 1;
+            if (soup.positions[*v] == soup.positions[*next]) *next = *v;
+        }
+    }
+}
+
+std::vector<char> used_vertices(const Soup& soup, std::span<const Index> corners) {
+    std::vector<char> used(soup.positions.size(), 0);
+    for (const Index v : corners) used[v] = 1;
+    return used;
+}
+
+void require_sound(const Soup& soup, std::span<const Index> file_corners, const Context& context) {
+    check_and_pair_edges(static_cast<Index>(soup.positions.size()), soup.faces, context);
+    if (soup.faces.size() == 0) return;
+    Elements unused{ElementKind::vertex, 0, {}};
+    const std::vector<char> used = used_vertices(soup, file_corners);
+    for (std::size_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) unused.add(static_cast<Index>(v));
+    }
+    if (unused.count == 0) return;
+    refuse(ErrorCode::unreferenced_vertex, std::move(unused), "no face uses",
+           "load with repair to drop them");
+}
+
+void require_area(const Mesh& mesh) {
+    Elements flat{ElementKind::face, 0, {}};
+    for (const Index f : zero_area_faces(mesh)) flat.add(f);
+    if (flat.count == 0) return;
+    refuse(ErrorCode::zero_area, std::move(flat), "there is no area in",
+           "collapse or remove them, or load with repair to have them flagged only");
+}
+
+std::span<const Index> object_labels(const Soup& soup) {
+    const auto& labels = soup.attributes.labels();
+    const auto objects = labels.find("object");
+    if (objects == labels.end()) return {};
+    return objects->second.of_face;
+}
+
+// What became of the vertices of the file.
+class VertexFindings {
+  public:
+    VertexFindings(const Soup& soup, std::span<const Index> file_corners, const CornerFaces& work,
+                   const FanVertices& fans)
+        : soup_(soup), file_corners_(file_corners), work_(work), fans_(fans) {}
+
+    void add_to(Report& report) const {
+        if (fans_.unchanged) return;
+        add_unused(report);
+        add_welded(report);
+        add_split(report);
+    }
+
+  private:
+    void add_unused(Report& report) const {
+        const std::vector<char> used = used_vertices(soup_, file_corners_);
+        std::vector<Index> unused;
+        for (std::size_t v = 0; v < used.size(); ++v) {
+            if (!used[v]) unused.push_back(static_cast<Index>(v));
+        }
+        add(report, FindingKind::vertices_unreferenced, std::move(unused));
+    }
+
+    void add_welded(Report& report) const {
+        const std::vector<char> source = used_vertices(soup_, fans_.source);
+        std::vector<Index> welded;
+        std::vector<char> counted(soup_.positions.size(), 0);
+        for (const Index corner : work_.corner_source) {
+            const Index v = file_corners_[corner];
+            if (!source[v] && !counted[v]) welded.push_back(v);
+            counted[v] = 1;
+        }
+        std::sort(welded.begin(), welded.end());
+        add(report, FindingKind::vertices_welded, std::move(welded));
+    }
+
+    // Vertices with several fans that are not at the end of an edge that was cut open.
+    void add_split(Report& report) const {
+        std::vector<char> at_cut(soup_.positions.size(), 0);
+        for (const FindingKind kind :
+             {FindingKind::edges_nonmanifold, FindingKind::edges_unorientable}) {
+            const Finding* cut = report.find(kind);
+            for (const Index v : cut ? cut->ids : std::vector<Index>{}) at_cut[v] = 1;
+        }
+        std::vector<Index> fan_of(soup_.positions.size(), kNoIndex), split;
+        for (std::size_t c = 0; c < work_.faces.vertices.size(); ++c) {
+            const Index v = work_.faces.vertices[c], fan = fans_.of_corner[c];
+            if (fan_of[v] == kNoIndex) fan_of[v] = fan;
+            if (fan_of[v] != fan && !at_cut[v]) {
+                split.push_back(v);
+                at_cut[v] = 1;
+            }
+        }
+        std::sort(split.begin(), split.end());
+        add(report, FindingKind::vertices_nonmanifold, std::move(split));
+    }
+
+    static void add(Report& report, FindingKind kind, std::vector<Index> ids) {
+        const std::size_t count = ids.size();
+        if (count > 0) report.add({kind, ElementKind::vertex, true, count, std::move(ids), {}});
+    }
+
+    const Soup& soup_;
+    std::span<const Index> file_corners_;
+    const CornerFaces& work_;
+    const FanVertices& fans_;
+};
+
+Mesh mesh_without_faces(Soup soup, const Context& context, Report& report) {
+    const std::size_t count = soup.positions.size();
+    if (count > 0) {
+        report.add({FindingKind::points_only, ElementKind::vertex, false, count, {}, {}});
+    }
+    Mesh mesh(std::move(soup.positions), FaceList{}, context);
+    for (Attribute& attribute : soup.attributes.all()) {
+        if (attribute.domain == Domain::vertex) mesh.attributes().add(std::move(attribute));
+    }
+    for (auto& [name, vertices] : soup.regions) {
+        mesh.set_region(name, Region(mesh.shared_topology(), std::move(vertices)));
+    }
+    return mesh;
+}
+
+}  // namespace
+
+Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Report report) {
+    Progress progress(context, "check mesh");
+    require_indices(soup);
+    require_finite(soup);
+    require_attributes_fit(soup);
+    const std::vector<Index> file_corners = soup.faces.vertices;
+    weld_known(soup);
+    if (options.weld == Weld::all) weld_all(soup);
+    if (options.weld == Weld::seams) weld_within_loose_faces(soup);
+    if (!options.repair) require_sound(soup, file_corners, context);
+    progress.update(0.2);
+
+    const auto vertex_count = static_cast<Index>(soup.positions.size());
+    CornerFaces work(std::move(soup.faces));
+    clean_faces(work, report);
+    if (work.faces.size() == 0) {
+        Mesh points = mesh_without_faces(std::move(soup), context, report);
+        points.set_report(std::move(report));
+        return points;
+    }
+    Gluing gluing(soup.positions, work);
+    if (!gluing.glue_regular_edges()) {
+        drop_duplicates(vertex_count, work, report);
+        orient_faces(soup.positions, work, report);
+        gluing = Gluing(soup.positions, work);
+        gluing.glue_edges(report);
+    }
+    progress.update(0.5);
+
+    if (options.weld == Weld::seams && !gluing.is_closed()) gluing.glue_seams(object_labels(soup));
+    FanVertices fans = gluing.number_fans();
+    VertexFindings(soup, file_corners, work, fans).add_to(report);
+    progress.update(0.8);
+
+    Mesh mesh = carry_soup(std::move(soup), file_corners, std::move(work), std::move(fans),
+                           gluing.twin(), context);
+    if (!options.repair) require_area(mesh);
+    flag_quality(mesh, report);
+    mesh.set_report(std::move(report));
+    return mesh;
+}
+
+}  // namespace lissom

@@ -1,0 +1,231 @@
+#include "kernel/solve/sparse/single_factor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/solve/sparse/supernodal_loops.h"
+
+namespace lissom {
+namespace {
+
+// Units of parallel work. A constant, so that sums do not depend on the number of threads.
+constexpr std::size_t kBins = 8;
+
+// Subtrees are split further while they hold more than this share of the factor.
+constexpr double kLargestShare = 1.0 / 24.0;
+
+using View = SupernodalView<float>;
+
+LISSOM_INLINE void lower_range(const View& factor, Index first, Index last, Lanes<float>* x,
+                               Lanes<float>* below) {
+    for (Index s = first; s < last; ++s) solve_lower(factor, s, x, below);
+}
+
+LISSOM_INLINE void upper_range(const View& factor, Index first, Index last, Lanes<float>* x,
+                               Lanes<float>* below) {
+    for (Index s = last; s-- > first;) solve_upper(factor, s, x, below);
+}
+
+void lower_anywhere(const View& factor, Index first, Index last, Lanes<float>* x,
+                    Lanes<float>* below) {
+    lower_range(factor, first, last, x, below);
+}
+
+void upper_anywhere(const View& factor, Index first, Index last, Lanes<float>* x,
+                    Lanes<float>* below) {
+    upper_range(factor, first, last, x, below);
+}
+
+#ifdef LISSOM_HAS_AVX2_PATH
+LISSOM_AVX2 void lower_with_avx2(const View& factor, Index first, Index last, Lanes<float>* x,
+                                 Lanes<float>* below) {
+    lower_range(factor, first, last, x, below);
+}
+
+LISSOM_AVX2 void upper_with_avx2(const View& factor, Index first, Index last, Lanes<float>* x,
+                                 Lanes<float>* below) {
+    upper_range(factor, first, last, x, below);
+}
+#endif
+
+using Sweep = void (*)(const View&, Index, Index, Lanes<float>*, Lanes<float>*);
+
+struct Sweeps {
+    Sweep lower, upper;
+};
+
+Sweeps choose_sweeps() {
+#ifdef LISSOM_HAS_AVX2_PATH
+    if (has_avx2()) return {lower_with_avx2, upper_with_avx2};
+#endif
+    return {lower_anywhere, upper_anywhere};
+}
+
+Lanes<float> to_lanes(const Vec3& v, double factor) {
+    Lanes<float> lanes{};
+    for (int c = 0; c < 3; ++c) lanes[c] = static_cast<float>(factor * v[c]);
+    return lanes;
+}
+
+Vec3 from_lanes(const Lanes<float>& lanes, double factor) {
+    return {factor * static_cast<double>(lanes[0]), factor * static_cast<double>(lanes[1]),
+            factor * static_cast<double>(lanes[2])};
+}
+
+double greatest_component(std::span<const Vec3> rows) {
+    double greatest = 0.0;
+    for (const Vec3& row : rows) greatest = std::max(greatest, row.cwiseAbs().maxCoeff());
+    return greatest;
+}
+
+}  // namespace
+
+SingleFactor::SingleFactor(Supernodes supernodes, std::vector<Index> permutation,
+                           const Context& context)
+    : nodes_(std::move(supernodes)), permutation_(std::move(permutation)) {
+    charge_ =
+        context.charge(nodes_.value.size() * sizeof(float) + nodes_.row.size() * sizeof(Index),
+                       "a single-precision copy of a factor");
+    for (Index s = 0; s < nodes_.count(); ++s) tallest_ = std::max(tallest_, nodes_.height(s));
+    extended_size_ = size();
+    split();
+    fill_bins();
+}
+
+// Cuts the elimination tree below its upper part. Subtrees are contiguous where the tree is
+// postordered; otherwise everything counts as the upper part.
+void SingleFactor::split() {
+    const Index count = nodes_.count();
+    std::vector<Index> node_of(permutation_.size()), parent(static_cast<std::size_t>(count));
+    for (Index s = 0; s < count; ++s) {
+        for (Index c = nodes_.super[s]; c < nodes_.super[s + 1]; ++c) node_of[c] = s;
+    }
+    std::vector<Index> first(static_cast<std::size_t>(count)), members(first.size(), 1);
+    std::vector<std::size_t> work(first.size(), 0);
+    bool postordered = true;
+    std::size_t total = 0;
+    for (Index s = 0; s < count; ++s) first[s] = s;
+    for (Index s = 0; s < count; ++s) {
+        const auto own = static_cast<std::size_t>(nodes_.columns(s)) *
+                         static_cast<std::size_t>(nodes_.height(s));
+        work[s] += own;
+        total += own;
+        postordered = postordered && s - first[s] + 1 == members[s];
+        const bool is_root = nodes_.height(s) == nodes_.columns(s);
+        parent[s] = is_root ? count : node_of[nodes_.row[nodes_.first_row[s] + nodes_.columns(s)]];
+        if (is_root) continue;
+        work[parent[s]] += work[s];
+        members[parent[s]] += members[s];
+        first[parent[s]] = std::min(first[parent[s]], first[s]);
+    }
+    const double largest = kLargestShare * static_cast<double>(total);
+    const auto is_small = [&](Index s) {
+        return postordered && static_cast<double>(work[s]) <= largest;
+    };
+    for (Index s = 0; s < count; ++s) {
+        if (!is_small(s)) {
+            top_.push_back(s);
+        } else if (parent[s] == count || !is_small(parent[s])) {
+            add_subtree(first[s], s, work[s]);
+        }
+    }
+}
+
+// Rows above a subtree are those of its root. Its blocks refer to their entries in the extension.
+void SingleFactor::add_subtree(Index first, Index root, std::size_t work) {
+    Subtree& subtree = subtrees_.emplace_back();
+    subtree.first = first;
+    subtree.last = root + 1;
+    subtree.extension = extended_size_;
+    subtree.work = work;
+    const auto begin = nodes_.row.begin() + nodes_.first_row[root] + nodes_.columns(root);
+    subtree.above.assign(begin, nodes_.row.begin() + nodes_.first_row[root + 1]);
+    const Index end_column = nodes_.super[root + 1];
+    for (Index r = nodes_.first_row[first]; r < nodes_.first_row[root + 1]; ++r) {
+        Index& row = nodes_.row[r];
+        if (row < end_column) continue;
+        const auto at = std::lower_bound(subtree.above.begin(), subtree.above.end(), row);
+        row = subtree.extension + static_cast<Index>(at - subtree.above.begin());
+    }
+    extended_size_ += static_cast<Index>(subtree.above.size());
+}
+
+// Greatest subtrees first, each into the bin with the least work.
+void SingleFactor::fill_bins() {
+    std::vector<Index> order(subtrees_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return subtrees_[a].work > subtrees_[b].work; });
+    bins_.resize(std::min(kBins, subtrees_.size()));
+    std::vector<std::size_t> load(bins_.size(), 0);
+    for (const Index i : order) {
+        const auto bin = std::min_element(load.begin(), load.end()) - load.begin();
+        bins_[static_cast<std::size_t>(bin)].push_back(i);
+        load[static_cast<std::size_t>(bin)] += subtrees_[i].work;
+    }
+}
+
+template <typename Pass>
+void SingleFactor::for_each_bin(const Context& context, const Pass& pass) const {
+    context.parallel_for(0, static_cast<Index>(bins_.size()), 1, [&](Index begin, Index end) {
+        for (Index bin = begin; bin < end; ++bin) {
+            for (const Index i : bins_[bin]) pass(subtrees_[i], bin);
+        }
+    });
+}
+
+void SingleFactor::solve(std::span<const Vec3> b, std::span<Vec3> x, Scratch& scratch,
+                         const Context& context) const {
+    if (b.size() != permutation_.size() || x.size() != permutation_.size()) {
+        throw Error(ErrorCode::invalid_argument, "b and x must have one row for each unknown");
+    }
+    const double greatest = greatest_component(b);
+    if (!(greatest > 0.0)) {
+        std::fill(x.begin(), x.end(), Vec3::Zero());
+        return;
+    }
+    // The factor was divided by scale_: L L^T stands for A / scale_^2.
+    const double in = 1.0 / greatest, out = greatest / (nodes_.scale * nodes_.scale);
+    const std::size_t lanes = static_cast<std::size_t>(extended_size_) +
+                              (bins_.size() + 1) * static_cast<std::size_t>(tallest_);
+    scratch.resize(4 * lanes);
+    auto* at = reinterpret_cast<Lanes<float>*>(scratch.data());
+    Lanes<float>* const below = at + extended_size_;
+    const auto below_of = [&](Index bin) {
+        return below + static_cast<std::ptrdiff_t>(bin) * tallest_;
+    };
+    const View view{nodes_.super.data(), nodes_.first_row.data(), nodes_.first_value.data(),
+                    nodes_.row.data(), nodes_.value.data()};
+    const Sweeps sweeps = choose_sweeps();
+    const auto read = [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) at[i] = to_lanes(b[permutation_[i]], in);
+    };
+    const auto write = [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) x[permutation_[i]] = from_lanes(at[i], out);
+    };
+
+    for_each_bin(context, [&](const Subtree& t, Index bin) {
+        read(nodes_.super[t.first], nodes_.super[t.last]);
+        std::fill_n(at + t.extension, t.above.size(), Lanes<float>{});
+        sweeps.lower(view, t.first, t.last, at, below_of(bin));
+    });
+    const auto own_bin = static_cast<Index>(bins_.size());
+    for (const Index s : top_) read(nodes_.super[s], nodes_.super[s + 1]);
+    for (const Subtree& t : subtrees_) {
+        for (std::size_t i = 0; i < t.above.size(); ++i) at[t.above[i]] += at[t.extension + i];
+    }
+    for (const Index s : top_) sweeps.lower(view, s, s + 1, at, below_of(own_bin));
+    for (auto s = top_.rbegin(); s != top_.rend(); ++s) {
+        sweeps.upper(view, *s, *s + 1, at, below_of(own_bin));
+    }
+    for (const Index s : top_) write(nodes_.super[s], nodes_.super[s + 1]);
+    for_each_bin(context, [&](const Subtree& t, Index bin) {
+        for (std::size_t i = 0; i < t.above.size(); ++i) at[t.extension + i] = at[t.above[i]];
+        sweeps.upper(view, t.first, t.last, at, below_of(bin));
+        write(nodes_.super[t.first], nodes_.super[t.last]);
+    });
+}
+
+}  // namespace lissom

@@ -1,0 +1,69 @@
+/// SparseSystem: direct solution of symmetric positive definite systems, many times with one
+/// pattern.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "kernel/core/context.h"
+#include "kernel/solve/sparse/single_factor.h"
+#include "kernel/solve/sparse/sparse_matrix.h"
+
+namespace lissom {
+
+/// What analysis and factorisation cost.
+struct FactorStats {
+    /// Entries of the Cholesky factor, and the bytes it takes, known after `analyze`.
+    std::size_t factor_nonzeros = 0, factor_bytes = 0;
+    /// Further bytes that `factor` takes while it runs.
+    std::size_t working_bytes = 0;
+    double analyze_seconds = 0, factor_seconds = 0;
+};
+
+/// A factored symmetric positive definite matrix, for use by one thread at a time; several may be
+/// in use at the same time. Supernodal Cholesky, ordered and analysed by CHOLMOD; Eigen's
+/// SimplicialLDLT where the build is without GPL. `factor` runs on the threads of its context, and
+/// its result does not depend on their number.
+class SparseSystem {
+  public:
+    SparseSystem();
+    ~SparseSystem();
+    SparseSystem(SparseSystem&&) noexcept;
+    SparseSystem& operator=(SparseSystem&&) noexcept;
+
+    /// Orders the unknowns and predicts the factor. Only the pattern of `matrix` matters.
+    /// Errors: invalid_argument for an empty matrix; cancelled.
+    void analyze(const SymmetricMatrix& matrix, const Context& context = {});
+    /// Factors `matrix`, which must have the pattern analysed; memory is charged first and held as
+    /// long as the factor. May be called again with new values. After an error there is no factor.
+    /// Errors: not_positive_definite, naming one row of a component without a constraint where
+    /// there is one; memory_limit; invalid_argument where the pattern is another; cancelled.
+    void factor(const SymmetricMatrix& matrix, const Context& context = {});
+    /// Solves A x = b for `columns` right-hand sides stored one after the other; x may be b.
+    /// Errors: invalid_argument without a factor or where sizes differ.
+    void solve(std::span<const double> b, std::span<double> x, Index columns) const;
+
+    /// As `solve`, followed by one step of iterative refinement. Right-hand side and residual are
+    /// in extended precision where the platform has it, so that ill-conditioned systems lose
+    /// nothing to the rounding of b. `matrix` is the one factored. Costs two to three times as
+    /// much.
+    void solve_refined(const SymmetricMatrix& matrix, std::span<const long double> b,
+                       std::span<double> x, Index columns) const;
+
+    /// A copy of the factor in single precision. Errors: invalid_argument without a factor;
+    /// memory_limit.
+    SingleFactor single_factor(const Context& context = {}) const;
+
+    Index size() const;
+    bool factored() const;
+    const FactorStats& stats() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// "cholmod" or "eigen": which library factors in this build.
+const char* sparse_backend();
+
+}  // namespace lissom

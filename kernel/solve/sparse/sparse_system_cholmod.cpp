@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "kernel/solve/sparse/sparse_system.h"
+#include "kernel/solve/sparse/sparse_system_check.h"
+#include "kernel/solve/sparse/supernodal_factor.h"
+#include "kernel/solve/sparse/supernodal_solve.h"
+
+namespace lissom {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Least pivot relative to its diagonal entry, and the row it belongs to.
+std::pair<double, Index> least_pivot(const Supernodes& nodes, const double* value,
+                                     const SymmetricMatrix& matrix) {
+    std::pair<double, Index> least{1.0, 0};
+    for (Index s = 0; s < nodes.count(); ++s) {
+        const std::ptrdiff_t step = nodes.height(s) + 1;
+        const double* diagonal = value + nodes.first_value[s];
+        for (Index j = nodes.super[s]; j < nodes.super[s + 1]; ++j, diagonal += step) {
+            const Index row = nodes.permutation[j];
+            const double ratio = *diagonal * *diagonal / matrix.value[matrix.begin[row]];
+            if (!(ratio >= least.first)) least = {ratio, row};
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+struct SparseSystem::State {
+    Supernodes nodes;
+    FactorPlan plan;
+    std::unique_ptr<double[]> value;
+    std::vector<double> scratch;
+    std::vector<Index> begin, row;
+    bool factored = false;
+    MemoryCharge charge;
+    FactorStats stats;
+};
+
+SparseSystem::SparseSystem() : state_(std::make_unique<State>()) {}
+SparseSystem::~SparseSystem() = default;
+SparseSystem::SparseSystem(SparseSystem&&) noexcept = default;
+SparseSystem& SparseSystem::operator=(SparseSystem&&) noexcept = default;
+
+void SparseSystem::analyze(const SymmetricMatrix& matrix, const Context& context) {
+    require_valid(matrix);
+    context.checkpoint();
+    const auto start = Clock::now();
+    auto next = std::make_unique<State>();
+    next->nodes = analyze_supernodes(matrix);
+    context.checkpoint();
+    next->plan = plan_factor(next->nodes, matrix);
+    next->begin = matrix.begin;
+    next->row = matrix.row;
+    next->stats.factor_nonzeros = next->nodes.value_count();
+    next->stats.factor_bytes =
+        next->nodes.value_count() * sizeof(double) + next->nodes.row.size() * sizeof(Index) +
+        4 * next->nodes.permutation.size() * sizeof(Index) + next->plan.bytes();
+    next->stats.working_bytes = factoring_bytes(next->nodes, next->plan);
+    next->stats.analyze_seconds = seconds_since(start);
+    state_ = std::move(next);
+}
+
+void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context) {
+    State& state = *state_;
+    require_pattern(matrix, state.begin, state.row);
+    context.checkpoint();
+    state.factored = false;
+    state.charge = {};
+    std::unique_ptr<double[]> value = std::move(state.value);
+    const char* purpose = "factoring the linear system";
+    MemoryCharge charge = context.charge(state.stats.factor_bytes, purpose);
+    const MemoryCharge working = context.charge(state.stats.working_bytes, purpose);
+    const auto start = Clock::now();
+    if (!value) value = std::make_unique_for_overwrite<double[]>(state.nodes.value_count());
+    const Index failed =
+        factor_supernodes(state.nodes, state.plan, matrix, value.get(), best_processor(), context);
+    if (failed != kNoIndex) refuse_pivot(matrix, state.nodes.permutation[failed]);
+    if (const auto [ratio, row] = least_pivot(state.nodes, value.get(), matrix);
+        !(ratio > smallest_pivot(size()))) {
+        refuse_pivot(matrix, row);
+    }
+    context.checkpoint();
+    state.stats.factor_seconds = seconds_since(start);
+    state.value = std::move(value);
+    state.charge = std::move(charge);
+    state.factored = true;
+}
+
+void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index columns) const {
+    require_factor(state_->factored);
+    require_sizes(b, x, size(), columns);
+    const auto rows = static_cast<std::size_t>(size());
+    const Supernodes& nodes = state_->nodes;
+    const SupernodalFactor factor{size(),
+                                  nodes.count(),
+                                  {nodes.super.data(), nodes.first_row.data(),
+                                   nodes.first_value.data(), nodes.row.data(), state_->value.get()},
+                                  nodes.permutation.data()};
+    for (Index first = 0; first < columns; first += kSolveWidth) {
+        const std::size_t shift = static_cast<std::size_t>(first) * rows;
+        solve_supernodal(factor, b.data() + shift, x.data() + shift,
+                         std::min(kSolveWidth, columns - first), state_->scratch);
+    }
+}
+
+SingleFactor SparseSystem::single_factor(const Context& context) const {
+    require_factor(state_->factored);
+    const Supernodes& from = state_->nodes;
+    const double *value = state_->value.get(), *end = value + from.value_count();
+    SingleFactor::Supernodes nodes{from.super,
+                                   from.first_row,
+                                   from.first_value,
+                                   from.row,
+                                   std::vector<float>(from.value_count()),
+                                   0.0};
+    for (Index s = 0; s < nodes.count(); ++s) {
+        for (Index j = 0; j < nodes.columns(s); ++j) {
+            nodes.scale =
+                std::max(nodes.scale, value[nodes.first_value[s] + j * (nodes.height(s) + 1)]);
+        }
+    }
+    const double inverse = 1.0 / nodes.scale;
+    std::transform(value, end, nodes.value.begin(),
+                   [&](double v) { return static_cast<float>(inverse * v); });
+    return {std::move(nodes), from.permutation, context};
+}
+
+Index SparseSystem::size() const {
+    return state_->begin.empty() ? 0 : static_cast<Index>(state_->begin.size()) - 1;
+}
+
+bool SparseSystem::factored() const {
+    return state_->factored;
+}
+
+const FactorStats& SparseSystem::stats() const {
+    return state_->stats;
+}
+
+const char* sparse_backend() {
+    return "cholmod";
+}
+
+}  // namespace lissom

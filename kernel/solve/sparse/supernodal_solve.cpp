@@ -1,0 +1,58 @@
+#include "kernel/solve/sparse/supernodal_solve.h"
+
+#include <cstddef>
+
+namespace lissom {
+namespace {
+
+LISSOM_INLINE void solve_both(const SupernodalFactor& factor, Lanes<double>* x,
+                              Lanes<double>* below) {
+    for (Index s = 0; s < factor.supernodes; ++s) solve_lower(factor.view, s, x, below);
+    for (Index s = factor.supernodes; s-- > 0;) solve_upper(factor.view, s, x, below);
+}
+
+void solve_anywhere(const SupernodalFactor& factor, Lanes<double>* x, Lanes<double>* below) {
+    solve_both(factor, x, below);
+}
+
+#ifdef LISSOM_HAS_AVX2_PATH
+LISSOM_AVX2 void solve_with_avx2(const SupernodalFactor& factor, Lanes<double>* x,
+                                 Lanes<double>* below) {
+    solve_both(factor, x, below);
+}
+#endif
+
+}  // namespace
+
+void solve_supernodal(const SupernodalFactor& factor, const double* b, double* x, Index columns,
+                      std::vector<double>& scratch) {
+    const auto n = static_cast<std::size_t>(factor.size);
+    scratch.resize(2 * kSolveWidth * n);
+    double* solution = scratch.data();
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto from = static_cast<std::size_t>(factor.permutation[i]);
+        for (Index c = 0; c < kSolveWidth; ++c) {
+            solution[i * kSolveWidth + static_cast<std::size_t>(c)] =
+                c < columns ? b[static_cast<std::size_t>(c) * n + from] : 0.0;
+        }
+    }
+    auto* lanes = reinterpret_cast<Lanes<double>*>(solution);
+#ifdef LISSOM_HAS_AVX2_PATH
+    if (has_avx2()) {
+        solve_with_avx2(factor, lanes, lanes + n);
+    } else {
+        solve_anywhere(factor, lanes, lanes + n);
+    }
+#else
+    solve_anywhere(factor, lanes, lanes + n);
+#endif
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto to = static_cast<std::size_t>(factor.permutation[i]);
+        for (Index c = 0; c < columns; ++c) {
+            x[static_cast<std::size_t>(c) * n + to] =
+                solution[i * kSolveWidth + static_cast<std::size_t>(c)];
+        }
+    }
+}
+
+}  // namespace lissom

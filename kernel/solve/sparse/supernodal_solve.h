@@ -1,0 +1,28 @@
+/// Triangular solves with a supernodal Cholesky factor for few right-hand sides; private to
+/// kernel/solve. With three columns, dense libraries spend their time packing; here four columns
+/// stay in registers.
+#pragma once
+
+#include <vector>
+
+#include "kernel/core/geometry.h"
+#include "kernel/solve/sparse/supernodal_loops.h"
+
+namespace lissom {
+
+/// A supernodal factor and the unknown of each row of L.
+struct SupernodalFactor {
+    Index size = 0, supernodes = 0;
+    SupernodalView<double> view;
+    const Index* permutation = nullptr;
+};
+
+/// Columns that one pass solves for.
+inline constexpr Index kSolveWidth = 4;
+
+/// Solves L L^T x = b for up to `kSolveWidth` columns, stored one after the other; x may be b.
+/// `scratch` is sized as needed and may be kept for the next call.
+void solve_supernodal(const SupernodalFactor& factor, const double* b, double* x, Index columns,
+                      std::vector<double>& scratch);
+
+}  // namespace lissom

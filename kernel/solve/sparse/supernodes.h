@@ -1,0 +1,35 @@
+/// Supernodes: the pattern of a supernodal Cholesky factor; private to kernel/solve.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kernel/solve/sparse/sparse_matrix.h"
+
+namespace lissom {
+
+/// Supernode s holds the columns [super[s], super[s + 1]) of the factor as one dense column-major
+/// block at first_value[s], of the rows [first_row[s], first_row[s + 1]) of `row`. These ascend;
+/// the first are the columns themselves.
+struct Supernodes {
+    std::vector<Index> super, first_row, first_value, row;
+    /// The unknown of each row of the factor.
+    std::vector<Index> permutation;
+
+    Index count() const { return static_cast<Index>(super.size()) - 1; }
+    Index size() const { return static_cast<Index>(permutation.size()); }
+    Index columns(Index s) const { return super[s + 1] - super[s]; }
+    Index height(Index s) const { return first_row[s + 1] - first_row[s]; }
+    std::size_t value_count() const { return static_cast<std::size_t>(first_value.back()); }
+    /// The supernode of each column, and the one that holds the first row below the columns of
+    /// each supernode (count() where there is none).
+    std::vector<Index> nodes_of_columns() const;
+    std::vector<Index> parents() const;
+};
+
+/// Orders the unknowns by approximate minimum degree, postorders the elimination tree and joins
+/// columns of similar pattern, with CHOLMOD. May run in several threads at the same time.
+/// Errors: memory_limit where the factor is too large for this machine or for its indices.
+Supernodes analyze_supernodes(const SymmetricMatrix& matrix);
+
+}  // namespace lissom

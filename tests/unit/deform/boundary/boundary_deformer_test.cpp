@@ -1,0 +1,179 @@
+#include "kernel/deform/boundary/boundary_deformer.h"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "kernel/core/error.h"
+#include "kernel/deform/rotation/polar.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/query/region_select.h"
+#include "kernel/mesh/shapes/shapes.h"
+
+using namespace lissom;
+
+namespace {
+
+// A bumpy bowl, open at the top: its boundary holds it.
+Mesh bowl() {
+    GridOptions grid;
+    grid.size = {2.0, 2.0};
+    grid.segments = {24, 24};
+    Mesh mesh = make_grid(grid);
+    for (Vec3& p : mesh.edit_positions()) {
+        p.y() = 0.5 * p.squaredNorm() + 0.06 * std::sin(9.0 * p.x()) * std::cos(7.0 * p.z());
+    }
+    return mesh;
+}
+
+Region rim(const Mesh& mesh) {
+    return Region(mesh.shared_topology(), mesh.topology().boundary_loops()[0]);
+}
+
+Affine similarity(double scale, const Vec3& axis, double angle, const Vec3& move) {
+    Affine map = rotation(axis, angle, Vec3::Zero());
+    map.linear *= scale;
+    map.translation = move;
+    return map;
+}
+
+std::vector<BoundaryValue> moved(const Mesh& mesh, const Region& held, const Affine& map) {
+    std::vector<BoundaryValue> values;
+    const double scale = std::cbrt(map.linear.determinant());
+    for (const Index v : held.vertices()) {
+        values.push_back({map(mesh.position(v)), map.linear / scale, scale});
+    }
+    return values;
+}
+
+// Values that no similarity gives: the rim is bent, and grows to one side.
+std::vector<BoundaryValue> bent(const Mesh& mesh, const Region& held) {
+    std::vector<BoundaryValue> values;
+    for (const Index v : held.vertices()) {
+        const Vec3& p = mesh.position(v);
+        const Affine turn = rotation(Vec3::UnitZ(), 0.5 * p.x(), Vec3::Zero());
+        values.push_back({turn(p) + Vec3(0, 0.3 * p.z(), 0), turn.linear, 1.0 + 0.2 * p.x()});
+    }
+    return values;
+}
+
+double greatest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
+    return greatest;
+}
+
+}  // namespace
+
+TEST_CASE("a similarity of the boundary is one of the whole surface, in every formulation") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    const Affine map = similarity(37.0, Vec3(1, 2, -1), 2.8, Vec3(1e4, -300, 8));
+    BoundaryDeformOptions poisson, thesis = BoundaryDeformOptions::thesis();
+    poisson.second = SecondSystem::poisson;
+    poisson.size = SizeField::gradient;
+    for (const BoundaryDeformOptions& how : {BoundaryDeformOptions{}, poisson, thesis}) {
+        BoundaryDeformer deformer(mesh, all, held, how);
+        const BoundaryDeformation result = deformer.solve(moved(mesh, held, map));
+        std::vector<Vec3> expected;
+        for (const Vec3& p : mesh.positions()) expected.push_back(map(p));
+        CHECK(greatest_difference(result.positions, expected) < 1e-9 * 37.0);
+        for (const Mat3& s : result.transforms) CHECK((s - map.linear).norm() < 1e-8);
+    }
+}
+
+TEST_CASE("held vertices lie where they are told, to the bit") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    BoundaryDeformer deformer(mesh, all, held);
+    const std::vector<BoundaryValue> values = bent(mesh, held);
+    const BoundaryDeformation result = deformer.solve(values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        CHECK(result.positions[held.vertices()[i]] == values[i].position);
+    }
+}
+
+TEST_CASE("the result follows the boundary whatever the place, turn and size of the rest shape") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    const std::vector<BoundaryValue> values = bent(mesh, held);
+    BoundaryDeformer reference(mesh, all, held);
+    const std::vector<Vec3> expected = reference.solve(values).positions;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int trial = 0; trial < 12; ++trial) {
+        const Affine map =
+            similarity(std::pow(10.0, 3.0 * unit(random)), Vec3(unit(random), unit(random), 1.0),
+                       3.0 * unit(random), 100.0 * Vec3(unit(random), unit(random), unit(random)));
+        Mesh other = mesh;
+        for (Vec3& p : other.edit_positions()) p = map(p);
+        const double scale = std::cbrt(map.linear.determinant());
+        std::vector<BoundaryValue> same = values;
+        for (BoundaryValue& value : same) {
+            value.rotation = value.rotation * (map.linear / scale).transpose();
+            value.scale /= scale;
+        }
+        BoundaryDeformer deformer(other, Region::all(other.shared_topology()),
+                                  Region(other.shared_topology(), held.vertices()));
+        const std::vector<Vec3> result = deformer.solve(same).positions;
+        // What lies far away in small steps has few digits to begin with.
+        const double digits = 1e-16 * map.translation.norm() / scale;
+        CHECK(greatest_difference(result, expected) < 1e-9 + 1e3 * digits);
+    }
+}
+
+TEST_CASE("sizes lie between those of the boundary, and are one where they are one") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    BoundaryDeformer deformer(mesh, all, held);
+    for (const Mat3& s : deformer.solve(bent(mesh, held)).transforms) {
+        CHECK(uniform_scale(s) > 0.8 - 1e-9);
+        CHECK(uniform_scale(s) < 1.2 + 1e-9);
+    }
+    std::vector<BoundaryValue> twice = bent(mesh, held);
+    for (BoundaryValue& value : twice) value.scale = 2.0;
+    for (const Mat3& s : deformer.solve(twice).transforms) {
+        CHECK(uniform_scale(s) == doctest::Approx(2.0).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("outside the region nothing moves, and new values need no factorisation") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh);
+    const Region region = held.grown(6);
+    BoundaryDeformer deformer(mesh, region, held);
+    CHECK(deformer.stats().free_vertices == region.size() - held.size());
+    const BoundaryDeformation still = deformer.solve(moved(mesh, held, Affine{}));
+    for (Index row = 0; row < region.size(); ++row) {
+        CHECK((still.positions[row] - mesh.position(region.vertices()[row])).norm() < 1e-12);
+    }
+    CHECK(deformer.solve(bent(mesh, held)).positions != still.positions);
+    CHECK(deformer.stats().factorizations == 1);
+}
+
+TEST_CASE("what cannot be solved is refused by name") {
+    const Mesh mesh = bowl();
+    const auto topology = mesh.shared_topology();
+    const Region held = rim(mesh);
+    const auto code_of = [&](const Region& region, const Region& fixed) {
+        try {
+            const BoundaryDeformer deformer(mesh, region, fixed);
+        } catch (const Error& error) {
+            return error.code();
+        }
+        return ErrorCode::internal;
+    };
+    CHECK(code_of(Region::all(topology), Region::none(topology)) == ErrorCode::region_empty);
+    CHECK(code_of(held.inverted(), held) == ErrorCode::handle_outside_region);
+    BoundaryDeformer deformer(mesh, Region::all(topology), held);
+    std::vector<BoundaryValue> values = moved(mesh, held, Affine{});
+    values.pop_back();
+    CHECK_THROWS_AS(deformer.solve(values), Error);
+    values.push_back({Vec3::Zero(), Mat3::Identity(), 0.0});
+    CHECK_THROWS_AS(deformer.solve(values), Error);
+    values.back() = {Vec3::Constant(std::nan("")), Mat3::Identity(), 1.0};
+    CHECK_THROWS_AS(deformer.solve(values), Error);
+}

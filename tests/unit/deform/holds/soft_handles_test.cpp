@@ -1,0 +1,210 @@
+// Soft handles and constraints: a weight draws to where a hard one holds.
+
+#include <Eigen/Geometry>
+
+#include "kernel/io/mesh_file.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/deform/scene.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+Scene bar_scene(Index across = 4, double size = 1.0) {
+    BarOptions options;
+    options.width = size;
+    options.length = 5.0 * size;
+    options.across = across;
+    options.along = 5 * across;
+    return make_scene(make_bar(options));
+}
+
+HandleOptions weighted(double weight) {
+    HandleOptions options;
+    options.weight = weight;
+    return options;
+}
+
+// How far a soft handle, which is asked to move sideways by the size, stays behind: 0 is there.
+double shortfall(const Scene& scene, const HandleOptions& handle, const DeformOptions& options = {},
+                 bool preview = false) {
+    Deformer d(scene.mesh, scene.all(), options);
+    d.add_handle(scene.region(scene.low));
+    const HandleId high = d.add_handle(scene.region(scene.high), handle);
+    d.set_transform(high, translation(scene.size * scene.across));
+    const std::vector<Vec3>& x = preview ? d.preview() : d.solve();
+    double sum = 0.0;
+    for (const Index v : scene.high) sum += (x[v] - scene.mesh.position(v)).dot(scene.across);
+    return 1.0 - sum / (scene.size * static_cast<double>(scene.high.size()));
+}
+
+}  // namespace
+
+TEST_CASE("weights: 1 is a compromise, more come nearer, 1e6 is nearly hard") {
+    const Scene scene = bar_scene();
+    for (const SecondSystem second :
+         {SecondSystem::blend, SecondSystem::poisson, SecondSystem::laplacian}) {
+        DeformOptions options;
+        options.second = second;
+        double before = 1.0;
+        for (const double weight : {1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6}) {
+            const double now = shortfall(scene, weighted(weight), options);
+            CHECK(now < before);
+            before = now;
+        }
+        CHECK(before < 1e-4);
+        CHECK(before > 0.0);
+        CHECK(shortfall(scene, weighted(1.0), options) > 0.1);
+        CHECK(shortfall(scene, weighted(1.0), options) < 0.9);
+    }
+    CHECK(shortfall(scene, {}) < 1e-14);
+}
+
+TEST_CASE("weights: a real mesh feels them alike") {
+    for (const char* name : {"cactus_cinolib.off", "lion.off", "dinosaur.obj"}) {
+        const auto path = data_file(std::string("models/") + name);
+        if (!path) continue;
+        const Scene scene = make_scene(load_mesh(*path));
+        CAPTURE(name);
+        CHECK(shortfall(scene, weighted(1.0)) > 0.1);
+        CHECK(shortfall(scene, weighted(1.0)) < 0.9);
+        CHECK(shortfall(scene, weighted(1e6)) < 1e-4);
+    }
+}
+
+TEST_CASE("weights: neither scale nor resolution changes what they do") {
+    const double weight = 2.0;
+    for (const bool preview : {false, true}) {
+        const double plain = shortfall(bar_scene(), weighted(weight), {}, preview);
+        CHECK(std::abs(shortfall(bar_scene(4, 1e3), weighted(weight), {}, preview) - plain) < 1e-9);
+        const double fine = shortfall(bar_scene(12), weighted(weight), {}, preview);
+        CHECK(std::abs(shortfall(bar_scene(24), weighted(weight), {}, preview) - fine) <
+              0.05 * fine);
+    }
+}
+
+TEST_CASE("soft handles: similarities of everything are exact") {
+    const Scene scene = bar_scene();
+    DeformOptions options;
+    options.local_size = LocalSize::scale;
+    for (const bool both_soft : {false, true}) {
+        Deformer d(scene.mesh, scene.all(), options);
+        const HandleId low =
+            d.add_handle(scene.region(scene.low), both_soft ? weighted(3.0) : HandleOptions{});
+        const HandleId high = d.add_handle(scene.region(scene.high), weighted(0.5));
+        Affine map = rotation({1, 2, 3}, 1.4, {5, 0, 0});
+        map.linear *= 1.7;
+        d.set_transform(low, map);
+        d.set_transform(high, map);
+        const std::vector<Vec3> expected = mapped(d.rest_positions(), map);
+        CHECK(greatest_distance(d.preview(), expected) < 1e-9 * scene.size);
+        CHECK(greatest_distance(d.solve(), expected) < 1e-9 * scene.size);
+        d.set_transform(low, {});
+        d.set_transform(high, {});
+        CHECK(d.solve() == d.rest_positions());
+    }
+}
+
+TEST_CASE("soft handles: the basis is the direct solution, and linear in their transforms") {
+    const Scene scene = bar_scene();
+    Deformer d(scene.mesh, scene.all());
+    d.add_handle(scene.region(scene.low));
+    const HandleId high = d.add_handle(scene.region(scene.high), weighted(2.0));
+    const Affine move = bend(scene, d.handle_center(high));
+    d.set_transform(high, move);
+    const std::vector<Vec3> x = d.preview();
+    CHECK(greatest_distance(x, d.solve_first_directly()) < 1e-11 * scene.size);
+
+    const HandleBasis basis = d.basis();
+    REQUIRE(basis.handles.size() == 2);
+    double worst = 0.0;
+    for (std::size_t row = 0; row < x.size(); ++row) {
+        Vec3 at = basis.fixed[row];
+        for (std::size_t h = 0; h < 2; ++h) {
+            const Affine& t = d.transform(basis.handles[h]);
+            at += t.linear * basis.weights[h][row].head<3>() +
+                  t.translation * basis.weights[h][row][3];
+        }
+        worst = std::max(worst, (at - x[row]).norm());
+    }
+    CHECK(worst < 1e-11 * scene.size);
+}
+
+TEST_CASE("soft handles: gradients alone turn the end some of the way") {
+    const Scene scene = bar_scene();
+    const auto turned = [&](double weight) {
+        Deformer d(scene.mesh, scene.all());
+        d.add_handle(scene.region(scene.low));
+        HandleOptions options = weighted(weight);
+        options.position = false;
+        const HandleId high = d.add_handle(scene.region(scene.high), options);
+        d.set_transform(high, rotation(Vec3::UnitX(), 0.8, d.handle_center(high)));
+        d.solve();
+        return Eigen::AngleAxisd(d.gradients()[scene.high.back()]).angle();
+    };
+    CHECK(turned(0.5) > 0.1);
+    CHECK(turned(0.5) < 0.7);
+    CHECK(turned(50.0) > turned(0.5));
+    CHECK(turned(1e6) == doctest::Approx(0.8).epsilon(1e-3));
+}
+
+TEST_CASE("soft constraints: a vertex is drawn, and is free again when they go") {
+    const Scene scene = bar_scene();
+    Deformer d(scene.mesh, scene.all());
+    d.add_handle(scene.region(scene.low));
+    const Index tip = scene.high.back();
+    const Vec3 target = scene.mesh.position(tip) + Vec3(1.0, 0.0, 0.0);
+    const auto distance = [&](double weight) {
+        d.constrain({tip, target, {}, weight});
+        return (d.solve()[tip] - target).norm();
+    };
+    CHECK(distance(0.1) > 0.5);
+    CHECK(distance(1.0) < 0.9);
+    CHECK(distance(1e6) < 1e-4);
+    CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-11 * scene.size);
+
+    // Another target of the same weight costs no factorisation; a hard one replaces it.
+    const Index count = d.stats().factorizations;
+    d.constrain({tip, target + Vec3(0, 0, 1), {}, 1e6});
+    CHECK((d.solve()[tip] - target - Vec3(0, 0, 1)).norm() < 1e-4);
+    CHECK(d.stats().factorizations == count);
+    d.constrain({tip, target, {}});
+    CHECK(d.solve()[tip] == target);
+    d.constrain({tip, {}, {}});
+    CHECK(d.solve() == d.rest_positions());
+}
+
+TEST_CASE("soft handles: they alone hold a surface") {
+    const Scene scene = bar_scene();
+    Deformer d(scene.mesh, scene.all());
+    d.add_handle(scene.region(scene.low), weighted(1.0));
+    const Affine move = rotation(Vec3::UnitX(), 2.0, Vec3(0, 1, 0));
+    d.set_transform(d.handles()[0], move);
+    CHECK(greatest_distance(d.solve(), mapped(d.rest_positions(), move)) < 1e-9 * scene.size);
+}
+
+TEST_CASE("weights: zero, negative and not finite ones are refused") {
+    const Scene scene = bar_scene();
+    Deformer d(scene.mesh, scene.all());
+    for (const double weight : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+        CHECK(error_of([&] { d.add_handle(scene.region(scene.low), weighted(weight)); }).code() ==
+              ErrorCode::invalid_argument);
+        CHECK(error_of([&] {
+                  d.constrain({scene.high[0], Vec3(0, 0, 0), {}, weight});
+              }).code() == ErrorCode::invalid_argument);
+    }
+    CHECK(d.handles().empty());
+}
+
+TEST_CASE("soft handles: a vertex has one handle, hard or soft") {
+    const Scene scene = bar_scene();
+    Deformer d(scene.mesh, scene.all());
+    d.add_handle(scene.region(scene.high), weighted(1.0));
+    CHECK(error_of([&] { d.add_handle(scene.region({scene.high[0]})); }).code() ==
+          ErrorCode::handle_overlap);
+    d.constrain({scene.low[0], Vec3(0, 0, 0), {}, 1.0});
+    CHECK(error_of([&] { d.add_handle(scene.region(scene.low)); }).code() ==
+          ErrorCode::handle_overlap);
+}

@@ -1,0 +1,185 @@
+// Ties, cuts and the loops of growth.
+#include "kernel/hair/growth/growth_loops.h"
+#include "kernel/hair/strands/strand_measures.h"
+#include "tests/unit/hair/strands/groomed.h"
+
+using namespace lissom;
+using doctest::Approx;
+
+namespace {
+
+// Roots on a small square and a field that is `up` everywhere, without a head nearby.
+struct Meadow {
+    Mesh head = test::groomed().head;
+    HairField field{DistanceGrid(head, test::groomed().field.layout())};
+    std::vector<Root> roots;
+
+    explicit Meadow(const Vec3& up = Vec3::UnitY()) {
+        field.set_constraints(1, {{0, up}});
+        field.solve();
+        for (int i = 0; i < 100; ++i) {
+            Root root = test::groomed().roots.front();
+            const Index row = i / 10, column = i % 10;
+            root.position = Vec3(0.001 * column - 0.0045, 0.0, 0.001 * row - 0.0045) +
+                            field.layout().box().center();
+            root.normal = up;
+            roots.push_back(root);
+        }
+    }
+
+    Vec3 above(double height) const { return field.layout().box().center() + Vec3(0, height, 0); }
+
+    GrowthOptions options() const {
+        GrowthOptions options;
+        options.avoid = false;
+        options.variation = 0.0;
+        options.length = 0.08;
+        return options;
+    }
+};
+
+double tip_height(const Meadow& meadow, const Strands& strands, Index s) {
+    return strands.strand(s).col(strands.point_count(s) - 1).y() - meadow.above(0.0).y();
+}
+
+std::vector<float> points_of(const Tuft& tuft, std::size_t strand) {
+    const Tuft::Shoot& shoot = tuft.shoots[strand];
+    const float* first = tuft.lists[shoot.list].data() + shoot.first;
+    return {first, first + std::ptrdiff_t{3} * shoot.count};
+}
+
+void check_same(const Tuft& a, const Tuft& b) {
+    REQUIRE(a.shoots.size() == b.shoots.size());
+    for (std::size_t i = 0; i < a.shoots.size(); ++i) {
+        CHECK(points_of(a, i) == points_of(b, i));
+        CHECK(a.shoots[i].end == b.shoots[i].end);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("growth: a tie catches what passes it in its direction, and nothing else") {
+    const Meadow meadow;
+    GrowthOptions options = meadow.options();
+    // Half the meadow passes through the first; the second comes after it; the third faces down.
+    options.ties = {{meadow.above(0.03) + Vec3(0.05, 0, 0), {0, 2, 0}, 0.05, 0.02, 0.5},
+                    {meadow.above(0.035), {0, 1, 0}, 0.02, 0.06, 0.0},
+                    {meadow.above(0.01), {0, -1, 0}, 0.02, 0.01, 0.0}};
+    Strands strands;
+    const GrowthReport report = grow(meadow.head, meadow.field, meadow.roots, options, strands);
+    REQUIRE(report.ties.size() == meadow.roots.size());
+    double shortest = 1.0, longest = 0.0;
+    for (Index s = 0; s < strands.size(); ++s) {
+        const auto i = static_cast<std::size_t>(s);
+        const bool in_first =
+            (meadow.roots[i].position - options.ties[0].center).cwiseProduct(Vec3(1, 0, 1)).norm() <
+            0.05;
+        CHECK(report.ties[i] == (in_first ? 0 : 1));
+        const double tail = tip_height(meadow, strands, s) - (in_first ? 0.03 : 0.035);
+        if (!in_first) CHECK(tail == Approx(0.06).epsilon(2e-3));
+        if (!in_first) continue;
+        shortest = std::min(shortest, tail);
+        longest = std::max(longest, tail);
+    }
+    CHECK(shortest > 0.0099);
+    CHECK(shortest < 0.015);
+    CHECK(longest < 0.0201);
+    CHECK(longest > 0.019);
+}
+
+TEST_CASE("growth: a cut ends strands on its plane, each where chance moves it") {
+    const Meadow meadow;
+    GrowthOptions options = meadow.options();
+    options.cuts = {{meadow.above(0.04), {0, 3, 0}, 0.0}};
+    Strands strands;
+    GrowthReport report = grow(meadow.head, meadow.field, meadow.roots, options, strands);
+    CHECK(report.ended_by(StrandEnd::cut) == strands.size());
+    CHECK(report.ties.empty());
+    for (Index s = 0; s < strands.size(); ++s) {
+        CHECK(tip_height(meadow, strands, s) == Approx(0.04).epsilon(1e-4));
+    }
+    options.cuts[0].ragged = 0.01;
+    report = grow(meadow.head, meadow.field, meadow.roots, options, strands);
+    double low = 1.0, high = 0.0;
+    for (Index s = 0; s < strands.size(); ++s) {
+        low = std::min(low, tip_height(meadow, strands, s));
+        high = std::max(high, tip_height(meadow, strands, s));
+    }
+    CHECK(low > 0.0299);
+    CHECK(low < 0.032);
+    CHECK(high > 0.048);
+    CHECK(high < 0.0501);
+    // Of two cuts the first counts, and from behind a cut does nothing.
+    options.cuts = {{meadow.above(0.05), {0, 1, 0}, 0.0},
+                    {meadow.above(0.02), {0, 1, 0}, 0.0},
+                    {meadow.above(0.01), {0, -1, 0}, 0.0}};
+    grow(meadow.head, meadow.field, meadow.roots, options, strands);
+    CHECK(tip_height(meadow, strands, 7) == Approx(0.02).epsilon(1e-4));
+}
+
+TEST_CASE("growth: a cut spares what a tie has caught, if asked") {
+    const Meadow meadow;
+    GrowthOptions options = meadow.options();
+    options.ties = {{meadow.above(0.02), {0, 1, 0}, 0.02, 0.05, 0.0}};
+    options.cuts = {{meadow.above(0.04), {0, 1, 0}, 0.0}};
+    Strands strands;
+    GrowthReport report = grow(meadow.head, meadow.field, meadow.roots, options, strands);
+    CHECK(report.ended_by(StrandEnd::length) == strands.size());
+    CHECK(tip_height(meadow, strands, 0) == Approx(0.07).epsilon(2e-3));
+    options.spare_tied = false;
+    report = grow(meadow.head, meadow.field, meadow.roots, options, strands);
+    CHECK(report.ended_by(StrandEnd::cut) == strands.size());
+}
+
+TEST_CASE("growth: the same to the bit with and without vector instructions") {
+    const test::Groomed& scene = test::groomed();
+    const GridLayout& layout = scene.field.layout();
+    QuadGrid grid{
+        scene.field.values().data(), layout.counts[0], layout.counts[0] * layout.counts[1], {}};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        grid.last[axis] = static_cast<float>(layout.counts[axis] - 1);
+    }
+    GrowthRules rules{};
+    rules.segment = 0.5f;
+    rules.least_speed = 0.05f;
+    rules.least_move = 5e-4f;
+    rules.lift = 0.15f;
+    rules.inverse_ramp = 0.5f;
+    rules.inverse_step = static_cast<float>(1.0 / layout.step);
+    rules.avoid = true;
+    rules.most_segments = 150;
+    const Eigen::Vector3f middle = Eigen::Vector3f(grid.last.data()) / 2.0f;
+    rules.cuts = {{{0.0f, -1.0f, 0.0f}, -middle.y() - 1.0f, 1.0f}};
+    rules.ties = {{middle, {0.0f, 0.0f, -1.0f}, 50.0f, 5.0f, 0.45f}};
+    rules.linear = Eigen::Matrix3f::Identity();
+    rules.translation = {0.1f, 0.2f, 0.3f};
+    std::vector<Seedling> seedlings;
+    test::RandomPoints random(3);
+    for (const Root& root : scene.roots) {
+        const auto number = [&] { return static_cast<float>(random.uniform(0.0, 1.0)); };
+        seedlings.push_back({((root.position - layout.origin) / layout.step).cast<float>(),
+                             root.normal.cast<float>(), 30.0f * number(), number(), number(),
+                             number()});
+    }
+    Tuft plain;
+    grow_tuft(grid, rules, seedlings, GrowthLoop::anywhere, plain);
+    for (const GrowthLoop loop : {GrowthLoop::avx2, GrowthLoop::avx512}) {
+        if (loop > best_growth_loop()) continue;
+        Tuft other;
+        grow_tuft(grid, rules, seedlings, loop, other);
+        check_same(plain, other);
+    }
+    int cut = 0, tied = 0;
+    for (const Tuft::Shoot& shoot : plain.shoots) {
+        cut += shoot.end == StrandEnd::cut;
+        tied += shoot.tie == 0;
+    }
+    CHECK(cut > 0);
+    CHECK(tied > 0);
+    // Neighbours in other lanes change nothing.
+    Tuft alone;
+    for (std::size_t i = 0; i < seedlings.size(); i += 131) {
+        grow_tuft(grid, rules, std::span(seedlings).subspan(i, 1), best_growth_loop(), alone);
+        CHECK(points_of(alone, 0) == points_of(plain, i));
+    }
+}

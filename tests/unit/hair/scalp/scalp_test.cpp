@@ -1,0 +1,227 @@
+#include "kernel/hair/scalp/scalp.h"
+
+#include "kernel/mesh/query/region_select.h"
+#include "kernel/mesh/shapes/head.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/hair/hair_support.h"
+
+using namespace lissom;
+using doctest::Approx;
+
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+
+Mat3 mat3(const Vec3& a, const Vec3& b, const Vec3& c) {
+    Mat3 result;
+    result << a, b, c;
+    return result;
+}
+
+// The generic shape of a skull: longer than wide.
+Mesh egg() {
+    return test::moved(make_sphere({.segments = 40}), scaling(Vec3(0.08, 0.1, 0.1), Vec3::Zero()));
+}
+
+ScalpOptions upright() {
+    ScalpOptions options;
+    options.hints = {Vec3::UnitY(), Vec3::UnitZ()};
+    return options;
+}
+
+double root_area(const Mesh& mesh, const Scalp& scalp) {
+    const std::vector<double> areas = face_areas(mesh);
+    double sum = 0.0;
+    for (const Index f : scalp.root_faces()) sum += areas[f];
+    return sum / (scalp.scale() * scalp.scale());
+}
+
+}  // namespace
+
+TEST_CASE("the frame of an ellipsoid lies on its axes") {
+    const Scalp scalp(egg(), upright());
+    CHECK(scalp.frame().width == Approx(0.16).epsilon(0.1));
+    CHECK(scalp.frame().length / scalp.frame().width == Approx(1.25).epsilon(0.01));
+    CHECK(scalp.frame().center.x() == Approx(0.0).epsilon(1e-6));
+    CHECK(scalp.frame().center.y() == Approx(0.1 - 0.65 * scalp.frame().width));
+    CHECK(scalp.frame().axes == Mat3::Identity());
+}
+
+TEST_CASE("directions, metres and points convert back and forth") {
+    const Scalp scalp(egg(), upright());
+    for (int azimuth = -170; azimuth <= 180; azimuth += 35) {
+        for (int elevation = -80; elevation < 90; elevation += 20) {
+            const ScalpDirection direction{azimuth * kDegree, elevation * kDegree};
+            const ScalpPoint point = scalp.at(direction);
+            const ScalpDirection back = scalp.direction_of(point.position);
+            CHECK(back.azimuth == Approx(direction.azimuth));
+            CHECK(back.elevation == Approx(direction.elevation));
+            CHECK(point.normal.norm() == Approx(1.0));
+            const Vec3 lifted = scalp.at(direction, 0.02).position;
+            CHECK((lifted - point.position).dot(point.normal) == Approx(0.02 * scalp.scale()));
+            CHECK((scalp.from_metres(scalp.to_metres(lifted)) - lifted).norm() < 1e-12);
+        }
+    }
+    CHECK(scalp.at({0.0, 0.0}).normal.dot(Vec3::UnitZ()) > 0.99);
+    CHECK(scalp.at({0.5 * kPi, 0.0}).normal.dot(Vec3::UnitX()) > 0.98);
+}
+
+TEST_CASE("a scalp follows its head through scale, place and turn") {
+    const auto mesh = test::load_head("makehuman_head.obj");
+    if (!mesh) return;
+    const Scalp scalp(*mesh);
+    const Mat3 turns[] = {mat3(Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()),
+                          mat3(-Vec3::UnitZ(), Vec3::UnitY(), Vec3::UnitX()),
+                          mat3(-Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ())};
+    const double scales[] = {1.0, 100.0, 0.02};
+    for (std::size_t i = 0; i < std::size(turns); ++i) {
+        const Mat3& turn = turns[i];
+        const double scale = scales[i];
+        const Affine map{scale * turn, scale * Vec3(3, -5, 2)};
+        const Mesh image = test::moved(*mesh, map);
+        const Scalp other(image);
+        CHECK(other.scale() == Approx(scale * scalp.scale()));
+        CHECK((other.frame().up() - turn * scalp.frame().up()).norm() < 1e-9);
+        CHECK((other.frame().front() - turn * scalp.frame().front()).norm() < 1e-9);
+        CHECK(other.region().vertices() == scalp.region().vertices());
+        const Vec3 p = scalp.at({0.4, 0.7}, 0.01).position;
+        CHECK((other.at({0.4, 0.7}, 0.01).position - map(p)).norm() < 1e-6 * scale);
+    }
+}
+
+TEST_CASE("real heads: up, front, unit and the size of the scalp are guessed") {
+    struct Head {
+        const char* name;
+        double front, unit;
+    };
+    for (const Head& head :
+         {Head{"ict_head.obj", 1, 1}, Head{"makehuman_head.obj", 1, 1},
+          Head{"digitalsalon_head.obj", 1, 1}, Head{"face_scan_open.obj", 1, 0.01},
+          Head{"hairstep_usc_head.obj", 1, 1}, Head{"human_neutral.obj", 1, 1},
+          Head{"ict_generic_neutral.obj", 1, 0.01}, Head{"makehuman_base.obj", 1, 0.1},
+          Head{"max_planck_decimated.obj", -1, 0}, Head{"max_planck_fprotais.obj", 1, 0},
+          Head{"sintel-collider.obj", 1, 1}, Head{"sintel_head.obj", 1, 1},
+          Head{"african_head.obj", 1, 0}, Head{"LeePerrySmith.glb", 1, 0},
+          Head{"WaltHead.obj", 1, 0}}) {
+        const auto mesh = test::load_head(head.name);
+        if (!mesh) continue;
+        CAPTURE(head.name);
+        const Scalp scalp(*mesh);
+        CHECK((scalp.frame().up() - Vec3::UnitY()).norm() < 1e-9);
+        CHECK((scalp.frame().front() - head.front * Vec3::UnitZ()).norm() < 1e-9);
+        CHECK(scalp.frame().asymmetry < 0.05);
+        CHECK(scalp.frame().roughness < 0.05);
+        CHECK(scalp.frame().forwardness > 0.05);
+        if (head.unit > 0.0) CHECK(scalp.unit() == head.unit);
+        const double area = root_area(*mesh, scalp);
+        CHECK(area > 0.050);
+        CHECK(area < 0.072);
+        CHECK(scalp.default_box().contains(scalp.at({0.0, 1.2}, 0.05).position));
+    }
+}
+
+TEST_CASE("a guessed region has crown, sides and nape, but neither face nor ears") {
+    const auto mesh = test::load_head("ict_head.obj");
+    if (!mesh) return;
+    const Scalp scalp(*mesh);
+    CHECK(scalp.guessed());
+    const auto holds = [&](double azimuth, double elevation) {
+        const auto point = scalp.at({azimuth * kDegree, elevation * kDegree});
+        return scalp.region().contains(point.on_head.vertex);
+    };
+    CHECK(holds(0, 85));
+    CHECK(holds(0, 50));
+    CHECK(holds(75, 10));
+    CHECK(holds(-75, 10));
+    CHECK(holds(180, -30));
+    CHECK(!holds(0, 20));
+    CHECK(!holds(45, -10));
+    CHECK(!holds(95, -15));
+    CHECK(!holds(180, -70));
+}
+
+TEST_CASE("the generated head has the frame it was made with") {
+    const Mesh head = make_head();
+    const Scalp scalp(head);
+    CHECK(!scalp.guessed());
+    CHECK(scalp.frame().axes == Mat3::Identity());
+    CHECK(scalp.frame().center.norm() < 0.01);
+    CHECK(std::abs(scalp.scale() - 1.0) < 0.02);
+    CHECK(scalp.unit() == 1.0);
+    CHECK(std::abs(scalp.frame().length - 0.19) < 0.005);
+}
+
+TEST_CASE("a given region is kept, and hair thins out towards its outline") {
+    Mesh mesh = egg();
+    const Region top = select_plane(mesh, Vec3(0, 0.05, 0), Vec3::UnitY());
+    ScalpOptions options = upright();
+    options.softness = 0.02;
+    mesh.set_region("scalp", top);
+    for (const bool named : {true, false}) {
+        if (!named) options.region = top.shrunk(1);
+        const Scalp scalp(mesh, options);
+        CHECK(!scalp.guessed());
+        CHECK(scalp.region() == (named ? top : top.shrunk(1)));
+        CHECK(scalp.root_faces() == scalp.region().faces());
+        double least = 1.0;
+        for (const Index v : scalp.region().vertices()) {
+            least = std::min(least, scalp.margins()[v]);
+            CHECK(scalp.margins()[v] >= 0.0);
+        }
+        CHECK(least == 0.0);
+    }
+}
+
+TEST_CASE("a higher hairline leaves a smaller scalp") {
+    ScalpOptions high = upright(), low = upright();
+    high.hairline = {{0.0, 60 * kDegree}};
+    low.hairline = {{0.0, 20 * kDegree}};
+    CHECK(Scalp(egg(), high).region().size() < Scalp(egg(), low).region().size());
+}
+
+TEST_CASE("scalps without sense are refused") {
+    const Mesh mesh = egg();
+    const auto code = [&](const auto& change) {
+        ScalpOptions options = upright();
+        change(options);
+        return test::error_of([&] { Scalp(mesh, options); }).code();
+    };
+    const ErrorCode invalid = ErrorCode::invalid_argument;
+    CHECK(code([](ScalpOptions& o) { o.unit = 0.0; }) == invalid);
+    CHECK(code([](ScalpOptions& o) { o.softness = test::kNaN; }) == invalid);
+    CHECK(code([](ScalpOptions& o) { o.hairline.clear(); }) == invalid);
+    CHECK(code([](ScalpOptions& o) { o.hairline = {{1.0, 0.0}, {0.5, 0.0}}; }) == invalid);
+    CHECK(code([](ScalpOptions& o) { o.hints.up = Vec3::Zero(); }) == invalid);
+    CHECK(code([](ScalpOptions& o) { o.hints.up = -Vec3::UnitZ(); }) == invalid);
+    CHECK(code([](ScalpOptions& o) { o.hints.front = Vec3(0, test::kNaN, 0); }) ==
+          ErrorCode::not_finite);
+    CHECK(code([](ScalpOptions& o) {
+              o.hairline = {{0.0, 0.5 * kPi}};
+          }) == ErrorCode::region_empty);
+    CHECK(code([&](ScalpOptions& o) { o.region = Region::none(mesh.shared_topology()); }) ==
+          ErrorCode::region_empty);
+    CHECK(code([](ScalpOptions& o) { o.region = Region::all(egg().shared_topology()); }) ==
+          ErrorCode::topology_mismatch);
+    CHECK(test::error_of([] { Scalp{Mesh()}; }).code() == ErrorCode::mesh_empty);
+    CHECK(test::error_of([] { Scalp{make_grid()}; }).code() == invalid);
+    const Scalp scalp(mesh, upright());
+    CHECK(test::error_of([&] { (void)scalp.at({test::kNaN, 0}); }).code() == ErrorCode::not_finite);
+}
+
+TEST_CASE("a direction without surface is an error that names it") {
+    const Mesh whole = egg();
+    const Mesh open = [&] {
+        const Region low = select_plane(whole, Vec3(0, -0.05, 0), -Vec3::UnitY());
+        std::vector<Vec3> positions(whole.positions().begin(), whole.positions().end());
+        FaceList faces;
+        for (Index f = 0; f < whole.face_count(); ++f) {
+            const auto face = whole.topology().face(f);
+            if (!low.contains(face[0])) faces.add(face);
+        }
+        return Mesh(std::move(positions), std::move(faces));
+    }();
+    const Scalp scalp(open, upright());
+    const Error error = test::error_of([&] { (void)scalp.at({0.0, -0.5 * kPi}); });
+    CHECK(error.code() == ErrorCode::out_of_range);
+    CHECK(error.message().find("-90") != std::string::npos);
+}

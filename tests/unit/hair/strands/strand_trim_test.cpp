@@ -1,0 +1,98 @@
+#include "kernel/hair/strands/strand_trim.h"
+
+#include "kernel/hair/strands/strand_edit.h"
+#include "tests/unit/hair/strands/strand_support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+Strands trimmed(Strands strands, const TrimOptions& options, const Context& context = {}) {
+    trim(strands, options, context);
+    return strands;
+}
+
+}  // namespace
+
+TEST_CASE("a trimmed strand is the first part of the old one") {
+    const Strands strands = rich_hair(50);
+    TrimOptions options;
+    options.factor = 0.6;
+    const Strands made = trimmed(strands, options);
+    for (Index s = 0; s < strands.size(); ++s) {
+        const StrandView old = strands.strand(s), now = made.strand(s);
+        CHECK(length(now) == doctest::Approx(0.6 * length(old)));
+        const Index kept = static_cast<Index>(now.cols()) - 1;
+        CHECK(now.leftCols(kept) == old.leftCols(kept));
+    }
+}
+
+TEST_CASE("no strand is longer than asked, and short ones stay to the bit") {
+    const Strands strands = random_hair(50);
+    TrimOptions options;
+    options.length = 0.08;
+    const Strands made = trimmed(strands, options);
+    for (Index s = 0; s < strands.size(); ++s) {
+        CHECK(length(made.strand(s)) <= 0.08 * (1 + 1e-6));
+        const bool is_short = length(strands.strand(s)) < 0.08;
+        if (is_short) CHECK(same_points(made.strand(s), strands.strand(s)));
+    }
+}
+
+TEST_CASE("nothing is left beyond a plane, within its jitter") {
+    const Strands strands = random_hair(100);
+    TrimOptions options;
+    options.plane = TrimPlane{{0, 0.06, 0}, {0, 3, 0}};
+    CHECK(bounds(trimmed(strands, options)).max.y() == doctest::Approx(0.06).epsilon(1e-5));
+    options.jitter = 0.01;
+    const double highest = bounds(trimmed(strands, options)).max.y();
+    CHECK(highest > 0.061);
+    CHECK(highest < 0.0701);
+}
+
+TEST_CASE("a strand rooted beyond the plane keeps its least length") {
+    TrimOptions options;
+    options.plane = TrimPlane{{0, -1, 0}, {0, 1, 0}};
+    options.least = 0.005;
+    const Strands made = trimmed(random_hair(20), options);
+    CHECK(strand_statistics(made).least_length == doctest::Approx(0.005));
+    CHECK(strand_statistics(made).most_length == doctest::Approx(0.005));
+}
+
+TEST_CASE("trimming at random belongs to the id of a strand") {
+    const Strands strands = rich_hair(600);
+    TrimOptions options;
+    options.variation = 0.5;
+    const Strands whole = trimmed(strands, options, threads(4));
+    CHECK(hash(trimmed(strands, options, threads(1))) == hash(whole));
+    CHECK(hash(trimmed(prefix(strands, 200), options)) == hash(prefix(whole, 200)));
+    options.seed = 2;
+    CHECK(hash(trimmed(strands, options)) != hash(whole));
+}
+
+TEST_CASE("trimming nothing changes nothing") {
+    const Strands strands = rich_hair(30);
+    CHECK(hash(trimmed(strands, {})) == hash(strands));
+    const Strands odd = strands_of({{{1, 1, 1}}, {{1, 1, 1}, {1, 1, 1}}});
+    TrimOptions options;
+    options.factor = 0.5;
+    CHECK(hash(trimmed(odd, options)) == hash(odd));
+}
+
+TEST_CASE("trimming refuses options out of range and changes nothing") {
+    Strands strands = random_hair(3);
+    const std::uint64_t before = hash(strands);
+    const auto refused = [&](const auto& change) {
+        TrimOptions options;
+        change(options);
+        return error_of([&] { trim(strands, options); }).code() == ErrorCode::invalid_argument;
+    };
+    CHECK(refused([](TrimOptions& o) { o.length = 0.0; }));
+    CHECK(refused([](TrimOptions& o) { o.factor = 1.5; }));
+    CHECK(refused([](TrimOptions& o) { o.variation = std::nan(""); }));
+    CHECK(refused([](TrimOptions& o) { o.jitter = -1.0; }));
+    CHECK(refused([](TrimOptions& o) { o.least = 0.0; }));
+    CHECK(refused([](TrimOptions& o) { o.plane = TrimPlane{{0, 0, 0}, {0, 0, 0}}; }));
+    CHECK(hash(strands) == before);
+}

@@ -1,0 +1,250 @@
+// Damaged hair files, and those made to harm: read or refused, in memory bounded by their size.
+#include <cstdint>
+
+#include "kernel/io/strand_file.h"
+#include "tests/unit/hair/strands/strand_support.h"
+#include "tests/unit/io/io_support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+std::string hair_file(std::uint32_t strands, std::uint32_t points, std::uint32_t arrays,
+                      std::uint32_t segments, const std::string& data) {
+    std::string bytes =
+        Bytes("HAIR").add(strands, points, arrays, segments, 0.1f, 0.0f, 1.0f, 1.0f, 1.0f);
+    bytes.resize(128, '\0');
+    return bytes + data;
+}
+
+std::string usda(const std::string& body) {
+    return "#usda 1.0\ndef BasisCurves \"h\"\n{\nuniform token type = \"linear\"\n" + body + "}\n";
+}
+
+std::string repeated(std::string_view text, std::size_t count) {
+    std::string result;
+    for (std::size_t i = 0; i < count; ++i) result += text;
+    return result;
+}
+
+ErrorCode code_of(const std::string& bytes, const std::string& extension) {
+    return error_of([&] { decode_strands(bytes, extension); }).code();
+}
+
+bool is_handled(const std::string& bytes, const std::string& extension) {
+    ContextOptions options;
+    options.memory_limit = 64 * bytes.size() + (1 << 16);
+    try {
+        const Strands strands = decode_strands(bytes, extension, {}, Context(options));
+        return strand_statistics(strands).not_finite == 0;
+    } catch (const Error& error) {
+        return error.code() != ErrorCode::internal && !error.message().empty() &&
+               error.message().size() < 400;
+    }
+}
+
+std::string mutated(std::string bytes, std::mt19937& random) {
+    const int changes = 1 + static_cast<int>(random() % 4);
+    for (int i = 0; i < changes && !bytes.empty(); ++i) {
+        const std::size_t at = random() % bytes.size();
+        switch (random() % 5) {
+            case 0:
+                bytes[at] = static_cast<char>(random());
+                break;
+            case 1:
+                bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
+                break;
+            case 2:
+                bytes.erase(at, 1 + random() % 8);
+                break;
+            case 3:
+                bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 32));
+                break;
+            default:
+                bytes[at] = "0123456789-.()[]{}\"=, \n"[random() % 23];
+                break;
+        }
+    }
+    return bytes;
+}
+
+struct Sample {
+    std::string extension, bytes;
+};
+
+std::vector<Sample> samples() {
+    const Strands strands = rich_hair(6);
+    std::vector<Sample> list;
+    for (const std::string& extension : readable_strand_extensions()) {
+        list.push_back({extension, encode_strands(strands, extension).bytes});
+    }
+    list.push_back(
+        {"usda",
+         "#usda 1.0\ndef Xform \"a\"{\ndef BasisCurves \"h\"\n{\nuniform token basis = "
+         "\"bspline\"\nuniform token wrap = \"pinned\"\nint[] curveVertexCounts = [4, 5]\n"
+         "point3f[] points = [" +
+             repeated("(0,1,2),", 9) +
+             "]\nfloat[] widths = [1,2,3,4,5,6,7,8,9] (interpolation = \"varying\")\n}}\n"});
+    return list;
+}
+
+}  // namespace
+
+TEST_CASE("a hair file that is cut short anywhere is read or refused") {
+    for (const Sample& sample : samples()) {
+        CAPTURE(sample.extension);
+        for (std::size_t size = 0; size < sample.bytes.size(); size += 3) {
+            CAPTURE(size);
+            CHECK(is_handled(sample.bytes.substr(0, size), sample.extension));
+        }
+    }
+}
+
+TEST_CASE("a binary hair file that is cut short is refused") {
+    for (const char* extension : {"hair", "data"}) {
+        const std::string bytes = encode_strands(rich_hair(6), extension).bytes;
+        for (std::size_t size = 4; size < bytes.size(); size += 5) {
+            CAPTURE(size);
+            const ErrorCode code = code_of(bytes.substr(0, size), extension);
+            CHECK((code == ErrorCode::file_truncated || code == ErrorCode::file_too_large));
+        }
+    }
+}
+
+TEST_CASE("a hair file with damaged bytes is read or refused") {
+    std::mt19937 random(7);
+    for (const Sample& sample : samples()) {
+        CAPTURE(sample.extension);
+        for (int i = 0; i < 1000; ++i) {
+            CAPTURE(i);
+            CHECK(is_handled(mutated(sample.bytes, random), sample.extension));
+        }
+    }
+}
+
+TEST_CASE("noise is refused or read as hair") {
+    std::mt19937 random(8);
+    for (const std::string& extension : readable_strand_extensions()) {
+        for (int i = 0; i < 200; ++i) {
+            std::string bytes(random() % 300, '\0');
+            for (char& c : bytes) c = static_cast<char>(random());
+            CHECK(is_handled(bytes, extension));
+            CHECK(is_handled("HAIR" + bytes, extension));
+            CHECK(is_handled("#usda 1.0\n" + bytes, extension));
+        }
+    }
+}
+
+TEST_CASE("counts of .hair that no file can hold are refused before memory is taken") {
+    const std::string data(24, '\0');
+    for (const std::uint32_t huge : {3u, 1000u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
+        CAPTURE(huge);
+        for (const std::uint32_t arrays : {2u, 3u, 31u}) {
+            CHECK(is_handled(hair_file(huge, 2, arrays, 1, data), "hair"));
+            CHECK(is_handled(hair_file(1, huge, arrays, 1, data), "hair"));
+            CHECK(is_handled(hair_file(huge, huge, arrays, huge, data), "hair"));
+            const ErrorCode code = code_of(hair_file(huge, huge, arrays, 0, data), "hair");
+            CHECK((code == ErrorCode::file_truncated || code == ErrorCode::file_too_large));
+        }
+        CHECK(code_of(hair_file(1, 2, 2, huge, data), "hair") == ErrorCode::file_syntax);
+    }
+}
+
+TEST_CASE(".hair that contradicts itself is refused") {
+    const std::string two(24, '\0'), segments("\5\0\1\0", 4);
+    CHECK(code_of(hair_file(1, 2, 2, 2, two), "hair") == ErrorCode::file_syntax);
+    CHECK(code_of(hair_file(1, 2, 1, 1, two), "hair") == ErrorCode::unsupported);
+    const Error error =
+        error_of([&] { decode_strands(hair_file(2, 2, 3, 0, segments + two), "hair"); });
+    CHECK(error.code() == ErrorCode::file_syntax);
+    CHECK(error.elements().kind == ElementKind::strand);
+    CHECK(code_of("HAIL" + two, "hair") == ErrorCode::file_syntax);
+}
+
+TEST_CASE("numbers that are not finite are refused with the strand they are in") {
+    const float inf = std::numeric_limits<float>::infinity();
+    const std::string points =
+        Bytes().add(0.f, 0.f, 0.f, 1.f, 1.f, 1.f, 2.f, inf, 2.f, 3.f, 3.f, 3.f);
+    const Error hair = error_of([&] { decode_strands(hair_file(2, 4, 2, 1, points), "hair"); });
+    CHECK(hair.code() == ErrorCode::not_finite);
+    CHECK(hair.elements().ids == std::vector<Index>{1});
+    const std::string data = Bytes().add(std::int32_t{2}, std::int32_t{1}, 0.f, 0.f, 0.f,
+                                         std::int32_t{1}, 0.f, 0.f, std::nanf(""));
+    const Error salon = error_of([&] { decode_strands(data, "data"); });
+    CHECK(salon.code() == ErrorCode::not_finite);
+    CHECK(salon.elements().ids == std::vector<Index>{1});
+    const Error text = error_of([&] {
+        decode_strands(
+            usda("int[] curveVertexCounts = [2]\npoint3f[] points = [(0,0,0),\n(0,nan,0)]\n"),
+            "usda");
+    });
+    CHECK((text.code() == ErrorCode::not_finite || text.code() == ErrorCode::file_syntax));
+    CHECK(text.message().starts_with("line 7: "));
+    CHECK(code_of(usda("point3f[] points = [(0,1e39,0)]\n"), "usda") == ErrorCode::not_finite);
+    const std::string header = hair_file(0, 0, 2, 0, "");
+    std::string bad = header;
+    bad[22] = '\x80';
+    bad[23] = '\x7f';
+    CHECK(code_of(bad, "hair") == ErrorCode::not_finite);
+}
+
+TEST_CASE("counts of .data that no file can hold are refused") {
+    for (const std::int32_t count : {2, 1000000, 0x7fffffff, -1}) {
+        CAPTURE(count);
+        const ErrorCode strands =
+            code_of(Bytes().add(count, std::int32_t{1}, 0.f, 0.f, 0.f), "data");
+        CHECK((strands == ErrorCode::file_truncated || strands == ErrorCode::file_too_large ||
+               strands == ErrorCode::file_syntax));
+        const Error error = error_of([&] {
+            decode_strands(std::string(Bytes().add(std::int32_t{1}, count, 0.f, 0.f, 0.f)), "data");
+        });
+        CHECK(error.elements().kind == ElementKind::strand);
+    }
+    CHECK(code_of(Bytes().add(std::int32_t{1}, std::int32_t{0}, 0.f, 0.f, 0.f), "data") ==
+          ErrorCode::file_syntax);
+}
+
+TEST_CASE("USDA that contradicts itself is refused with the line") {
+    const std::string two = "point3f[] points = [(0,0,0), (0,1,0)]\n";
+    for (const std::string& body :
+         {two + "int[] curveVertexCounts = [3]\n", two + "int[] curveVertexCounts = [1]\n",
+          two + "int[] curveVertexCounts = [1, 0, 1]\n",
+          two + "int[] curveVertexCounts = [-2, 4]\n", two + "int[] curveVertexCounts = [1e99]\n",
+          two + "int[] curveVertexCounts = [1.5, .5]\n", two,
+          std::string("point3f[] points = [0, 1]\nint[] curveVertexCounts = [1]\n"),
+          two + "int[] curveVertexCounts = [2]\nfloat[] widths = [1,2,3]\n",
+          two + "int[] curveVertexCounts = [2]\nint[] primvars:group:indices = [0]\n",
+          two + "int[] curveVertexCounts = [2]\nint[] primvars:rootFace = [0]\n",
+          two + "int[] curveVertexCounts = [2]\nuint[] primvars:strandId = [-1]\n",
+          std::string("point3f[] points = [(0, x, 0)]\n"), std::string("point3f[] points = )\n")}) {
+        CAPTURE(body);
+        const Error error = error_of([&] { decode_strands(usda(body), "usda"); });
+        CHECK(error.code() == ErrorCode::file_syntax);
+        CHECK(error.message().starts_with("line "));
+    }
+}
+
+TEST_CASE("large repetitive USDA is handled in bounded memory and time") {
+    constexpr std::size_t kSize = 1 << 20;
+    const auto filled = [&](std::string_view text) { return repeated(text, kSize / text.size()); };
+    for (const std::string& bytes :
+         {"#usda 1.0\n" + filled("("), "#usda 1.0\n" + filled("["), "#usda 1.0\n" + filled("\""),
+          "#usda 1.0\n" + filled("def \"a\"{"), "#usda 1.0\n" + filled("def BasisCurves \"a\"{}\n"),
+          "#usda 1.0\n" + filled("def BasisCurves \"a\"{int[] curveVertexCounts=[1]\n"
+                                 "point3f[] points=[0,0,0] uniform token type = \"linear\"}\n"),
+          usda("a = " + filled("[")), usda("a = (" + filled("1,") + ")\n"),
+          usda("point3f[] points = [" + filled("1,") + "]\n"), usda(filled("b\n")),
+          usda(filled("b = 1\n")), "#usda 1.0\n" + filled("#"), "#usda 1.0\n" + filled("}"),
+          "#usda 1.0\n" + filled("'''"), "#usda 1.0\n" + filled("\\"),
+          "#usda 1.0\n" + filled("variantSet \"a\" = {")}) {
+        CAPTURE(bytes.substr(0, 80));
+        CHECK(is_handled(bytes, "usda"));
+    }
+}
+
+TEST_CASE("messages about USDA show no bytes that cannot be printed") {
+    const Error error =
+        error_of([] { decode_strands(usda("point3f[] points = [\x01\xff\x7f]\n"), "usda"); });
+    for (const char c : error.message()) CHECK((c >= 0x20 && c < 0x7f));
+}

@@ -1,0 +1,82 @@
+#include "kernel/merge/loop/automatic_keys.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "tests/unit/merge/loop/loop_shapes.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+Loop ring(const Mesh& mesh, Index count) {
+    std::vector<Index> ids(static_cast<std::size_t>(count));
+    std::iota(ids.begin(), ids.end(), 0);
+    return Loop(mesh, ids);
+}
+
+// A pear: no rotation maps it onto itself.
+Vec3 pear(double angle, double height) {
+    const double r = 1.0 + 0.3 * std::cos(angle) + 0.1 * std::sin(2.0 * angle);
+    return {r * std::cos(angle), r * std::sin(angle), height};
+}
+
+double difference(double u, double v) {
+    const double d = u - v - std::floor(u - v);
+    return std::min(d, 1.0 - d);
+}
+
+}  // namespace
+
+TEST_CASE("without keys the loops meet where a similarity brings them together") {
+    const Mesh a = tube(120, 3, pear);
+    for (const double start : {0.0, 0.7, 2.0, 5.0}) {
+        Mesh b =
+            tube(75, 3, [&](double angle, double height) { return pear(angle + start, height); });
+        const Affine turn = rotation(Vec3(2, -1, 1), 2.0, Vec3::Zero());
+        for (Vec3& p : b.edit_positions()) p = 40.0 * turn(p) + Vec3(100, 0, -30);
+        const Loop source = ring(a, 120), target = ring(b, 75);
+        const LoopJoin join{&source, &target};
+        const OffsetGuess guess = guess_offsets(std::span(&join, 1)).front();
+        // The source's start lies at angle -start of the target.
+        const Vec3 expected = 40.0 * turn(pear(0.0, 0.0)) + Vec3(100, 0, -30);
+        double distance = 0.0;
+        const double u = target.parameter_of(target.nearest(expected, distance));
+        CHECK(difference(guess.key.target - guess.key.source, u) < 0.01);
+        CHECK(guess.certainty > 1.5);
+    }
+}
+
+TEST_CASE("a round loop could meet anywhere, and the guess says so") {
+    const Mesh a = round_tube(60, 3), b = round_tube(60, 3);
+    const Loop source = ring(a, 60), target = ring(b, 60);
+    const LoopJoin join{&source, &target};
+    CHECK(guess_offsets(std::span(&join, 1)).front().certainty < 1.5);
+}
+
+TEST_CASE("round loops of several joins find each other by where the others are") {
+    const auto ring_at = [](const Vec3& center) {
+        return tube(60, 3, [=](double angle, double height) {
+            return Vec3(center + Vec3(std::cos(angle), std::sin(angle), height));
+        });
+    };
+    const std::vector<Vec3> centers{{0, 0, 0}, {6, 0, 0}, {0, 4, 0}};
+    const Affine turn = rotation(Vec3::UnitZ(), 1.0, Vec3::Zero());
+    std::vector<Mesh> meshes;
+    for (const Vec3& c : centers) {
+        meshes.push_back(ring_at(c));
+        meshes.push_back(meshes.back());
+        for (Vec3& p : meshes.back().edit_positions()) p = 2.0 * turn(p);
+    }
+    std::vector<Loop> loops;
+    for (const Mesh& mesh : meshes) loops.push_back(ring(mesh, 60));
+    std::vector<LoopJoin> joins;
+    for (std::size_t k = 0; k < loops.size(); k += 2) joins.push_back({&loops[k], &loops[k + 1]});
+    for (const OffsetGuess& guess : guess_offsets(joins)) {
+        CHECK(difference(guess.key.target - guess.key.source, 0.0) < 0.01);
+        CHECK(guess.certainty > 1.5);
+    }
+}

@@ -1,0 +1,241 @@
+#include "kernel/merge/thesis/thesis_merge.h"
+
+#include <map>
+
+#include "kernel/merge/merge.h"
+#include "kernel/mesh/edit/transform.h"
+#include "tests/unit/merge/blend/fairing_scenes.h"
+#include "tests/unit/merge/real_pairs.h"
+#include "tests/unit/merge/sew/seam_scenes.h"
+#include "tests/unit/mesh/mesh_support.h"
+
+using namespace lissom;
+using doctest::Approx;
+
+namespace {
+
+constexpr double kWidth = 0.99;
+
+// A plain tube below and one above with bumps of the given height, which meets it at its radius.
+struct Tubes {
+    explicit Tubes(double bump, double scale = 1.0)
+        : target(test::make_tube(32, -2.0, 2.0, 1.0, 16)),
+          source(test::make_tube(32, 0.0, 2.0, 1.0, 16)) {
+        for (Vec3& p : source.edit_positions()) {
+            const double angle = std::atan2(p.z(), p.x());
+            const double r = 1.0 + bump * std::sin(3.0 * angle) * std::sin(3.0 * p.y());
+            p.x() *= r;
+            p.z() *= r;
+        }
+        join = {boundaries(source)[test::boundary_towards(source, -1.0)],
+                boundaries(target)[test::boundary_towards(target, 1.0)]};
+        join.keys = {{test::farthest(source, join.source, Vec3::UnitX()),
+                      test::farthest(target, join.target, Vec3::UnitX())}};
+        options.thesis = true;
+        options.smooth = 0;
+        options.target_transition = kWidth;
+        options.source_transition = kWidth * scale;
+        // The source where a similarity takes it.
+        const Affine turn = rotation(Vec3(2.0, 1.0, 3.0).normalized(), 2.4, Vec3::Zero());
+        for (Vec3& p : source.edit_positions()) {
+            if (scale != 1.0) p = scale * (turn(p) + Vec3(3.0, -2.0, 7.0));
+        }
+    }
+
+    MergeResult merged() const {
+        const Mesh* targets[] = {&target};
+        return Merge(source, targets, {join}, options).solve();
+    }
+
+    Mesh target, source;
+    Join join{boundaries(target)[0], boundaries(target)[0]};
+    MergeOptions options;
+};
+
+// RMS deviation of the radius within rows of the tubes, of rows between two heights.
+double roughness(const Tubes& tubes, const MergeResult& result, double low, double high) {
+    std::map<long, std::vector<double>> rows;
+    for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+        const Index from = result.provenance.vertices.main_source(v);
+        const Index own = from - tubes.target.vertex_count();
+        const double y = (own < 0 ? tubes.target.position(from) : tubes.source.position(own)).y();
+        if (y < low || y > high) continue;
+        const Vec3& p = result.mesh.position(v);
+        rows[std::lround(16.0 * y)].push_back(std::hypot(p.x(), p.z()));
+    }
+    double sum = 0.0;
+    for (const auto& row : rows) {
+        const std::vector<double>& radii = row.second;
+        double mean = 0.0, square = 0.0;
+        for (const double r : radii) mean += r / static_cast<double>(radii.size());
+        for (const double r : radii) square += (r - mean) * (r - mean);
+        sum += square / static_cast<double>(radii.size() * rows.size());
+    }
+    return std::sqrt(sum);
+}
+
+}  // namespace
+
+TEST_CASE("two tubes that are one tube stay as they are") {
+    const MergeResult result = Tubes(0.0).merged();
+    for (const auto& side : {result.report.transition.target, result.report.transition.source}) {
+        CHECK(side[0].width == Approx(kWidth));
+        CHECK(side[0].vertices == 7 * 32);
+        CHECK(side[0].unmapped == 0);
+        CHECK(side[0].flipped == 0);
+    }
+    for (const Vec3& p : result.mesh.positions()) {
+        CHECK(std::hypot(p.x(), p.z()) == Approx(1.0).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("details fade into the target, and what is outside the regions stays to the bit") {
+    Tubes tubes(0.1);
+    const MergeResult result = tubes.merged();
+    tubes.options.source_transition = tubes.options.target_transition = 0.0;
+    const MergeResult without = tubes.merged();
+    CHECK(result.mesh.topology().boundary_loops().size() == 2);
+    CHECK(result.mesh.topology().component_count() == 1);
+    CHECK(result.mesh.face_count() == without.mesh.face_count());
+    // None below, much at the seam and ever less towards the region's end.
+    CHECK(roughness(tubes, without, -0.95, -0.05) < 1e-7);
+    double last = 0.3 * roughness(tubes, without, 0.05, 0.95);
+    CHECK(roughness(tubes, result, -0.2, -0.05) > last);
+    last = roughness(tubes, result, 0.05, 0.2);
+    for (const double y : {-0.125, -0.25, -0.375, -0.5, -0.625, -0.75, -0.875}) {
+        const double now = roughness(tubes, result, y - 0.05, y + 0.05);
+        CHECK(now < last);
+        last = now;
+    }
+    CHECK(roughness(tubes, result, 0.55, 0.95) < 0.99 * roughness(tubes, without, 0.55, 0.95));
+    Index kept = 0;
+    for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+        const Index from = result.provenance.vertices.main_source(v);
+        if (from >= tubes.target.vertex_count()) continue;
+        if (tubes.target.position(from).y() > -kWidth) continue;
+        CHECK(result.mesh.position(v) == tubes.target.position(from));
+        ++kept;
+    }
+    CHECK(kept == 9 * 32);
+}
+
+TEST_CASE("the weight counts") {
+    Tubes tubes(0.1);
+    tubes.options.transition_weight = 0.0;
+    const Mesh none = tubes.merged().mesh;
+    double last = 1e-3;
+    for (const double weight : {0.1, 10.0}) {
+        tubes.options.transition_weight = weight;
+        const double move = test::greatest_move(tubes.merged().mesh, none);
+        CHECK(move > last);
+        last = move;
+    }
+}
+
+TEST_CASE("the result does not depend on where the source lies and how large it is") {
+    const Mesh plain = Tubes(0.1).merged().mesh;
+    for (const double scale : {0.01, 50.0}) {
+        CHECK(test::greatest_move(Tubes(0.1, scale).merged().mesh, plain) < 1e-8);
+    }
+}
+
+TEST_CASE("a target that is moved takes the result with it") {
+    const Mesh plain = Tubes(0.1).merged().mesh;
+    Tubes tubes(0.1);
+    const Affine map{rotation(Vec3::UnitZ(), 0.7, Vec3::Zero()).linear, Vec3(5.0, 6.0, -7.0)};
+    for (Vec3& p : tubes.target.edit_positions()) p = map(p);
+    CHECK(test::greatest_move(tubes.merged().mesh, test::moved(plain, map)) < 1e-8);
+}
+
+TEST_CASE("in the fixed configuration what is held stays") {
+    Tubes tubes(0.1);
+    tubes.options.configuration = Configuration::fixed;
+    tubes.options.reach = 1.3;
+    const MergeResult result = tubes.merged();
+    Index held = 0;
+    for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+        const Index from = result.provenance.vertices.main_source(v) - tubes.target.vertex_count();
+        if (from < 0 || tubes.source.position(from).y() < 1.6) continue;
+        CHECK(result.mesh.position(v) == tubes.source.position(from));
+        ++held;
+    }
+    CHECK(held == 4 * 32);
+    CHECK(roughness(tubes, result, -0.9, -0.1) > 1e-3);
+}
+
+TEST_CASE("a source between two targets has a region at either end, and they must not meet") {
+    const Tubes below(0.1);
+    Mesh above = below.target;
+    for (Vec3& p : above.edit_positions()) p.y() += 5.0;
+    const auto end = [](const Mesh& mesh, double sign) {
+        return boundaries(mesh)[test::boundary_towards(mesh, sign)];
+    };
+    Join top{end(below.source, 1.0), end(above, -1.0), 1};
+    top.keys = {{test::farthest(below.source, top.source, Vec3::UnitX()),
+                 test::farthest(above, top.target, Vec3::UnitX())}};
+    const Mesh* targets[] = {&below.target, &above};
+    const auto merged = [&](double width) {
+        MergeOptions options = below.options;
+        options.source_transition = width;
+        return Merge(below.source, targets, {below.join, top}, options).solve();
+    };
+    const MergeResult result = merged(0.9);
+    CHECK(result.mesh.topology().component_count() == 1);
+    CHECK(result.report.transition.source[1].vertices == 7 * 32);
+    CHECK(result.report.transition.target[1].vertices == 7 * 32);
+    for (const Vec3& p : result.mesh.positions()) CHECK(p.head<1>().norm() < 1.5);
+    CHECK(test::error_of([&] { merged(1.3); }).code() == ErrorCode::invalid_argument);
+}
+
+TEST_CASE("it is another transition than the robust one, and needs regions that are bands") {
+    Tubes tubes(0.1);
+    const Mesh thesis = tubes.merged().mesh;
+    tubes.options.thesis = false;
+    CHECK(test::greatest_move(tubes.merged().mesh, thesis) > 1e-3);
+    tubes.options.thesis = true;
+    const auto refuses = [&](double source, double target) {
+        tubes.options.source_transition = source;
+        tubes.options.target_transition = target;
+        return test::error_of([&] { tubes.merged(); }).code() == ErrorCode::invalid_argument;
+    };
+    CHECK(refuses(0.0, kWidth));
+    CHECK(refuses(kWidth, 0.0));
+    CHECK(refuses(0.01, kWidth));
+    tubes.options.transition_weight = -1.0;
+    CHECK(refuses(kWidth, kWidth));
+}
+
+TEST_CASE(
+    "real pairs: the thesis's transition hides the seam, and every vertex has a counterpart") {
+    Index pairs = 0;
+    for (const test::RealPair& pair : test::real_pairs()) {
+        const auto source = test::load_part(pair.source), target = test::load_part(pair.target);
+        if (!source || !target) return;
+        CAPTURE(pair.name);
+        const Mesh* targets[] = {&target->mesh};
+        MergeOptions options;
+        options.thesis = true;
+        const Join join = test::join_of(pair, *source, *target);
+        const MergeResult before = Merge(source->mesh, targets, {join}, options).solve();
+        double radius = 0.0;
+        const std::vector<Index>& seam = before.seams[0];
+        Vec3 center = Vec3::Zero();
+        for (const Index v : seam) center += before.mesh.position(v) / double(seam.size());
+        for (const Index v : seam) {
+            radius += (before.mesh.position(v) - center).norm() / double(seam.size());
+        }
+        options.target_transition = 0.9 * radius;
+        options.source_transition = 0.9 * radius / before.report.joins[0].scale;
+        const MergeResult result = Merge(source->mesh, targets, {join}, options).solve();
+        CHECK(result.mesh.face_count() == before.mesh.face_count());
+        CHECK(result.mesh.topology().boundary_loops().size() ==
+              before.mesh.topology().boundary_loops().size());
+        CHECK(result.report.seam.after.greatest_dihedral < (pair.dihedral + 2.0) * kPi / 180.0);
+        CHECK(result.report.seam.after.greatest_near <
+              before.report.seam.after.greatest_near + 3.0 * kPi / 180.0);
+        CHECK(result.report.transition.target[0].unmapped == 0);
+        CHECK(result.report.transition.source[0].unmapped == 0);
+        ++pairs;
+        if (pairs == 3) return;
+    }
+}

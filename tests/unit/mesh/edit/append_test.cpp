@@ -1,0 +1,99 @@
+#include "kernel/mesh/edit/append.h"
+
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/mesh/mesh_support.h"
+
+using namespace lissom;
+
+TEST_CASE("appending adds vertices and faces and keeps the ids of the first") {
+    Mesh mesh = make_box();
+    const Mesh first = mesh, second = test::tetrahedron();
+    append(mesh, second);
+    CHECK(mesh.vertex_count() == 12);
+    CHECK(mesh.face_count() == 10);
+    CHECK(mesh.topology().component_count() == 2);
+    CHECK(mesh.position(3) == first.position(3));
+    CHECK(mesh.position(8 + 3) == second.position(3));
+    CHECK(mesh.topology().face(6)[1] == second.topology().face(0)[1] + 8);
+    CHECK(volume(mesh) == doctest::Approx(1.0 + 1.0 / 6.0));
+}
+
+TEST_CASE("appending nothing, or to nothing, changes nothing") {
+    Mesh mesh = test::decorated(test::patch());
+    const std::uint64_t before = hash(mesh);
+    append(mesh, Mesh());
+    CHECK(hash(mesh) == before);
+    Mesh empty;
+    append(empty, mesh);
+    CHECK(hash(empty) == before);
+}
+
+TEST_CASE("a mesh may be appended to itself") {
+    Mesh mesh = test::decorated(test::patch());
+    append(mesh, mesh);
+    CHECK(mesh.vertex_count() == 12);
+    CHECK(test::is_decorated(mesh));
+    CHECK(mesh.find_region("half")->size() == 6);
+}
+
+TEST_CASE("attributes that only one side has are absent on the other") {
+    Mesh mesh = test::decorated(test::patch());
+    Mesh other = test::tetrahedron();
+    other.attributes().add({"heat", Domain::vertex, 1, ScalarType::float32, {1, 2, 3, 4}});
+    append(mesh, other);
+    require_complete_attributes(mesh);
+    CHECK(mesh.attributes().find("x")->values[5] == 2.0);
+    CHECK(std::isnan(mesh.attributes().find("x")->values[6]));
+    CHECK(std::isnan(mesh.attributes().find("heat")->values[0]));
+    CHECK(mesh.attributes().find("heat")->values[9] == 4.0);
+    CHECK(mesh.attributes().labels().at("group").of_face[3] == kNoIndex);
+}
+
+TEST_CASE("the greater width counts, and colors without alpha are opaque") {
+    FaceList faces;
+    faces.add({0, 1, 2});
+    Mesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, faces), other = mesh;
+    mesh.attributes().add({"color", Domain::face, 3, ScalarType::uint8, {0.1, 0.2, 0.3}});
+    mesh.attributes().add({"data", Domain::face, 1, ScalarType::int32, {7}});
+    other.attributes().add({"color", Domain::face, 4, ScalarType::uint8, {0.4, 0.5, 0.6, 0.7}});
+    other.attributes().add({"data", Domain::face, 2, ScalarType::int32, {8, 9}});
+    append(mesh, other);
+    CHECK(mesh.attributes().find("color")->values ==
+          std::vector<double>{0.1, 0.2, 0.3, 1.0, 0.4, 0.5, 0.6, 0.7});
+    CHECK(mesh.attributes().find("color")->type == ScalarType::uint8);
+    CHECK(mesh.attributes().find("data")->values[0] == 7.0);
+    CHECK(std::isnan(mesh.attributes().find("data")->values[1]));
+}
+
+TEST_CASE("attributes of different domains meet on corners") {
+    FaceList faces;
+    faces.add({0, 1, 2});
+    Mesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, faces), other = mesh;
+    mesh.attributes().add({"t", Domain::vertex, 1, ScalarType::float32, {1, 2, 3}});
+    other.attributes().add({"t", Domain::face, 1, ScalarType::float32, {9}});
+    append(mesh, other);
+    const Attribute& t = *mesh.attributes().find("t");
+    CHECK(t.domain == Domain::corner);
+    CHECK(t.values == std::vector<double>{1, 2, 3, 9, 9, 9});
+}
+
+TEST_CASE("labels and regions of one name are united") {
+    Mesh mesh = test::decorated(test::patch());
+    Mesh other = test::decorated(test::tetrahedron());
+    other.attributes().labels()["group"].names = {"odd", "new"};
+    other.material_libraries() = {"stone.mtl", "wood.mtl"};
+    append(mesh, other);
+    const FaceLabels& groups = mesh.attributes().labels().at("group");
+    CHECK(groups.names == std::vector<std::string>{"even", "odd", "new"});
+    CHECK(groups.of_face == std::vector<Index>{0, 1, 0, 1, 2, 1, 2});
+    CHECK(mesh.find_region("half")->vertices() == std::vector<Index>{0, 2, 4, 6, 8});
+    CHECK(mesh.material_libraries() == std::vector<std::string>{"stone.mtl", "wood.mtl"});
+}
+
+TEST_CASE("appending makes a new topology and an older region is recognised") {
+    Mesh mesh = make_box();
+    const Region before = *mesh.find_region("top");
+    append(mesh, make_box());
+    CHECK(test::error_of([&] { mesh.set_region("x", before); }).code() ==
+          ErrorCode::topology_mismatch);
+}

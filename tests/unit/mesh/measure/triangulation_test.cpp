@@ -1,0 +1,166 @@
+#include "kernel/mesh/measure/triangulation.h"
+
+#include "kernel/mesh/edit/triangulate.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/mesh/mesh_support.h"
+
+using namespace lissom;
+using doctest::Approx;
+
+namespace {
+
+std::vector<Triangle> triangulated(const std::vector<Vec3>& points) {
+    std::vector<Triangle> triangles;
+    triangulate_polygon(points, triangles);
+    return triangles;
+}
+
+// Signed areas in the xy plane, smallest and sum.
+std::pair<double, double> areas(const std::vector<Vec3>& points) {
+    double smallest = test::kInfinity, sum = 0.0;
+    for (const auto& [a, b, c] : triangulated(points)) {
+        const double area = 0.5 * (points[b] - points[a]).cross(points[c] - points[a]).z();
+        smallest = std::min(smallest, area);
+        sum += area;
+    }
+    return {smallest, sum};
+}
+
+double shoelace(const std::vector<Vec3>& points) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 &a = points[i], &b = points[(i + 1) % points.size()];
+        sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
+    }
+    return sum;
+}
+
+std::vector<Vec3> star(int spikes, double inner) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 2 * spikes; ++i) {
+        const double r = i % 2 ? inner : 1.0, angle = kPi * i / spikes;
+        points.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.0);
+    }
+    return points;
+}
+
+const std::vector<Vec3> kArrow{{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.5, 1, 0}};
+const std::vector<Vec3> kComb{{0, 0, 0}, {7, 0, 0}, {7, 3, 0}, {6, 3, 0}, {6, 1, 0}, {5, 1, 0},
+                              {5, 3, 0}, {4, 3, 0}, {4, 1, 0}, {3, 1, 0}, {3, 3, 0}, {2, 3, 0},
+                              {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
+
+}  // namespace
+
+TEST_CASE("concave polygons are covered exactly, without folds") {
+    for (const auto& points : {kArrow, kComb, star(5, 0.3), star(12, 0.7)}) {
+        CHECK(triangulated(points).size() == points.size() - 2);
+        const auto [smallest, sum] = areas(points);
+        CHECK(smallest > 0.0);
+        CHECK(sum == Approx(shoelace(points)));
+    }
+}
+
+TEST_CASE("points in line on a polygon's side give no folded triangle") {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 4; ++i) points.emplace_back(i, 0, 0);
+    for (int i = 0; i < 4; ++i) points.emplace_back(3, i + 1, 0);
+    points.emplace_back(0, 4, 0);
+    const auto [smallest, sum] = areas(points);
+    CHECK(smallest >= 0.0);
+    CHECK(sum == Approx(12.0));
+}
+
+TEST_CASE("a quad is split along its shorter valid diagonal") {
+    CHECK(triangulated({{0, 0, 0}, {3, -1, 0}, {4, 0, 0}, {3, 1, 0}})[0] == Triangle{0, 1, 3});
+    CHECK(triangulated({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})[0] == Triangle{0, 1, 2});
+    // Of the arrow only the diagonal through its notch is inside.
+    const auto [smallest, sum] = areas(kArrow);
+    CHECK(smallest > 0.0);
+}
+
+TEST_CASE("the choice of triangles does not change under similarities") {
+    test::Random random(3);
+    for (const auto& points : {kArrow, kComb, star(7, 0.4)}) {
+        const std::vector<Triangle> expected = triangulated(points);
+        for (int i = 0; i < 20; ++i) {
+            const Affine map = test::similarity(random, std::pow(10.0, random.uniform(-4, 4)));
+            std::vector<Vec3> image;
+            for (const Vec3& p : points) image.push_back(map(p));
+            CHECK(triangulated(image) == expected);
+        }
+    }
+}
+
+TEST_CASE("triangles know their face and corners") {
+    const Mesh mesh = test::patch();
+    const Triangulation t = triangulate_faces(mesh.topology(), mesh.positions());
+    REQUIRE(t.triangles.size() == 4);
+    CHECK(t.face == std::vector<Index>{0, 1, 2, 2});
+    for (std::size_t i = 0; i < t.triangles.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            CHECK(mesh.topology().faces().vertices[t.corners[i][k]] == t.triangles[i][k]);
+        }
+    }
+}
+
+TEST_CASE("triangulating a mesh keeps its shape and all it holds") {
+    Mesh mesh = test::decorated(make_box({.segments = {3, 3, 3}}));
+    const double area_before = area(mesh);
+    const Index half = mesh.find_region("half")->size();
+    triangulate(mesh);
+    CHECK(mesh.topology().is_triangle_mesh());
+    CHECK(mesh.face_count() == 108);
+    CHECK(area(mesh) == Approx(area_before));
+    CHECK(test::is_decorated(mesh));
+    CHECK(mesh.find_region("half")->size() == half);
+    CHECK(mesh.attributes().find("part")->at(1)[0] == 0.0);
+    CHECK(mesh.attributes().find("part")->at(2)[0] == 10.0);
+}
+
+TEST_CASE("a triangle mesh is left as it is") {
+    Mesh mesh = make_sphere({.segments = 2, .kind = SphereKind::triangles});
+    const auto before = mesh.shared_topology();
+    triangulate(mesh);
+    CHECK(mesh.shared_topology() == before);
+}
+
+TEST_CASE("chosen faces alone are triangulated") {
+    Mesh mesh = make_box();
+    triangulate(mesh, std::vector<Index>{1, 4});
+    CHECK(mesh.face_count() == 8);
+    const Error error = test::error_of([&] { triangulate(mesh, std::vector<Index>{8}); });
+    CHECK(error.code() == ErrorCode::out_of_range);
+    CHECK(error.elements().ids == std::vector<Index>{8});
+}
+
+TEST_CASE("polygons of very many corners are triangulated without overlap, and soon") {
+    // A comb: teeth and gaps as on a gear, far from convex.
+    for (const Index n : {34, 400, 4000}) {
+        CAPTURE(n);
+        std::vector<Vec3> points;
+        double area = 0.0;
+        for (Index i = 0; i < n; ++i) {
+            const double angle = 2.0 * kPi * i / n, radius = i % 4 < 2 ? 1.0 : 0.9;
+            points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+        }
+        for (Index i = 0; i < n; ++i) area += 0.5 * points[i].cross(points[(i + 1) % n]).z();
+        std::vector<Triangle> triangles;
+        triangulate_polygon(points, triangles);
+        CHECK(triangles.size() == static_cast<std::size_t>(n) - 2);
+        double total = 0.0;
+        for (const Triangle& t : triangles) {
+            total += 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm();
+        }
+        CHECK(total == doctest::Approx(area).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("large polygons without a plane have as many triangles as others") {
+    for (const double scale : {0.0, 1.0}) {
+        std::vector<Vec3> points;
+        for (int i = 0; i < 5000; ++i) points.emplace_back(scale * i, 0.0, 0.0);
+        std::vector<Triangle> triangles;
+        triangulate_polygon(points, triangles);
+        CHECK(triangles.size() == 4998);
+    }
+}

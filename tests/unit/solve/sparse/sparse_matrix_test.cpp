@@ -1,0 +1,28 @@
+#include "kernel/solve/sparse/sparse_matrix.h"
+
+#include <vector>
+
+#include "tests/unit/support.h"
+
+using namespace lissom;
+
+TEST_CASE("triplets: repeated entries are summed and the diagonal is complete") {
+    const SymmetricMatrix a = symmetric_from_triplets(
+        3, {{0, 0, 2.0}, {2, 0, 1.0}, {2, 0, 0.5}, {0, 2, 99.0}, {2, 2, 4.0}});
+    CHECK(a.begin == std::vector<Index>{0, 2, 3, 4});
+    CHECK(a.row == std::vector<Index>{0, 2, 1, 2});
+    CHECK(a.value == std::vector<double>{2.0, 1.5, 0.0, 4.0});
+}
+
+TEST_CASE("triplets: an entry outside the matrix is refused") {
+    const Error error = test::error_of([] { symmetric_from_triplets(2, {{2, 0, 1.0}}); });
+    CHECK(error.code() == ErrorCode::out_of_range);
+}
+
+TEST_CASE("multiply uses both halves of a symmetric matrix") {
+    const SymmetricMatrix a = symmetric_from_triplets(2, {{0, 0, 2.0}, {1, 0, 3.0}, {1, 1, 5.0}});
+    const std::vector<double> x{1.0, 10.0, -1.0, 0.0};
+    std::vector<double> y(4);
+    a.multiply(x.data(), y.data(), 2);
+    CHECK(y == std::vector<double>{32.0, 53.0, -2.0, -3.0});
+}

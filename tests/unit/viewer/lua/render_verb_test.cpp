@@ -1,0 +1,125 @@
+#include "viewer/lua/render_verb.h"
+
+#include <iostream>
+#include <sstream>
+
+#include "kernel/io/mesh_file.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/viewer/picture_folder.h"
+
+namespace lissom::cli {
+namespace {
+
+using test::PictureFolder;
+
+struct Ended {
+    int status;
+    std::string out, err;
+};
+
+// Runs the program in this process with its streams caught.
+Ended run(std::vector<std::string> words) {
+    words.insert(words.begin(), {"lissom", "render"});
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    std::ostringstream out, err;
+    std::streambuf* const old_out = std::cout.rdbuf(out.rdbuf());
+    std::streambuf* const old_err = std::cerr.rdbuf(err.rdbuf());
+    ProgramParts parts = kernel_parts();
+    parts.verbs.push_back({"render", "", "", render});
+    const int status = run_program(static_cast<int>(argv.size()), argv.data(), parts);
+    std::cout.rdbuf(old_out);
+    std::cerr.rdbuf(old_err);
+    return {status, out.str(), err.str()};
+}
+
+std::string box_in(const PictureFolder& folder) {
+    BoxOptions options;
+    options.size = {1.0, 2.0, 3.0};
+    save_mesh(make_box(options), folder.path("box.obj"));
+    return folder.path("box.obj");
+}
+
+TEST_CASE("render draws a mesh file into a picture of the size") {
+    const PictureFolder folder;
+    if (!test::can_draw()) return;
+    const std::string box = box_in(folder), out = folder.path("p.png");
+    const Ended ended = run({box, "-o", out, "--size", "64x48", "--view", "front", "--json"});
+    CHECK(ended.status == kSuccess);
+    CHECK(ended.out.find("\"width\": 64") != std::string::npos);
+    CHECK(folder.read("p.png").starts_with("\x89PNG"));
+    CHECK(folder.read("p.png").substr(18, 2) == std::string("\0\x40", 2));
+}
+
+TEST_CASE("options of render change the picture") {
+    const PictureFolder folder;
+    if (!test::can_draw()) return;
+    const std::string box = box_in(folder), out = folder.path("p.png");
+    const auto picture = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {box, "-o", out, "--size", "64x48"});
+        CHECK(run(words).status == kSuccess);
+        return folder.read("p.png");
+    };
+    const std::string plain = picture({});
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"--view", "top"},
+                                               {"--up", "z"},
+                                               {"--parallel"},
+                                               {"--fov", "60"},
+                                               {"--camera", "-3,4,5,0,0,0"},
+                                               {"--camera", "3,4,5,0,0,0", "--ortho", "2"},
+                                               {"--crease", "180"},
+                                               {"--wire"},
+                                               {"--color", "red"},
+                                               {"--background", "transparent"},
+                                               {"--samples", "1"},
+                                               {"--supersample", "2"}}) {
+        CAPTURE(words.front());
+        CHECK(picture(words) != plain);
+    }
+    CHECK(picture({"--shading", "flat"}) == plain);  // a box has sharp edges anyway
+}
+
+TEST_CASE("several files fill cells") {
+    const PictureFolder folder;
+    if (!test::can_draw()) return;
+    const std::string box = box_in(folder), out = folder.path("p.png");
+    CHECK(run({box, box, "-o", out, "--size", "64x32", "--columns", "2", "--fit", "each"}).status ==
+          kSuccess);
+}
+
+TEST_CASE("wrong calls of render end with status 2, faults with status 1") {
+    const PictureFolder folder;
+    const std::string box = box_in(folder), out = folder.path("p.png");
+    const auto status = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {box, "-o", out});
+        return run(words).status;
+    };
+    CHECK(run({box}).status == kUsage);
+    CHECK(run({"-o", out}).status == kUsage);
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"--size", "12"},
+                                               {"--size", "0x10"},
+                                               {"--size", "10x10x"},
+                                               {"--view", "side"},
+                                               {"--color", "blau"},
+                                               {"--camera", "1,2,3"},
+                                               {"--camera", "1,2,3,0,0,0", "--view", "top"},
+                                               {"--ortho", "2"},
+                                               {"--range", "0,1"},
+                                               {"--no-legend"},
+                                               {"--fit", "each"},
+                                               {"--supersample", "9"}}) {
+        CAPTURE(words.front());
+        CHECK(status(words) == kUsage);
+    }
+    CHECK(run({box, "-o", folder.path("p.jpg")}).status == kFailure);
+    CHECK(run({folder.path("none.obj"), "-o", out}).status == kFailure);
+    const Ended absent = run({box, "-o", out, "--region", "top_half"});
+    CHECK(absent.status == kFailure);
+    CHECK(absent.err.find("no region 'top_half'") != std::string::npos);
+    CHECK(folder.names() == std::vector<std::string>{"box.obj"});
+}
+
+}  // namespace
+}  // namespace lissom::cli

@@ -1,0 +1,102 @@
+/// Drawing: what a picture shows. Plain data, without OpenGL and without names of a script.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/hair/strands/strands.h"
+#include "kernel/mesh/mesh.h"
+#include "viewer/draw/color.h"
+#include "viewer/draw/strand_style.h"
+
+namespace lissom {
+
+/// smooth: normals are averaged over the faces around a vertex, weighted by angle; edges sharper
+/// than the crease angle stay sharp. flat: one normal a face.
+enum class Shading { smooth, flat };
+
+/// How a mesh is drawn. A face takes its colour from the first of these that applies: a handle with
+/// all of the face's vertices; the values; the region, likewise; the attribute "color"; `color`.
+struct MeshStyle {
+    Color color = kClayColor;
+    /// Draw the colours of the attribute "color" (read as sRGB) where the mesh has it.
+    bool vertex_colors = true;
+    Shading shading = Shading::smooth;
+    /// Angle in radians between the normals of faces above which their edge is sharp.
+    double crease = 50.0 * kPi / 180.0;
+
+    /// Draw the polygons' own edges.
+    bool wire = false;
+    Color wire_color = kWireColor;
+    /// Width of the edges in pixels.
+    double wire_width = 1.0;
+
+    /// Drawn in `region_color`.
+    std::optional<Region> region = std::nullopt;
+    Color region_color = kRegionColor;
+    /// Drawn in `handle_color`; vertices of a handle that it holds no face of are drawn as points.
+    std::vector<Region> handles = {};
+    Color handle_color = kHandleColor;
+
+    /// Draw the loops of open boundaries as lines, each in its own colour.
+    bool boundaries = false;
+    /// Width of these lines in pixels; points are three times as wide.
+    double line_width = 4.0;
+
+    /// One number a vertex, drawn in the colours of the scale; NaN is none. Empty: not drawn.
+    std::vector<double> values = {};
+};
+
+/// A mesh in the picture. The mesh must live until the picture is drawn.
+struct DrawnMesh {
+    const Mesh* mesh = nullptr;
+    MeshStyle style = {};
+    /// From the mesh to the world of the camera.
+    Affine transform = {};
+};
+
+/// Strands in the picture. They must live until the picture is drawn. They hide lines and points,
+/// also those before them.
+struct DrawnStrands {
+    const Strands* strands = nullptr;
+    StrandStyle style = {};
+    /// From the mesh that they grow on to the world of the camera.
+    Affine transform = {};
+};
+
+/// A line through points, of constant width in pixels.
+struct DrawnLine {
+    std::vector<Vec3> points;
+    bool closed = false;
+    Color color = kWireColor;
+    double width = 4.0;
+};
+
+/// A ball of constant radius in pixels.
+struct DrawnPoint {
+    Vec3 position = Vec3::Zero();
+    Color color = kHandleColor;
+    double radius = 5.0;
+};
+
+/// Numbers that the two ends of the colour scale stand for.
+struct ValueRange {
+    double low = 0.0;
+    double high = 1.0;
+};
+
+struct Drawing {
+    std::vector<DrawnMesh> meshes = {};
+    std::vector<DrawnLine> lines = {};
+    std::vector<DrawnPoint> points = {};
+    std::vector<DrawnStrands> strands = {};
+    /// The scale for the values of all meshes.
+    ValueRange range = {};
+};
+
+/// The smallest range that holds all finite values of `meshes`; nothing where there are none.
+std::optional<ValueRange> range_of_values(const std::vector<DrawnMesh>& meshes);
+
+}  // namespace lissom

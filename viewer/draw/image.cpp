@@ -1,0 +1,88 @@
+#include "viewer/draw/image.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "kernel/core/error.h"
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#endif
+#include <stb/stb_image_write.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+namespace lissom {
+namespace {
+
+// The encoder counts bytes in an int and doubles its buffer while it grows.
+constexpr std::size_t kMaximumBytes = std::numeric_limits<int>::max() / 2 + 1;
+
+std::vector<std::uint8_t> without_alpha(const Image& image) {
+    std::vector<std::uint8_t> rgb(image.rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+        std::copy_n(image.rgba.data() + 4 * i, 3, rgb.data() + 3 * i);
+    }
+    return rgb;
+}
+
+void append(void* target, void* bytes, int count) {
+    static_cast<std::string*>(target)->append(static_cast<const char*>(bytes),
+                                              static_cast<std::size_t>(count));
+}
+
+}  // namespace
+
+Image::Image(int image_width, int image_height)
+    : width(image_width),
+      height(image_height),
+      rgba(4 * static_cast<std::size_t>(image_width) * static_cast<std::size_t>(image_height)) {}
+
+Color Image::color(int x, int y) const {
+    const std::uint8_t* const p = pixel(x, y);
+    return {p[0] / 255.0, p[1] / 255.0, p[2] / 255.0};
+}
+
+bool Image::is_opaque() const {
+    for (std::size_t i = 3; i < rgba.size(); i += 4) {
+        if (rgba[i] != 255) return false;
+    }
+    return true;
+}
+
+void Image::paste(const Image& part, int x, int y) {
+    for (int row = 0; row < part.height; ++row) {
+        std::copy_n(part.pixel(0, row), 4 * static_cast<std::size_t>(part.width),
+                    pixel(x, y + row));
+    }
+}
+
+std::string encode_png(const Image& image) {
+    if (image.rgba.empty()) {
+        throw Error(ErrorCode::invalid_argument, "an image without pixels cannot be written");
+    }
+    const int channels = image.is_opaque() ? 3 : 4;
+    const std::size_t row = static_cast<std::size_t>(image.width) * channels + 1;
+    if (row * static_cast<std::size_t>(image.height) > kMaximumBytes) {
+        throw Error(ErrorCode::memory_limit,
+                    "the picture is too large for a PNG file; make it smaller");
+    }
+    const std::vector<std::uint8_t> rgb =
+        channels == 3 ? without_alpha(image) : std::vector<std::uint8_t>();
+    const std::uint8_t* const pixels = channels == 3 ? rgb.data() : image.rgba.data();
+    std::string bytes;
+    const int written = stbi_write_png_to_func(append, &bytes, image.width, image.height, channels,
+                                               pixels, image.width * channels);
+    if (!written) {
+        throw Error(ErrorCode::memory_limit, "there is not enough memory to write the picture");
+    }
+    return bytes;
+}
+
+}  // namespace lissom

@@ -1,0 +1,46 @@
+/// A picture in memory and as a PNG file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "viewer/draw/color.h"
+
+namespace lissom {
+
+/// Pixels from the top left, row by row, four bytes each: red, green, blue in sRGB, and alpha,
+/// which the colours are not multiplied by.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgba;
+
+    Image() = default;
+    /// Transparent black.
+    Image(int image_width, int image_height);
+
+    std::uint8_t* pixel(int x, int y) { return rgba.data() + offset(x, y); }
+    const std::uint8_t* pixel(int x, int y) const { return rgba.data() + offset(x, y); }
+    Color color(int x, int y) const;
+    bool is_opaque() const;
+
+    /// Copies `part` to where its top left pixel is (x, y); it must lie inside.
+    void paste(const Image& part, int x, int y);
+
+    bool operator==(const Image&) const = default;
+
+  private:
+    std::size_t offset(int x, int y) const {
+        return 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(x));
+    }
+};
+
+/// The bytes of a PNG file; without an alpha channel where every pixel is opaque. The same image
+/// gives the same bytes. Errors: invalid_argument for an image without pixels; memory_limit.
+std::string encode_png(const Image& image);
+
+}  // namespace lissom

@@ -1,0 +1,32 @@
+/// The camera of a script.
+#pragma once
+
+#include "bindings/lua/core/call.h"
+#include "kernel/sketch/camera.h"
+
+namespace lissom::lua {
+
+struct CameraObject {
+    static constexpr const char* kTypeName = "lissom.Camera";
+
+    explicit CameraObject(const Camera& given) : camera(given) {}
+
+    Camera camera;
+};
+
+/// A standard view as a script asks for it; view_options() describes the options.
+struct ViewRequest {
+    StandardView view = StandardView::three_quarter;
+    FramingOptions framing = {};
+
+    static ViewRequest read(const Call& call);
+};
+
+/// A size in pixels from a list of two integers; {1280, 960} where the option is absent.
+struct SizeRequest {
+    int width = 1280, height = 960;
+
+    static SizeRequest read(const Call& call, const char* path);
+};
+
+}  // namespace lissom::lua

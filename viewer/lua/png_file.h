@@ -1,0 +1,19 @@
+/// Pictures as files.
+#pragma once
+
+#include <filesystem>
+
+#include "kernel/core/context.h"
+#include "viewer/draw/image.h"
+
+namespace lissom {
+
+/// Throws unknown_format where the extension of `path` is not that of a picture, which is .png.
+void require_picture_path(const std::filesystem::path& path);
+
+/// Writes a PNG file, whole or not at all.
+/// Errors: unknown_format; file_write_failed, file_is_directory; memory_limit; cancelled.
+void save_picture(const Image& image, const std::filesystem::path& path,
+                  const Context& context = {});
+
+}  // namespace lissom

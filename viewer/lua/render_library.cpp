@@ -1,0 +1,526 @@
+// lissom.render.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "bindings/lua/hair/strands_object.h"
+#include "bindings/lua/mesh/buffer.h"
+#include "bindings/lua/mesh/mesh_object.h"
+#include "bindings/lua/mesh/path_object.h"
+#include "viewer/lua/camera_object.h"
+#include "viewer/lua/paint.h"
+#include "viewer/lua/png_file.h"
+#include "viewer/lua/viewer_library.h"
+#include "viewer/strands/strand_place.h"
+
+namespace lissom::lua {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+
+// ---- The renderer of a Lua state: made by its first picture, ended with the state.
+
+using RendererSlot = std::unique_ptr<Renderer>;
+const char kRendererKey = 0;
+
+RendererSlot& renderer_slot(const Call& call) {
+    lua_State* L = call.lua();
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kRendererKey);
+    if (lua_isnil(L, -1)) {
+        lua_pop(L, 1);
+        call.hold<RendererSlot>();
+        lua_pushvalue(L, -1);
+        raw_set_pointer(L, LUA_REGISTRYINDEX, &kRendererKey);
+    }
+    auto* held = static_cast<char*>(lua_touserdata(L, -1)) + Call::kHeldOffset;
+    return *reinterpret_cast<RendererSlot*>(held);
+}
+
+// ---- The script's options. All of these run inside `attempt`.
+
+std::filesystem::path file_path(const char* text) {
+    const std::string bytes(text);
+    return std::filesystem::path(std::u8string(bytes.begin(), bytes.end()));
+}
+
+void require_count(std::size_t given, std::size_t meshes, const char* what) {
+    if (given == meshes) return;
+    throw Error(ErrorCode::invalid_argument, std::to_string(given) + " " + what +
+                                                 " were given for " + std::to_string(meshes) +
+                                                 " meshes; give one for each");
+}
+
+double line_width(const Call& call) {
+    return call.has("line_width") ? call.number("line_width") : MeshStyle{}.line_width;
+}
+
+MeshStyle read_style(const Call& call) {
+    MeshStyle style;
+    style.vertex_colors = call.boolean("vertex_colors");
+    style.shading = call.choice<Shading>("shading");
+    if (call.has("crease")) style.crease = call.number("crease") * kDegree;
+    style.wire = call.boolean("wire");
+    if (call.has("wire_width")) style.wire_width = call.number("wire_width");
+    style.boundaries = call.boolean("boundaries");
+    style.line_width = line_width(call);
+    return style;
+}
+
+void add_meshes(const Call& call, Picture& picture) {
+    const MeshStyle style = read_style(call);
+    if (!call.has("mesh") && !call.has("meshes")) return;
+    if (call.has("mesh")) {
+        picture.meshes.push_back({&call.object<MeshObject>("mesh")->mesh, style});
+        return;
+    }
+    for (std::size_t i = 0; i < call.object_count("meshes"); ++i) {
+        picture.meshes.push_back({&call.object_at<MeshObject>("meshes", i)->mesh, style});
+    }
+}
+
+// ---- Strands
+
+HairLobe read_lobe(const Call& call, HairLobe lobe, const char* strength, const char* exponent,
+                   const char* shift) {
+    if (call.has(strength)) lobe.strength = call.number(strength);
+    if (call.has(exponent)) lobe.exponent = call.number(exponent);
+    if (call.has(shift)) lobe.shift = call.number(shift) * kDegree;
+    return lobe;
+}
+
+StrandStyle read_hair(const Call& call) {
+    StrandStyle style;
+    if (!call.has("hair")) return style;
+    if (call.has("hair.color")) style.color = parse_color(call.string("hair.color"));
+    if (call.has("hair.level")) style.level = call.number("hair.level");
+    if (call.has("hair.count")) style.count = call.integer("hair.count");
+    style.primary = read_lobe(call, style.primary, "hair.primary", "hair.primary_exponent",
+                              "hair.primary_shift");
+    style.secondary = read_lobe(call, style.secondary, "hair.secondary", "hair.secondary_exponent",
+                                "hair.secondary_shift");
+    if (call.has("hair.shift_jitter")) {
+        style.shift_jitter = call.number("hair.shift_jitter") * kDegree;
+    }
+    const struct {
+        const char* name;
+        double& value;
+    } numbers[] = {{"hair.strand_tone", style.strand_tone}, {"hair.clump_tone", style.clump_tone},
+                   {"hair.clump_size", style.clump_size},   {"hair.root_tone", style.root_tone},
+                   {"hair.tip_tone", style.tip_tone},       {"hair.shadow", style.shadow},
+                   {"hair.scalp_tint", style.scalp_tint}};
+    for (const auto& number : numbers) {
+        if (call.has(number.name)) number.value = call.number(number.name);
+    }
+    return style;
+}
+
+// Several strands and several meshes: one for each. Else the strands grow on the only mesh, or the
+// only strands on the first.
+PictureStrands placed_strands(const Call& call, const Strands& strands, std::size_t number,
+                              const StrandStyle& style, const Picture& picture) {
+    PictureStrands result{{&strands, style, {}}, std::nullopt};
+    const std::vector<DrawnMesh>& meshes = picture.meshes;
+    if (meshes.empty()) return result;
+    const std::size_t mesh = meshes.size() == 1 ? 0 : number;
+    if (meshes.size() == 1 || call.kind("strands") == Kind::objects) result.mesh = mesh;
+    result.drawn.transform = meshes[mesh].transform;
+    if (call.has("hair.unit")) {
+        result.drawn.style.unit = call.number("hair.unit");
+    } else if (const auto unit = unit_of_roots(strands, *meshes[mesh].mesh)) {
+        result.drawn.style.unit = *unit;
+    }
+    return result;
+}
+
+void add_strands(const Call& call, Picture& picture) {
+    if (!call.has("strands")) return;
+    const StrandStyle style = read_hair(call);
+    if (call.kind("strands") == Kind::object) {
+        const Strands& strands = call.object<StrandsObject>("strands")->strands;
+        picture.strands.push_back(placed_strands(call, strands, 0, style, picture));
+        return;
+    }
+    const std::size_t count = call.object_count("strands");
+    if (picture.meshes.size() > 1) require_count(count, picture.meshes.size(), "strands");
+    for (std::size_t i = 0; i < count; ++i) {
+        const Strands& strands = call.object_at<StrandsObject>("strands", i)->strands;
+        picture.strands.push_back(placed_strands(call, strands, i, style, picture));
+    }
+}
+
+void color_meshes(const Call& call, Picture& picture) {
+    if (!call.has("color")) return;
+    if (call.kind("color") == Kind::string) {
+        const Color color = parse_color(call.string("color"));
+        for (DrawnMesh& drawn : picture.meshes) drawn.style.color = color;
+        return;
+    }
+    const auto colors = call.strings("color");
+    require_count(colors.size(), picture.meshes.size(), "colours");
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        picture.meshes[i].style.color = parse_color(colors[i]);
+    }
+}
+
+void move_meshes(const Call& call, Picture& picture) {
+    if (!call.has("offsets")) return;
+    const auto offsets = call.points("offsets");
+    require_count(offsets.size(), picture.meshes.size(), "offsets");
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        picture.meshes[i].transform = translation(offsets[i]);
+    }
+}
+
+void paint_regions(const Call& call, Picture& picture) {
+    if (!call.has("region")) return;
+    if (call.kind("region") == Kind::string) return paint_region(picture, call.string("region"));
+    paint_region(picture, call.object<RegionObject>("region")->current());
+}
+
+void paint_handles(const Call& call, Picture& picture) {
+    if (!call.has("handles")) return;
+    if (call.kind("handles") == Kind::strings) {
+        for (const char* name : call.strings("handles")) paint_handle(picture, name);
+        return;
+    }
+    for (std::size_t i = 0; i < call.object_count("handles"); ++i) {
+        paint_handle(picture, call.object_at<RegionObject>("handles", i)->current());
+    }
+}
+
+void paint_scalars(const Call& call, Picture& picture) {
+    if (!call.has("scalars")) return;
+    switch (call.kind("scalars")) {
+        case Kind::string:
+            return paint_values(picture, call.string("scalars"));
+        case Kind::object: {
+            const auto values = call.object<BufferObject>("scalars")->numbers();
+            return paint_values(picture, std::vector<double>(values.begin(), values.end()));
+        }
+        default: {
+            const auto values = call.numbers("scalars");
+            return paint_values(picture, std::vector<double>(values.begin(), values.end()));
+        }
+    }
+}
+
+void read_scale(const Call& call, Picture& picture) {
+    if (call.has("legend")) picture.legend = call.boolean("legend");
+    if (call.has("label")) picture.legend_label = call.string("label");
+    if (!call.has("range")) return;
+    const auto ends = call.numbers("range");
+    if (ends.size() != 2) {
+        throw Error(ErrorCode::invalid_argument, "the range of values is {low, high}");
+    }
+    picture.range = ValueRange{ends[0], ends[1]};
+}
+
+// Paths are drawn where their meshes are drawn.
+Affine place_of(const Picture& picture, const Mesh& mesh) {
+    for (const DrawnMesh& drawn : picture.meshes) {
+        if (drawn.mesh == &mesh) return drawn.transform;
+    }
+    return {};
+}
+
+void add_paths(const Call& call, Picture& picture) {
+    const double width = line_width(call);
+    for (std::size_t i = 0; call.has("paths") && i < call.object_count("paths"); ++i) {
+        const auto object = call.object_at<PathObject>("paths", i);
+        const Mesh& mesh = object->mesh->mesh;
+        const Affine place = place_of(picture, mesh);
+        DrawnLine line{object->current().points(mesh), object->current().closed(),
+                       category_color(i), width};
+        for (Vec3& point : line.points) point = place(point);
+        picture.lines.push_back(std::move(line));
+    }
+}
+
+void add_points(const Call& call, Picture& picture) {
+    if (!call.has("points")) return;
+    for (const Vec3& point : call.points("points")) {
+        picture.points.push_back({point, kHandleColor, 1.5 * line_width(call)});
+    }
+}
+
+RenderOptions read_options(const Call& call, const SizeRequest& size) {
+    RenderOptions options;
+    options.width = size.width;
+    options.height = size.height;
+    const std::string background = call.string("background");
+    options.background =
+        background == "transparent" ? std::nullopt : std::optional<Color>(parse_color(background));
+    options.samples = call.integer("samples");
+    options.supersample = call.integer("supersample");
+    options.occlusion = call.number("occlusion");
+    return options;
+}
+
+Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& size) {
+    Picture picture;
+    if (call.has("camera")) picture.camera = call.object<CameraObject>("camera")->camera;
+    picture.view = view.view;
+    picture.framing = view.framing;
+    picture.columns = call.integer("columns");
+    picture.fit_each = call.has("fit") && call.integer("fit") == 1;
+    if (call.has("captions")) {
+        for (const char* caption : call.strings("captions")) picture.captions.emplace_back(caption);
+    }
+    picture.options = read_options(call, size);
+    add_meshes(call, picture);
+    color_meshes(call, picture);
+    move_meshes(call, picture);
+    add_strands(call, picture);
+    paint_regions(call, picture);
+    paint_handles(call, picture);
+    paint_scalars(call, picture);
+    read_scale(call, picture);
+    add_paths(call, picture);
+    add_points(call, picture);
+    return picture;
+}
+
+// Options that exclude each other, or would do nothing without another.
+void check_options(const Call& call) {
+    if (call.has("mesh") && call.has("meshes")) {
+        call.reject("mesh", "give either 'mesh', one, or 'meshes', a list");
+    }
+    if (!call.has("mesh") && !call.has("meshes") && !call.has("strands")) {
+        call.reject("mesh", "give 'mesh', one, 'meshes', a list, or 'strands'");
+    }
+    if (!call.has("mesh") && !call.has("meshes") && call.integer("columns") > 0) {
+        call.reject("columns", "it needs 'mesh' or 'meshes'");
+    }
+    if (call.has("hair") && !call.has("strands")) call.reject("hair", "it needs 'strands'");
+    if (call.has("hair.level") && call.has("hair.count")) {
+        call.reject("hair.count", "give either 'level', a share, or 'count', a number");
+    }
+    for (const char* option : {"view", "up", "parallel", "margin"}) {
+        if (call.has(option) && call.has("camera")) {
+            call.reject(option, "it describes a standard view; leave it out or leave out 'camera'");
+        }
+    }
+    for (const char* option : {"range", "legend", "label"}) {
+        if (call.has(option) && !call.has("scalars")) call.reject(option, "it needs 'scalars'");
+    }
+    for (const char* option : {"fit", "captions"}) {
+        if (call.has(option) && call.integer("columns") == 0) {
+            call.reject(option, "it needs 'columns'");
+        }
+    }
+    if (call.has("wire_width") && !call.boolean("wire")) {
+        call.reject("wire_width", "it needs 'wire = true'");
+    }
+    if (call.has("crease") && call.choice<Shading>("shading") == Shading::flat) {
+        call.reject("crease", "it is for smooth shading");
+    }
+    const bool has_lines = call.boolean("boundaries") || call.has("paths") || call.has("points") ||
+                           call.has("handles");
+    if (call.has("line_width") && !has_lines) {
+        call.reject("line_width", "it needs 'boundaries', 'paths', 'points' or 'handles'");
+    }
+}
+
+int render(Call& call) {
+    check_options(call);
+    const ViewRequest view = ViewRequest::read(call);
+    const SizeRequest size = SizeRequest::read(call, "size");
+    const char* file = call.string("file");
+    RendererSlot& renderer = renderer_slot(call);
+    const bool done = call.attempt([&] {
+        require_picture_path(file_path(file));
+        const Picture picture = compose(call, view, size);
+        if (!renderer) renderer = std::make_unique<Renderer>();
+        const Image image = draw_picture(*renderer, picture, call.context());
+        save_picture(image, file_path(file), call.context());
+    });
+    return done ? call.push(file) : call.fail();
+}
+
+// ---- Description
+
+// A number of few digits.
+std::string text_of(double value) {
+    std::array<char, 32> text{};
+    const int length = std::snprintf(text.data(), text.size(), "%.4g", value);
+    return {text.data(), static_cast<std::size_t>(length)};
+}
+
+std::vector<Parameter> lobe_options(const std::string& name, const char* help) {
+    return {number(name, help).at_least(0.0),
+            number(name + "_exponent", "How sharp it is.").at_least(0.0),
+            number(name + "_shift", "How far it leans towards the tip; negative: to the root.")
+                .between(-180.0, 180.0)
+                .in("degrees")};
+}
+
+// `text`: the defaults, in the order of the options.
+void append_lobe(std::vector<Parameter>& to, std::vector<Parameter> lobe, const HairLobe& usual) {
+    to.push_back(lobe[0].optional(text_of(usual.strength)));
+    to.push_back(lobe[1].optional(text_of(usual.exponent)));
+    to.push_back(lobe[2].optional(text_of(usual.shift / kDegree)));
+}
+
+std::vector<Parameter> hair_options() {
+    const StrandStyle s;
+    std::vector<Parameter> result{
+        string("color", "Colour of all strands, instead of their own.")
+            .optional("the strands' own, else a brown"),
+        number("level",
+               "Part of the strands to draw, the first of them; the fewer, the wider each, so that "
+               "they cover as much.")
+            .above(0.0)
+            .between(0.0, 1.0)
+            .optional("1"),
+        integer("count", "The same as a number of strands.").at_least(1).optional("all"),
+        number("unit", "Length of the mesh's unit; strands are in metres.")
+            .above(0.0)
+            .in("metres")
+            .optional("what the places of the roots on the mesh tell, else 1")};
+    append_lobe(result, lobe_options("primary", "Strength of the white reflection."), s.primary);
+    append_lobe(result, lobe_options("secondary", "Strength of the coloured reflection."),
+                s.secondary);
+    const auto share = [&](const char* name, const char* help, double usual) {
+        result.push_back(number(name, help).between(0.0, 1.0).optional(text_of(usual)));
+    };
+    result.push_back(number("shift_jitter", "How much reflections lean at random, by strand.")
+                         .between(0.0, 180.0)
+                         .in("degrees")
+                         .optional(text_of(s.shift_jitter / kDegree)));
+    share("strand_tone", "How much brighter or darker strands are at random.", s.strand_tone);
+    share("clump_tone", "The same for clumps of strands with neighbouring roots.", s.clump_tone);
+    result.push_back(number("clump_size", "Distance of the middles of these clumps at the roots.")
+                         .above(0.0)
+                         .in("metres")
+                         .optional(text_of(s.clump_size)));
+    result.push_back(number("root_tone", "Factor of the colour at the root.")
+                         .between(0.0, 10.0)
+                         .optional(text_of(s.root_tone)));
+    result.push_back(number("tip_tone", "Factor of the colour at the tip.")
+                         .between(0.0, 10.0)
+                         .optional(text_of(s.tip_tone)));
+    result.push_back(number("shadow", "How much strands shade each other and the meshes; 0: none.")
+                         .between(0.0, 100.0)
+                         .optional(text_of(s.shadow)));
+    share("scalp_tint", "How far the scalp takes the hair's colour where roots are dense.",
+          s.scalp_tint);
+    return result;
+}
+
+std::vector<Parameter> content_options() {
+    const MeshStyle style;
+    return {
+        object("mesh", "lissom.Mesh", "The mesh to draw; may be left out where strands are drawn.")
+            .optional(),
+        objects("meshes", "lissom.Mesh", "Several meshes to draw, instead of `mesh`.").optional(),
+        points("offsets", "Moves each mesh by a vector, in the picture only.").optional(),
+        integer("columns",
+                "0: all meshes in one space. Else each in a cell of its own, this many a row, "
+                "all seen by the same camera.")
+            .defaults(0)
+            .at_least(0),
+        choice("fit", {"all", "each"},
+               "In cells, a view frames all meshes at one scale, or each by itself.")
+            .optional("all"),
+        strings("captions", "In cells, a line of text below each mesh.").optional(),
+        either("color", {string("name", "One for all."), strings("names", "One for each mesh.")},
+               "Colour of the meshes: \"#rrggbb\" or one of " + std::string(color_names()) + ".")
+            .optional("clay"),
+        boolean("vertex_colors", "Draws the attribute \"color\" where a mesh has it.")
+            .defaults(style.vertex_colors),
+        choice("shading", {"smooth", "flat"}, "flat shows the faces.").defaults("smooth"),
+        number("crease",
+               "Smooth shading keeps edges sharp where faces meet at more than this angle.")
+            .between(0.0, 180.0)
+            .in("degrees")
+            .optional("50"),
+        boolean("wire", "Draws the edges of the faces.").defaults(style.wire),
+        number("wire_width", "Their width.").above(0.0).in("pixels").optional("1"),
+        either("strands",
+               {object("strands", "lissom.Strands", "Hair on the mesh, or alone."),
+                objects("list", "lissom.Strands",
+                        "Several on the only mesh, or one for each of several.")},
+               "Hair to draw, in metres. It hides paths and points.")
+            .optional(),
+        options("hair", hair_options(), "How the strands are drawn.").optional(),
+        either("region",
+               {object("region", "lissom.Region", "A region of a mesh."),
+                string("name", "A region by its name, on every mesh that has it.")},
+               "The region of interest, drawn in blue.")
+            .optional(),
+        either("handles",
+               {strings("names", "Regions by their names, on every mesh that has them."),
+                objects("regions", "lissom.Region", "Regions of the meshes.")},
+               "Handles, drawn in purple; single vertices as balls.")
+            .optional(),
+        boolean("boundaries", "Draws the open boundaries, each in a colour of its own.")
+            .defaults(style.boundaries),
+        objects("paths", "lissom.Path", "Paths to draw as lines.").optional(),
+        points("points", "Points to draw as balls.").optional(),
+        number("line_width", "Width of boundaries and paths; balls are three times as wide.")
+            .above(0.0)
+            .in("pixels")
+            .optional("4"),
+        either("scalars",
+               {string("name", "An attribute of the vertices, on every mesh that has it."),
+                object("buffer", "lissom.Buffer", "One number a vertex."),
+                numbers("list", "One number a vertex.")},
+               "Numbers to draw in the colours of a scale.")
+            .optional(),
+        numbers("range", "{low, high}: the numbers at the ends of the scale.")
+            .optional("the least and the greatest"),
+        boolean("legend", "Draws the scale with its numbers.").optional("true"),
+        string("label", "Stands above the scale.").optional("the name of the scalars")};
+}
+
+std::vector<Parameter> picture_options() {
+    const RenderOptions options;
+    return {
+        string("file", "The picture to write; its name ends with .png."),
+        integers("size", "{width, height} in pixels.").optional("{1280, 960}"),
+        object("camera", "lissom.Camera", "Where the picture is seen from, instead of `view`.")
+            .optional(),
+        string("background", "A colour as for `color`, or \"transparent\".").defaults("white"),
+        integer(
+            "samples",
+            "Samples a pixel along edges of meshes: 1, 2, 4, ... as far as the driver has them.")
+            .defaults(options.samples)
+            .at_least(1),
+        integer("supersample",
+                "Pixels drawn along each side of one in the picture; 2 is for print.")
+            .defaults(options.supersample)
+            .between(1, 4),
+        number("occlusion", "How much folds and contacts darken; 0 draws faster.")
+            .defaults(options.occlusion)
+            .between(0.0, 1.0)};
+}
+
+}  // namespace
+
+std::vector<Function> render_functions() {
+    std::vector<Parameter> options = content_options();
+    for (Parameter& option : picture_options()) options.push_back(std::move(option));
+    for (Parameter& option : view_options()) options.push_back(std::move(option));
+    return {
+        {.name = "render",
+         .body = render,
+         .summary = "Draws meshes and hair into a picture file. Needs no window and no display.",
+         .options = options,
+         .results = {{"string", "file",
+                      "The file that was written; nil, message, code where it could "
+                      "not be, or where nothing can draw here."}},
+         .errors = {ErrorCode::no_display, ErrorCode::unknown_format, ErrorCode::file_write_failed,
+                    ErrorCode::file_is_directory, ErrorCode::mesh_empty,
+                    ErrorCode::invalid_argument, ErrorCode::out_of_range,
+                    ErrorCode::topology_mismatch, ErrorCode::memory_limit, ErrorCode::cancelled},
+         .example = R"(local path = os.tmpname() .. ".png"
+local mesh = lissom.shapes.cactus{ vertices = 2000 }
+local file, message, code = lissom.render{ mesh = mesh, file = path, size = { 320, 240 },
+    view = "front", region = "left_arm", handles = { "left_tip" } }
+assert(file == path or code == "no_display", message)
+os.remove(path))"}};
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,199 @@
+#include "viewer/lua/render_verb.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <iostream>
+
+#include "bindings/cli/json.h"
+#include "kernel/io/mesh_file.h"
+#include "viewer/lua/paint.h"
+#include "viewer/lua/png_file.h"
+
+namespace lissom::cli {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+
+struct Request {
+    std::vector<std::string> meshes;
+    std::string out, size = "1280x960", view = "three-quarter", up = "y", shading = "smooth",
+                     fit = "all";
+    std::string region, scalars, color = "clay", background = "white";
+    std::vector<std::string> handles;
+    std::vector<double> camera, range;
+    double fov = 30.0, ortho = 0.0, crease = 50.0;
+    MeshStyle style;
+    Picture picture;
+    bool no_legend = false;
+};
+
+bool read_size(const std::string& text, int& width, int& height) {
+    int used = 0;
+    const bool read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2;
+    return read && used == static_cast<int>(text.size()) && width > 0 && height > 0;
+}
+
+// Checks for the command line: what is wrong with a word, or nothing.
+std::string check_size(const std::string& text) {
+    int width = 0, height = 0;
+    return read_size(text, width, height) ? "" : "a size is written as 1280x960";
+}
+
+std::string check_color(const std::string& text) {
+    try {
+        parse_color(text);
+    } catch (const Error& error) {
+        return error.message();
+    }
+    return "";
+}
+
+std::string check_background(const std::string& text) {
+    return text == "transparent" ? "" : check_color(text);
+}
+
+void declare_view(CLI::App& app, Request& request) {
+    app.add_option("--size", request.size, "Width and height in pixels (default: 1280x960)")
+        ->check(check_size);
+    app.add_option("--view", request.view, "The side to look from (default: three-quarter)")
+        ->check(
+            CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "three-quarter"}));
+    app.add_option("--up", request.up, "The axis that points up (default: y)")
+        ->check(CLI::IsMember({"y", "z"}));
+    auto* parallel =
+        app.add_flag("--parallel", request.picture.framing.ortho, "A view without perspective");
+    auto* camera =
+        app.add_option("--camera", request.camera,
+                       "X,Y,Z,X,Y,Z: where the camera stands and looks, instead of --view")
+            ->delimiter(',')
+            ->expected(6)
+            ->excludes("--view")
+            ->excludes(parallel);
+    auto* fov =
+        app.add_option("--fov", request.fov, "Vertical opening angle in degrees (default: 30)")
+            ->check(CLI::Range(1.0, 170.0))
+            ->excludes(parallel);
+    app.add_option("--ortho", request.ortho,
+                   "Height that a camera without perspective sees, in mesh units")
+        ->check(CLI::PositiveNumber)
+        ->needs(camera)
+        ->excludes(fov);
+}
+
+void declare_content(CLI::App& app, Request& request) {
+    MeshStyle& style = request.style;
+    app.add_option("--shading", request.shading, "smooth or flat (default: smooth)")
+        ->check(CLI::IsMember({"smooth", "flat"}));
+    app.add_option("--crease", request.crease,
+                   "Angle in degrees above which smooth shading keeps an edge (default: 50)")
+        ->check(CLI::Range(0.0, 180.0));
+    app.add_flag("--wire", style.wire, "Draw the edges of the faces");
+    app.add_option("--color", request.color, "Colour of the meshes (default: clay)")
+        ->check(check_color);
+    app.add_option("--region", request.region, "Name of a region to draw in blue");
+    app.add_option("--handles", request.handles, "Names of regions to draw in purple");
+    app.add_flag("--boundaries", style.boundaries, "Draw the open boundaries in colours");
+    auto* scalars =
+        app.add_option("--scalars", request.scalars,
+                       "Name of an attribute of the vertices to draw in the colours of a scale");
+    app.add_option("--range", request.range, "LOW,HIGH: the ends of the scale")
+        ->delimiter(',')
+        ->expected(2)
+        ->needs(scalars);
+    app.add_flag("--no-legend", request.no_legend, "Leave out the scale's legend")->needs(scalars);
+    auto* columns = app.add_option("--columns", request.picture.columns,
+                                   "Draw each mesh in a cell of its own, so many a row")
+                        ->check(CLI::PositiveNumber);
+    app.add_option("--fit", request.fit,
+                   "In cells, frame all meshes at one scale or each by itself (default: all)")
+        ->check(CLI::IsMember({"all", "each"}))
+        ->needs(columns);
+}
+
+void declare_quality(CLI::App& app, Request& request) {
+    RenderOptions& options = request.picture.options;
+    app.add_option("--background", request.background, "A colour, or transparent (default: white)")
+        ->check(check_background);
+    app.add_option("--samples", options.samples, "Samples a pixel along edges (default: 4)");
+    app.add_option("--supersample", options.supersample,
+                   "Draw larger by this factor and average (default: 1)")
+        ->check(CLI::Range(1, 4));
+    app.add_option("--occlusion", options.occlusion, "How much folds darken, 0 to 1 (default: 1)")
+        ->check(CLI::Range(0.0, 1.0));
+}
+
+Camera placed_camera(const Request& request) {
+    CameraOptions options;
+    const std::vector<double>& c = request.camera;
+    options.eye = Vec3(c[0], c[1], c[2]);
+    options.target = Vec3(c[3], c[4], c[5]);
+    options.up = request.up == "y" ? Vec3::UnitY() : Vec3::UnitZ();
+    options.fov = request.fov * kDegree;
+    if (request.ortho > 0.0) options.ortho = request.ortho;
+    return Camera(options);
+}
+
+// What does not depend on the meshes.
+void read_options(Request& request) {
+    Picture& picture = request.picture;
+    read_size(request.size, picture.options.width, picture.options.height);
+    picture.view = *find_view(request.view);
+    picture.framing.up = request.up == "y" ? ViewUp::y : ViewUp::z;
+    picture.framing.fov = request.fov * kDegree;
+    if (!request.camera.empty()) picture.camera = placed_camera(request);
+    if (!request.range.empty()) picture.range = ValueRange{request.range[0], request.range[1]};
+    picture.legend = !request.no_legend;
+    picture.fit_each = request.fit == "each";
+    picture.options.background = request.background == "transparent"
+                                     ? std::nullopt
+                                     : std::optional<Color>(parse_color(request.background));
+    request.style.color = parse_color(request.color);
+    request.style.shading = request.shading == "flat" ? Shading::flat : Shading::smooth;
+    request.style.crease = request.crease * kDegree;
+}
+
+std::vector<Mesh> load_meshes(const Request& request, const Context& context) {
+    std::vector<Mesh> meshes;
+    for (const std::string& path : request.meshes) meshes.push_back(load_mesh(path, {}, context));
+    return meshes;
+}
+
+void add_meshes(Request& request, const std::vector<Mesh>& meshes) {
+    for (const Mesh& mesh : meshes) request.picture.meshes.push_back({&mesh, request.style});
+    if (!request.region.empty()) paint_region(request.picture, request.region);
+    for (const std::string& name : request.handles) paint_handle(request.picture, name);
+    if (!request.scalars.empty()) paint_values(request.picture, request.scalars);
+}
+
+}  // namespace
+
+int render(Program& program, const std::vector<std::string>& words) {
+    CLI::App app("Draws meshes into a picture.", "lissom render");
+    Request request;
+    app.add_option("MESH", request.meshes, "The mesh files to draw")->required();
+    app.add_option("-o,--out", request.out, "The picture to write, a .png file")->required();
+    declare_view(app, request);
+    declare_content(app, request);
+    declare_quality(app, request);
+    int status = kSuccess;
+    if (!program.parse(app, words, status)) return status;
+    require_picture_path(request.out);
+    read_options(request);
+    const std::vector<Mesh> meshes = load_meshes(request, program.context());
+    add_meshes(request, meshes);
+    Renderer renderer;
+    const Image image = draw_picture(renderer, request.picture, program.context());
+    save_picture(image, request.out, program.context());
+    program.clear_progress();
+    if (program.json()) {
+        std::cout << json_text({{"file", request.out},
+                                {"width", image.width},
+                                {"height", image.height},
+                                {"driver", renderer.driver()}})
+                  << std::endl;
+    }
+    return kSuccess;
+}
+
+}  // namespace lissom::cli

@@ -1,0 +1,52 @@
+/// The strands of a picture, drawn without OpenGL, and how they are laid over the picture of the
+/// meshes.
+#pragma once
+
+#include <vector>
+
+#include "viewer/draw/image.h"
+#include "viewer/draw/occlusion.h"
+#include "viewer/renderer.h"
+#include "viewer/strands/strand_shadow.h"
+#include "viewer/strands/view_strands.h"
+
+namespace lissom {
+
+/// What is seen in one pixel; shares of its area.
+struct StrandPixel {
+    /// Linear colour of the strands, times `strands`.
+    Eigen::Array3f color = Eigen::Array3f::Zero();
+    float strands = 0.0f;
+    /// Meshes that no strand hides, and meshes in all.
+    float meshes = 0.0f, all_meshes = 0.0f;
+};
+
+struct StrandLayer {
+    int width = 0, height = 0;
+    /// Row by row from the top left.
+    std::vector<StrandPixel> pixels;
+
+    std::size_t place(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
+};
+
+/// A drawing with strands as the camera sees it.
+struct StrandScene {
+    std::vector<ViewStrands> strands;
+    std::vector<ViewTriangle> triangles;
+    ViewParameters view;
+};
+
+/// Draws the strands of `scene` into pixels of a picture with `options`; meshes only hide. The same
+/// to the bit for any number of threads. Errors: memory_limit; cancelled.
+StrandLayer draw_strands(const StrandScene& scene, const StrandShadow& shadow,
+                         const RenderOptions& options, const Context& context = {});
+
+/// Lays strands over `meshes`, a picture of the meshes on nothing, and both on the background.
+/// Pixels away from strands stay what they were.
+Image lay_over(const Image& meshes, const StrandLayer& layer,
+               const std::optional<Color>& background);
+
+}  // namespace lissom

@@ -1,0 +1,16 @@
+/// Where strands belong in the world of a mesh.
+#pragma once
+
+#include <optional>
+
+#include "kernel/hair/strands/strands.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// Metres in one unit of `mesh`, from how far apart the roots of the strands are and the places on
+/// the mesh that they say they are rooted at; nothing where they do not say, or the places are not
+/// on this mesh.
+std::optional<double> unit_of_roots(const Strands& strands, const Mesh& mesh);
+
+}  // namespace lissom

@@ -1,0 +1,77 @@
+/// How much light reaches each place in and around hair: the density of strands on a grid, and the
+/// light that is left after passing through it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "viewer/strands/strand_shading.h"
+#include "viewer/strands/view_strands.h"
+
+namespace lissom {
+
+/// Points on the corners of cubes, along the axes of view space.
+struct ViewGrid {
+    Eigen::Vector3f origin = Eigen::Vector3f::Zero();
+    float step = 1.0f;
+    std::array<Index, 3> counts{1, 1, 1};
+
+    std::size_t size() const {
+        return static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]) *
+               static_cast<std::size_t>(counts[2]);
+    }
+    /// x runs fastest.
+    std::size_t index(Index i, Index j, Index k) const {
+        return static_cast<std::size_t>(i) +
+               static_cast<std::size_t>(counts[0]) *
+                   (static_cast<std::size_t>(j) +
+                    static_cast<std::size_t>(counts[1]) * static_cast<std::size_t>(k));
+    }
+};
+
+/// Spreads `amount` over the eight grid points around `position`; nothing outside the grid.
+void splat(const ViewGrid& grid, std::vector<float>& values, const Eigen::Vector3f& position,
+           float amount);
+
+/// The part of a distant light that reaches each grid point: exp(-the extinction summed up along
+/// the way to it), 1 where nothing is in the way. `extinction` is per unit of length. Goes through
+/// the grid plane by plane away from the light, so that the time is linear in the number of points;
+/// shadows become a little softer with every plane.
+std::vector<float> light_through(const ViewGrid& grid, const std::vector<float>& extinction,
+                                 const Eigen::Vector3f& to_light);
+
+/// The light in a drawing with strands.
+class StrandShadow {
+  public:
+    /// Errors: memory_limit; cancelled.
+    StrandShadow(std::span<const ViewStrands> strands, std::span<const ViewTriangle> triangles,
+                 const Context& context = {});
+
+    /// Light at a place among the strands, which they and the meshes shade.
+    StrandLight light(const Eigen::Vector3f& position) const;
+
+    const ViewGrid& grid() const { return grid_; }
+    /// Four bytes a grid point, for meshes, which shade themselves otherwise: the part of the key
+    /// light and of the light from all around that the strands let through, and how much hair grows
+    /// there, 0 to 255.
+    const std::vector<std::uint8_t>& on_meshes() const { return on_meshes_; }
+    /// Linear colour that scalps take where hair grows.
+    const Eigen::Array3f& scalp_color() const { return scalp_color_; }
+
+  private:
+    using Corner = std::array<float, 4>;
+
+    void compute(const std::vector<float>& hair, const std::vector<float>& everything,
+                 const std::vector<float>& tint, const Context& context);
+
+    ViewGrid grid_;
+    /// Key, rim and ambient light for strands.
+    std::vector<Corner> light_;
+    std::vector<std::uint8_t> on_meshes_;
+    Eigen::Array3f scalp_color_ = Eigen::Array3f::Zero();
+    MemoryCharge charge_;
+};
+
+}  // namespace lissom

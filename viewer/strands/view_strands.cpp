@@ -1,0 +1,123 @@
+#include "viewer/strands/view_strands.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "kernel/core/error.h"
+#include "kernel/mesh/measure/triangulation.h"
+
+namespace lissom {
+namespace {
+
+void require(bool condition, const char* message, ErrorCode code = ErrorCode::out_of_range) {
+    if (!condition) throw Error(code, message);
+}
+
+bool is_share(double value) {
+    return value >= 0.0 && value <= 1.0;
+}
+
+void require_lobe(const HairLobe& lobe) {
+    require(lobe.strength >= 0.0 && lobe.strength <= 10.0,
+            "the strength of a reflection of hair must be 0 to 10");
+    require(lobe.exponent >= 0.0 && lobe.exponent <= 1e4,
+            "the exponent of a reflection of hair must be 0 to 10000");
+    require(std::abs(lobe.shift) <= kPi,
+            "the shift of a reflection of hair is at most half a turn");
+}
+
+void require_style(const StrandStyle& style) {
+    require(style.level > 0.0 && style.level <= 1.0, "level must be above 0 and at most 1");
+    require(!style.count || *style.count >= 1, "the number of strands to draw must be at least 1");
+    require(std::isfinite(style.unit) && style.unit > 0.0,
+            "the unit of the strands must be a positive number of metres",
+            ErrorCode::invalid_argument);
+    require_lobe(style.primary);
+    require_lobe(style.secondary);
+    require(style.shift_jitter >= 0.0 && style.shift_jitter <= kPi,
+            "the jitter of reflections is at most half a turn");
+    require(is_share(style.strand_tone) && is_share(style.clump_tone),
+            "tones of strands and clumps must be 0 to 1");
+    require(std::isfinite(style.clump_size) && style.clump_size > 0.0,
+            "the size of clumps must be above 0");
+    require(style.root_tone >= 0.0 && style.root_tone <= 10.0 && style.tip_tone >= 0.0 &&
+                style.tip_tone <= 10.0,
+            "tones of roots and tips must be 0 to 10");
+    require(style.shadow >= 0.0 && style.shadow <= 100.0, "the shadow of hair must be 0 to 100");
+    require(is_share(style.scalp_tint), "the tint of the scalp must be 0 to 1");
+}
+
+Affine affine(const Mat4& view, const Vec3& origin) {
+    Affine map;
+    map.linear = view.topLeftCorner<3, 3>();
+    map.translation = view.topRightCorner<3, 1>() - map.linear * origin;
+    return map;
+}
+
+ViewStrands in_view(const DrawnStrands& drawn, const Affine& to_view) {
+    require_style(drawn.style);
+    const Affine map = to_view * drawn.transform;
+    ViewStrands result;
+    result.strands = drawn.strands;
+    result.style = &drawn.style;
+    result.count = drawn_count(drawn.style, drawn.strands->size());
+    result.linear = (map.linear / drawn.style.unit).cast<float>();
+    result.offset = map.translation.cast<float>();
+    result.scale = std::cbrt(std::abs(result.linear.determinant()));
+    if (result.count > 0) {
+        result.stands_for =
+            static_cast<float>(drawn.strands->size()) / static_cast<float>(result.count);
+    }
+    return result;
+}
+
+Eigen::Array3f linear(const Color& color) {
+    return Eigen::Array3d(srgb_to_linear(color.r), srgb_to_linear(color.g), srgb_to_linear(color.b))
+        .cast<float>();
+}
+
+}  // namespace
+
+Index drawn_count(const StrandStyle& style, Index size) {
+    if (size == 0) return 0;
+    if (style.count) return std::min(*style.count, size);
+    const auto count = static_cast<Index>(std::lround(style.level * size));
+    return std::clamp(count, Index{1}, size);
+}
+
+std::vector<ViewStrands> view_strands(const Drawing& drawing, const Mat4& view,
+                                      const Vec3& origin) {
+    const Affine to_view = affine(view, origin);
+    std::vector<ViewStrands> result;
+    for (const DrawnStrands& drawn : drawing.strands) result.push_back(in_view(drawn, to_view));
+    return result;
+}
+
+std::vector<ViewTriangle> view_triangles(const Drawing& drawing, const Mat4& view,
+                                         const Vec3& origin) {
+    std::vector<ViewTriangle> result;
+    for (const DrawnMesh& drawn : drawing.meshes) {
+        const Affine map = affine(view, origin) * drawn.transform;
+        std::vector<Eigen::Vector3f> points;
+        for (const Vec3& p : drawn.mesh->positions()) points.push_back(map(p).cast<float>());
+        const auto faces = triangulate_faces(drawn.mesh->topology(), drawn.mesh->positions());
+        for (const Triangle& t : faces.triangles) {
+            const auto corner = [&](std::size_t i) {
+                return points[static_cast<std::size_t>(t[i])];
+            };
+            result.push_back({corner(0), corner(1), corner(2)});
+        }
+    }
+    return result;
+}
+
+Eigen::Array3f strand_color(const ViewStrands& drawn, Index strand, Index point) {
+    if (drawn.style->color) return linear(*drawn.style->color);
+    if (const auto* colors = drawn.strands->colors()) return colors->at(strand, point).array();
+    static const Eigen::Array3f usual = linear(kHairColor);
+    return usual;
+}
+
+}  // namespace lissom
