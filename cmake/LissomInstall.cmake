@@ -21,7 +21,7 @@ install(EXPORT lissom-targets NAMESPACE lissom:: DESTINATION ${LISSOM_PACKAGE_DI
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernel DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom
         FILES_MATCHING PATTERN "*.h"
         # These show libraries that users of the package need not have.
-        PATTERN "gltf_*.h" EXCLUDE
+        PATTERN "gltf" EXCLUDE
         PATTERN "growth_lanes.h" EXCLUDE
         PATTERN "lane_grower.h" EXCLUDE)
 

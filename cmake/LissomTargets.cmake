@@ -24,11 +24,45 @@ function(lissom_target_defaults target)
     endif()
 endfunction()
 
+# lissom_unity(TARGET): compiles the sources of a room (a folder) together, at most eight at a time, so that
+# their headers are read once. Names in anonymous namespaces are therefore unique within a room. Sources
+# with options of their own, and those marked SKIP_UNITY_BUILD_INCLUSION, are compiled alone.
+function(lissom_unity target)
+    if(NOT LISSOM_UNITY)
+        return()
+    endif()
+    get_target_property(sources ${target} SOURCES)
+    set(rooms "")
+    foreach(source ${sources})
+        get_filename_component(room ${source} DIRECTORY)
+        string(REPLACE "${PROJECT_SOURCE_DIR}/" "" room "room_${room}")
+        string(MAKE_C_IDENTIFIER "${room}" room)
+        if(NOT room IN_LIST rooms)
+            list(APPEND rooms ${room})
+            set(count_${room} 0)
+        endif()
+        math(EXPR part "${count_${room}} / 8")
+        math(EXPR count_${room} "${count_${room}} + 1")
+        set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${room}_${part})
+    endforeach()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    # A type of one source may hold names of its anonymous namespace: no other source sees it.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+    endif()
+endfunction()
+
 # lissom_library(NAME FILES...): a static library lissom_NAME with the alias lissom::NAME.
 function(lissom_library name)
     add_library(lissom_${name} STATIC ${ARGN})
     add_library(lissom::${name} ALIAS lissom_${name})
     lissom_target_defaults(lissom_${name})
+    lissom_unity(lissom_${name})
+endfunction()
+
+# lissom_hot_loops(TARGET): for libraries whose time goes into loops over numbers.
+function(lissom_hot_loops target)
+    target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O3>)
 endfunction()
 
 # lissom_unit_test(MODULE FILES...): the doctest executable test_MODULE, registered as unit_MODULE.
@@ -37,6 +71,10 @@ function(lissom_unit_test module)
     add_executable(test_${module} ${ARGN} ${PROJECT_SOURCE_DIR}/tests/unit/main.cpp)
     lissom_target_defaults(test_${module})
     target_link_libraries(test_${module} PRIVATE doctest::doctest)
+    # Optimising the tests themselves takes longer than they run.
+    target_compile_options(test_${module} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>)
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/unit/main.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    lissom_unity(test_${module})
     add_test(NAME unit_${module} COMMAND test_${module})
     set_tests_properties(
         unit_${module} PROPERTIES LABELS unit ENVIRONMENT

@@ -14,10 +14,6 @@ namespace {
 constexpr Color kDarkInk{0.16, 0.17, 0.20};
 constexpr Color kLightInk{0.92, 0.92, 0.93};
 
-void require(bool condition, const char* message) {
-    if (!condition) throw Error(ErrorCode::invalid_argument, message);
-}
-
 void require_faces(const std::vector<DrawnMesh>& meshes) {
     for (const DrawnMesh& drawn : meshes) {
         if (drawn.mesh->face_count() > 0) continue;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "viewer/draw/image.h"
-#include "viewer/draw/occlusion.h"
 #include "viewer/draw/projection.h"
+#include "viewer/gl/occlusion.h"
 #include "viewer/renderer.h"
 
 namespace lissom {

@@ -20,11 +20,6 @@ constexpr int kMaximumSupersample = 4;
 constexpr double kOcclusionOfSize = 0.60;
 constexpr double kOcclusionOfView = 0.20;
 
-void require(bool condition, const std::string& message,
-             ErrorCode code = ErrorCode::invalid_argument) {
-    if (!condition) throw Error(code, message);
-}
-
 bool is_power_of_two(int n) {
     return n > 0 && (n & (n - 1)) == 0;
 }

@@ -9,25 +9,10 @@
 #include "kernel/sketch/camera.h"
 #include "viewer/draw/drawing.h"
 #include "viewer/draw/image.h"
+#include "viewer/draw/render_options.h"
 #include "viewer/gl/platform.h"
 
 namespace lissom {
-
-/// How a drawing becomes pixels.
-struct RenderOptions {
-    /// Size in pixels: at least 1, at most `Renderer::maximum_size`.
-    int width = 1280;
-    int height = 960;
-    /// Nothing: transparent.
-    std::optional<Color> background = kWhite;
-    /// Samples a pixel along edges of meshes: 1, 2, 4, ... as far as the driver has them. Strands
-    /// always have 16.
-    int samples = 4;
-    /// Pixels that are drawn along each side of one in the picture, 1 to 4; 2 is for print.
-    int supersample = 1;
-    /// How much folds and contacts darken, 0 (not at all; quicker) to 1.
-    double occlusion = 1.0;
-};
 
 class Renderer {
   public:

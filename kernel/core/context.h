@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 
 namespace lissom {
 

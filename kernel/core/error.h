@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 
 namespace lissom {
 
@@ -105,5 +105,15 @@ std::string_view kind_name(ElementKind kind);
 /// "vertex 7", "vertices 3, 9 and 12 (of 250)": the elements as they appear in messages, numbered
 /// from `base` (1 in Lua and in files, 0 in C++). At most `limit` are written out.
 std::string describe(const Elements& elements, Index base = 0, std::size_t limit = 5);
+
+/// Throws an Error where `condition` does not hold.
+inline void require(bool condition, const char* message,
+                    ErrorCode code = ErrorCode::invalid_argument) {
+    if (!condition) throw Error(code, message);
+}
+inline void require(bool condition, const std::string& message,
+                    ErrorCode code = ErrorCode::invalid_argument) {
+    if (!condition) throw Error(code, message);
+}
 
 }  // namespace lissom

@@ -3,18 +3,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <limits>
+
+#include "kernel/core/index.h"
 
 namespace lissom {
 
-/// Index of a vertex, face, corner or matrix row; 0-based, never negative in valid data.
-using Index = std::int32_t;
-
-/// Stands for "no element" in maps between element sets.
-inline constexpr Index kNoIndex = -1;
-
 inline constexpr double kPi = 3.14159265358979323846;
+/// One degree in radians.
+inline constexpr double kDegree = kPi / 180.0;
 
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;

@@ -38,7 +38,7 @@ struct Prepared {
     std::vector<Index> owner;
     /// The local vertices of each handle, with those that a refinement inserted between them.
     std::vector<std::vector<Index>> held;
-    Knowledge known;
+    KnownMask known;
     /// Local vertices and anchors that take what a point constraint asks, with its number.
     std::vector<std::pair<Index, Index>> asked;
     GradientStencils gradients;

@@ -20,7 +20,7 @@ using Eigen::Vector3f;
 using Eigen::Vector4f;
 
 constexpr std::string_view kMagic = "LSMBASIS";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kBasisVersion = 1;
 constexpr std::size_t kHeaderBytes = 64;
 // A handle; a vertex with its rest position; the weights of a handle at a vertex.
 constexpr std::size_t kUnitBytes = 16;
@@ -149,9 +149,9 @@ void require_sizes(const Header& header, std::size_t file_bytes) {
 Header read_header(std::string_view bytes, ByteReader& reader) {
     require_magic(bytes);
     reader.skip(kMagic.size());
-    if (const auto version = reader.read<std::uint32_t>(); version != kVersion) {
+    if (const auto version = reader.read<std::uint32_t>(); version != kBasisVersion) {
         refuse(ErrorCode::unsupported, "the basis file has version " + std::to_string(version) +
-                                           ", known is " + std::to_string(kVersion));
+                                           ", known is " + std::to_string(kBasisVersion));
     }
     Header header;
     header.handles = reader.read<std::uint32_t>();
@@ -261,7 +261,7 @@ std::string encode_basis(const EngineBasis& basis) {
     ByteWriter writer;
     writer.reserve(static_cast<std::size_t>(bytes));
     writer.add_text(kMagic);
-    writer.add(kVersion);
+    writer.add(kBasisVersion);
     writer.add(static_cast<std::uint32_t>(basis.handles.size()));
     writer.add(static_cast<std::uint32_t>(basis.vertices.size()));
     writer.add(static_cast<std::uint32_t>(basis.mesh_vertex_count));

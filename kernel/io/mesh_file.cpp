@@ -11,6 +11,7 @@
 #include "kernel/io/obj/obj.h"
 #include "kernel/io/off/off.h"
 #include "kernel/io/ply/ply.h"
+#include "kernel/io/record/file_rules.h"
 #include "kernel/io/sniff.h"
 #include "kernel/io/stl/stl.h"
 #include "kernel/io/stream/file.h"
@@ -48,18 +49,8 @@ constexpr std::array<Format, 6> kFormats{{{"obj", "OBJ", read_obj_file, write_ob
                                           {"gltf", "glTF", read_gltf, write_gltf},
                                           {"glb", "glTF", read_gltf, write_glb}}};
 
-// Lower case and without a leading dot.
-std::string normalized(std::string_view extension) {
-    if (extension.starts_with('.')) extension.remove_prefix(1);
-    std::string result(extension);
-    for (char& c : result) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return result;
-}
-
 const Format& find_format(std::string_view extension) {
-    const std::string wanted = normalized(extension);
+    const std::string wanted = normalized_extension(extension);
     std::string known;
     for (const Format& format : kFormats) {
         if (format.extension == wanted) return format;
@@ -69,12 +60,6 @@ const Format& find_format(std::string_view extension) {
         ErrorCode::unknown_format,
         (wanted.empty() ? "there is no extension" : "the extension '" + wanted + "' is unknown") +
             std::string("; known are ") + known);
-}
-
-void require_unit(double unit) {
-    if (unit > 0.0 && std::isfinite(unit)) return;
-    throw Error(ErrorCode::invalid_argument,
-                "unit is " + std::to_string(unit) + ", but must be positive and finite");
 }
 
 void require_expected_content(std::string_view bytes, const Format& format) {
@@ -184,24 +169,6 @@ std::string encode(const Mesh& mesh, const Format& format, const SaveOptions& op
     format.write(parts, options, bytes, context);
     parts.log_losses(format.name, context);
     return bytes;
-}
-
-// Runs an action and puts where it failed before the message: the file, and the line where there is
-// one.
-template <typename Action>
-auto with_place_in_errors(const std::string& file, const Action& action) {
-    try {
-        return action();
-    } catch (const Error& error) {
-        if (error.code() == ErrorCode::cancelled) throw;
-        std::string place = file;
-        const Elements& elements = error.elements();
-        if (elements.kind == ElementKind::line && !elements.ids.empty()) {
-            place += (file.empty() ? "line " : ":") + std::to_string(elements.ids[0] + 1LL);
-        }
-        if (!place.empty()) place += ": ";
-        throw Error(error.code(), place + error.message(), elements);
-    }
 }
 
 std::vector<std::string> extensions() {

@@ -11,52 +11,15 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/io/record/options.h"
 #include "kernel/mesh/mesh.h"
-#include "kernel/mesh/repair/repair.h"
 
 namespace lissom {
-
-/// The axis that points up in a file. In the kernel it is y.
-enum class UpAxis {
-    none,  ///< as it is: nothing is turned
-    y,     ///< the kernel's own convention: nothing is turned
-    z,     ///< turned about x, so that the file's z is the kernel's y and its y the kernel's -z
-};
-
-enum class Endianness { little, big };
-
-/// How the coordinates of a file become those of the mesh. Normals are turned but not scaled.
-struct LoadOptions {
-    /// Which vertices at the same place become one; where absent, Weld::all for STL, which stores
-    /// each triangle by itself, and Weld::seams for all others.
-    std::optional<Weld> weld = std::nullopt;
-    /// False: what would be mended (see repair.h) is an error instead.
-    bool repair = true;
-    /// The file's up axis.
-    UpAxis up = UpAxis::none;
-    /// Length of the file's unit in the mesh's unit: positions are multiplied by it. Positive,
-    /// finite.
-    double unit = 1.0;
-};
-
-/// The inverse of LoadOptions, and how the file is encoded.
-struct SaveOptions {
-    /// The up axis the file shall have.
-    UpAxis up = UpAxis::none;
-    /// Length of the file's unit in the mesh's unit: positions are divided by it. Positive, finite.
-    double unit = 1.0;
-    /// Binary or text, for formats that have both (PLY, STL). OBJ and OFF are written as text, glTF
-    /// as its extension says.
-    bool binary = true;
-    /// Byte order of binary PLY.
-    Endianness endianness = Endianness::little;
-};
 
 /// Reads a mesh; the extension, in any case, names the format. A byte order mark is passed over.
 /// Other files that a glTF or OBJ file refers to are read from its own folder and nowhere else.

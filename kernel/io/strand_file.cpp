@@ -10,6 +10,7 @@
 #include "kernel/io/hair/hair_salon.h"
 #include "kernel/io/hair/rib_curves.h"
 #include "kernel/io/obj/strands.h"
+#include "kernel/io/record/file_rules.h"
 #include "kernel/io/record/strand_check.h"
 #include "kernel/io/stream/byte_source.h"
 #include "kernel/io/stream/file.h"
@@ -20,7 +21,7 @@ namespace {
 
 // A format: how it is read, from a source or as a text, if at all, how it is written, and what it
 // holds.
-struct Format {
+struct StrandFormat {
     std::string_view extension;
     Strands (*read)(ByteSource& source, const Context& context);
     UsdaHair (*read_text)(std::string_view bytes, const Context& context);
@@ -57,7 +58,7 @@ constexpr StrandCapacity kRib{2, true, true, false, false, true, false};
 constexpr StrandCapacity kGltf{2, false, true, false, false, false, false};
 constexpr StrandCapacity kObj{2, false, false, false, false, true, false};
 
-constexpr std::array<Format, 7> kFormats{{
+constexpr std::array<StrandFormat, 7> kStrandFormats{{
     {"hair", read_cyhair, nullptr, write_hair_file, kCyHair},
     {"data", read_hair_salon, nullptr, write_data_file, kHairSalon},
     {"usda", nullptr, read_usda, write_usda_file, kUsda},
@@ -67,31 +68,21 @@ constexpr std::array<Format, 7> kFormats{{
     {"obj", nullptr, nullptr, write_plainly<write_obj_strands>, kObj},
 }};
 
-std::vector<std::string> extensions(bool for_reading) {
+std::vector<std::string> strand_extensions(bool for_reading) {
     std::vector<std::string> list;
-    for (const Format& format : kFormats) {
+    for (const StrandFormat& format : kStrandFormats) {
         if (!for_reading || format.readable()) list.emplace_back(format.extension);
     }
     return list;
 }
 
-// Lower case and without a leading dot.
-std::string normalized(std::string_view extension) {
-    if (extension.starts_with('.')) extension.remove_prefix(1);
-    std::string result(extension);
-    for (char& c : result) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return result;
-}
-
-const Format& find_format(std::string_view extension, bool for_reading) {
-    const std::string wanted = normalized(extension);
-    for (const Format& format : kFormats) {
+const StrandFormat& find_strand_format(std::string_view extension, bool for_reading) {
+    const std::string wanted = normalized_extension(extension);
+    for (const StrandFormat& format : kStrandFormats) {
         if (format.extension == wanted && (!for_reading || format.readable())) return format;
     }
     std::string known;
-    for (const std::string& name : extensions(for_reading)) {
+    for (const std::string& name : strand_extensions(for_reading)) {
         known += (known.empty() ? "" : ", ") + name;
     }
     throw Error(ErrorCode::unknown_format,
@@ -100,12 +91,6 @@ const Format& find_format(std::string_view extension, bool for_reading) {
                                       std::string(for_reading ? "read from '." : "written to '.") +
                                       wanted + "' files") +
                     std::string("; known are ") + known);
-}
-
-void require_unit(double unit) {
-    if (unit > 0.0 && std::isfinite(unit)) return;
-    throw Error(ErrorCode::invalid_argument,
-                "unit is " + std::to_string(unit) + ", but must be positive and finite");
 }
 
 // Puts points and widths into another frame: those of a file that is z-up into the kernel's where
@@ -149,8 +134,8 @@ Strands in_kernel_frame(UsdaHair hair, const StrandLoadOptions& options, const C
     return std::move(hair.strands);
 }
 
-Strands decode(ByteSource* source, std::string_view text, const Format& format,
-               const StrandLoadOptions& options, const Context& context) {
+Strands decode_as(ByteSource* source, std::string_view text, const StrandFormat& format,
+                  const StrandLoadOptions& options, const Context& context) {
     if (options.unit) require_unit(*options.unit);
     Progress progress(context, "load strands");
     progress.step(0.9);
@@ -167,8 +152,8 @@ Strands decode(ByteSource* source, std::string_view text, const Format& format,
     return in_kernel_frame(std::move(hair), options, context);
 }
 
-EncodedStrands encode(const Strands& strands, const Format& format,
-                      const StrandSaveOptions& options, const Context& context) {
+EncodedStrands encode_as(const Strands& strands, const StrandFormat& format,
+                         const StrandSaveOptions& options, const Context& context) {
     require_unit(options.unit);
     Progress progress(context, "save strands");
     progress.step(0.3);
@@ -190,48 +175,31 @@ EncodedStrands encode(const Strands& strands, const Format& format,
     return result;
 }
 
-// Runs an action and puts where it failed before the message: the file, and the line where there is
-// one.
-template <typename Action>
-auto with_place_in_errors(const std::string& file, const Action& action) {
-    try {
-        return action();
-    } catch (const Error& error) {
-        if (error.code() == ErrorCode::cancelled) throw;
-        std::string place = file;
-        const Elements& elements = error.elements();
-        if (elements.kind == ElementKind::line && !elements.ids.empty()) {
-            place += (file.empty() ? "line " : ":") + std::to_string(elements.ids[0] + 1LL);
-        }
-        if (!place.empty()) place += ": ";
-        throw Error(error.code(), place + error.message(), elements);
-    }
-}
-
 }  // namespace
 
 Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions& options,
                      const Context& context) {
     require_file(path);
     const std::string name = display_name(path);
-    const Format& format = with_place_in_errors(
-        name, [&]() -> const Format& { return find_format(display_name(path.extension()), true); });
+    const StrandFormat& format = with_place_in_errors(name, [&]() -> const StrandFormat& {
+        return find_strand_format(display_name(path.extension()), true);
+    });
     if (!format.read) {
         const FileContent file = read_file(path, context);
         return with_place_in_errors(
-            name, [&] { return decode(nullptr, file.bytes, format, options, context); });
+            name, [&] { return decode_as(nullptr, file.bytes, format, options, context); });
     }
     return with_place_in_errors(name, [&] {
         ByteSource source(path);
-        return decode(&source, {}, format, options, context);
+        return decode_as(&source, {}, format, options, context);
     });
 }
 
 StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,
                           const StrandSaveOptions& options, const Context& context) {
     EncodedStrands encoded = with_place_in_errors(display_name(path), [&] {
-        return encode(strands, find_format(display_name(path.extension()), false), options,
-                      context);
+        return encode_as(strands, find_strand_format(display_name(path.extension()), false),
+                         options, context);
     });
     write_file_atomically(path, encoded.bytes, context);
     return std::move(encoded.report);
@@ -239,25 +207,25 @@ StrandReport save_strands(const Strands& strands, const std::filesystem::path& p
 
 Strands decode_strands(std::string_view bytes, std::string_view extension,
                        const StrandLoadOptions& options, const Context& context) {
-    const Format& format = find_format(extension, true);
+    const StrandFormat& format = find_strand_format(extension, true);
     return with_place_in_errors("", [&] {
         ByteSource source(bytes);
-        return decode(format.read ? &source : nullptr, bytes, format, options, context);
+        return decode_as(format.read ? &source : nullptr, bytes, format, options, context);
     });
 }
 
 EncodedStrands encode_strands(const Strands& strands, std::string_view extension,
                               const StrandSaveOptions& options, const Context& context) {
-    return encode(strands, find_format(extension, false), options, context);
+    return encode_as(strands, find_strand_format(extension, false), options, context);
 }
 
 const std::vector<std::string>& readable_strand_extensions() {
-    static const std::vector<std::string> list = extensions(true);
+    static const std::vector<std::string> list = strand_extensions(true);
     return list;
 }
 
 const std::vector<std::string>& writable_strand_extensions() {
-    static const std::vector<std::string> list = extensions(false);
+    static const std::vector<std::string> list = strand_extensions(false);
     return list;
 }
 

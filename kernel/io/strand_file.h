@@ -11,41 +11,16 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kernel/core/context.h"
 #include "kernel/hair/strands/strands.h"
-#include "kernel/io/mesh_file.h"
+#include "kernel/io/record/options.h"
 #include "kernel/io/record/strand_report.h"
 
 namespace lissom {
-
-/// How the coordinates of a file become those of the strands.
-struct StrandLoadOptions {
-    /// The file's up axis. None: what the file says (.usda), else nothing is turned. The sample
-    /// files of .hair are z-up.
-    UpAxis up = UpAxis::none;
-    /// Length of the file's unit in metres: points and widths are multiplied by it. Positive,
-    /// finite. Absent: what the file says (.usda), else 1.
-    std::optional<double> unit = std::nullopt;
-};
-
-/// The inverse of StrandLoadOptions, and what is checked.
-struct StrandSaveOptions {
-    /// The up axis the file shall have.
-    UpAxis up = UpAxis::none;
-    /// Length of the file's unit in metres: points and widths are divided by it. Positive, finite.
-    double unit = 1.0;
-    /// False: what would be changed or left out for the file (see StrandFindingKind, but for
-    /// content_dropped) is an error instead.
-    bool mend = true;
-    /// Signed distance in metres to the head; empty: it is not checked that roots come first.
-    std::function<double(const Vec3&)> distance = {};
-};
 
 /// Reads strands; the extension, in any case, names the format. Files are read within memory and
 /// time in proportion to their size.

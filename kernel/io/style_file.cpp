@@ -13,17 +13,16 @@ namespace lissom {
 namespace {
 
 // Keeps the order of keys.
-using Json = nlohmann::ordered_json;
+using StyleJson = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "lissom hairstyle";
-constexpr int kVersion = 1;
-constexpr double kDegree = kPi / 180.0;
+constexpr int kStyleVersion = 1;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
     throw Error(ErrorCode::file_syntax, where + ": " + what);
 }
 
-Json json_of(const Vec3& p) {
+StyleJson json_of(const Vec3& p) {
     return {p.x(), p.y(), p.z()};
 }
 
@@ -32,7 +31,7 @@ Json json_of(const Vec3& p) {
 // Appends what it is shown to an object.
 class Writer {
   public:
-    explicit Writer(Json& object) : object_(object) {}
+    explicit Writer(StyleJson& object) : object_(object) {}
 
     void text(const char* key, std::string& value) {
         if (!value.empty()) object_[key] = value;
@@ -55,41 +54,41 @@ class Writer {
     void point(const char* key, Vec3& value) { object_[key] = json_of(value); }
     void points(const char* key, std::vector<Vec3>& list) {
         if (list.empty()) return;
-        Json& array = object_[key] = Json::array();
+        StyleJson& array = object_[key] = StyleJson::array();
         for (const Vec3& p : list) array.push_back(json_of(p));
     }
 
   private:
-    Json& object_;
+    StyleJson& object_;
 };
 
 // Takes what it is asked for from an object, and leaves what is absent as it is.
 class Reader {
   public:
-    Reader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {
+    Reader(const StyleJson& object, std::string where) : object_(object), where_(std::move(where)) {
         if (!object.is_object()) refuse(where_, "an object {...} is expected");
     }
 
     void text(const char* key, std::string& value) {
-        if (const Json* found = find(key)) {
+        if (const StyleJson* found = find(key)) {
             if (!found->is_string()) wrong(key, "a text");
             value = found->get<std::string>();
         }
     }
     void flag(const char* key, bool& value, bool) {
-        if (const Json* found = find(key)) {
+        if (const StyleJson* found = find(key)) {
             if (!found->is_boolean()) wrong(key, "true or false");
             value = found->get<bool>();
         }
     }
     void number(const char* key, double& value) {
-        if (const Json* found = find(key)) value = finite(*found, key);
+        if (const StyleJson* found = find(key)) value = finite(*found, key);
     }
     void number(const char* key, std::optional<double>& value) {
-        if (const Json* found = find(key)) value = finite(*found, key);
+        if (const StyleJson* found = find(key)) value = finite(*found, key);
     }
     void integer(const char* key, Index& value) {
-        const Json* found = find(key);
+        const StyleJson* found = find(key);
         if (!found) return;
         const double given = finite(*found, key);
         if (given != std::floor(given) || std::abs(given) > 2e9) wrong(key, "a whole number");
@@ -97,7 +96,7 @@ class Reader {
     }
     template <typename Enum>
     void choice(const char* key, Enum& value, std::initializer_list<const char*> names) {
-        const Json* found = find(key);
+        const StyleJson* found = find(key);
         if (!found) return;
         std::string expected;
         int place = 0;
@@ -112,20 +111,20 @@ class Reader {
         wrong(key, expected.c_str());
     }
     void angles(const char* key, DividingOptions::Tilt& tilt) {
-        const Json* found = find(key);
+        const StyleJson* found = find(key);
         if (!found) return;
         if (!found->is_array() || found->size() != 2) wrong(key, "two angles [start, end]");
         tilt = {finite((*found)[0], key) * kDegree, finite((*found)[1], key) * kDegree};
     }
     void point(const char* key, Vec3& value) {
-        if (const Json* found = find(key)) value = coordinates(*found, key);
+        if (const StyleJson* found = find(key)) value = coordinates(*found, key);
     }
     void points(const char* key, std::vector<Vec3>& list) {
-        const Json* found = find(key);
+        const StyleJson* found = find(key);
         if (!found) return;
         if (!found->is_array()) wrong(key, "a list of points [[x, y, z], ...]");
         list.clear();
-        for (const Json& one : *found) list.push_back(coordinates(one, key));
+        for (const StyleJson& one : *found) list.push_back(coordinates(one, key));
     }
 
     // To be called when all is read: other keys are mistakes.
@@ -139,7 +138,7 @@ class Reader {
     }
 
   private:
-    const Json* find(const char* key) {
+    const StyleJson* find(const char* key) {
         known_.insert(key);
         const auto found = object_.find(key);
         return found == object_.end() ? nullptr : &*found;
@@ -147,16 +146,16 @@ class Reader {
     [[noreturn]] void wrong(const char* key, const char* expected) const {
         refuse(where_, "\"" + std::string(key) + "\" must be " + expected);
     }
-    double finite(const Json& json, const char* key) const {
+    double finite(const StyleJson& json, const char* key) const {
         if (!json.is_number() || !std::isfinite(json.get<double>())) wrong(key, "a number");
         return json.get<double>();
     }
-    Vec3 coordinates(const Json& json, const char* key) const {
+    Vec3 coordinates(const StyleJson& json, const char* key) const {
         if (!json.is_array() || json.size() != 3) wrong(key, "made of points [x, y, z]");
         return {finite(json[0], key), finite(json[1], key), finite(json[2], key)};
     }
 
-    const Json& object_;
+    const StyleJson& object_;
     std::string where_;
     std::set<std::string> known_{"kind", "format", "version", "curves", "volume"};
 };
@@ -234,17 +233,17 @@ void describe(Archive& a, Box& volume) {
 
 // ---- Text
 
-bool is_flat(const Json& array) {
-    for (const Json& one : array) {
+bool is_flat(const StyleJson& array) {
+    for (const StyleJson& one : array) {
         if (one.is_structured()) return false;
     }
     return true;
 }
 
 // Lists of plain values stand in one line.
-void append_json(std::string& text, const Json& json, const std::string& indent) {
+void append_json(std::string& text, const StyleJson& json, const std::string& indent) {
     if (!json.is_structured()) {
-        text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+        text += json.dump(-1, ' ', false, StyleJson::error_handler_t::replace);
         return;
     }
     const bool array = json.is_array(), flat = array && is_flat(json);
@@ -255,7 +254,9 @@ void append_json(std::string& text, const Json& json, const std::string& indent)
         text += first ? "" : flat ? ", " : ",";
         if (!flat) text += "\n" + inner;
         if (!array)
-            text += Json(item.key()).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
+            text +=
+                StyleJson(item.key()).dump(-1, ' ', false, StyleJson::error_handler_t::replace) +
+                ": ";
         append_json(text, item.value(), inner);
         first = false;
     }
@@ -265,10 +266,11 @@ void append_json(std::string& text, const Json& json, const std::string& indent)
 
 // ---- From JSON
 
-StyleCurve curve_from(const Json& json, const std::string& where) {
+StyleCurve curve_from(const StyleJson& json, const std::string& where) {
     if (!json.is_object()) refuse(where, "an object {...} is expected");
-    const std::string kind =
-        json.value("kind", Json()).is_string() ? json["kind"].get<std::string>() : std::string();
+    const std::string kind = json.value("kind", StyleJson()).is_string()
+                                 ? json["kind"].get<std::string>()
+                                 : std::string();
     StyleCurve curve;
     if (kind == "stream") {
         curve.shape = StreamCurve{};
@@ -285,23 +287,23 @@ StyleCurve curve_from(const Json& json, const std::string& where) {
     return curve;
 }
 
-void require_version(const Json& json) {
-    if (json.value("format", Json()) != kFormat) {
+void require_version(const StyleJson& json) {
+    if (json.value("format", StyleJson()) != kFormat) {
         refuse("style", "\"format\" must be \"" + std::string(kFormat) + "\"");
     }
-    const Json version = json.value("version", Json());
+    const StyleJson version = json.value("version", StyleJson());
     if (!version.is_number_integer() || version.get<double>() < 1) {
         refuse("style", "\"version\" must be a whole number of 1 or more");
     }
-    if (version.get<double>() > kVersion) {
+    if (version.get<double>() > kStyleVersion) {
         throw Error(ErrorCode::unsupported,
                     "the style is of version " + version.dump() +
                         ", which is newer than this program; save it as version " +
-                        std::to_string(kVersion));
+                        std::to_string(kStyleVersion));
     }
 }
 
-StyleContent content_from(const Json& json) {
+StyleContent content_from(const StyleJson& json) {
     if (!json.is_object()) refuse("style", "an object {...} is expected");
     require_version(json);
     StyleContent content;
@@ -313,7 +315,7 @@ StyleContent content_from(const Json& json) {
         describe(box, content.options.volume.emplace());
         box.finish();
     }
-    const Json curves = json.value("curves", Json::array());
+    const StyleJson curves = json.value("curves", StyleJson::array());
     if (!curves.is_array()) refuse("style", "\"curves\" must be a list");
     for (std::size_t i = 0; i < curves.size(); ++i) {
         content.curves.push_back(curve_from(curves[i], "curve " + std::to_string(i + 1)));
@@ -346,16 +348,16 @@ Hairstyle make_style(const StyleContent& content, const Mesh& head,
 std::string encode_style(const StyleContent& content) {
     // Described as what can be changed.
     StyleContent copy = content;
-    Json json = {{"format", kFormat}, {"version", kVersion}};
+    StyleJson json = {{"format", kFormat}, {"version", kStyleVersion}};
     Writer writer(json);
     describe(writer, copy);
     if (copy.options.volume) {
-        Writer volume(json["volume"] = Json::object());
+        Writer volume(json["volume"] = StyleJson::object());
         describe(volume, *copy.options.volume);
     }
-    Json& curves = json["curves"] = Json::array();
+    StyleJson& curves = json["curves"] = StyleJson::array();
     for (StyleCurve& curve : copy.curves) {
-        Json one = {{"kind", kind_name(curve)}};
+        StyleJson one = {{"kind", kind_name(curve)}};
         Writer described(one);
         describe(described, curve);
         curves.push_back(std::move(one));
@@ -368,13 +370,13 @@ std::string encode_style(const StyleContent& content) {
 StyleContent decode_style(std::string_view bytes) {
     // Deep nesting would exhaust the stack of the parser.
     constexpr int kDeepest = 16;
-    const auto callback = [](int depth, Json::parse_event_t, Json&) {
+    const auto callback = [](int depth, StyleJson::parse_event_t, StyleJson&) {
         if (depth > kDeepest) refuse("style", "nested too deeply");
         return true;
     };
     try {
-        return content_from(Json::parse(bytes.begin(), bytes.end(), callback));
-    } catch (const Json::exception& error) {
+        return content_from(StyleJson::parse(bytes.begin(), bytes.end(), callback));
+    } catch (const StyleJson::exception& error) {
         // "[json.exception.parse_error.101] parse error at line 3, column 1: ..."
         const std::string text = error.what();
         const std::size_t end = text.find("] ");

@@ -14,10 +14,6 @@ namespace {
 // Smallest sine of the angle between the view and `up` that still fixes the picture's turn.
 constexpr double kMinimumUpSine = 1e-9;
 
-void require(bool condition, const char* message) {
-    if (!condition) throw Error(ErrorCode::invalid_argument, message);
-}
-
 void require_valid(const CameraOptions& options) {
     if (!options.eye.allFinite() || !options.target.allFinite() || !options.up.allFinite()) {
         throw Error(ErrorCode::not_finite, "the camera's eye, target or up is NaN or infinite");

@@ -62,6 +62,31 @@ const std::vector<Rule>& rules() {
     return table;
 }
 
+/// The rooms of each module, folders or single files without their extension: a room may include
+/// those before it, and itself.
+const std::vector<Names>& room_orders() {
+    static const std::vector<Names> orders = {
+        {"kernel/solve/sparse", "kernel/solve/grid", "kernel/solve/dual", "kernel/solve/field"},
+        {"kernel/mesh", "kernel/mesh/measure", "kernel/mesh/query", "kernel/mesh/edit",
+         "kernel/mesh/repair", "kernel/mesh/cut", "kernel/mesh/fill", "kernel/mesh/shapes"},
+        {"kernel/deform/mesh_point", "kernel/deform/options", "kernel/deform/patch",
+         "kernel/deform/rotation", "kernel/deform/holds", "kernel/deform/system",
+         "kernel/deform/comparison", "kernel/deform", "kernel/deform/boundary"},
+        {"kernel/merge/loop", "kernel/merge/sew", "kernel/merge/blend", "kernel/merge/thesis",
+         "kernel/merge"},
+        {"kernel/hair/field", "kernel/hair/scalp", "kernel/hair/curve", "kernel/hair/strands",
+         "kernel/hair/growth", "kernel/hair"},
+        {"kernel/io/stream", "kernel/io/record", "kernel/io/gltf/file", "kernel/io/gltf/mesh",
+         "kernel/io/gltf", "kernel/io/obj", "kernel/io/off", "kernel/io/ply", "kernel/io/stl",
+         "kernel/io/usda", "kernel/io/hair", "kernel/io"},
+        {"bindings/lua/core", "bindings/lua/mesh", "bindings/lua/deform", "bindings/lua/merge",
+         "bindings/lua/hair", "bindings/lua/reference"},
+        {"bindings/cli/terminal", "bindings/cli"},
+        {"viewer/draw", "viewer/strands", "viewer/gl", "viewer", "viewer/lua", "viewer/main"},
+    };
+    return orders;
+}
+
 bool inside(std::string_view path, std::string_view folder) {
     return path.size() > folder.size() && path.starts_with(folder) && path[folder.size()] == '/';
 }
@@ -152,7 +177,25 @@ std::vector<Include> includes_of(std::string_view source) {
 
 /// Headers of the kernel that are not installed, and so may show the libraries of their folder.
 bool is_private(std::string_view path) {
-    return path.starts_with("kernel/io/gltf_") || path == "kernel/hair/growth/growth_lanes.h";
+    return path.starts_with("kernel/io/gltf/") || path == "kernel/hair/growth/growth_lanes.h";
+}
+
+/// The room of `order` that the file at `path` lies in; nothing where it lies in none.
+std::optional<std::ptrdiff_t> room_of(const Names& order, std::string_view path) {
+    const std::string_view file = path.substr(0, path.find_last_of('.'));
+    const std::string_view folder = path.substr(0, std::min(path.find_last_of('/'), path.size()));
+    for (const std::string_view wanted : {file, folder}) {
+        const auto found = std::find(order.begin(), order.end(), wanted);
+        if (found != order.end()) return found - order.begin();
+    }
+    return std::nullopt;
+}
+
+bool rooms_allow(std::string_view path, std::string_view header) {
+    return std::none_of(room_orders().begin(), room_orders().end(), [&](const Names& order) {
+        const auto from = room_of(order, path), to = room_of(order, header);
+        return from && to && *to > *from;
+    });
 }
 
 bool project_allows(const Rule& rule, std::string_view header) {
@@ -181,7 +224,7 @@ std::vector<std::string> include_violations(std::string_view path, std::string_v
     if (!rule) return {std::string(path) + ": lies in a folder that has no rule"};
     for (const Include& include : includes_of(source)) {
         if (include.quoted) {
-            if (!project_allows(*rule, include.header))
+            if (!project_allows(*rule, include.header) || !rooms_allow(path, include.header))
                 messages.push_back("may not include \"" + include.header + "\"");
             continue;
         }

@@ -12,11 +12,9 @@ namespace lissom::test {
 /// slashes) with the text `source`; empty where it keeps the rules.
 ///
 /// - A project header is included in quotes by its path from the root, and only from folders that
-/// the
-///   including folder may know.
-/// - A third-party header is included only in the folders that own the library; headers of the
-/// kernel,
-///   which are installed, include no library but Eigen. Those of kernel/io/gltf_* are not
+///   the including folder may know: modules by their table, rooms of one module in their order.
+/// - A third-party header is included only in the folders that own the library. Headers of the
+///   kernel are installed and include no library but Eigen; those of kernel/io/gltf are not
 ///   installed.
 /// - A header opens with a docstring, followed by `#pragma once`.
 std::vector<std::string> include_violations(std::string_view path, std::string_view source);

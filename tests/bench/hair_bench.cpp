@@ -18,7 +18,7 @@
 namespace lissom::bench {
 namespace {
 
-constexpr double kDegree = kPi / 180.0, kMillimetre = 1e-3;
+constexpr double kMillimetre = 1e-3;
 constexpr Index kStrands = 100000, kManyStrands = 1000000;
 // The stream that is moved.
 constexpr std::size_t kMoved = 3;

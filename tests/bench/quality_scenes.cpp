@@ -10,8 +10,6 @@
 namespace lissom::bench {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 constexpr double kBarLength = 5.0, kBarWidth = 1.0;
 constexpr Index kBarAlong = 171;
 

@@ -10,10 +10,10 @@
 namespace lissom {
 namespace {
 
-constexpr double kTextShare = 0.0155;  // height of capitals, of the picture's height
-constexpr double kMinimumText = 7.0;   // pixels
-constexpr double kBarShare = 0.5;      // of the picture's height
-constexpr double kIntervals = 5.0;     // between the ends, about
+constexpr double kTextShare = 0.0155;     // height of capitals, of the picture's height
+constexpr double kMinimumText = 7.0;      // pixels
+constexpr double kBarShare = 0.5;         // of the picture's height
+constexpr double kLegendIntervals = 5.0;  // between the ends, about
 // Magnitudes outside are written with an exponent.
 constexpr double kSmall = 1e-3, kLarge = 1e5;
 
@@ -22,7 +22,7 @@ constexpr double kBarWidth = 1.5, kTickLength = 0.45, kTickGap = 0.55, kMargin =
 
 // 1, 2 or 5 times a power of ten, about a share of `extent`.
 double round_step(double extent) {
-    const double raw = extent / kIntervals;
+    const double raw = extent / kLegendIntervals;
     const double power = std::pow(10.0, std::floor(std::log10(raw)));
     const double factor = raw / power;
     return power * (factor < 1.5 ? 1.0 : factor < 3.5 ? 2.0 : factor < 7.5 ? 5.0 : 10.0);

@@ -7,7 +7,7 @@
 namespace lissom {
 namespace {
 
-constexpr Index kGrain = 4096;
+constexpr Index kNormalGrain = 4096;
 
 // Zero for a vector without length.
 Vec3 unit_or_zero(const Vec3& v) {
@@ -106,7 +106,7 @@ class CornerNormals {
 std::vector<Vec3> face_normals(const Topology& topology, std::span<const Vec3> positions,
                                const Context& context) {
     std::vector<Vec3> normals(static_cast<std::size_t>(topology.face_count()));
-    context.parallel_for(0, topology.face_count(), kGrain, [&](Index begin, Index end) {
+    context.parallel_for(0, topology.face_count(), kNormalGrain, [&](Index begin, Index end) {
         for (Index f = begin; f < end; ++f) {
             normals[f] = face_normal(topology.face(f), positions);
         }
@@ -118,7 +118,7 @@ std::vector<Vec3> corner_normals(const Topology& topology, std::span<const Vec3>
                                  double crease, const Context& context) {
     const std::vector<Vec3> normals = face_normals(topology, positions, context);
     std::vector<Vec3> result(static_cast<std::size_t>(topology.corner_count()));
-    context.parallel_for(0, topology.vertex_count(), kGrain, [&](Index begin, Index end) {
+    context.parallel_for(0, topology.vertex_count(), kNormalGrain, [&](Index begin, Index end) {
         CornerNormals walk(topology, positions, normals, crease);
         for (Index v = begin; v < end; ++v) walk.write(v, result);
     });

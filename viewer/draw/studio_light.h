@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "kernel/core/geometry.h"
+
 namespace lissom {
 
 /// A distant light.

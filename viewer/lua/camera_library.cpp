@@ -9,8 +9,6 @@
 namespace lissom::lua {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 // Returns the camera that make() gives.
 template <typename Make>
 int new_camera(Call& call, const Make& make) {

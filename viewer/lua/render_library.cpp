@@ -18,8 +18,6 @@
 namespace lissom::lua {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 // ---- The renderer of a Lua state: made by its first picture, ended with the state.
 
 using RendererSlot = std::unique_ptr<Renderer>;

@@ -13,8 +13,6 @@
 namespace lissom::cli {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 struct Request {
     std::vector<std::string> meshes;
     std::string out, size = "1280x960", view = "three-quarter", up = "y", shading = "smooth",
@@ -135,7 +133,7 @@ Camera placed_camera(const Request& request) {
 }
 
 // What does not depend on the meshes.
-void read_options(Request& request) {
+void options_of(Request& request) {
     Picture& picture = request.picture;
     read_size(request.size, picture.options.width, picture.options.height);
     picture.view = *find_view(request.view);
@@ -159,7 +157,7 @@ std::vector<Mesh> load_meshes(const Request& request, const Context& context) {
     return meshes;
 }
 
-void add_meshes(Request& request, const std::vector<Mesh>& meshes) {
+void add_loaded(Request& request, const std::vector<Mesh>& meshes) {
     for (const Mesh& mesh : meshes) request.picture.meshes.push_back({&mesh, request.style});
     if (!request.region.empty()) paint_region(request.picture, request.region);
     for (const std::string& name : request.handles) paint_handle(request.picture, name);
@@ -179,9 +177,9 @@ int render(Program& program, const std::vector<std::string>& words) {
     int status = kSuccess;
     if (!program.parse(app, words, status)) return status;
     require_picture_path(request.out);
-    read_options(request);
+    options_of(request);
     const std::vector<Mesh> meshes = load_meshes(request, program.context());
-    add_meshes(request, meshes);
+    add_loaded(request, meshes);
     Renderer renderer;
     const Image image = draw_picture(renderer, request.picture, program.context());
     save_picture(image, request.out, program.context());

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "viewer/draw/image.h"
-#include "viewer/draw/occlusion.h"
-#include "viewer/renderer.h"
+#include "viewer/draw/render_options.h"
+#include "viewer/draw/view_parameters.h"
 #include "viewer/strands/strand_shadow.h"
 #include "viewer/strands/view_strands.h"
 

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+
 namespace lissom {
 
 /// A point as it lies in the picture.

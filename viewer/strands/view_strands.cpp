@@ -11,7 +11,7 @@
 namespace lissom {
 namespace {
 
-void require(bool condition, const char* message, ErrorCode code = ErrorCode::out_of_range) {
+void require_range(bool condition, const char* message, ErrorCode code = ErrorCode::out_of_range) {
     if (!condition) throw Error(code, message);
 }
 
@@ -20,33 +20,35 @@ bool is_share(double value) {
 }
 
 void require_lobe(const HairLobe& lobe) {
-    require(lobe.strength >= 0.0 && lobe.strength <= 10.0,
-            "the strength of a reflection of hair must be 0 to 10");
-    require(lobe.exponent >= 0.0 && lobe.exponent <= 1e4,
-            "the exponent of a reflection of hair must be 0 to 10000");
-    require(std::abs(lobe.shift) <= kPi,
-            "the shift of a reflection of hair is at most half a turn");
+    require_range(lobe.strength >= 0.0 && lobe.strength <= 10.0,
+                  "the strength of a reflection of hair must be 0 to 10");
+    require_range(lobe.exponent >= 0.0 && lobe.exponent <= 1e4,
+                  "the exponent of a reflection of hair must be 0 to 10000");
+    require_range(std::abs(lobe.shift) <= kPi,
+                  "the shift of a reflection of hair is at most half a turn");
 }
 
 void require_style(const StrandStyle& style) {
-    require(style.level > 0.0 && style.level <= 1.0, "level must be above 0 and at most 1");
-    require(!style.count || *style.count >= 1, "the number of strands to draw must be at least 1");
-    require(std::isfinite(style.unit) && style.unit > 0.0,
-            "the unit of the strands must be a positive number of metres",
-            ErrorCode::invalid_argument);
+    require_range(style.level > 0.0 && style.level <= 1.0, "level must be above 0 and at most 1");
+    require_range(!style.count || *style.count >= 1,
+                  "the number of strands to draw must be at least 1");
+    require_range(std::isfinite(style.unit) && style.unit > 0.0,
+                  "the unit of the strands must be a positive number of metres",
+                  ErrorCode::invalid_argument);
     require_lobe(style.primary);
     require_lobe(style.secondary);
-    require(style.shift_jitter >= 0.0 && style.shift_jitter <= kPi,
-            "the jitter of reflections is at most half a turn");
-    require(is_share(style.strand_tone) && is_share(style.clump_tone),
-            "tones of strands and clumps must be 0 to 1");
-    require(std::isfinite(style.clump_size) && style.clump_size > 0.0,
-            "the size of clumps must be above 0");
-    require(style.root_tone >= 0.0 && style.root_tone <= 10.0 && style.tip_tone >= 0.0 &&
-                style.tip_tone <= 10.0,
-            "tones of roots and tips must be 0 to 10");
-    require(style.shadow >= 0.0 && style.shadow <= 100.0, "the shadow of hair must be 0 to 100");
-    require(is_share(style.scalp_tint), "the tint of the scalp must be 0 to 1");
+    require_range(style.shift_jitter >= 0.0 && style.shift_jitter <= kPi,
+                  "the jitter of reflections is at most half a turn");
+    require_range(is_share(style.strand_tone) && is_share(style.clump_tone),
+                  "tones of strands and clumps must be 0 to 1");
+    require_range(std::isfinite(style.clump_size) && style.clump_size > 0.0,
+                  "the size of clumps must be above 0");
+    require_range(style.root_tone >= 0.0 && style.root_tone <= 10.0 && style.tip_tone >= 0.0 &&
+                      style.tip_tone <= 10.0,
+                  "tones of roots and tips must be 0 to 10");
+    require_range(style.shadow >= 0.0 && style.shadow <= 100.0,
+                  "the shadow of hair must be 0 to 100");
+    require_range(is_share(style.scalp_tint), "the tint of the scalp must be 0 to 1");
 }
 
 Affine affine(const Mat4& view, const Vec3& origin) {

@@ -25,12 +25,6 @@ void compose_text(char (&text)[kTextSize], const Compose& compose) noexcept {
     }
 }
 
-std::string plain_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.14g", value);
-    return text;
-}
-
 std::string range_text(const Parameter& p) {
     const bool low = std::isfinite(p.min), high = std::isfinite(p.max);
     if (low && high && p.above_min) {
@@ -100,6 +94,12 @@ void set_axis(const char* name, Value& value) noexcept {
 }
 
 }  // namespace
+
+std::string plain_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.14g", value);
+    return text;
+}
 
 std::string expectation(const Parameter& p) {
     switch (p.kind) {

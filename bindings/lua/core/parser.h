@@ -64,4 +64,7 @@ class Parser {
     const Entry& entry_;
 };
 
+/// A number as people write it: without trailing zeros.
+std::string plain_number(double value);
+
 }  // namespace lissom::lua

@@ -8,15 +8,10 @@
 #include <tuple>
 
 #include "bindings/lua/core/nearest.h"
+#include "bindings/lua/core/parser.h"
 
 namespace lissom::lua {
 namespace {
-
-std::string plain_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.14g", value);
-    return text;
-}
 
 std::string value_text(const ParameterValue& value) {
     if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";

@@ -178,7 +178,7 @@ const std::vector<ErrorCode> kCurveErrors = {ErrorCode::handle_removed};
 const std::vector<ErrorCode> kChangeErrors = {ErrorCode::handle_removed,
                                               ErrorCode::invalid_argument, ErrorCode::out_of_range,
                                               ErrorCode::memory_limit};
-const std::vector<Result> kSelf = {{"lissom.Curve", "curve", "The curve itself."}};
+const std::vector<Result> kSelfCurve = {{"lissom.Curve", "curve", "The curve itself."}};
 
 std::vector<Function> telling_methods() {
     return {{.name = "kind",
@@ -230,21 +230,21 @@ std::vector<Function> changing_methods() {
          .summary = "Draws the curve anew.",
          .arguments = {points("points", "The new points, of a ponytail those of the spine.")
                            .in("mesh units")},
-         .results = kSelf,
+         .results = kSelfCurve,
          .errors = kChangeErrors,
          .example = kStyle + "points[2][2] = points[2][2] - 0.02\ncurve:set_points(points)"},
         {.name = "set",
          .body = set_curve,
          .summary = "Changes some of the options that it was made with.",
          .options = curve_fields(),
-         .results = kSelf,
+         .results = kSelfCurve,
          .errors = kChangeErrors,
          .example = kStyle + "curve:set{ stop = false, name = 'left' }"},
         {.name = "enable",
          .body = enable_curve,
          .summary = "Lets it act, or not.",
          .arguments = {boolean("on", "Whether it does.").defaults(true)},
-         .results = kSelf,
+         .results = kSelfCurve,
          .errors = kCurveErrors,
          .example = kStyle + "assert(not curve:enable(false):enabled())"},
         {.name = "reorder",
@@ -252,7 +252,7 @@ std::vector<Function> changing_methods() {
          .summary = "Gives it another place in the order: where curves say different things of a "
                     "point, the later one counts, but dividing curves before all others.",
          .arguments = {id("place", "Its place among the curves of the style.")},
-         .results = kSelf,
+         .results = kSelfCurve,
          .errors = {ErrorCode::handle_removed, ErrorCode::out_of_range},
          .example = kStyle + "curve:reorder(1)"},
         {.name = "remove",
@@ -267,7 +267,7 @@ std::vector<Function> hint_methods() {
              .body = cut_by_hint,
              .summary = "Ends the curve where a hint stroke crosses it.",
              .arguments = hint_argument("A polyline that passes near the curve."),
-             .results = kSelf,
+             .results = kSelfCurve,
              .errors = kChangeErrors,
              .example = kStyle + R"(local points = curve:points()
 local middle = {}
@@ -279,7 +279,7 @@ curve:cut{ above, middle })"},
              .summary = "Goes on along a hint stroke that begins near the curve: from there to the "
                         "end the curve is replaced.",
              .arguments = hint_argument("A polyline that begins near the curve."),
-             .results = kSelf,
+             .results = kSelfCurve,
              .errors = kChangeErrors,
              .example = kStyle + R"(local tip = curve:points()[2]
 curve:concatenate{ tip, { tip[1], tip[2] - 0.05, tip[3] } })"},
@@ -288,7 +288,7 @@ curve:concatenate{ tip, { tip[1], tip[2] - 0.05, tip[3] } })"},
              .summary = "Replaces the part of the curve between the ends of a hint stroke that "
                         "begins and ends near it.",
              .arguments = hint_argument("A polyline whose ends are near the curve."),
-             .results = kSelf,
+             .results = kSelfCurve,
              .errors = kChangeErrors,
              .example = kStyle + R"(local from, to = curve:points()[1], curve:points()[2]
 local out = style:at{ azimuth = 45, elevation = 35, lift = 0.03 }

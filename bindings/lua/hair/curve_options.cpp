@@ -15,8 +15,6 @@ local curve = style:stream{ points = points, name = "side" }
 
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 void take_length(const Call& call, const char* path, double& target) {
     if (call.has(path)) target = call.number(path);
 }
@@ -65,7 +63,7 @@ bool read_point(lua_State* L, int i, Vec3& point) {
     return fits;
 }
 
-Parameter metres(const std::string& name, const std::string& help) {
+Parameter metres_field(const std::string& name, const std::string& help) {
     return number(name, help).in("metres");
 }
 
@@ -80,52 +78,57 @@ std::vector<Parameter> common_fields() {
 Parameter stop_field() {
     return either("stop",
                   {boolean("on", "Whether it does."),
-                   metres("length", "How far behind the end.").at_least(0)},
+                   metres_field("length", "How far behind the end.").at_least(0)},
                   "Keeps hair from growing on beyond the end of the curve, by vectors that vanish "
                   "over a length.")
-        .optional("true, 0.04 metres");
+        .optional("true, 0.04 metres_field");
 }
 
 std::vector<Parameter> own_stream_fields() {
-    return {stop_field(), metres("clearance", "The curve is moved out to this height.")
+    return {stop_field(), metres_field("clearance", "The curve is moved out to this height.")
                               .at_least(0)
                               .optional("0.004")};
 }
 
 std::vector<Parameter> own_dividing_fields() {
-    return {numbers("tilt",
-                    "{at its first point, at its last}: by how much hair on both sides is turned "
-                    "towards the curve's end, in degrees.")
-                .optional("{0, 0}"),
-            numbers("left", "The same for one side, as seen along the curve from outside.")
-                .optional("tilt"),
-            numbers("right", "The same for the other.").optional("tilt"),
-            metres("sigma", "Distance from the line to the crest of the hair.")
-                .above(0)
-                .optional("a grid step"),
-            metres("height", "h of the thesis: the crest is 0.39 times as high.")
-                .at_least(0)
-                .optional("half a grid step"),
-            metres("reach", "How far from the line hair is shaped.").above(0).optional("2.5 sigma"),
-            metres("thickness", "How far above and below its line hair is shaped.")
-                .above(0)
-                .optional("0.8 grid steps"),
-            number("separation", "Magnitude of the vectors that keep both sides apart.")
-                .between(0, 1)
-                .optional("0.3"),
-            metres("wall_width", "How far from the line these stand.")
-                .above(0)
-                .optional("1.2 grid steps"),
-            metres("wall_height", "How high.").at_least(0).optional("2.6 grid steps"),
-            metres("ramp", "Nearer to the line, vectors away from it fade; 0 as in the thesis.")
-                .at_least(0)
-                .optional("0.87 grid steps"),
-            metres("gap", "Width of the bare skin along the line.").at_least(0).optional("0.0024")};
+    return {
+        numbers("tilt",
+                "{at its first point, at its last}: by how much hair on both sides is turned "
+                "towards the curve's end, in degrees.")
+            .optional("{0, 0}"),
+        numbers("left", "The same for one side, as seen along the curve from outside.")
+            .optional("tilt"),
+        numbers("right", "The same for the other.").optional("tilt"),
+        metres_field("sigma", "Distance from the line to the crest of the hair.")
+            .above(0)
+            .optional("a grid step"),
+        metres_field("height", "h of the thesis: the crest is 0.39 times as high.")
+            .at_least(0)
+            .optional("half a grid step"),
+        metres_field("reach", "How far from the line hair is shaped.")
+            .above(0)
+            .optional("2.5 sigma"),
+        metres_field("thickness", "How far above and below its line hair is shaped.")
+            .above(0)
+            .optional("0.8 grid steps"),
+        number("separation", "Magnitude of the vectors that keep both sides apart.")
+            .between(0, 1)
+            .optional("0.3"),
+        metres_field("wall_width", "How far from the line these stand.")
+            .above(0)
+            .optional("1.2 grid steps"),
+        metres_field("wall_height", "How high.").at_least(0).optional("2.6 grid steps"),
+        metres_field("ramp", "Nearer to the line, vectors away from it fade; 0 as in the thesis.")
+            .at_least(0)
+            .optional("0.87 grid steps"),
+        metres_field("gap", "Width of the bare skin along the line.")
+            .at_least(0)
+            .optional("0.0024")};
 }
 
 std::vector<Parameter> own_ponytail_fields() {
     return {
-        metres("radius", "Of the tie, the first cross section.")
+        metres_field("radius", "Of the tie, the first cross section.")
             .above(0)
             .optional("from section or profiles, else 1.5 grid steps"),
         points("section", "A closed curve around the spine: the tie is as wide, and stands there.")
@@ -144,11 +147,11 @@ std::vector<Parameter> own_ponytail_fields() {
             .above(0)
             .optional("1.3"),
         number("outer", "And up to this many (R2).").above(0).optional("1.9"),
-        metres("ring", "It is at least so wide.").at_least(0).optional("2.5 grid steps"),
-        metres("free", "Nearer to the head than this the tail leaves hair alone.")
+        metres_field("ring", "It is at least so wide.").at_least(0).optional("2.5 grid steps"),
+        metres_field("free", "Nearer to the head than this the tail leaves hair alone.")
             .at_least(0)
             .optional("1.5 grid steps"),
-        metres("lead", "It begins so far in front of the tie.")
+        metres_field("lead", "It begins so far in front of the tie.")
             .at_least(0)
             .optional("1.5 grid steps"),
         number("grip",
@@ -162,7 +165,7 @@ std::vector<Parameter> own_ponytail_fields() {
             .at_least(0)
             .optional("2"),
         number("tightness", "Magnitude of the vectors that do so.").between(0, 1).optional("0.6"),
-        metres("tail_length", "Of the hair behind the tie.")
+        metres_field("tail_length", "Of the hair behind the tie.")
             .at_least(0)
             .optional("as long as the spine"),
         number("ragged", "Share of that by which tips differ.").between(0, 1).optional("0.45")};

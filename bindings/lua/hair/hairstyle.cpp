@@ -50,7 +50,7 @@ int make_hairstyle(Call& call) {
 
 // ---- Files
 
-std::filesystem::path file_path(std::string_view text) {
+std::filesystem::path style_path(std::string_view text) {
     return std::filesystem::path(std::u8string(text.begin(), text.end()));
 }
 
@@ -59,7 +59,7 @@ int save_style(Call& call) {
     const char* path = call.string("path");
     const char* head = call.has("head") ? call.string("head") : "";
     const bool done = call.attempt([&] {
-        lissom::save_style(content_of(style->style(), head), file_path(path), call.context());
+        lissom::save_style(content_of(style->style(), head), style_path(path), call.context());
     });
     return done ? call.push_argument() : call.fail();
 }
@@ -72,7 +72,7 @@ std::shared_ptr<MeshObject> named_head(const std::filesystem::path& style,
                     display_name(style) + ": the style names no head; give one");
     }
     return std::make_shared<MeshObject>(
-        load_mesh(style.parent_path() / file_path(content.head), {}, context));
+        load_mesh(style.parent_path() / style_path(content.head), {}, context));
 }
 
 int load_style(Call& call) {
@@ -81,9 +81,9 @@ int load_style(Call& call) {
     const auto head = call.object<MeshObject>("head");
     const auto result = call.create<HairstyleObject>();
     const bool done = call.attempt([&] {
-        const StyleContent content = lissom::load_style(file_path(path), call.context());
+        const StyleContent content = lissom::load_style(style_path(path), call.context());
         const auto mesh =
-            has_head ? head.share() : named_head(file_path(path), content, call.context());
+            has_head ? head.share() : named_head(style_path(path), content, call.context());
         const auto scalp =
             has_scalp ? call.object<ScalpObject>("scalp")->scalp
                       : std::make_shared<const Scalp>(mesh->mesh, ScalpOptions{}, call.context());
@@ -345,13 +345,13 @@ int style_text(Call& call) {
 
 // ---- Descriptions
 
-const std::vector<ErrorCode> kCurveErrors = {ErrorCode::not_finite, ErrorCode::invalid_argument,
-                                             ErrorCode::out_of_range, ErrorCode::handle_removed,
-                                             ErrorCode::memory_limit};
+const std::vector<ErrorCode> kAddErrors = {ErrorCode::not_finite, ErrorCode::invalid_argument,
+                                           ErrorCode::out_of_range, ErrorCode::handle_removed,
+                                           ErrorCode::memory_limit};
 const std::vector<ErrorCode> kSolveErrors = {ErrorCode::not_positive_definite,
                                              ErrorCode::memory_limit, ErrorCode::handle_removed,
                                              ErrorCode::cancelled};
-const std::vector<Result> kSelf = {{"lissom.Hairstyle", "style", "The hairstyle itself."}};
+const std::vector<Result> kSelfStyle = {{"lissom.Hairstyle", "style", "The hairstyle itself."}};
 
 std::vector<Function> adding_methods() {
     const std::vector<Result> curve = {{"lissom.Curve", "curve", "The curve, behind all others."}};
@@ -361,7 +361,7 @@ std::vector<Function> adding_methods() {
          .summary = "Adds a stream curve: hair flows along it.",
          .options = stream_fields(),
          .results = curve,
-         .errors = kCurveErrors,
+         .errors = kAddErrors,
          .example = kStyle},
         {.name = "dividing",
          .body = add_dividing,
@@ -369,7 +369,7 @@ std::vector<Function> adding_methods() {
                     "lengths in metres mean the same style; the defaults follow the grid.",
          .options = dividing_fields(),
          .results = curve,
-         .errors = kCurveErrors,
+         .errors = kAddErrors,
          .example = kStyle + R"(local parting = {}
 for i, elevation in ipairs{ 40, 60, 80 } do
     parting[i] = style:at{ azimuth = 0, elevation = elevation }
@@ -380,7 +380,7 @@ style:dividing{ points = parting, tilt = { 20, 40 } })"},
          .summary = "Adds a ponytail: hair is drawn into a tie and goes on along a spine.",
          .options = ponytail_fields(),
          .results = curve,
-         .errors = kCurveErrors,
+         .errors = kAddErrors,
          .example =
              kStyle + R"(local tie, out = style:at{ azimuth = 180, elevation = 25, lift = 0.02 }
 local spine = { tie }
@@ -396,7 +396,7 @@ std::vector<Function> field_methods() {
          .body = solve_style,
          .summary = "Brings the field up to date with the curves. `grow` and `field` do so by "
                     "themselves.",
-         .results = kSelf,
+         .results = kSelfStyle,
          .errors = kSolveErrors,
          .example = kStyle + "style:solve()"},
         {.name = "field",
@@ -422,13 +422,13 @@ std::vector<Function> field_methods() {
                          .in("metres")
                          .above(0)
                          .optional("a grid step")},
-         .results = kSelf,
+         .results = kSelfStyle,
          .errors = kSolveErrors,
          .example = kStyle + "style:avoid_scalp()"},
         {.name = "forget_scalp",
          .body = forget_scalp,
          .summary = "Takes back what avoid_scalp did.",
-         .results = kSelf,
+         .results = kSelfStyle,
          .errors = {ErrorCode::handle_removed},
          .example = kStyle + "style:avoid_scalp():forget_scalp()"}};
 }
@@ -544,7 +544,7 @@ std::vector<Function> plain_methods() {
                             "Path of the head's mesh as the file shall have it, best "
                             "beside it.")
                          .optional("none")},
-         .results = kSelf,
+         .results = kSelfStyle,
          .errors = {ErrorCode::file_write_failed, ErrorCode::file_is_directory,
                     ErrorCode::handle_removed, ErrorCode::cancelled},
          .example = kStyle + "local path = os.tmpname()\nstyle:save(path)\nos.remove(path)"},

@@ -5,9 +5,7 @@
 namespace lissom::lua {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
-const Scalp& own(const Call& call) {
+const Scalp& scalp_of(const Call& call) {
     return *call.self<ScalpObject>()->scalp;
 }
 
@@ -28,7 +26,7 @@ int make_scalp(Call& call) {
 }
 
 int scalp_at(Call& call) {
-    return push_point_at(call, own(call));
+    return push_point_at(call, scalp_of(call));
 }
 
 int scalp_region(Call& call) {
@@ -44,32 +42,32 @@ int scalp_head(Call& call) {
 }
 
 int scalp_center(Call& call) {
-    return call.push_vector(own(call).frame().center);
+    return call.push_vector(scalp_of(call).frame().center);
 }
 int scalp_up(Call& call) {
-    return call.push_vector(own(call).frame().up());
+    return call.push_vector(scalp_of(call).frame().up());
 }
 int scalp_front(Call& call) {
-    return call.push_vector(own(call).frame().front());
+    return call.push_vector(scalp_of(call).frame().front());
 }
 int scalp_left(Call& call) {
-    return call.push_vector(own(call).frame().left());
+    return call.push_vector(scalp_of(call).frame().left());
 }
 int scalp_unit(Call& call) {
-    return call.push(own(call).unit());
+    return call.push(scalp_of(call).unit());
 }
 int scalp_scale(Call& call) {
-    return call.push(own(call).scale());
+    return call.push(scalp_of(call).scale());
 }
 int scalp_guessed(Call& call) {
-    return call.push(own(call).guessed());
+    return call.push(scalp_of(call).guessed());
 }
 
 int scalp_from_metres(Call& call) {
-    return call.push_vector(own(call).from_metres(call.vector("point")));
+    return call.push_vector(scalp_of(call).from_metres(call.vector("point")));
 }
 int scalp_to_metres(Call& call) {
-    return call.push_vector(own(call).to_metres(call.vector("point")));
+    return call.push_vector(scalp_of(call).to_metres(call.vector("point")));
 }
 
 int scalp_text(Call& call) {

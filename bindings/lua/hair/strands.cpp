@@ -21,9 +21,7 @@
 namespace lissom::lua {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
-const Strands& own(const Call& call) {
+const Strands& strands_of(const Call& call) {
     return call.self<StrandsObject>()->strands;
 }
 
@@ -112,7 +110,7 @@ int save(Call& call) {
 // ---- Content
 
 int strand_count(Call& call) {
-    return call.push(own(call).size());
+    return call.push(strands_of(call).size());
 }
 
 // A buffer of the points of the strands [first, last).
@@ -120,10 +118,10 @@ int push_points(Call& call, Index first, Index last) {
     const auto result = call.create<BufferObject>();
     const bool done = call.attempt([&] {
         auto buffer = std::make_shared<BufferObject>();
-        const std::span<const Index> offsets = own(call).offsets();
+        const std::span<const Index> offsets = strands_of(call).offsets();
         const auto begin = 3 * static_cast<std::size_t>(offsets[static_cast<std::size_t>(first)]);
         const auto end = 3 * static_cast<std::size_t>(offsets[static_cast<std::size_t>(last)]);
-        const auto points = own(call).points().subspan(begin, end - begin);
+        const auto points = strands_of(call).points().subspan(begin, end - begin);
         buffer->values.assign(points.begin(), points.end());
         buffer->width = 3;
         result.set(std::move(buffer));
@@ -135,15 +133,15 @@ int push_points(Call& call, Index first, Index last) {
 
 int one_strand(Call& call) {
     const Index s = call.id("strand");
-    if (!call.attempt_quick([&] { require_strand(own(call), s); })) return call.fail();
+    if (!call.attempt_quick([&] { require_strand(strands_of(call), s); })) return call.fail();
     return push_points(call, s, s + 1);
 }
 
 // What is known of a strand, but for its points.
 int strand_root(Call& call) {
     const Index s = call.id("strand");
-    if (!call.attempt_quick([&] { require_strand(own(call), s); })) return call.fail();
-    const Strands& strands = own(call);
+    if (!call.attempt_quick([&] { require_strand(strands_of(call), s); })) return call.fail();
+    const Strands& strands = strands_of(call);
     const StrandRoots& roots = strands.roots();
     const auto i = static_cast<std::size_t>(s);
     lua_createtable(call.lua(), 0, 6);
@@ -167,11 +165,11 @@ int strand_root(Call& call) {
 }
 
 int all_points(Call& call) {
-    return push_points(call, 0, own(call).size());
+    return push_points(call, 0, strands_of(call).size());
 }
 
 int point_counts(Call& call) {
-    const Strands& strands = own(call);
+    const Strands& strands = strands_of(call);
     lua_createtable(call.lua(), strands.size(), 0);
     for (Index s = 0; s < strands.size(); ++s) {
         call.push(strands.point_count(s));
@@ -181,7 +179,7 @@ int point_counts(Call& call) {
 }
 
 int groups(Call& call) {
-    const std::vector<std::string>& names = own(call).group_names();
+    const std::vector<std::string>& names = strands_of(call).group_names();
     lua_createtable(call.lua(), static_cast<int>(names.size()), 0);
     for (std::size_t i = 0; i < names.size(); ++i) {
         call.push(std::string_view(names[i]));
@@ -193,7 +191,7 @@ int groups(Call& call) {
 int strands_bounds(Call& call) {
     Box box;
     const bool done = call.attempt([&] {
-        box = bounds(own(call));
+        box = bounds(strands_of(call));
         if (box.empty()) throw Error(ErrorCode::out_of_range, "no strands have no bounds");
     });
     return done ? push_bounds(call, box) : call.fail();
@@ -201,7 +199,7 @@ int strands_bounds(Call& call) {
 
 int strands_hash(Call& call) {
     std::uint64_t value = 0;
-    if (!call.attempt([&] { value = hash(own(call)); })) return call.fail();
+    if (!call.attempt([&] { value = hash(strands_of(call)); })) return call.fail();
     char text[17];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
     return call.push(std::string_view(text));
@@ -231,7 +229,7 @@ int stats(Call& call) {
                 0.5 * style.layout().step * style.scalp().scale() * style.scalp().unit();
         }
         if (has_depth) options.depth = call.number("depth");
-        found = strand_statistics(own(call), options, call.context());
+        found = strand_statistics(strands_of(call), options, call.context());
     });
     if (!done) return call.fail();
     lua_createtable(call.lua(), 0, 13);
@@ -290,8 +288,9 @@ std::span<const Index> ask_function(Call& call) {
 int select_named(Call& call) {
     const char* group = call.string("group");
     const auto result = call.create<StrandsObject>();
-    const bool done = call.attempt(
-        [&] { result.set(std::make_shared<StrandsObject>(select_group(own(call), group))); });
+    const bool done = call.attempt([&] {
+        result.set(std::make_shared<StrandsObject>(select_group(strands_of(call), group)));
+    });
     if (!done) return call.answer_failure();
     call.charge(result);
     return 1;
@@ -314,7 +313,7 @@ int select_strands(Call& call) {
     if (call.has("strands")) list = call.ids("strands");
     if (call.has("group")) return select_named(call);
     return new_strands(call, [&] {
-        const Strands& all = own(call);
+        const Strands& all = strands_of(call);
         if (call.has("first")) return prefix(all, call.integer("first"));
         if (call.has("region")) {
             return select(all,
@@ -326,7 +325,7 @@ int select_strands(Call& call) {
 }
 
 int copy_strands(Call& call) {
-    return new_strands(call, [&] { return Strands(own(call)); });
+    return new_strands(call, [&] { return Strands(strands_of(call)); });
 }
 
 int append_strands(Call& call) {
@@ -486,7 +485,7 @@ int smooth_strands(Call& call) {
 int strands_text(Call& call) {
     char text[96];
     const int length = std::snprintf(text, sizeof text, "lissom.Strands: %d strands, %d points",
-                                     own(call).size(), own(call).point_count());
+                                     strands_of(call).size(), strands_of(call).point_count());
     return call.push(std::string_view(text, static_cast<std::size_t>(length)));
 }
 
@@ -498,7 +497,7 @@ const std::string kPair =
     "},\n"
     "    counts = { 3, 2 },\n}\n";
 
-const std::vector<Result> kSelf = {{"lissom.Strands", "strands", "The strands themselves."}};
+const std::vector<Result> kSelfStrands = {{"lissom.Strands", "strands", "The strands themselves."}};
 
 Parameter meters(const std::string& name, const std::string& help) {
     return number(name, help).in("metres");
@@ -592,7 +591,7 @@ std::vector<Function> content_methods() {
                              "false makes what would be changed or left out an error that names "
                              "the strands.")
                          .defaults(true)},
-         .results = {kSelf.front(),
+         .results = {kSelfStrands.front(),
                      {"lissom.StrandFinding[]", "report", "What was found, changed or left out."}},
          .errors = {ErrorCode::unknown_format, ErrorCode::file_write_failed,
                     ErrorCode::file_is_directory, ErrorCode::file_too_large, ErrorCode::not_finite,
@@ -641,14 +640,14 @@ std::vector<Function> edit_methods() {
          .body = append_strands,
          .summary = "Adds other strands after these. Groups of the same name become one.",
          .arguments = {object("other", "lissom.Strands", "The strands to add.")},
-         .results = kSelf,
+         .results = kSelfStrands,
          .errors = {ErrorCode::invalid_argument},
          .example = kPair + "assert(#hair:append(hair) == 4)"},
         {.name = "transform",
          .body = transform_strands,
          .summary = "Scales, then rotates, then translates all points. Widths scale too.",
          .options = transform_fields("the origin"),
-         .results = kSelf,
+         .results = kSelfStrands,
          .errors = {ErrorCode::singular_transform, ErrorCode::not_finite, ErrorCode::cancelled},
          .example = kPair + "hair:transform{ translate = { 0, 1.6, 0 } }"},
         {.name = "resample",
@@ -657,7 +656,7 @@ std::vector<Function> edit_methods() {
          .options = {integer("count", "Points of each strand.").at_least(2).optional(),
                      meters("step", "Distance of points.").above(0).optional()},
          .one_option = true,
-         .results = kSelf,
+         .results = kSelfStrands,
          .errors = {ErrorCode::invalid_argument, ErrorCode::memory_limit, ErrorCode::cancelled},
          .example = kPair + "assert(hair:resample{ count = 10 }:points():count() == 20)"},
         {.name = "set_widths",
@@ -671,7 +670,7 @@ std::vector<Function> edit_methods() {
                       "Factors at equal steps from the root to the tip, linear "
                       "between; empty for none.")
                   .optional()},
-         .results = kSelf,
+         .results = kSelfStrands,
          .errors = {ErrorCode::invalid_argument, ErrorCode::out_of_range},
          .example = kPair + "hair:set_widths{ width = 90e-6, profile = { 1, 1, 0.4 } }"},
         {.name = "set_colors",
@@ -681,7 +680,7 @@ std::vector<Function> edit_methods() {
          .options = {vector("color", "The colour of all strands.").optional(),
                      points("colors", "Colours, one a strand or one a point.").optional()},
          .one_option = true,
-         .results = kSelf,
+         .results = kSelfStrands,
          .errors = {ErrorCode::invalid_argument, ErrorCode::out_of_range},
          .example = kPair + "hair:set_colors{ color = { 0.26, 0.15, 0.075 } }"}};
 }
@@ -723,10 +722,10 @@ Function clump_method() {
                         meters("offset", "Random distance by which the tip of a whole clump moves.")
                             .defaults(d.offset)
                             .at_least(0),
-                        boolean("within_groups", "Guides are of the strand's own group.")
+                        boolean("within_groups", "Guides are of the strand's strands_of group.")
                             .defaults(d.within_groups),
                         keep_length_field(), seed_field()},
-            .results = kSelf,
+            .results = kSelfStrands,
             .errors = kOperatorErrors,
             .example = kPair + "hair:clump{ clumps = 1, strength = 0.5 }"};
 }
@@ -748,7 +747,7 @@ Function noise_method() {
                          "along the strand."),
              boolean("cumulative", "Deviations add up along the strand.").defaults(d.cumulative),
              keep_length_field(), seed_field()},
-        .results = kSelf,
+        .results = kSelfStrands,
         .errors = kOperatorErrors,
         .example = kPair + "hair:noise{ amplitude = 0.003, seed = 7 }"};
 }
@@ -776,7 +775,7 @@ Function trim_method() {
                         .at_least(0),
                     meters("least", "No strand becomes shorter.").defaults(d.least).above(0),
                     seed_field()},
-        .results = kSelf,
+        .results = kSelfStrands,
         .errors = kOperatorErrors,
         .example = kPair + "assert(hair:trim{ length = 0.15 }:stats().most_length < 0.1501)"};
 }
@@ -797,7 +796,7 @@ std::vector<Function> operator_methods() {
                          .defaults(taper_defaults.start)
                          .between(0, 0.999),
                      shape_field(taper_defaults.shape, "1 is a cone, 2 stays wide for longer.")},
-         .results = kSelf,
+         .results = kSelfStrands,
          .errors = {ErrorCode::invalid_argument},
          .example = kPair + "hair:taper{ tip = 0.3 }"},
         trim_method(),
@@ -813,7 +812,7 @@ std::vector<Function> operator_methods() {
                          .defaults(smooth_defaults.strength)
                          .between(0, 1)
                          .above(0)},
-         .results = kSelf,
+         .results = kSelfStrands,
          .errors = kOperatorErrors,
          .example = kPair + "hair:smooth{ iterations = 5 }"}};
 }

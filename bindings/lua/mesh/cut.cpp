@@ -10,8 +10,6 @@
 namespace lissom::lua {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 // In the order of CutConcern.
 constexpr std::array kConcerns = {"touches_boundary", "folded_line", "lines_nearby"};
 

@@ -150,7 +150,7 @@ struct BoundaryDeformer::State {
     /// Local vertices of `held`, in its order, and whether anything else is fixed.
     std::vector<Index> held_local;
     bool surrounded = false;
-    Knowledge known;
+    KnownMask known;
     GradientStencils stencils;
     std::unique_ptr<GradientSystem> first;
     std::unique_ptr<RotationSystem> second;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "kernel/deform/deformer.h"
+#include "kernel/deform/options.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/system/gradients.h"
 #include "kernel/solve/sparse/sparse_system.h"
@@ -18,7 +18,7 @@ namespace lissom {
 struct ComparisonProblem {
     const Patch& patch;
     /// Of real vertices first, as everywhere; virtual ones are not looked at.
-    const Knowledge& known;
+    const KnownMask& known;
     /// What prescribes the gradient of each local vertex, or kNoIndex where nothing does. Sources
     /// count from 0: handles, constrained vertices, and what is pinned.
     const std::vector<Index>& source;

@@ -52,7 +52,7 @@ void add_position(const Vec3& at, Part& part) {
     part.products += at * at.transpose();
 }
 
-void add_vertex(const Patch& patch, const TiesOfVertices& ties, const Knowledge& known, Index v,
+void add_vertex(const Patch& patch, const TiesOfVertices& ties, const KnownMask& known, Index v,
                 Part& part) {
     part.has_gradient = part.has_gradient || known.gradient[v] || ties.turned.count(v) > 0;
     if (known.position[v]) {
@@ -64,7 +64,7 @@ void add_vertex(const Patch& patch, const TiesOfVertices& ties, const Knowledge&
     for (auto tie = first; tie != last; ++tie) add_position(patch.rest[tie->second], part);
 }
 
-Part collect_part(const WorkingPatch& work, const TiesOfVertices& ties, const Knowledge& known,
+Part collect_part(const WorkingPatch& work, const TiesOfVertices& ties, const KnownMask& known,
                   Index start, std::vector<char>& seen) {
     Part part;
     std::vector<Index> stack{start};
@@ -195,7 +195,7 @@ Holding find_holding(const WorkingPatch& work, const Holds& holds) {
     return holding;
 }
 
-void require_constraints(const WorkingPatch& work, const Knowledge& known) {
+void require_constraints(const WorkingPatch& work, const KnownMask& known) {
     const TiesOfVertices ties(work);
     std::vector<char> seen(static_cast<std::size_t>(work.patch.surface_count), 0);
     for (Index v = 0; v < work.patch.surface_count; ++v) {

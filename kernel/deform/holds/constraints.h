@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/deform/deformer.h"
+#include "kernel/deform/holds/known_mask.h"
+#include "kernel/deform/options.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/patch/working_patch.h"
-#include "kernel/deform/system/gradients.h"
 
 namespace lissom {
 
@@ -73,7 +73,7 @@ struct Holds {
 /// Who holds which local vertices of a patch, and what that makes known.
 struct Holding {
     std::vector<Index> owner;
-    Knowledge known;
+    KnownMask known;
     /// Anchors and vertices that take what a point constraint asks, with its number.
     std::vector<std::pair<Index, Index>> asked;
 };
@@ -89,6 +89,6 @@ Holding find_holding(const WorkingPatch& work, const Holds& holds);
 
 /// Throws `unconstrained` where a connected part with free vertices has no known position, or
 /// neither a known gradient nor four known positions that are not in one plane.
-void require_constraints(const WorkingPatch& work, const Knowledge& known);
+void require_constraints(const WorkingPatch& work, const KnownMask& known);
 
 }  // namespace lissom

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel/deform/deformer.h"
+#include "kernel/deform/options.h"
 
 namespace lissom {
 

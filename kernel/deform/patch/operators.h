@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
-#include "kernel/deform/deformer.h"
+#include "kernel/deform/options.h"
 #include "kernel/deform/patch/patch.h"
 
 namespace lissom {

@@ -54,4 +54,9 @@ void append_rows(std::vector<Index>& begin, std::vector<Index>& column, std::vec
     value.insert(value.end(), part_value.begin(), part_value.end());
 }
 
+/// Rows of a chunk in assembly: few chunks, as each needs a scratch row of the full width.
+inline Index assembly_grain(Index size) {
+    return std::max<Index>(1024, (size + 15) / 16);
+}
+
 }  // namespace lissom

@@ -1,7 +1,7 @@
 /// The patch that a preparation works on, with its operators; private to kernel/deform.
 #pragma once
 
-#include "kernel/deform/deformer.h"
+#include "kernel/deform/options.h"
 #include "kernel/deform/patch/operators.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/patch/ties.h"

@@ -7,7 +7,7 @@
 namespace lissom {
 
 GradientResidual::GradientResidual(const WorkingPatch& work, const GradientStencils& gradients,
-                                   const Knowledge& known, double coherence_weight)
+                                   const KnownMask& known, double coherence_weight)
     : work_(work),
       gradients_(gradients),
       known_(known),

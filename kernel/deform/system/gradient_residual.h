@@ -18,7 +18,7 @@ class GradientResidual {
   public:
     /// All must live as long.
     GradientResidual(const WorkingPatch& work, const GradientStencils& gradients,
-                     const Knowledge& known, double coherence_weight);
+                     const KnownMask& known, double coherence_weight);
 
     /// At positions `x` of all local vertices and gradients `m` of those where they are known; both
     /// may be deviations from an affine map. One value a local vertex; meaningless where positions
@@ -35,7 +35,7 @@ class GradientResidual {
 
     const WorkingPatch& work_;
     const GradientStencils& gradients_;
-    const Knowledge& known_;
+    const KnownMask& known_;
     double coherence_weight_;
     std::vector<Vec3> delta_;
 };

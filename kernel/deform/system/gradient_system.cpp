@@ -9,11 +9,6 @@
 namespace lissom {
 namespace {
 
-// Few chunks, as each needs scratch rows of the full width.
-Index grain_of(Index size) {
-    return std::max<Index>(1024, (size + 15) / 16);
-}
-
 // Pairs two rings apart weigh as an edge between equilateral triangles.
 constexpr double kSecondRingCoherence = 0.57735026918962576;
 
@@ -43,7 +38,7 @@ struct SystemRows {
 
 class Assembler {
   public:
-    Assembler(const WorkingPatch& work, const GradientStencils& gradients, const Knowledge& known,
+    Assembler(const WorkingPatch& work, const GradientStencils& gradients, const KnownMask& known,
               const DeformOptions& options)
         : work_(work),
           rings_(work.rings),
@@ -73,7 +68,7 @@ class Assembler {
     }
 
     void build_coherence(const Context& context) {
-        const Index grain = grain_of(rings_.size());
+        const Index grain = assembly_grain(rings_.size());
         std::vector<CoherenceRows> parts(chunk_count(rings_.size()));
         context.parallel_for(0, rings_.size(), grain, [&](Index begin, Index end) {
             parts[static_cast<std::size_t>(begin / grain)] = coherence_rows(begin, end);
@@ -84,7 +79,7 @@ class Assembler {
     std::vector<SystemRows> build_rows(const std::vector<Index>& free,
                                        const Context& context) const {
         const auto rows = static_cast<Index>(free.size());
-        const Index grain = grain_of(rows);
+        const Index grain = assembly_grain(rows);
         std::vector<SystemRows> parts(chunk_count(rows));
         context.parallel_for(0, rows, grain, [&](Index begin, Index end) {
             parts[static_cast<std::size_t>(begin / grain)] = system_rows(free, begin, end);
@@ -94,7 +89,7 @@ class Assembler {
 
   private:
     static std::size_t chunk_count(Index size) {
-        return static_cast<std::size_t>((size + grain_of(size) - 1) / grain_of(size));
+        return static_cast<std::size_t>((size + assembly_grain(size) - 1) / assembly_grain(size));
     }
 
     bool has_gradient(Index i) const { return known_.gradient[i] || gradients_.defined[i]; }
@@ -260,7 +255,7 @@ class Assembler {
     const RingGeometry& geometry_;
     const Laplacian& laplacian_;
     const GradientStencils& gradients_;
-    const Knowledge& known_;
+    const KnownMask& known_;
     const DeformOptions& options_;
     std::vector<Vec3> delta_;
     std::vector<Index> row_of_;
@@ -284,7 +279,7 @@ SparseRow final_position(const WorkingPatch& work, const GradientStencils& g, In
 }  // namespace
 
 GradientSystem::GradientSystem(const WorkingPatch& work, const GradientStencils& gradients,
-                               const Knowledge& known, const DeformOptions& options,
+                               const KnownMask& known, const DeformOptions& options,
                                const Context& context) {
     Assembler assembler(work, gradients, known, options);
     free_ = assembler.number_free_vertices();

@@ -25,7 +25,7 @@ class GradientSystem {
   public:
     /// Assembles A row by row, without forming products of sparse matrices.
     GradientSystem(const WorkingPatch& work, const GradientStencils& gradients,
-                   const Knowledge& known, const DeformOptions& options, const Context& context);
+                   const KnownMask& known, const DeformOptions& options, const Context& context);
 
     /// Analyses and factors A, and prepares hard ties. Errors: not_positive_definite with rows as
     /// elements; memory_limit.

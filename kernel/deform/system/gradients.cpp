@@ -16,7 +16,7 @@ constexpr double kSameDistance = 1e-9;
 class Displacer {
   public:
     Displacer(const Patch& patch, const Rings& rings, const RingGeometry& geometry,
-              const Knowledge& known, const Vec3& start, const DeformOptions& options)
+              const KnownMask& known, const Vec3& start, const DeformOptions& options)
         : patch_(patch),
           rings_(rings),
           geometry_(geometry),
@@ -178,7 +178,7 @@ class Displacer {
     const Patch& patch_;
     const Rings& rings_;
     const RingGeometry& geometry_;
-    const Knowledge& known_;
+    const KnownMask& known_;
     const Vec3& start_;
     const DeformOptions& options_;
     GradientStencils result_;
@@ -196,7 +196,7 @@ Mat3 GradientStencils::gather(const Rings& rings, std::span<const Vec3> x, Index
 }
 
 GradientStencils make_gradients(const Patch& patch, const Rings& rings,
-                                const RingGeometry& geometry, const Knowledge& known,
+                                const RingGeometry& geometry, const KnownMask& known,
                                 const Vec3& start, const DeformOptions& options) {
     return Displacer(patch, rings, geometry, known, start, options).run();
 }

@@ -6,16 +6,11 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/deform/holds/known_mask.h"
 #include "kernel/deform/patch/operators.h"
 #include "kernel/deform/patch/patch.h"
 
 namespace lissom {
-
-/// What is known of every local vertex. A vertex whose gradient is not needed has it neither known
-/// nor wanted: far outside, or without faces.
-struct Knowledge {
-    std::vector<char> position, gradient, gradient_wanted;
-};
 
 /// M_i = x_i self[i]^T + sum over the ring of x_j neighbor[entry]^T, where `defined`.
 struct GradientStencils {
@@ -34,7 +29,7 @@ struct GradientStencils {
 /// outward from `start`, vertices at the same distance together. Constrained vertices stay where
 /// they are, and go without a gradient where they are still degenerate at the end.
 GradientStencils make_gradients(const Patch& patch, const Rings& rings,
-                                const RingGeometry& geometry, const Knowledge& known,
+                                const RingGeometry& geometry, const KnownMask& known,
                                 const Vec3& start, const DeformOptions& options);
 
 }  // namespace lissom

@@ -12,11 +12,6 @@
 namespace lissom {
 namespace {
 
-// Few chunks in assembly, as each needs a scratch row of the full width.
-Index grain_of(Index size) {
-    return std::max<Index>(1024, (size + 15) / 16);
-}
-
 // A factor in single precision serves where one correction leaves less than this of the error;
 // corrections go on to this precision.
 constexpr double kLargestContraction = 0.02;
@@ -140,7 +135,7 @@ void RotationSystem::assemble(const std::vector<char>& position_known, const Con
         }
     }
     const auto count = static_cast<Index>(free_.size());
-    const Index grain = grain_of(count);
+    const Index grain = assembly_grain(count);
     std::vector<SymmetricMatrix> parts(static_cast<std::size_t>((count + grain - 1) / grain));
     context.parallel_for(0, count, grain, [&](Index begin, Index end) {
         SymmetricMatrix& rows = parts[static_cast<std::size_t>(begin / grain)];

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "kernel/core/error.h"
 #include "kernel/hair/curve/curve.h"
 #include "kernel/hair/curve/curve_foot.h"
 #include "kernel/hair/curve/grid_range.h"
@@ -21,10 +22,6 @@ constexpr double kTie = 1e-9;
 constexpr double kBeyond = 0.5;
 // Sine of the least angle between the curve and the scalp's normal.
 constexpr double kLeastSine = 1e-3;
-
-void require(bool holds, const char* message) {
-    if (!holds) throw Error(ErrorCode::invalid_argument, message);
-}
 
 // The options with all lengths known.
 struct Rule {
@@ -50,7 +47,7 @@ struct Rule {
     double highest() const { return gaussian(sigma) + std::max(thickness, wall_height); }
 };
 
-void require_options(const DividingOptions& o, const Rule& rule) {
+void require_dividing(const DividingOptions& o, const Rule& rule) {
     for (const auto& tilt : {o.left, o.right}) {
         for (const double angle : {tilt.start, tilt.end}) {
             require(std::abs(angle) <= 0.5 * kPi + 1e-9,
@@ -202,7 +199,7 @@ std::vector<GridConstraint> dividing_constraints(const DistanceGrid& distances,
     const DividingLine line(points, normals);
     const GridLayout& layout = distances.layout();
     const Rule rule(options, layout.step);
-    require_options(options, rule);
+    require_dividing(options, rule);
     const Divider divider(distances, line, options, rule);
 
     Box box;

@@ -18,7 +18,7 @@ constexpr int kJoinSegments = 8;
 // Lengths that are a smaller part of a curve than this are none.
 constexpr double kTiny = 1e-9;
 
-void require_options(const HintOptions& o) {
+void require_hint(const HintOptions& o) {
     if (o.reach >= 0.0 && std::isfinite(o.reach) && o.join >= 0.0 && std::isfinite(o.join)) return;
     throw Error(ErrorCode::invalid_argument, "reach and join of a hint must be 0 or more");
 }
@@ -112,7 +112,7 @@ void append_join(const Path& first, double leave, const Path& second, double arr
 
 HintOperation hint_operation(std::span<const Vec3> curve, std::span<const Vec3> hint,
                              const HintOptions& options) {
-    require_options(options);
+    require_hint(options);
     const Path path(curve), stroke(hint);
     const bool starts = meeting_at(path, stroke.points.front()).distance <= options.reach;
     const bool ends = meeting_at(path, stroke.points.back()).distance <= options.reach;
@@ -123,7 +123,7 @@ HintOperation hint_operation(std::span<const Vec3> curve, std::span<const Vec3> 
 
 std::vector<Vec3> cut_curve(std::span<const Vec3> curve, std::span<const Vec3> hint,
                             const HintOptions& options) {
-    require_options(options);
+    require_hint(options);
     const Path path(curve), stroke(hint);
     const Meeting end = crossing(path, stroke);
     require_near(end, options, "the hint passes");
@@ -138,7 +138,7 @@ std::vector<Vec3> cut_curve(std::span<const Vec3> curve, std::span<const Vec3> h
 
 std::vector<Vec3> concatenated_curve(std::span<const Vec3> curve, std::span<const Vec3> hint,
                                      const HintOptions& options) {
-    require_options(options);
+    require_hint(options);
     const Path path(curve), stroke(hint);
     const Meeting start = meeting_at(path, stroke.points.front());
     require_near(start, options, "the hint starts");
@@ -154,7 +154,7 @@ std::vector<Vec3> concatenated_curve(std::span<const Vec3> curve, std::span<cons
 
 std::vector<Vec3> inserted_curve(std::span<const Vec3> curve, std::span<const Vec3> hint,
                                  const HintOptions& options) {
-    require_options(options);
+    require_hint(options);
     const Path path(curve);
     Path stroke(hint);
     Meeting start = meeting_at(path, stroke.points.front());

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "kernel/core/error.h"
 #include "kernel/hair/curve/curve.h"
 #include "kernel/hair/curve/curve_foot.h"
 #include "kernel/hair/curve/grid_range.h"
@@ -26,15 +27,11 @@ constexpr double kShortest = 1e-6;         // parts of a spine shorter than this
 // from that one on to this share of its radius.
 constexpr double kSwollen = 0.45, kNarrowing = 0.55, kNarrowed = 0.45;
 
-void require(bool holds, const char* message) {
-    if (!holds) throw Error(ErrorCode::invalid_argument, message);
-}
-
 bool is_length(double x) {
     return x >= 0.0 && std::isfinite(x);
 }
 
-void require_options(const PonytailOptions& o) {
+void require_ponytail(const PonytailOptions& o) {
     require(!o.radius || (*o.radius > 0.0 && std::isfinite(*o.radius)),
             "the radius of a ponytail must be above 0");
     require(o.share >= 0.0 && o.share <= 1.0, "share of a ponytail must be from 0 to 1");
@@ -317,7 +314,7 @@ PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
                              const PonytailOptions& options) {
     const Spine whole(spine);
     require(step > 0.0 && std::isfinite(step), "the step along a curve must be above 0");
-    require_options(options);
+    require_ponytail(options);
     const Outline outline = outline_of(whole, step, options);
     PonytailShape shape;
     std::size_t last = 0;
@@ -348,7 +345,7 @@ PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
 std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
                                                  const PonytailShape& shape,
                                                  const PonytailOptions& options) {
-    require_options(options);
+    require_ponytail(options);
     require(!shape.sections.empty() && shape.spine.size() > 1 && shape.last() < shape.spine.size(),
             "the shape of a ponytail needs a spine with cross sections");
     const GridLayout& layout = distances.layout();

@@ -11,10 +11,6 @@ namespace {
 // Vectors shorter than this, as a share of their length before, have no direction worth keeping.
 constexpr double kLeastLength = 1e-3;
 
-void require(bool holds, const char* message) {
-    if (!holds) throw Error(ErrorCode::invalid_argument, message);
-}
-
 bool is_positive(double x) {
     return x > 0.0 && std::isfinite(x);
 }

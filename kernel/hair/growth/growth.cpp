@@ -30,10 +30,6 @@ constexpr double kLeastSegment = 1e-3, kLeastRoundings = 8.0;
 // More room for points than the strands so far let expect.
 constexpr double kSlack = 1.02;
 
-void require(bool holds, const char* message) {
-    if (!holds) throw Error(ErrorCode::invalid_argument, message);
-}
-
 bool is_length(double x) {
     return x >= 0.0 && std::isfinite(x);
 }

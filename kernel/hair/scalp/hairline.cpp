@@ -8,7 +8,6 @@
 namespace lissom {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
 constexpr double kMost = 1000.0;
 // Share of the band in which hair thins out that lies below the hairline.
 constexpr double kBelow = 1.0 / 6.0;

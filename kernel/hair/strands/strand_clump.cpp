@@ -17,19 +17,11 @@ namespace {
 
 constexpr std::uint64_t kStrengthStream = 1, kOffsetStream = 2, kTipStream = 3;
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
-void require(bool valid, const char* message) {
-    if (!valid) throw Error(ErrorCode::invalid_argument, message);
-}
-
 bool is_length(double x) {
     return x >= 0.0 && std::isfinite(x);
 }
 
-void require_options(const ClumpOptions& options) {
+void require_clump(const ClumpOptions& options) {
     require(options.clumps >= 1, "clump needs at least one guide");
     require(options.strength >= 0.0 && options.strength <= 1.0,
             "the strength of clump must be from 0 to 1");
@@ -146,7 +138,7 @@ class Clumps {
 }  // namespace
 
 void clump(Strands& strands, const ClumpOptions& options, const Context& context) {
-    require_options(options);
+    require_clump(options);
     Progress progress(context, "clump strands");
     const Clumps clumps(strands, options);
     move_points(

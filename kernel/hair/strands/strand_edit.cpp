@@ -16,10 +16,6 @@
 namespace lissom {
 namespace {
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
 template <typename T>
 std::vector<T> chosen(const std::vector<T>& values, std::span<const Index> list) {
     std::vector<T> result;
@@ -188,7 +184,7 @@ void scale_widths(Strands& strands, double scale) {
     strands.set_widths(std::move(widths));
 }
 
-void require_finite(const Strands& strands, const std::vector<float>& points) {
+void require_finite_edit(const Strands& strands, const std::vector<float>& points) {
     Elements beyond{ElementKind::strand, 0, {}};
     for (Index s = 0; s < strands.size(); ++s) {
         const StrandView moved(points.data() + 3 * at(strands.first_point(s)), 3,
@@ -281,7 +277,7 @@ void transform(Strands& strands, const Affine& map, const Context& context) {
             for (std::size_t k = 0; k < 3; ++k) moved[i + k] = static_cast<float>(q[Index(k)]);
         }
     });
-    require_finite(strands, moved);
+    require_finite_edit(strands, moved);
     std::copy(moved.begin(), moved.end(), strands.edit_points().begin());
     if (scale != 1.0) scale_widths(strands, scale);
 }

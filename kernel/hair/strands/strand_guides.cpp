@@ -14,10 +14,6 @@ namespace {
 
 constexpr int kAxes = 6;
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
 Vec3 point_at(const StrandView& strand, const StrandPlace& place) {
     const Vec3 a = strand.col(place.below).cast<double>();
     if (place.u == 0.0f) return a;

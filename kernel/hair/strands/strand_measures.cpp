@@ -12,7 +12,7 @@
 namespace lissom {
 namespace {
 
-constexpr Index kGrain = 256;
+constexpr Index kMeasureGrain = 256;
 
 Vec3 point(const StrandView& strand, Index k) {
     return strand.col(k).cast<double>();
@@ -198,11 +198,12 @@ StrandStatistics strand_statistics(const Strands& strands, const StrandStatistic
                                    const Context& context) {
     Progress progress(context, "measure strands");
     const Index count = strands.size();
-    std::vector<StrandStatistics> parts(static_cast<std::size_t>((count + kGrain - 1) / kGrain));
-    context.parallel_for(0, count, kGrain, [&](Index begin, Index end) {
+    std::vector<StrandStatistics> parts(
+        static_cast<std::size_t>((count + kMeasureGrain - 1) / kMeasureGrain));
+    context.parallel_for(0, count, kMeasureGrain, [&](Index begin, Index end) {
         Collector part(options);
         for (Index s = begin; s < end; ++s) part.add(s, strands.strand(s));
-        parts[static_cast<std::size_t>(begin / kGrain)] = part.sum();
+        parts[static_cast<std::size_t>(begin / kMeasureGrain)] = part.sum();
     });
     Collector whole(options);
     for (const StrandStatistics& part : parts) whole.add(part);

@@ -43,11 +43,7 @@ std::int64_t cell_of(double floor) {
     return std::abs(floor) < kFar ? static_cast<std::int64_t>(floor) : 0;
 }
 
-void require(bool valid, const char* message) {
-    if (!valid) throw Error(ErrorCode::invalid_argument, message);
-}
-
-void require_options(const NoiseOptions& options) {
+void require_noise(const NoiseOptions& options) {
     require(options.amplitude >= 0.0 && std::isfinite(options.amplitude),
             "the amplitude of noise must be finite and not negative");
     require(options.across > 0.0 && std::isfinite(options.across) && options.along > 0.0 &&
@@ -127,7 +123,7 @@ Vec3 smooth_noise(const Vec3& place, std::uint64_t seed) {
 }
 
 void noise(Strands& strands, const NoiseOptions& options, const Context& context) {
-    require_options(options);
+    require_noise(options);
     Progress progress(context, "noise of strands");
     const auto move = [&](Index, const StrandView& old, StrandEdit& made) {
         Deviations(old, options).add_to(made);

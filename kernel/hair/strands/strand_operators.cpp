@@ -10,17 +10,9 @@
 namespace lissom {
 namespace {
 
-constexpr Index kGrain = 64;
+constexpr Index kOperatorGrain = 64;
 // Steps of a profile: enough for any exponent to look smooth.
 constexpr std::size_t kProfileSamples = 33;
-
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
-void require(bool valid, const char* message) {
-    if (!valid) throw Error(ErrorCode::invalid_argument, message);
-}
 
 double taper_at(double t, const TaperOptions& options) {
     const double along = std::max(0.0, (t - options.start) / (1.0 - options.start));
@@ -87,7 +79,7 @@ void move_points(
     const Context& context) {
     const MemoryCharge charge = context.charge(strands.points().size_bytes(), "moving strands");
     std::vector<float> points(strands.points().begin(), strands.points().end());
-    context.parallel_for(0, strands.size(), kGrain, [&](Index begin, Index end) {
+    context.parallel_for(0, strands.size(), kOperatorGrain, [&](Index begin, Index end) {
         for (Index s = begin; s < end; ++s) {
             const StrandView old = strands.strand(s);
             if (old.cols() < 2 || !old.allFinite()) continue;

@@ -13,12 +13,8 @@
 namespace lissom {
 namespace {
 
-constexpr Index kGrain = 256;
+constexpr Index kResampleGrain = 256;
 constexpr double kMostPoints = std::numeric_limits<Index>::max();
-
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
 
 [[noreturn]] void refuse_points() {
     throw Error(ErrorCode::invalid_argument,
@@ -35,9 +31,9 @@ struct Run {
 using Find = std::function<void(Index, std::vector<StrandPlace>&)>;
 
 std::vector<Run> find_runs(const Strands& strands, const Find& find, const Context& context) {
-    std::vector<Run> runs(at((strands.size() + kGrain - 1) / kGrain));
-    context.parallel_for(0, strands.size(), kGrain, [&](Index begin, Index end) {
-        Run& run = runs[at(begin / kGrain)];
+    std::vector<Run> runs(at((strands.size() + kResampleGrain - 1) / kResampleGrain));
+    context.parallel_for(0, strands.size(), kResampleGrain, [&](Index begin, Index end) {
+        Run& run = runs[at(begin / kResampleGrain)];
         std::vector<StrandPlace> places;
         for (Index s = begin; s < end; ++s) {
             places.clear();
@@ -68,8 +64,8 @@ std::vector<Index> offsets_of(const std::vector<Run>& runs) {
 void interpolate(const float* old, Index width, const Strands& strands,
                  const std::vector<Index>& offsets, const std::vector<Run>& runs,
                  const Context& context, float* made) {
-    context.parallel_for(0, strands.size(), kGrain, [&](Index begin, Index end) {
-        const StrandPlace* place = runs[at(begin / kGrain)].places.data();
+    context.parallel_for(0, strands.size(), kResampleGrain, [&](Index begin, Index end) {
+        const StrandPlace* place = runs[at(begin / kResampleGrain)].places.data();
         for (Index s = begin; s < end; ++s) {
             const Index last = strands.point_count(s) - 1;
             for (Index k = offsets[at(s)]; k < offsets[at(s) + 1]; ++k, ++place) {
@@ -113,7 +109,7 @@ float* numbers(std::vector<Eigen::Vector3f>& values) {
     return values.empty() ? nullptr : values.front().data();
 }
 
-void require_options(const ResampleOptions& options) {
+void require_resample(const ResampleOptions& options) {
     const bool by_count = options.count >= 2 && options.step == 0.0;
     const bool by_step = options.count == 0 && options.step > 0.0 && std::isfinite(options.step);
     if (by_count || by_step) return;
@@ -175,7 +171,7 @@ StrandPlace place_at(const std::vector<double>& fractions, double t) {
 }
 
 Strands resample(const Strands& strands, const ResampleOptions& options, const Context& context) {
-    require_options(options);
+    require_resample(options);
     Progress progress(context, "resample strands");
     const std::vector<Index> segments = all_segments(strands, options);
     const std::int64_t points = std::accumulate(segments.begin(), segments.end(), std::int64_t{0});

@@ -9,7 +9,7 @@
 namespace lissom {
 namespace {
 
-constexpr Index kGrain = 256;
+constexpr Index kSelectionGrain = 256;
 
 Vec3 point_of(const StrandView& strand, Index i) {
     return strand.col(i).cast<double>();
@@ -87,7 +87,7 @@ std::vector<Index> strands_near_curve(const Strands& strands, std::span<const Ve
     }
     const Tube tube(curve, radius);
     std::vector<char> marks(static_cast<std::size_t>(strands.size()), 0);
-    context.parallel_for(0, strands.size(), kGrain, [&](Index begin, Index end) {
+    context.parallel_for(0, strands.size(), kSelectionGrain, [&](Index begin, Index end) {
         for (Index s = begin; s < end; ++s) {
             marks[static_cast<std::size_t>(s)] = tube.meets(strands.strand(s)) ? 1 : 0;
         }

@@ -14,11 +14,7 @@ namespace {
 
 constexpr std::uint64_t kLengthStream = 1, kPlaneStream = 2;
 
-void require(bool valid, const char* message) {
-    if (!valid) throw Error(ErrorCode::invalid_argument, message);
-}
-
-void require_options(const TrimOptions& options) {
+void require_trim(const TrimOptions& options) {
     require(options.length > 0.0, "the length to trim to must be positive");
     require(options.factor >= 0.0 && options.factor <= 1.0,
             "the factor of a trim must be from 0 to 1");
@@ -71,7 +67,7 @@ double kept_part(const StrandView& strand, std::uint32_t id, const std::vector<d
 }  // namespace
 
 void trim(Strands& strands, const TrimOptions& options, const Context& context) {
-    require_options(options);
+    require_trim(options);
     Progress progress(context, "trim strands");
     const auto find = [&](Index s, std::vector<StrandPlace>& places) {
         const StrandView strand = strands.strand(s);

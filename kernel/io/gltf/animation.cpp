@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernel/io/gltf/file/json.h"
 #include "kernel/io/gltf/mesh/surface.h"
 #include "kernel/io/gltf/nodes.h"
 #include "kernel/io/stream/scalar.h"
@@ -38,12 +39,6 @@ void erase_old_weights(Json& document) {
         }
         *channels = std::move(rest);
     }
-}
-
-Json& list_in(Json& json, const char* key) {
-    Json& list = json[key];
-    if (!list.is_array()) list = Json::array();
-    return list;
 }
 
 std::size_t add_node(GltfAsset& asset, const std::string& label) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "kernel/io/gltf/file/json.h"
 #include "kernel/io/gltf/nodes.h"
 
 namespace lissom {
@@ -23,12 +24,6 @@ void shift_all(Json& object, const char* key, std::size_t offset) {
 Json* extension_of(Json& object, const char* name) {
     Json* extensions = member(object, "extensions");
     return extensions ? member(*extensions, name) : nullptr;
-}
-
-Json& list_in(Json& json, const char* key) {
-    Json& list = json[key];
-    if (!list.is_array()) list = Json::array();
-    return list;
 }
 
 std::size_t light_count(const Json& json) {

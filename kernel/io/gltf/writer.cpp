@@ -9,6 +9,7 @@
 #include "kernel/io/gltf/file/binary.h"
 #include "kernel/io/gltf/file/container.h"
 #include "kernel/io/gltf/file/extensions.h"
+#include "kernel/io/gltf/file/json.h"
 #include "kernel/io/gltf/file/uri.h"
 #include "kernel/io/gltf/gltf.h"
 #include "kernel/io/gltf/mesh/mesh_writer.h"
@@ -17,12 +18,6 @@
 
 namespace lissom {
 namespace {
-
-Json& list_in(Json& json, const char* key) {
-    Json& list = json[key];
-    if (!list.is_array()) list = Json::array();
-    return list;
-}
 
 void erase_if_empty(Json& object, const char* key) {
     const Json* value = member(object, key);

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "kernel/io/mesh_file.h"
 #include "kernel/io/record/mesh_data.h"
+#include "kernel/io/record/options.h"
 #include "kernel/io/record/saved_parts.h"
 
 namespace lissom {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kernel/io/mesh_file.h"
+#include "kernel/io/record/options.h"
 #include "kernel/mesh/attributes.h"
 
 namespace lissom {

@@ -5,7 +5,8 @@
 
 #include "kernel/core/context.h"
 #include "kernel/hair/strands/strands.h"
-#include "kernel/io/strand_file.h"
+#include "kernel/io/record/options.h"
+#include "kernel/io/record/strand_report.h"
 
 namespace lissom {
 

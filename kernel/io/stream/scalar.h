@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "kernel/io/mesh_file.h"
+#include "kernel/io/stream/endianness.h"
 #include "kernel/mesh/attributes.h"
 
 namespace lissom {

@@ -29,7 +29,7 @@ Weights catmull_rom(double t) {
             0.5 * (-3.0 * t3 + 4.0 * t2 + t), 0.5 * (t3 - t2)};
 }
 
-[[noreturn]] void refuse_prim(const CurvesPrim& prim, const std::string& what, ErrorCode code) {
+[[noreturn]] void refuse_cubic(const CurvesPrim& prim, const std::string& what, ErrorCode code) {
     refuse(code, "BasisCurves " + in_quotes(prim.name) + ": " + what, prim.place);
 }
 
@@ -46,8 +46,8 @@ class CubicBasis {
         } else if (prim.basis == "catmullRom") {
             weights_ = catmull_rom;
         } else {
-            refuse_prim(prim, "its basis " + in_quotes(prim.basis) + " is not known",
-                        ErrorCode::unsupported);
+            refuse_cubic(prim, "its basis " + in_quotes(prim.basis) + " is not known",
+                         ErrorCode::unsupported);
         }
     }
 
@@ -56,8 +56,8 @@ class CubicBasis {
         if (!pinned_ && controls >= 4 && (controls - 4) % step_ == 0) {
             return (controls - 4) / step_ + 1;
         }
-        refuse_prim(prim_, "a cubic curve cannot have " + std::to_string(controls) + " points",
-                    ErrorCode::file_syntax);
+        refuse_cubic(prim_, "a cubic curve cannot have " + std::to_string(controls) + " points",
+                     ErrorCode::file_syntax);
     }
 
     // A value at `t` of a segment, of `controls` values of `width` numbers each.
@@ -147,9 +147,9 @@ void make_linear(CurvesPrim& prim) {
         const bool vertex = values.interpolation == CurveInterpolation::vertex;
         if (!values.found || values.interpolation < CurveInterpolation::varying) return;
         if (values.numbers.size() != width * (vertex ? controls : ends)) {
-            refuse_prim(prim,
-                        std::string("the number of '") + what + "' does not fit its interpolation",
-                        ErrorCode::file_syntax);
+            refuse_cubic(prim,
+                         std::string("the number of '") + what + "' does not fit its interpolation",
+                         ErrorCode::file_syntax);
         }
         values.numbers = vertex ? sampled(values.numbers, width, counts, basis)
                                 : spread(values.numbers, width, counts, basis);

@@ -11,7 +11,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/hair/strands/strands.h"
-#include "kernel/io/mesh_file.h"
+#include "kernel/io/record/options.h"
 
 namespace lissom {
 

@@ -7,7 +7,7 @@
 namespace lissom {
 namespace {
 
-void check(const SeamFairing& options) {
+void check_fairing(const SeamFairing& options) {
     if (options.rings < 1 || options.core < 1 || options.core > options.rings) {
         throw Error(ErrorCode::invalid_argument,
                     "a seam is faired over 1 ring or more, with a core of 1 ring at least and all "
@@ -23,7 +23,7 @@ void check(const SeamFairing& options) {
 
 std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> seams,
                              const SeamFairing& options, const Context& context) {
-    check(options);
+    check_fairing(options);
     for (const std::vector<Index>& seam : seams) require_vertices(mesh.topology(), seam);
     const std::vector<Index> rings = seam_rings(mesh.topology(), seams, options.rings);
     const Region region = seam_band(mesh.shared_topology(), rings);

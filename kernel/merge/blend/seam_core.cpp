@@ -9,7 +9,7 @@ constexpr double kUmbrellaStrength = 0.5;
 
 // Cotangents count as at least this when the core is filled, which keeps its values between those
 // around it.
-constexpr double kLeastWeight = 0.05;
+constexpr double kLeastCoreWeight = 0.05;
 
 // Pulls each value to the one it had, where nothing around the core holds it.
 constexpr double kHold = 1e-7;
@@ -134,7 +134,7 @@ std::vector<Vec4> SeamCore::fill(const BandSystem& band, std::vector<Vec4> value
             const Index j = band.ring(i)[e];
             // Rows on open boundaries have no mean curvature.
             if (!contains(j) && (!band.is_row(j) || band.on_boundary(j))) continue;
-            const double weight = std::max(kLeastWeight, band.cotangents(i)[e]);
+            const double weight = std::max(kLeastCoreWeight, band.cotangents(i)[e]);
             add(weight, contains(j) ? Vec4(Vec4::Zero()) : values[j]);
             if (contains(j)) entries.push_back({unknown_[i], unknown_[j], -weight});
         }

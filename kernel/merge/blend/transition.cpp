@@ -20,8 +20,8 @@ namespace {
 constexpr double kShareBetweenSeams = 0.5;
 constexpr double kShareOfSide = 0.9;
 
-void check(const Sewn& sewn, std::span<const TransitionWidths> widths,
-           const TransitionOptions& options) {
+void check_transition(const Sewn& sewn, std::span<const TransitionWidths> widths,
+                      const TransitionOptions& options) {
     if (widths.size() != sewn.seams.size()) {
         throw Error(ErrorCode::invalid_argument,
                     "a transition needs one pair of widths for each seam");
@@ -187,7 +187,7 @@ std::vector<Index> local_numbers(const BandSystem& band, Index vertex_count) {
 
 TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> widths,
                                   const TransitionOptions& options, const Context& context) {
-    check(sewn, widths, options);
+    check_transition(sewn, widths, options);
     Progress progress(context, "blend the transition");
     progress.step(0.5);
     const std::vector<Index> seam_at = seams_at(sewn);

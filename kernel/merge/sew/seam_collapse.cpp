@@ -9,7 +9,7 @@
 namespace lissom {
 namespace {
 
-const SeamCorner& corner_at(const SeamFace& face, Index v) {
+const SeamCorner& corner_of(const SeamFace& face, Index v) {
     return *std::find_if(face.corners.begin(), face.corners.end(),
                          [&](const SeamCorner& corner) { return corner.vertex == v; });
 }
@@ -44,8 +44,8 @@ bool SeamPatch::collapse(Index gone, Index kept) {
     if ((along == kNoIndex) == (against == kNoIndex)) return false;
     const Index face = along == kNoIndex ? against : along;
     if (!can_collapse(face, gone, kept)) return false;
-    const SeamCorner gone_corner = corner_at(faces_[face], gone);
-    const SeamCorner kept_corner = corner_at(faces_[face], kept);
+    const SeamCorner gone_corner = corner_of(faces_[face], gone);
+    const SeamCorner kept_corner = corner_of(faces_[face], kept);
     for (const Index f : std::vector<Index>(faces_at_[gone])) {
         std::vector<SeamCorner> corners = faces_[f].corners;
         if (f == face) {

@@ -19,7 +19,7 @@ constexpr double kGain = 1e-6;
 constexpr double kSameAngle = 1e-9;
 
 // Angle between two normals; where one has no length it may be anything.
-double dihedral(const Vec3& n, const Vec3& m) {
+double normal_angle(const Vec3& n, const Vec3& m) {
     return n.squaredNorm() > 0.0 && m.squaredNorm() > 0.0 ? angle_between(n, m) : kPi;
 }
 
@@ -110,7 +110,7 @@ Vec3 SeamPatch::area_vector(const SeamFace& face) const {
 
 double SeamPatch::dihedral_across(Index from, Index to, const Vec3& normal) const {
     const Index other = left_of(to, from);
-    return other == kNoIndex ? 0.0 : dihedral(normal, area_vector(faces_[other]));
+    return other == kNoIndex ? 0.0 : normal_angle(normal, area_vector(faces_[other]));
 }
 
 bool SeamPatch::improves(const Diagonal& quad, double allowed_dihedral) const {
@@ -122,11 +122,11 @@ bool SeamPatch::improves(const Diagonal& quad, double allowed_dihedral) const {
     const Vec3 old_left = normal(a, c, d), old_right = normal(c, a, b);
     const Vec3 new_left = normal(a, b, d), new_right = normal(b, c, d);
     const double before =
-        std::max({dihedral(old_left, old_right), dihedral_across(ic, id, old_left),
+        std::max({normal_angle(old_left, old_right), dihedral_across(ic, id, old_left),
                   dihedral_across(id, ia, old_left), dihedral_across(ia, ib, old_right),
                   dihedral_across(ib, ic, old_right)});
     const double after =
-        std::max({dihedral(new_left, new_right), dihedral_across(ic, id, new_right),
+        std::max({normal_angle(new_left, new_right), dihedral_across(ic, id, new_right),
                   dihedral_across(id, ia, new_left), dihedral_across(ia, ib, new_left),
                   dihedral_across(ib, ic, new_right)});
     return after <= std::max(before, allowed_dihedral) + kSameAngle;

@@ -33,7 +33,7 @@ double dihedral(const Mesh& mesh, Index a, Index b) {
     return n.squaredNorm() > 0.0 && m.squaredNorm() > 0.0 ? angle_between(n, m) : 0.0;
 }
 
-double smallest_angle(const Mesh& mesh, Index face) {
+double smallest_face_angle(const Mesh& mesh, Index face) {
     const std::span<const Index> vertices = mesh.topology().face(face);
     const std::size_t n = vertices.size();
     double smallest = kPi;
@@ -90,7 +90,7 @@ void measure_triangles(const Mesh& mesh, const std::set<Index>& on_seam, SeamQua
     }
     std::vector<double> angles;
     for (const Index f : faces) {
-        if (mesh.topology().face(f).size() == 3) angles.push_back(smallest_angle(mesh, f));
+        if (mesh.topology().face(f).size() == 3) angles.push_back(smallest_face_angle(mesh, f));
     }
     if (angles.empty()) return;
     std::sort(angles.begin(), angles.end());

@@ -33,9 +33,9 @@ void check(const TransitionMesh& side, const TransitionMesh& other) {
     }
 }
 
-Knowledge knowledge_of(const TransitionMesh& side, const WorkingPatch& work) {
+KnownMask knowledge_of(const TransitionMesh& side, const WorkingPatch& work) {
     const auto n = static_cast<std::size_t>(work.patch.vertex_count);
-    Knowledge known{std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 0)};
+    KnownMask known{std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 0)};
     for (Index i = 0; i < work.patch.real_count; ++i) {
         const Index v = work.patch.mesh_vertex[i];
         known.position[i] = side.position_known[v];
@@ -62,7 +62,7 @@ struct Side {
 
     const TransitionMesh& given;
     WorkingPatch work;
-    Knowledge known;
+    KnownMask known;
     GradientStencils stencils;
 };
 

@@ -14,7 +14,7 @@ namespace lissom {
 namespace {
 
 // The band in which distances are known reaches this many edges beyond the new boundary.
-constexpr double kBandEdges = 3.0;
+constexpr double kTrimBandEdges = 3.0;
 
 // How often the smoothing is halved where no line is found.
 constexpr int kMostHalvings = 3;
@@ -63,7 +63,7 @@ std::vector<ContourLine> line_inside(const Mesh& mesh, const std::vector<Index>&
         inside = std::max(inside, curve.nearest(mesh.position(v)).left);
     }
     inside += margin * edge;
-    const double width = std::abs(inside) + kBandEdges * edge;
+    const double width = std::abs(inside) + kTrimBandEdges * edge;
     const CurveDistances distances = distances_to_curve(mesh, curve, loop, width, context);
     std::vector<double> value = distances.left;
     for (double& x : value) x -= inside;

@@ -12,7 +12,7 @@ namespace lissom {
 namespace {
 
 // A face is flat where its area is below this fraction of its longest edge squared.
-constexpr double kFlat = 1e-14;
+constexpr double kFlatFace = 1e-14;
 
 Vec3 mean(std::span<const Vec3> points) {
     Vec3 sum = Vec3::Zero();
@@ -21,7 +21,7 @@ Vec3 mean(std::span<const Vec3> points) {
 }
 
 // Half the sum of cross products around a face: its normal times its area where it is planar.
-Vec3 vector_area(const Mesh& mesh, Index f) {
+Vec3 face_vector_area(const Mesh& mesh, Index f) {
     const std::span<const Index> face = mesh.topology().face(f);
     const Vec3& origin = mesh.position(face[0]);
     Vec3 sum = Vec3::Zero();
@@ -232,9 +232,9 @@ Index genus(const Topology& topology) {
 std::vector<Vec3> face_normals(const Mesh& mesh) {
     std::vector<Vec3> normals(static_cast<std::size_t>(mesh.face_count()), Vec3::Zero());
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        const Vec3 area = vector_area(mesh, f);
+        const Vec3 area = face_vector_area(mesh, f);
         const double size = area.norm();
-        if (size > kFlat * longest_edge_squared(mesh, f)) normals[f] = area / size;
+        if (size > kFlatFace * longest_edge_squared(mesh, f)) normals[f] = area / size;
     }
     return normals;
 }
@@ -277,7 +277,7 @@ std::vector<Index> zero_area_faces(const Mesh& mesh) {
     std::vector<Index> flat;
     FaceArea area(mesh);
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        if (area.of(f) <= kFlat * longest_edge_squared(mesh, f)) flat.push_back(f);
+        if (area.of(f) <= kFlatFace * longest_edge_squared(mesh, f)) flat.push_back(f);
     }
     return flat;
 }

@@ -31,7 +31,7 @@ void require_different_neighbors(std::span<const Index> vertices, bool closed) {
     }
 }
 
-void require_finite(std::span<const Vec3> points) {
+void require_finite_points(std::span<const Vec3> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].allFinite()) continue;
         throw Error(ErrorCode::not_finite,
@@ -95,7 +95,7 @@ Path::Path(std::shared_ptr<const Topology> topology, std::vector<Index> vertices
 
 Path::Path(std::vector<Vec3> points, bool closed) : points_(std::move(points)), closed_(closed) {
     require_enough(points_.size(), closed_);
-    require_finite(points_);
+    require_finite_points(points_);
 }
 
 Index Path::size() const {

@@ -35,7 +35,7 @@ void require_radius(double radius) {
     throw Error(ErrorCode::invalid_argument, "the radius must be a finite number, 0 or more");
 }
 
-void require_finite(const Vec3& v, const char* what) {
+void require_finite_option(const Vec3& v, const char* what) {
     if (v.allFinite()) return;
     throw Error(ErrorCode::not_finite, std::string(what) + " is NaN or infinite");
 }
@@ -70,7 +70,7 @@ Index label_index(const FaceLabels* labels, std::string_view kind, std::string_v
 }  // namespace
 
 Region select_sphere(const Mesh& mesh, const Vec3& center, double radius) {
-    require_finite(center, "the center");
+    require_finite_option(center, "the center");
     require_radius(radius);
     return select(mesh, [&](Index, const Vec3& p) { return (p - center).norm() <= radius; });
 }
@@ -83,8 +83,8 @@ Region select_box(const Mesh& mesh, const Box& box) {
 }
 
 Region select_plane(const Mesh& mesh, const Vec3& point, const Vec3& normal) {
-    require_finite(point, "the point");
-    require_finite(normal, "the normal");
+    require_finite_option(point, "the point");
+    require_finite_option(normal, "the normal");
     if (normal.isZero(0.0)) {
         throw Error(ErrorCode::invalid_argument, "the plane's normal has no length");
     }

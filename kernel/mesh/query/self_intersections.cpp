@@ -12,7 +12,7 @@
 namespace lissom {
 namespace {
 
-constexpr Index kLeafSize = 4;
+constexpr Index kPairLeafSize = 4;
 constexpr Index kGrain = 1024;
 
 bool overlap(const Box& a, const Box& b) {
@@ -50,7 +50,7 @@ class BoxTree {
             centers.extend(boxes_[items_[i]].center());
         }
         nodes_[at].box = box;
-        if (end - begin <= kLeafSize) return at;
+        if (end - begin <= kPairLeafSize) return at;
         int axis = 0;
         (centers.max - centers.min).maxCoeff(&axis);
         const Index middle = begin + (end - begin) / 2;

@@ -12,7 +12,7 @@
 namespace lissom {
 namespace {
 
-void add_if_any(Report& report, FindingKind kind, ElementKind element, std::vector<Index> ids) {
+void add_finding(Report& report, FindingKind kind, ElementKind element, std::vector<Index> ids) {
     const std::size_t count = ids.size();
     if (count > 0) report.add({kind, element, false, count, std::move(ids), {}});
 }
@@ -39,8 +39,8 @@ void flag_faces(const Mesh& mesh, Report& report) {
     std::vector<Index> only_slivers;
     std::set_difference(slivers.begin(), slivers.end(), without_area.begin(), without_area.end(),
                         std::back_inserter(only_slivers));
-    add_if_any(report, FindingKind::faces_zero_area, ElementKind::face, std::move(without_area));
-    add_if_any(report, FindingKind::faces_sliver, ElementKind::face, std::move(only_slivers));
+    add_finding(report, FindingKind::faces_zero_area, ElementKind::face, std::move(without_area));
+    add_finding(report, FindingKind::faces_sliver, ElementKind::face, std::move(only_slivers));
 }
 
 struct Component {
@@ -90,9 +90,9 @@ void flag_components(const Mesh& mesh, Report& report) {
         if (inside_out && (list.size() > kMost || !is_inside_another(list, c)))
             inverted.push_back(static_cast<Index>(i));
     }
-    add_if_any(report, FindingKind::components_small, ElementKind::component, std::move(small));
-    add_if_any(report, FindingKind::components_inverted, ElementKind::component,
-               std::move(inverted));
+    add_finding(report, FindingKind::components_small, ElementKind::component, std::move(small));
+    add_finding(report, FindingKind::components_inverted, ElementKind::component,
+                std::move(inverted));
 }
 
 }  // namespace

@@ -7,9 +7,7 @@
 namespace lissom {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
-double smoothstep(double t) {
+double smooth_unit(double t) {
     return t * t * (3.0 - 2.0 * t);
 }
 
@@ -33,7 +31,7 @@ double hairline_elevation(const std::vector<HairlinePoint>& hairline, double azi
     if (next == hairline.begin()) return next->elevation;
     if (next == hairline.end()) return hairline.back().elevation;
     const HairlinePoint &a = *std::prev(next), &b = *next;
-    const double t = smoothstep((at - a.azimuth) / (b.azimuth - a.azimuth));
+    const double t = smooth_unit((at - a.azimuth) / (b.azimuth - a.azimuth));
     return a.elevation + t * (b.elevation - a.elevation);
 }
 

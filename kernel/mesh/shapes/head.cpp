@@ -18,7 +18,7 @@
 namespace lissom {
 namespace {
 
-constexpr int kRelaxSteps = 4;
+constexpr int kHeadRelaxSteps = 4;
 constexpr Index kBlock = 8;
 
 // How the grid's lines lie along one axis: `fine` times closer in the middle of a band than far
@@ -226,7 +226,7 @@ class HeadBuilder {
     void relax(Mesh& mesh) const {
         const std::span<Vec3> positions = mesh.edit_positions();
         std::vector<Vec3> next(positions.size());
-        for (int step = 0; step < kRelaxSteps; ++step) {
+        for (int step = 0; step < kHeadRelaxSteps; ++step) {
             context_.parallel_for(0, mesh.vertex_count(), 256, [&](Index from, Index to) {
                 for (Index v = from; v < to; ++v) {
                     next[v] = relaxed(mesh.topology(), positions, v);

@@ -11,7 +11,7 @@ namespace lissom {
 namespace {
 
 // Lines of the grid that a thread takes.
-constexpr Index kLineGrain = 64;
+constexpr Index kLaplacianGrain = 64;
 
 // The neighbours of a point, in ascending order of their indices.
 struct Neighborhood {
@@ -57,7 +57,7 @@ void apply_line(const GridSize& size, const double* from, Index y, Index z, doub
 template <typename Body>
 void for_each_line(const GridSize& size, const Context& context, const Body& body) {
     const auto total = static_cast<std::size_t>(size.count());
-    context.parallel_for(0, size.ny * size.nz, kLineGrain, [&](Index begin, Index end) {
+    context.parallel_for(0, size.ny * size.nz, kLaplacianGrain, [&](Index begin, Index end) {
         for (Index line = begin; line < end; ++line) {
             for (int c = 0; c < kComponents; ++c) {
                 body(static_cast<std::size_t>(line) * size.nx, line % size.ny, line / size.ny,

@@ -11,10 +11,10 @@ namespace lissom {
 namespace {
 
 // Units of parallel work. A constant, so that sums do not depend on the number of threads.
-constexpr std::size_t kBins = 8;
+constexpr std::size_t kSingleBins = 8;
 
 // Subtrees are split further while they hold more than this share of the factor.
-constexpr double kLargestShare = 1.0 / 24.0;
+constexpr double kSingleLargestShare = 1.0 / 24.0;
 
 using View = SupernodalView<float>;
 
@@ -120,7 +120,7 @@ void SingleFactor::split() {
         members[parent[s]] += members[s];
         first[parent[s]] = std::min(first[parent[s]], first[s]);
     }
-    const double largest = kLargestShare * static_cast<double>(total);
+    const double largest = kSingleLargestShare * static_cast<double>(total);
     const auto is_small = [&](Index s) {
         return postordered && static_cast<double>(work[s]) <= largest;
     };
@@ -158,7 +158,7 @@ void SingleFactor::fill_bins() {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
     std::stable_sort(order.begin(), order.end(),
                      [&](Index a, Index b) { return subtrees_[a].work > subtrees_[b].work; });
-    bins_.resize(std::min(kBins, subtrees_.size()));
+    bins_.resize(std::min(kSingleBins, subtrees_.size()));
     std::vector<std::size_t> load(bins_.size(), 0);
     for (const Index i : order) {
         const auto bin = std::min_element(load.begin(), load.end()) - load.begin();

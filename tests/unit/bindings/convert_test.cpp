@@ -8,16 +8,17 @@
 namespace lissom::test {
 namespace {
 
-using Json = nlohmann::json;
+using ConvertJson = nlohmann::json;
 
-const char* const kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const char* const kConvertTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 // The second face runs the other way; one vertex is not used.
-const char* const kTwisted = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 5 5 5\nf 1 2 3\nf 1 2 4\n";
+const char* const kConvertTwisted =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 5 5 5\nf 1 2 3\nf 1 2 4\n";
 
-std::map<std::string, Json> rows_of(const Ended& ended) {
-    std::map<std::string, Json> rows;
-    const Json answer = Json::parse(ended.out);
-    for (const Json& row : answer["files"]) {
+std::map<std::string, ConvertJson> rows_of(const Ended& ended) {
+    std::map<std::string, ConvertJson> rows;
+    const ConvertJson answer = ConvertJson::parse(ended.out);
+    for (const ConvertJson& row : answer["files"]) {
         rows[std::filesystem::path(row["file"].get<std::string>()).filename().string()] = row;
     }
     return rows;
@@ -25,8 +26,8 @@ std::map<std::string, Json> rows_of(const Ended& ended) {
 
 TEST_CASE("convert takes many files, goes on after a failure and tells what came of each") {
     const ProgramFolder folder;
-    folder.write("a/good.obj", kTriangle);
-    folder.write("a/twisted.obj", kTwisted);
+    folder.write("a/good.obj", kConvertTriangle);
+    folder.write("a/twisted.obj", kConvertTwisted);
     folder.write("a/bad.obj", "v 0 0 0\nf 1 2 3\n");
     const std::vector<std::string> words{
         "convert", "--in", folder.path("a/*.obj"), "--out", folder.path("b/c"), "--to", "ply"};
@@ -44,15 +45,15 @@ TEST_CASE("convert takes many files, goes on after a failure and tells what came
     json_words.push_back("--json");
     const Ended json = run_program(json_words);
     CHECK(json.status == cli::kFailure);
-    std::map<std::string, Json> rows = rows_of(json);
+    std::map<std::string, ConvertJson> rows = rows_of(json);
     REQUIRE(rows.size() == 3);
     CHECK(rows["good.obj"]["outcome"] == "converted");
     CHECK(rows["good.obj"]["vertices"] == 3);
     CHECK(rows["twisted.obj"]["outcome"] == "repaired");
     CHECK(rows["twisted.obj"]["faces"] == 2);
     CHECK(rows["bad.obj"]["error"]["code"] == "face_index");
-    CHECK(Json::parse(json.out)["failed"] == 1);
-    CHECK(Json::parse(json.out)["stopped"] == false);
+    CHECK(ConvertJson::parse(json.out)["failed"] == 1);
+    CHECK(ConvertJson::parse(json.out)["stopped"] == false);
 
     json_words.push_back("--no-repair");
     rows = rows_of(run_program(json_words));
@@ -62,8 +63,8 @@ TEST_CASE("convert takes many files, goes on after a failure and tells what came
 
 TEST_CASE("convert keeps sub-folders and says what the new format does not hold") {
     const ProgramFolder folder;
-    folder.write("a/one.obj", std::string("g left\n") + kTriangle);
-    folder.write("a/x/two.obj", kTriangle);
+    folder.write("a/one.obj", std::string("g left\n") + kConvertTriangle);
+    folder.write("a/x/two.obj", kConvertTriangle);
     const Ended ended = run_program({"convert", "--in", folder.path("a/**/*.obj"), "--out",
                                      folder.path("b"), "--to", ".OFF", "--json"});
     CHECK(ended.status == cli::kSuccess);
@@ -76,7 +77,7 @@ TEST_CASE("convert keeps sub-folders and says what the new format does not hold"
 
 TEST_CASE("convert writes no output twice and replaces no input unasked") {
     const ProgramFolder folder;
-    folder.write("a/one.obj", kTriangle);
+    folder.write("a/one.obj", kConvertTriangle);
     folder.write("a/one.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
     const std::string a = folder.path("a"), b = folder.path("b");
     const Ended twice = run_program({"convert", "--in", a, "--out", b, "--to", "ply", "--json"});
@@ -103,7 +104,7 @@ TEST_CASE("convert writes no output twice and replaces no input unasked") {
 
 TEST_CASE("convert refuses a command line that makes no sense, and names what is not there") {
     const ProgramFolder folder;
-    const std::string in = folder.write("one.obj", kTriangle), out = folder.path("b");
+    const std::string in = folder.write("one.obj", kConvertTriangle), out = folder.path("b");
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"convert"},
              {"convert", "--in", in},
@@ -127,7 +128,7 @@ TEST_CASE("weld says which vertices become one") {
         "soup.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 4 5 6\n");
     const auto vertices = [&](const char* weld) {
         const Ended ended = run_program({"inspect", soup, "--weld", weld, "--json"});
-        return Json::parse(ended.out)["meshes"][0]["vertices"].get<int>();
+        return ConvertJson::parse(ended.out)["meshes"][0]["vertices"].get<int>();
     };
     CHECK(vertices("none") == 6);
     CHECK(vertices("seams") == 4);
@@ -136,18 +137,18 @@ TEST_CASE("weld says which vertices become one") {
 
 TEST_CASE("inspect shows what was found") {
     const ProgramFolder folder;
-    const std::string file = folder.write("twisted.obj", std::string(kTwisted) + "l 1 2\n");
+    const std::string file = folder.write("twisted.obj", std::string(kConvertTwisted) + "l 1 2\n");
     const Ended text = run_program({"inspect", file});
     CHECK(text.status == cli::kSuccess);
     CHECK(text.err.empty());
     CHECK(text.out.find("1 vertex without faces dropped; in the file: vertex 5") !=
           std::string::npos);
     CHECK(text.out.find("1 item skipped: 1 lines") != std::string::npos);
-    const Json report =
-        Json::parse(run_program({"inspect", file, "--json"}).out)["meshes"][0]["report"];
-    std::map<std::string, Json> findings;
-    for (const Json& finding : report) findings[finding["kind"]] = finding;
-    CHECK(findings["vertices_unreferenced"]["ids"] == Json::parse("[5]"));
+    const ConvertJson report =
+        ConvertJson::parse(run_program({"inspect", file, "--json"}).out)["meshes"][0]["report"];
+    std::map<std::string, ConvertJson> findings;
+    for (const ConvertJson& finding : report) findings[finding["kind"]] = finding;
+    CHECK(findings["vertices_unreferenced"]["ids"] == ConvertJson::parse("[5]"));
     CHECK(findings["vertices_unreferenced"]["of"] == "file");
     CHECK(findings["vertices_unreferenced"]["element"] == "vertex");
     CHECK(findings["content_skipped"]["count"] == 1);

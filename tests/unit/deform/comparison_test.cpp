@@ -30,7 +30,7 @@ DeformOptions options_of(DeformMethod method) {
     return options;
 }
 
-Scene bar_scene() {
+Scene compared_bar() {
     BarOptions options;
     options.across = 4;
     options.along = 20;
@@ -40,7 +40,7 @@ Scene bar_scene() {
 // Calls check(scene) for the bar and for every model that is there.
 template <typename Check>
 void for_each_scene(const Check& check) {
-    check(bar_scene());
+    check(compared_bar());
     for (const std::string name : kModels) {
         const auto path = data_file("models/" + name);
         if (!path) continue;
@@ -117,13 +117,13 @@ TEST_CASE("comparison: explicit methods are exact for a rotation of all handles,
     for_each_edit(kExplicit, [](const Scene& scene, Edit& edit) {
         CHECK(miss(scene, edit, rotation({1, 2, 3}, 2.5, scene.size * Vec3(5, 0, 0))) < 1e-9);
     });
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     Edit naive = make_edit(scene, options_of(DeformMethod::naive));
     CHECK(miss(scene, naive, rotation({1, 2, 3}, 1.0, Vec3::Zero())) > 0.05);
 }
 
 TEST_CASE("comparison: propagated scales and shears are exact, as are similarity's scales") {
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     const Affine shear{(Mat3() << 1.0, 0.3, 0.0, 0.0, 1.2, 0.1, 0.0, 0.0, 0.7).finished(),
                        {1, 2, 3}};
     for (const DeformMethod method : {DeformMethod::geodesic, DeformMethod::harmonic}) {
@@ -163,7 +163,7 @@ TEST_CASE(
 }
 
 TEST_CASE("comparison: preview gives what solve gives") {
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     for (const DeformMethod method : kMethods) {
         Edit edit = make_edit(scene, options_of(method));
         edit.deformer.set_transform(edit.high, bend(scene, edit.deformer.handle_center(edit.high)));
@@ -173,7 +173,7 @@ TEST_CASE("comparison: preview gives what solve gives") {
 }
 
 TEST_CASE("comparison: a turned copy deforms alike where no rotation is linearised") {
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     const Affine map = rotation({0.3, -0.5, 0.9}, 2.1, {1.0, 2.0, 3.0});
     Scene other = scene;
     other.mesh = mapped(scene.mesh, map);
@@ -188,7 +188,7 @@ TEST_CASE("comparison: a turned copy deforms alike where no rotation is linearis
 }
 
 TEST_CASE("comparison: only the region moves, and what surrounds it holds it") {
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     const Box box = bounds(scene.mesh);
     std::vector<Index> inner;
     for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
@@ -211,7 +211,7 @@ TEST_CASE("comparison: only the region moves, and what surrounds it holds it") {
 }
 
 TEST_CASE("comparison: gradients of handles are propagated without their positions") {
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     for (const DeformMethod method : kExplicit) {
         Deformer d(scene.mesh, scene.all(), options_of(method));
         d.add_handle(scene.region(scene.low));
@@ -227,7 +227,7 @@ TEST_CASE("comparison: gradients of handles are propagated without their positio
 }
 
 TEST_CASE("comparison: a part without a gradient is named where gradients are propagated") {
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     for (const DeformMethod method : kMethods) {
         Edit edit = make_edit(scene, options_of(method), {true, false});
         edit.deformer.set_transform(edit.high, translation(0.1 * scene.across));
@@ -242,7 +242,7 @@ TEST_CASE("comparison: a part without a gradient is named where gradients are pr
 }
 
 TEST_CASE("comparison: constrained vertices count as sources of their own") {
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     Edit edit = make_edit(scene, options_of(DeformMethod::harmonic));
     const Index v = scene.mesh.vertex_count() / 2;
     const Mat3 turn = rotation(Vec3::UnitY(), 0.5, Vec3::Zero()).linear;
@@ -255,7 +255,7 @@ TEST_CASE("comparison: constrained vertices count as sources of their own") {
 }
 
 TEST_CASE("comparison: options without a use and the handle basis are refused") {
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     const auto refused = [&](DeformOptions options) {
         return error_of([&] { Deformer d(scene.mesh, scene.all(), options); }).code();
     };
@@ -299,7 +299,7 @@ TEST_CASE("comparison: distances by fast marching are exact for a flat front and
 }
 
 TEST_CASE("comparison: soft handles and points in faces are refused") {
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     for (const DeformMethod method : kMethods) {
         Edit edit = make_edit(scene, options_of(method));
         PointConstraint point;
@@ -312,7 +312,7 @@ TEST_CASE("comparison: soft handles and points in faces are refused") {
 }
 
 TEST_CASE("comparison: a rotation beyond pi is propagated as it was asked for") {
-    const Scene scene = bar_scene();
+    const Scene scene = compared_bar();
     const double angle = 1.5 * kPi;
     for (const DeformMethod method : {DeformMethod::geodesic, DeformMethod::harmonic}) {
         Edit edit = make_edit(scene, options_of(method));

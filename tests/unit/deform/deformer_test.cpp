@@ -24,7 +24,7 @@ std::vector<DeformOptions> formulations() {
     return list;
 }
 
-Scene bar_scene() {
+Scene plain_bar() {
     BarOptions options;
     options.across = 5;
     options.along = 25;
@@ -34,7 +34,7 @@ Scene bar_scene() {
 }  // namespace
 
 TEST_CASE("at rest: the result is the rest shape to the bit, in every formulation") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     for (const DeformOptions& options : formulations()) {
         Edit edit = make_edit(scene, options);
         CHECK(edit.deformer.preview() == edit.deformer.rest_positions());
@@ -46,7 +46,7 @@ TEST_CASE("at rest: the result is the rest shape to the bit, in every formulatio
 }
 
 TEST_CASE("drag there and back: rest to the bit") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     Edit edit = make_edit(scene);
     const Vec3 center = edit.deformer.handle_center(edit.high);
     Affine transform;
@@ -66,7 +66,7 @@ TEST_CASE("drag there and back: rest to the bit") {
 }
 
 TEST_CASE("handles are hard: their vertices go where they were sent, to the bit") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     for (const DeformOptions& options : formulations()) {
         Edit edit = make_edit(scene, options);
         const Affine move = bend(scene, edit.deformer.handle_center(edit.high));
@@ -82,7 +82,7 @@ TEST_CASE("handles are hard: their vertices go where they were sent, to the bit"
 }
 
 TEST_CASE("handle basis: equal to the direct solve, and its rows reproduce the preview") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     for (const DeformOptions& options : formulations()) {
         Edit edit = make_edit(scene, options);
         Deformer& d = edit.deformer;
@@ -105,7 +105,7 @@ TEST_CASE("handle basis: equal to the direct solve, and its rows reproduce the p
 }
 
 TEST_CASE("first system: one affine map for all handles maps the whole surface") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     Affine map;
     map.linear << 1.2, 0.3, -0.4, 0.1, 0.7, 0.5, -0.6, 0.2, 1.5;
     map.translation = {3.0, -2.0, 1.0};
@@ -119,7 +119,7 @@ TEST_CASE("first system: one affine map for all handles maps the whole surface")
 }
 
 TEST_CASE("similarity: one rigid motion for all handles, or with scaled details one similarity") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     const Affine rigid = rotation({1, 2, 3}, 2.0, {5, 0, 0});
     Affine similar = rigid;
     similar.linear *= 1.7;
@@ -135,7 +135,7 @@ TEST_CASE("similarity: one rigid motion for all handles, or with scaled details 
 }
 
 TEST_CASE("region of interest: nothing moves outside it") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     Mesh mesh = scene.mesh;
     const Region region = select_box(mesh, {Vec3(-9, -0.2, -9), Vec3(9, 9, 9)});
     const Region top = select_box(mesh, {Vec3(-9, 2.2, -9), Vec3(9, 9, 9)});
@@ -156,13 +156,13 @@ TEST_CASE("region of interest: nothing moves outside it") {
 TEST_CASE(
     "region of interest: a free patch within a moving surrounding is what a handle-less solve "
     "gives") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     Deformer deformer(scene.mesh, select_box(scene.mesh, {Vec3(-9, -0.5, -9), Vec3(9, 0.5, 9)}));
     CHECK(deformer.solve() == deformer.rest_positions());
 }
 
 TEST_CASE("shear: the second system leaves less stretch than the first") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     const auto greatest_stretch = [&](const std::vector<Vec3>& x) {
         double greatest = 0.0;
         for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
@@ -185,7 +185,7 @@ TEST_CASE("shear: the second system leaves less stretch than the first") {
 }
 
 TEST_CASE("translation turns details: the method finds rotations that no handle was given") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     Edit edit = make_edit(scene);
     Deformer& d = edit.deformer;
     d.set_transform(edit.high, translation({4.0, 0.0, 0.0}));
@@ -197,7 +197,7 @@ TEST_CASE("translation turns details: the method finds rotations that no handle 
 }
 
 TEST_CASE("factors: a drag adds none, a new handle adds one") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     Edit edit = make_edit(scene);
     Deformer& d = edit.deformer;
     d.solve();
@@ -214,7 +214,7 @@ TEST_CASE("factors: a drag adds none, a new handle adds one") {
 }
 
 TEST_CASE("stats: sizes add up") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     Edit edit = make_edit(scene);
     edit.deformer.prepare();
     const DeformStats& s = edit.deformer.stats();
@@ -227,7 +227,7 @@ TEST_CASE("stats: sizes add up") {
 }
 
 TEST_CASE("one-shot function: the same as a deformer") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     Edit edit = make_edit(scene);
     const Affine move = bend(scene, edit.deformer.handle_center(edit.high));
     edit.deformer.set_transform(edit.high, move);
@@ -242,7 +242,7 @@ TEST_CASE("one-shot function: the same as a deformer") {
 }
 
 TEST_CASE("normals: custom normals turn with the surface, from the rest shape each time") {
-    Scene scene = bar_scene();
+    Scene scene = plain_bar();
     Attribute normals{"normal", Domain::corner, 3, ScalarType::float32, {}};
     for (Index c = 0; c < scene.mesh.topology().corner_count(); ++c) {
         normals.values.insert(normals.values.end(), {0.0, 0.6, 0.8});
@@ -269,7 +269,7 @@ TEST_CASE("normals: custom normals turn with the surface, from the rest shape ea
 }
 
 TEST_CASE("directions: tangents and what morph targets add turn as the surface does") {
-    Scene scene = bar_scene();
+    Scene scene = plain_bar();
     Attribute morph{"morph.1.position", Domain::vertex, 3, ScalarType::float32, {}};
     Attribute tangent{"tangent", Domain::vertex, 4, ScalarType::float32, {}};
     for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
@@ -295,7 +295,7 @@ TEST_CASE("directions: tangents and what morph targets add turn as the surface d
 }
 
 TEST_CASE("threads: the result does not depend on their number") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     std::vector<std::vector<Vec3>> results;
     for (const int threads : {1, 2, 3}) {
         ContextOptions options;
@@ -310,7 +310,7 @@ TEST_CASE("threads: the result does not depend on their number") {
 }
 
 TEST_CASE("quads deform nearly as their triangulation") {
-    const Scene scene = bar_scene();
+    const Scene scene = plain_bar();
     FaceList faces;
     const Triangulation t = triangulate_faces(scene.mesh.topology(), scene.mesh.positions());
     for (const Triangle& triangle : t.triangles) faces.add(triangle);

@@ -43,7 +43,7 @@ double difference(const FarAndNear& pair, const Move& move, const DeformOptions&
                     pair.difference(far.deformer.solve(), near.deformer.solve()));
 }
 
-Scene bar_scene() {
+Scene far_bar() {
     BarOptions options;
     options.across = 4;
     options.along = 20;
@@ -56,7 +56,7 @@ const Vec3 kOffsets[] = {{1e6, -1e6, 1e6}, {0.0, 1e6, 0.0}, {3e5, 2e4, -7e5}};
 
 TEST_CASE("far away: moves about a handle's centre, as after bringing the mesh back") {
     for (const Vec3& offset : kOffsets) {
-        const FarAndNear pair(bar_scene(), offset);
+        const FarAndNear pair(far_bar(), offset);
         const double size = pair.near.size;
         const auto check = [&](const Affine& map) {
             CHECK(difference(pair, [&](Deformer& d, HandleId handle, const Vec3&) {
@@ -72,7 +72,7 @@ TEST_CASE("far away: moves about a handle's centre, as after bringing the mesh b
 }
 
 TEST_CASE("far away: many moves on end, as a drag makes them, lose nothing more") {
-    const FarAndNear pair(bar_scene(), kOffsets[0]);
+    const FarAndNear pair(far_bar(), kOffsets[0]);
     const auto drag = [&](Deformer& d, HandleId handle, const Vec3&) {
         for (int i = 0; i < 100; ++i) {
             const Vec3 center = d.handle_center(handle);
@@ -87,7 +87,7 @@ TEST_CASE("far away: many moves on end, as a drag makes them, lose nothing more"
 
 TEST_CASE("far away: matrices of the whole space, as far as they tell where a point goes") {
     for (const Vec3& offset : kOffsets) {
-        const FarAndNear pair(bar_scene(), offset);
+        const FarAndNear pair(far_bar(), offset);
         const Affine map = rotation({1, 2, 3}, 1.1, 0.5 * pair.near.size * Vec3(1, 0, 2));
         const auto move = [&](Deformer& d, HandleId handle, const Vec3& shift) {
             Affine whole = map;
@@ -100,7 +100,7 @@ TEST_CASE("far away: matrices of the whole space, as far as they tell where a po
 
 TEST_CASE("far away: a rotation of the whole space about the handle's centre") {
     for (const Vec3& offset : kOffsets) {
-        const FarAndNear pair(bar_scene(), offset);
+        const FarAndNear pair(far_bar(), offset);
         const auto move = [](Deformer& d, HandleId handle, const Vec3&) {
             d.set_transform(handle, rotation({1, 2, 3}, 1.1, d.handle_center(handle)));
         };
@@ -109,7 +109,7 @@ TEST_CASE("far away: a rotation of the whole space about the handle's centre") {
 }
 
 TEST_CASE("far away: every second system, vertex constraints, and rest to the bit") {
-    const FarAndNear pair(bar_scene(), kOffsets[0]);
+    const FarAndNear pair(far_bar(), kOffsets[0]);
     const Index tip = pair.near.mesh.vertex_count() / 2;
     const auto move = [&](Deformer& d, HandleId handle, const Vec3& offset) {
         d.constrain({tip, Vec3(offset + Vec3(1.5, 0.25, -0.5)), {}});

@@ -19,7 +19,7 @@ Scene torus_scene() {
     return make_scene(make_torus());
 }
 
-Scene bar_scene() {
+Scene moved_bar() {
     BarOptions options;
     options.across = 4;
     options.along = 20;
@@ -57,7 +57,7 @@ Affine similarity(double scale) {
 
 TEST_CASE("frame: a rigid motion of everything moves the result along") {
     CHECK(deviation(torus_scene(), similarity(1.0)) < 1e-9);
-    CHECK(deviation(bar_scene(), similarity(1.0)) < 1e-6);
+    CHECK(deviation(moved_bar(), similarity(1.0)) < 1e-6);
 }
 
 TEST_CASE("frame: so it is for every second system and for scaled details") {
@@ -75,7 +75,7 @@ TEST_CASE("frame: so it is for every second system and for scaled details") {
 TEST_CASE("scale: small and large models deform alike") {
     for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
         CHECK(deviation(torus_scene(), similarity(scale)) < 1e-9);
-        CHECK(deviation(bar_scene(), similarity(scale)) < 1e-6);
+        CHECK(deviation(moved_bar(), similarity(scale)) < 1e-6);
     }
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("mirror: left and right are treated alike") {
 
 TEST_CASE("order: renumbered vertices and faces give the same surface") {
     for (const bool flat : {false, true}) {
-        const Scene scene = flat ? bar_scene() : torus_scene();
+        const Scene scene = flat ? moved_bar() : torus_scene();
         const Index n = scene.mesh.vertex_count();
         std::vector<Index> to(static_cast<std::size_t>(n));
         std::iota(to.begin(), to.end(), 0);

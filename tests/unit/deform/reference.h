@@ -50,7 +50,8 @@ class Reference {
         LeastSquares system(static_cast<Index>(unknown_.size()));
         for (Index i = 0; i < size(); ++i) {
             const Row row = laplacian_row(i);
-            add_difference(system, row_weight(i), row, {}, i, applied(row, displaced_));
+            add_difference(system, row_weight(i), row, {kNoIndex, Real3::Zero()}, i,
+                           applied(row, displaced_));
         }
         for (const auto& [pair, weight] : coherent_pairs()) {
             for (int d = 0; d < 3; ++d) {

@@ -24,7 +24,7 @@ namespace {
 constexpr double kFirst = 1e-11, kSecond = 1e-9, kDraft = 1e-4;
 constexpr double kNearlyDegenerate = 100.0;
 
-std::vector<std::pair<std::string, DeformOptions>> formulations() {
+std::vector<std::pair<std::string, DeformOptions>> reference_formulations() {
     std::vector<std::pair<std::string, DeformOptions>> list;
     const auto add = [&](const std::string& name, auto change) {
         DeformOptions options;
@@ -46,7 +46,7 @@ std::vector<std::pair<std::string, DeformOptions>> formulations() {
     return list;
 }
 
-Scene torus_scene() {
+Scene reference_torus() {
     Mesh torus = make_torus({1.0, 0.4, 18, 9});
     for (Vec3& p : torus.edit_positions()) p += 0.1 * Vec3(p.y() * p.z(), p.x() * p.x(), p.y());
     triangulate(torus);
@@ -58,7 +58,7 @@ std::vector<Vec3> displaced_rest(const Scene& scene, const Vec3& start,
                                  const DeformOptions& options) {
     const WorkingPatch work(build_patch(scene.mesh, scene.all(), 1), options);
     const auto n = static_cast<std::size_t>(scene.mesh.vertex_count());
-    Knowledge known{std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 1)};
+    KnownMask known{std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 1)};
     for (const auto* handle : {&scene.low, &scene.high}) {
         for (const Index v : *handle) {
             known.position[v] = known.gradient[v] = 1;
@@ -108,8 +108,8 @@ TEST_CASE("instruction set: the portable program runs no other code") {
 }
 
 TEST_CASE("reference: every formulation is what the equations say") {
-    const Scene scene = torus_scene();
-    for (const auto& formulation : formulations()) {
+    const Scene scene = reference_torus();
+    for (const auto& formulation : reference_formulations()) {
         CAPTURE(formulation.first);
         compare(scene, formulation.second);
     }
@@ -121,7 +121,7 @@ TEST_CASE("reference: with degenerate vertices, displaced and pulled back") {
     const Scene scene = make_scene(bar);
     REQUIRE(greatest_distance(displaced_rest(scene, Vec3::Zero(), {}),
                               {bar.positions().begin(), bar.positions().end()}) > 0.01);
-    for (const auto& formulation : formulations()) {
+    for (const auto& formulation : reference_formulations()) {
         CAPTURE(formulation.first);
         compare(scene, formulation.second, kNearlyDegenerate);
     }

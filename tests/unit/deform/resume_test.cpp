@@ -12,7 +12,7 @@ using namespace lissom::test;
 
 namespace {
 
-Scene bar_scene() {
+Scene resumed_bar() {
     BarOptions options;
     options.across = 4;
     options.along = 20;
@@ -26,7 +26,7 @@ Affine half_turn(const Deformer& d, HandleId h) {
 }  // namespace
 
 TEST_CASE("new rest shape: the same as deforming a mesh that has it") {
-    const Scene scene = bar_scene();
+    const Scene scene = resumed_bar();
     Edit edit = make_edit(scene);
     Deformer& d = edit.deformer;
     d.set_transform(edit.high, half_turn(d, edit.high));
@@ -74,7 +74,7 @@ TEST_CASE("new rest shape: of a region, with what is around it") {
 }
 
 TEST_CASE("new rest shape: constraints hold where they are") {
-    const Scene scene = bar_scene();
+    const Scene scene = resumed_bar();
     Edit edit = make_edit(scene);
     Deformer& d = edit.deformer;
     const auto near = [&](double y) {
@@ -99,7 +99,7 @@ TEST_CASE("new rest shape: constraints hold where they are") {
 }
 
 TEST_CASE("new rest shape: normals turn on from where they were") {
-    Scene scene = bar_scene();
+    Scene scene = resumed_bar();
     Attribute normals{"normal", Domain::vertex, 3, ScalarType::float32, {}};
     for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
         for (const double x : {0.0, 0.0, 1.0}) normals.values.push_back(x);
@@ -119,7 +119,7 @@ TEST_CASE("new rest shape: normals turn on from where they were") {
 }
 
 TEST_CASE("other vertices for a handle: the old result stays, then the transform goes on") {
-    const Scene scene = bar_scene();
+    const Scene scene = resumed_bar();
     Edit edit = make_edit(scene), same = make_edit(scene);
     Deformer& d = edit.deformer;
     const Affine move = half_turn(d, edit.high);
@@ -145,7 +145,7 @@ TEST_CASE("other vertices for a handle: the old result stays, then the transform
 }
 
 TEST_CASE("adding, removing and constraining: the old result stays until the next solve") {
-    const Scene scene = bar_scene();
+    const Scene scene = resumed_bar();
     Edit edit = make_edit(scene);
     Deformer& d = edit.deformer;
     d.set_transform(edit.high, half_turn(d, edit.high));
@@ -164,7 +164,7 @@ TEST_CASE("adding, removing and constraining: the old result stays until the nex
 }
 
 TEST_CASE("other vertices for a handle: bad ones are refused, and the handle stays") {
-    const Scene scene = bar_scene();
+    const Scene scene = resumed_bar();
     Edit edit = make_edit(scene);
     Deformer& d = edit.deformer;
     std::vector<Index> mixed = scene.high;

@@ -12,7 +12,7 @@ using namespace lissom::test;
 
 namespace {
 
-constexpr double kTolerance = 1e-6;
+constexpr double kShaderTolerance = 1e-6;
 // Narrower than the weights of any scene here, so that they take several rows.
 constexpr GLsizei kTextureWidth = 256;
 
@@ -165,7 +165,7 @@ TEST_CASE("the example shader gives the kernel's preview, as GLSL 3.30 and GLSL 
             CAPTURE(version);
             CAPTURE(handles);
             const std::vector<float> out = run_shader(version, basis, transforms);
-            CHECK(greatest_distance(out, basis.origin, wanted) < kTolerance * scene.size);
+            CHECK(greatest_distance(out, basis.origin, wanted) < kShaderTolerance * scene.size);
             const std::size_t half = out.size() / 2;
             CHECK(
                 std::equal(out.begin() + static_cast<std::ptrdiff_t>(half), out.end(), basis.rest));

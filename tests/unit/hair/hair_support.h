@@ -13,6 +13,7 @@
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
+#include "tests/unit/hair/threads.h"
 #include "tests/unit/support.h"
 
 namespace lissom::test {
@@ -52,12 +53,6 @@ inline Mesh moved(const Mesh& mesh, const Affine& map) {
     Mesh result = mesh;
     for (Vec3& p : result.edit_positions()) p = map(p);
     return result;
-}
-
-inline Context threads(int count) {
-    ContextOptions options;
-    options.threads = count;
-    return Context(options);
 }
 
 /// Generalised winding number: the solid angles of all triangles (Van Oosterom and Strackee 1983).

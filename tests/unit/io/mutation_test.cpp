@@ -25,7 +25,7 @@ Mesh rich_mesh() {
     return mesh;
 }
 
-std::string binary_off() {
+std::string binary_off_sample() {
     Bytes bytes("OFF BINARY\n", true);
     bytes.add(std::int32_t{4}, std::int32_t{2}, std::int32_t{5});
     for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) bytes.add(x);
@@ -44,7 +44,7 @@ std::vector<Sample> samples() {
             {"ply", encode_mesh(mesh, "ply", {.endianness = Endianness::big})},
             {"ply", encode_mesh(mesh, "ply", {.binary = false})},
             {"off", encode_mesh(mesh, "off")},
-            {"off", binary_off()},
+            {"off", binary_off_sample()},
             {"glb", encode_mesh(mesh, "glb")},
             {"gltf", encode_mesh(mesh, "gltf")},
             {"stl", encode_mesh(mesh, "stl")},

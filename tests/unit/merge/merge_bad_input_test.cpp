@@ -50,7 +50,7 @@ Join first_join(const Mesh& source, const Mesh& target) {
     return {boundaries(source).at(0), boundaries(target).at(0)};
 }
 
-MergeResult merged(const Mesh& source, const Mesh& target, const MergeOptions& options = {}) {
+MergeResult merged_badly(const Mesh& source, const Mesh& target, const MergeOptions& options = {}) {
     const Mesh* targets[] = {&target};
     return Merge(source, targets, {first_join(source, target)}, options).solve();
 }
@@ -185,7 +185,7 @@ TEST_CASE("merge: fixed features that leave the boundary nothing to move") {
     options.fixed = {loop.inverted()};
     for (const Configuration c : {Configuration::free, Configuration::fixed}) {
         options.configuration = c;
-        CHECK(merged(source, target, options).mesh.topology().boundary_loops().empty());
+        CHECK(merged_badly(source, target, options).mesh.topology().boundary_loops().empty());
     }
     // Features that share vertices cannot each move by a similarity of its own.
     options.configuration = Configuration::free;
@@ -242,7 +242,7 @@ TEST_CASE("merge: the smallest meshes") {
                     MergeOptions options;
                     options.configuration = c;
                     options.seam = seam;
-                    const MergeResult result = merged(source, target, options);
+                    const MergeResult result = merged_badly(source, target, options);
                     CHECK(finite(result.mesh));
                     CHECK(result.mesh.topology().boundary_loops().empty());
                     CHECK(genus(result.mesh.topology()) == 0);
@@ -265,7 +265,7 @@ TEST_CASE("merge: features on loose parts go with them") {
     options.fixed = {Region(source.shared_topology(), vertices)};
     for (const Configuration c : {Configuration::free, Configuration::fixed}) {
         options.configuration = c;
-        const Mesh mesh = merged(source, target, options).mesh;
+        const Mesh mesh = merged_badly(source, target, options).mesh;
         CHECK(mesh.topology().component_count() == 2);
         CHECK(finite(mesh));
     }

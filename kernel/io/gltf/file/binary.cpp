@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 
+#include "kernel/io/gltf/file/container.h"
 #include "kernel/io/stream/scalar.h"
 
 namespace lissom {
@@ -36,10 +37,6 @@ const char* type_name(Index width) {
 int target_for(BufferUse use) {
     return use == BufferUse::indices ? TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER
                                      : TINYGLTF_TARGET_ARRAY_BUFFER;
-}
-
-std::size_t padded(std::size_t size) {
-    return (size + 3) / 4 * 4;
 }
 
 // Elements `stride` bytes apart.

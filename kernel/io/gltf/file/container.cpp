@@ -68,10 +68,6 @@ void append_u32(std::string& bytes, std::size_t value) {
     for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xff);
 }
 
-std::size_t padded(std::size_t size) {
-    return (size + 3) / 4 * 4;
-}
-
 void append_chunk(std::string& bytes, std::uint32_t type, const std::string& data, char padding) {
     append_u32(bytes, padded(data.size()));
     append_u32(bytes, type);

@@ -26,4 +26,9 @@ void require_shallow(std::string_view json);
 /// A GLB of JSON and binary data. Errors: file_too_large beyond 4 GiB.
 std::string make_glb(const std::string& json, const std::string& binary);
 
+/// `size` up to a multiple of 4, as chunks and accessors begin.
+inline std::size_t padded(std::size_t size) {
+    return (size + 3) / 4 * 4;
+}
+
 }  // namespace lissom

@@ -31,7 +31,7 @@ Json parse_json(std::string_view text) {
     refuse(ErrorCode::file_syntax, "the JSON is not an object, as that of a glTF file is");
 }
 
-void require_version(const Json& json) {
+void require_gltf_2(const Json& json) {
     const Json* asset = member(json, "asset");
     const std::string version = asset ? text_member(*asset, "version") : "";
     const std::string needed = asset ? text_member(*asset, "minVersion") : "";
@@ -266,7 +266,7 @@ GltfDocument open_gltf(const FileInput& file, Report& report, const Context& con
     GltfDocument document;
     document.json = parse_json(container.json);
     document.bytes_read = file.bytes.size();
-    require_version(document.json);
+    require_gltf_2(document.json);
     require_lists(document.json);
     require_supported_extensions(document.json);
     Loader loader(file, document, report);

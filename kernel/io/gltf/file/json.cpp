@@ -51,4 +51,10 @@ std::string to_text(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+Json& list_in(Json& json, const char* key) {
+    Json& list = json[key];
+    if (!list.is_array()) list = Json::array();
+    return list;
+}
+
 }  // namespace lissom

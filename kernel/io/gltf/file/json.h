@@ -48,4 +48,7 @@ void for_each_object(AnyJson& json, const Visit& visit) {
     }
 }
 
+/// The array `key` of an object, made where it is missing.
+Json& list_in(Json& json, const char* key);
+
 }  // namespace lissom

@@ -7,11 +7,11 @@
 namespace lissom {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoColumn = std::numeric_limits<double>::quiet_NaN();
 
 double fill_of(const std::string& name) {
     if (name.starts_with("color")) return 1.0;
-    return name == "joints" || name == "weights" ? 0.0 : kNone;
+    return name == "joints" || name == "weights" ? 0.0 : kNoColumn;
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ std::vector<double> widened(std::span<const double> values, Index from, Index to
         const auto begin = values.begin() + static_cast<std::ptrdiff_t>(i * old_width);
         // An element without values stays without.
         if (begin[0] != begin[0])
-            std::fill_n(result.begin() + static_cast<std::ptrdiff_t>(i * width), width, kNone);
+            std::fill_n(result.begin() + static_cast<std::ptrdiff_t>(i * width), width, kNoColumn);
         std::copy(begin, begin + from, result.begin() + static_cast<std::ptrdiff_t>(i * width));
     }
     return result;
@@ -40,7 +40,7 @@ void AttributeColumns::add(const std::string& name, Index width, ScalarType type
         column.values = widened(column.values, column.width, width, fill_of(name));
         column.width = width;
     }
-    column.values.resize(first * static_cast<std::size_t>(column.width), kNone);
+    column.values.resize(first * static_cast<std::size_t>(column.width), kNoColumn);
     if (column.width == width) {
         column.values.insert(column.values.end(), values.begin(), values.end());
     } else {
@@ -59,7 +59,7 @@ std::size_t AttributeColumns::number_count(std::size_t vertex_count) const {
 
 void AttributeColumns::finish(AttributeSet& attributes, std::size_t vertex_count) {
     for (Attribute& column : columns_) {
-        column.values.resize(vertex_count * static_cast<std::size_t>(column.width), kNone);
+        column.values.resize(vertex_count * static_cast<std::size_t>(column.width), kNoColumn);
         attributes.add(std::move(column));
     }
 }

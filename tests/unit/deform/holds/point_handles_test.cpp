@@ -14,7 +14,7 @@ using namespace lissom::test;
 
 namespace {
 
-Scene bar_scene() {
+Scene point_bar() {
     BarOptions options;
     options.across = 4;
     options.along = 20;
@@ -53,7 +53,7 @@ MeshPoint high_face(const Scene& scene) {
 TEST_CASE("face points: a constraint is met by the deformed face, in previews and in results") {
     for (const SecondSystem second :
          {SecondSystem::blend, SecondSystem::poisson, SecondSystem::laplacian}) {
-        for (const Scene& scene : {bar_scene(), make_scene(make_torus()), make_scene(make_box())}) {
+        for (const Scene& scene : {point_bar(), make_scene(make_torus()), make_scene(make_box())}) {
             DeformOptions options;
             options.second = second;
             Deformer d(scene.mesh, scene.all(), options);
@@ -103,7 +103,7 @@ TEST_CASE("face points: real meshes meet them too") {
 }
 
 TEST_CASE("face points: a handle of them turns the faces, and follows similarities") {
-    const Scene scene = bar_scene();
+    const Scene scene = point_bar();
     DeformOptions options;
     options.local_size = LocalSize::scale;
     Deformer d(scene.mesh, scene.all(), options);
@@ -145,7 +145,7 @@ TEST_CASE("face points: four of them hold a surface without any handle") {
 }
 
 TEST_CASE("face points: soft ones are drawn") {
-    const Scene scene = bar_scene();
+    const Scene scene = point_bar();
     Deformer d(scene.mesh, scene.all());
     d.add_handle(scene.region(scene.low));
     const MeshPoint point = high_face(scene);
@@ -161,7 +161,7 @@ TEST_CASE("face points: soft ones are drawn") {
 }
 
 TEST_CASE("edge points and paths: a handle moves the curve as one") {
-    const Scene scene = bar_scene();
+    const Scene scene = point_bar();
     Deformer d(scene.mesh, scene.all());
     d.add_handle(scene.region(scene.low));
     // Around the bar at its middle, across the edges that run along it.
@@ -217,7 +217,7 @@ TEST_CASE("points of one handle may determine each other") {
 }
 
 TEST_CASE("points that others determine already are refused") {
-    const Scene scene = bar_scene();
+    const Scene scene = point_bar();
     const Index face = scene.mesh.topology().faces_around(scene.high[0])[0];
     const std::span<const Index> corners = scene.mesh.topology().face(face);
     const MeshPoint point = face_point(scene.mesh.topology(), face, std::array{0.4, 0.3, 0.2, 0.1});
@@ -242,7 +242,7 @@ TEST_CASE("points that others determine already are refused") {
 }
 
 TEST_CASE("points: weights and vertices that are no point of a face are refused") {
-    const Scene scene = bar_scene();
+    const Scene scene = point_bar();
     Deformer d(scene.mesh, scene.all());
     const Vec3 p(0, 0, 0);
     const auto code = [&](const MeshPoint& point) {

@@ -12,7 +12,7 @@ using namespace lissom::test;
 
 namespace {
 
-Scene bar_scene(Index across = 4, double size = 1.0) {
+Scene soft_bar(Index across = 4, double size = 1.0) {
     BarOptions options;
     options.width = size;
     options.length = 5.0 * size;
@@ -43,7 +43,7 @@ double shortfall(const Scene& scene, const HandleOptions& handle, const DeformOp
 }  // namespace
 
 TEST_CASE("weights: 1 is a compromise, more come nearer, 1e6 is nearly hard") {
-    const Scene scene = bar_scene();
+    const Scene scene = soft_bar();
     for (const SecondSystem second :
          {SecondSystem::blend, SecondSystem::poisson, SecondSystem::laplacian}) {
         DeformOptions options;
@@ -77,16 +77,16 @@ TEST_CASE("weights: a real mesh feels them alike") {
 TEST_CASE("weights: neither scale nor resolution changes what they do") {
     const double weight = 2.0;
     for (const bool preview : {false, true}) {
-        const double plain = shortfall(bar_scene(), weighted(weight), {}, preview);
-        CHECK(std::abs(shortfall(bar_scene(4, 1e3), weighted(weight), {}, preview) - plain) < 1e-9);
-        const double fine = shortfall(bar_scene(12), weighted(weight), {}, preview);
-        CHECK(std::abs(shortfall(bar_scene(24), weighted(weight), {}, preview) - fine) <
+        const double plain = shortfall(soft_bar(), weighted(weight), {}, preview);
+        CHECK(std::abs(shortfall(soft_bar(4, 1e3), weighted(weight), {}, preview) - plain) < 1e-9);
+        const double fine = shortfall(soft_bar(12), weighted(weight), {}, preview);
+        CHECK(std::abs(shortfall(soft_bar(24), weighted(weight), {}, preview) - fine) <
               0.05 * fine);
     }
 }
 
 TEST_CASE("soft handles: similarities of everything are exact") {
-    const Scene scene = bar_scene();
+    const Scene scene = soft_bar();
     DeformOptions options;
     options.local_size = LocalSize::scale;
     for (const bool both_soft : {false, true}) {
@@ -108,7 +108,7 @@ TEST_CASE("soft handles: similarities of everything are exact") {
 }
 
 TEST_CASE("soft handles: the basis is the direct solution, and linear in their transforms") {
-    const Scene scene = bar_scene();
+    const Scene scene = soft_bar();
     Deformer d(scene.mesh, scene.all());
     d.add_handle(scene.region(scene.low));
     const HandleId high = d.add_handle(scene.region(scene.high), weighted(2.0));
@@ -133,7 +133,7 @@ TEST_CASE("soft handles: the basis is the direct solution, and linear in their t
 }
 
 TEST_CASE("soft handles: gradients alone turn the end some of the way") {
-    const Scene scene = bar_scene();
+    const Scene scene = soft_bar();
     const auto turned = [&](double weight) {
         Deformer d(scene.mesh, scene.all());
         d.add_handle(scene.region(scene.low));
@@ -151,7 +151,7 @@ TEST_CASE("soft handles: gradients alone turn the end some of the way") {
 }
 
 TEST_CASE("soft constraints: a vertex is drawn, and is free again when they go") {
-    const Scene scene = bar_scene();
+    const Scene scene = soft_bar();
     Deformer d(scene.mesh, scene.all());
     d.add_handle(scene.region(scene.low));
     const Index tip = scene.high.back();
@@ -177,7 +177,7 @@ TEST_CASE("soft constraints: a vertex is drawn, and is free again when they go")
 }
 
 TEST_CASE("soft handles: they alone hold a surface") {
-    const Scene scene = bar_scene();
+    const Scene scene = soft_bar();
     Deformer d(scene.mesh, scene.all());
     d.add_handle(scene.region(scene.low), weighted(1.0));
     const Affine move = rotation(Vec3::UnitX(), 2.0, Vec3(0, 1, 0));
@@ -186,7 +186,7 @@ TEST_CASE("soft handles: they alone hold a surface") {
 }
 
 TEST_CASE("weights: zero, negative and not finite ones are refused") {
-    const Scene scene = bar_scene();
+    const Scene scene = soft_bar();
     Deformer d(scene.mesh, scene.all());
     for (const double weight : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
         CHECK(error_of([&] { d.add_handle(scene.region(scene.low), weighted(weight)); }).code() ==
@@ -199,7 +199,7 @@ TEST_CASE("weights: zero, negative and not finite ones are refused") {
 }
 
 TEST_CASE("soft handles: a vertex has one handle, hard or soft") {
-    const Scene scene = bar_scene();
+    const Scene scene = soft_bar();
     Deformer d(scene.mesh, scene.all());
     d.add_handle(scene.region(scene.high), weighted(1.0));
     CHECK(error_of([&] { d.add_handle(scene.region({scene.high[0]})); }).code() ==

@@ -12,8 +12,6 @@ using namespace lissom::test;
 
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 Scene bar_scene() {
     BarOptions options;
     options.across = 6;

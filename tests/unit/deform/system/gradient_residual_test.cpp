@@ -17,7 +17,7 @@ namespace {
 struct Bowl {
     DeformOptions options;
     WorkingPatch work;
-    Knowledge known;
+    KnownMask known;
     GradientStencils gradients;
     GradientSystem system;
 
@@ -41,9 +41,9 @@ struct Bowl {
         return build_patch(mesh, Region::all(mesh.shared_topology()), 1);
     }
 
-    static Knowledge knowledge(const WorkingPatch& work) {
+    static KnownMask knowledge(const WorkingPatch& work) {
         const auto n = static_cast<std::size_t>(work.patch.vertex_count);
-        Knowledge known{std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 1)};
+        KnownMask known{std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 1)};
         for (Index v = 0; v < work.patch.real_count; ++v) {
             if (!work.patch.on_boundary[v]) continue;
             known.position[v] = known.gradient[v] = 1;

@@ -21,7 +21,7 @@ struct Stencils {
           rings(build_rings(patch.vertex_count, patch.split_triangles)),
           geometry(ring_geometry(rings, patch.split_triangles, patch.rest)) {
         const auto n = static_cast<std::size_t>(patch.vertex_count);
-        const Knowledge known{std::vector<char>(n, 0), std::vector<char>(n, 0),
+        const KnownMask known{std::vector<char>(n, 0), std::vector<char>(n, 0),
                               std::vector<char>(n, 1)};
         gradients = make_gradients(patch, rings, geometry, known, Vec3(0.3, 0.0, 0.1), options);
     }

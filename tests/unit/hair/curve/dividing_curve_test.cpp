@@ -13,9 +13,9 @@ struct Line {
 };
 
 // An arc on the ball in the plane x = `side`, over its top from front to back.
-Line arc(double step, double side = 0.0, double from = -0.8, double to = 0.9) {
+Line arc(double dividing_step, double side = 0.0, double from = -0.8, double to = 0.9) {
     const double radius = std::sqrt(std::pow(test::kBallRadius, 2) - side * side);
-    const double count = std::max(1.0, std::round((to - from) * radius / step));
+    const double count = std::max(1.0, std::round((to - from) * radius / dividing_step));
     Line line;
     for (double k = 0.0; k <= count; k += 1.0) {
         const double angle = from + (to - from) * k / count;
@@ -31,11 +31,12 @@ Line reversed(Line line) {
     return line;
 }
 
-std::vector<GridConstraint> constraints(const Line& line, const DividingOptions& options = {}) {
+std::vector<GridConstraint> dividing_constraints(const Line& line,
+                                                 const DividingOptions& options = {}) {
     return dividing_constraints(test::ball(), line.points, line.normals, options);
 }
 
-double step() {
+double dividing_step() {
     return test::ball().layout().step;
 }
 
@@ -55,15 +56,15 @@ struct Found {
 std::vector<Found> found(const Line& line, const DividingOptions& options) {
     const DividingLine frames(line.points, line.normals);
     std::vector<Found> result;
-    for (const GridConstraint& c : constraints(line, options)) {
+    for (const GridConstraint& c : dividing_constraints(line, options)) {
         const Vec3 at = test::place_of(test::ball().layout(), c.point);
         result.push_back({frames.place(at), test::ball().value(at), c.value});
     }
     return result;
 }
 
-ErrorCode code_of(const Line& line, const DividingOptions& options = {}) {
-    return test::error_of([&] { constraints(line, options); }).code();
+ErrorCode dividing_code_of(const Line& line, const DividingOptions& options = {}) {
+    return test::error_of([&] { dividing_constraints(line, options); }).code();
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ TEST_CASE("dividing: places beside a line, in its frame") {
 }
 
 TEST_CASE("dividing: the distance along the skin, for the gap") {
-    const Line line = arc(step());
+    const Line line = arc(dividing_step());
     const DividingLine frames(line.points, line.normals);
     for (const double angle : {-0.5, 0.03, 0.7}) {
         for (const double across : {0.0, 0.0012, 0.01}) {
@@ -101,17 +102,17 @@ TEST_CASE("dividing: the distance along the skin, for the gap") {
 TEST_CASE("dividing: hair flows away on both sides, as mirror images") {
     DividingOptions options;
     options.left = options.right = {0.3, 0.9};
-    const auto all = constraints(arc(step()), options);
+    const auto all = dividing_constraints(arc(dividing_step()), options);
     CHECK(all.size() > 50);
     CHECK(test::ascending(all));
     CHECK(test::asymmetry(test::ball().layout(), all) < 1e-12);
-    for (const Found& f : found(arc(step()), options)) {
+    for (const Found& f : found(arc(dividing_step()), options)) {
         CHECK(f.place.across * f.value.dot(f.place.right) > 0.0);
     }
 }
 
 TEST_CASE("dividing: unit vectors along the Gaussian, short ones above it") {
-    const double d = step();
+    const double d = dividing_step();
     Index along = 0, above = 0;
     for (const Found& f : found(arc(d), as_thesis())) {
         const double u = std::abs(f.place.across), x = (u - d) / d;
@@ -142,8 +143,8 @@ TEST_CASE("dividing: unit vectors along the Gaussian, short ones above it") {
 TEST_CASE("dividing: without separation there is no wall") {
     DividingOptions options = as_thesis();
     options.separation = 0.0;
-    const auto all = constraints(arc(step()), options);
-    CHECK(all.size() < constraints(arc(step())).size());
+    const auto all = dividing_constraints(arc(dividing_step()), options);
+    CHECK(all.size() < dividing_constraints(arc(dividing_step())).size());
     for (const GridConstraint& c : all) CHECK(c.value.norm() == Approx(1.0));
 }
 
@@ -151,7 +152,7 @@ TEST_CASE("dividing: tilts turn the flow to the end of the curve, from one to th
     DividingOptions options = as_thesis();
     options.right = {0.2, 1.2};
     options.height = 0.0;
-    for (const Found& f : found(arc(step()), options)) {
+    for (const Found& f : found(arc(dividing_step()), options)) {
         const double side = f.place.across > 0.0 ? 1.0 : -1.0;
         const double turned =
             std::atan2(f.value.dot(f.place.tangent), side * f.value.dot(f.place.right));
@@ -165,8 +166,8 @@ TEST_CASE("dividing: the reverse of a curve with reversed tilts says the same") 
     options.right = {-0.2, 0.7};
     other.left = {-0.7, 0.2};
     other.right = {-0.5, -0.1};
-    const auto forth = constraints(arc(step()), options);
-    const auto back = constraints(reversed(arc(step())), other);
+    const auto forth = dividing_constraints(arc(dividing_step()), options);
+    const auto back = dividing_constraints(reversed(arc(dividing_step())), other);
     REQUIRE(forth.size() == back.size());
     for (std::size_t i = 0; i < forth.size(); ++i) {
         CHECK(forth[i].point == back[i].point);
@@ -175,8 +176,8 @@ TEST_CASE("dividing: the reverse of a curve with reversed tilts says the same") 
 }
 
 TEST_CASE("dividing: a finer curve says nearly the same") {
-    const auto coarse = test::by_point(constraints(arc(step(), 0.004)));
-    const auto fine = test::by_point(constraints(arc(0.1 * step(), 0.004)));
+    const auto coarse = test::by_point(dividing_constraints(arc(dividing_step(), 0.004)));
+    const auto fine = test::by_point(dividing_constraints(arc(0.1 * dividing_step(), 0.004)));
     double shared = 0.0;
     for (const auto& [point, value] : coarse) {
         const auto other = fine.find(point);
@@ -188,7 +189,7 @@ TEST_CASE("dividing: a finer curve says nearly the same") {
 }
 
 TEST_CASE("dividing: points on the plane belong to no side") {
-    const double d = step();
+    const double d = dividing_step();
     const GridLayout odd{{29, 29, 29}, Vec3::Constant(-14.0 * d), d};
     const DistanceGrid grid(make_sphere({.radius = test::kBallRadius, .segments = 16}), odd);
     const Line line = arc(d);
@@ -200,7 +201,7 @@ TEST_CASE("dividing: points on the plane belong to no side") {
 }
 
 TEST_CASE("dividing: vectors fade evenly to nothing across the line") {
-    const double d = step();
+    const double d = dividing_step();
     DividingOptions options;
     options.ramp = 2.0 * d;
     const auto full = found(arc(d), as_thesis()), faded = found(arc(d), options);
@@ -214,47 +215,48 @@ TEST_CASE("dividing: vectors fade evenly to nothing across the line") {
 }
 
 TEST_CASE("dividing: bad curves and options are refused") {
-    const Line good = arc(step());
+    const Line good = arc(dividing_step());
     Line line = good;
     line.points[1].y() = test::kNaN;
-    CHECK(code_of(line) == ErrorCode::not_finite);
+    CHECK(dividing_code_of(line) == ErrorCode::not_finite);
     line = good;
     line.normals[1].y() = test::kNaN;
-    CHECK(code_of(line) == ErrorCode::not_finite);
+    CHECK(dividing_code_of(line) == ErrorCode::not_finite);
     line = good;
     line.normals.pop_back();
-    CHECK(code_of(line) == ErrorCode::invalid_argument);
-    CHECK(code_of({{good.points[0]}, {good.normals[0]}}) == ErrorCode::invalid_argument);
-    CHECK(code_of({}) == ErrorCode::invalid_argument);
+    CHECK(dividing_code_of(line) == ErrorCode::invalid_argument);
+    CHECK(dividing_code_of({{good.points[0]}, {good.normals[0]}}) == ErrorCode::invalid_argument);
+    CHECK(dividing_code_of({}) == ErrorCode::invalid_argument);
     // Straight out of the head.
-    CHECK(code_of({{Vec3(0, 0.09, 0), Vec3(0, 0.12, 0)}, {Vec3::UnitY(), Vec3::UnitY()}}) ==
-          ErrorCode::invalid_argument);
+    CHECK(dividing_code_of({{Vec3(0, 0.09, 0), Vec3(0, 0.12, 0)},
+                            {Vec3::UnitY(), Vec3::UnitY()}}) == ErrorCode::invalid_argument);
     line = good;
     for (Vec3& p : line.points) p.y() += 0.08;
-    CHECK(code_of(line) == ErrorCode::out_of_range);
+    CHECK(dividing_code_of(line) == ErrorCode::out_of_range);
     for (Vec3& p : line.points) p.y() += 1e200;
-    CHECK(code_of(line) == ErrorCode::out_of_range);
+    CHECK(dividing_code_of(line) == ErrorCode::out_of_range);
 
     for (const double bad : {-1.0, test::kNaN, 2.0}) {
         DividingOptions options;
         options.separation = bad;
-        CHECK(code_of(good, options) == ErrorCode::invalid_argument);
+        CHECK(dividing_code_of(good, options) == ErrorCode::invalid_argument);
         options = {};
         options.left.end = bad < 0.0 ? -2.0 : bad;
-        CHECK(code_of(good, options) == ErrorCode::invalid_argument);
+        CHECK(dividing_code_of(good, options) == ErrorCode::invalid_argument);
         if (bad > 0.0) continue;
         for (auto length : {&DividingOptions::sigma, &DividingOptions::height,
                             &DividingOptions::reach, &DividingOptions::ramp}) {
             options = {};
             options.*length = bad;
-            CHECK(code_of(good, options) == ErrorCode::invalid_argument);
+            CHECK(dividing_code_of(good, options) == ErrorCode::invalid_argument);
         }
     }
 }
 
-TEST_CASE("dividing: a curve shorter than a step still parts hair or says that it does not") {
+TEST_CASE(
+    "dividing: a curve shorter than a dividing_step still parts hair or says that it does not") {
     const Line line = arc(0.001, 0.004, 0.0, 0.02);
-    const auto all = constraints(line);
+    const auto all = dividing_constraints(line);
     CHECK(!all.empty());
     for (const GridConstraint& c : all) CHECK(c.value.allFinite());
 }

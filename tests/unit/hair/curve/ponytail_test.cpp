@@ -29,21 +29,21 @@ std::vector<Vec3> circle(const Vec3& center, double radius, int count = 24) {
     return points;
 }
 
-double step() {
+double ponytail_step() {
     return test::ball().layout().step;
 }
 
 PonytailShape shape_of(const std::vector<Vec3>& spine, const PonytailOptions& options = {}) {
-    return ponytail_shape(spine, step(), options);
+    return ponytail_shape(spine, ponytail_step(), options);
 }
 
-std::vector<GridConstraint> constraints(const std::vector<Vec3>& spine,
-                                        const PonytailOptions& options = {}) {
+std::vector<GridConstraint> ponytail_constraints(const std::vector<Vec3>& spine,
+                                                 const PonytailOptions& options = {}) {
     return ponytail_constraints(test::ball(), shape_of(spine, options), options);
 }
 
-ErrorCode code_of(const std::vector<Vec3>& spine, const PonytailOptions& options = {}) {
-    return test::error_of([&] { constraints(spine, options); }).code();
+ErrorCode ponytail_code_of(const std::vector<Vec3>& spine, const PonytailOptions& options = {}) {
+    return test::error_of([&] { ponytail_constraints(spine, options); }).code();
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ TEST_CASE("ponytail: cross sections from the tie along a share of the spine") {
     CHECK(shape_of(straight(), options).sections.size() == 1);
     options.share = 1.0;
     CHECK(shape_of(straight(), options).last() + 1 == shape_of(straight(), options).spine.size());
-    CHECK(shape_of(straight()).tie().radius == Approx(1.5 * step()));
+    CHECK(shape_of(straight()).tie().radius == Approx(1.5 * ponytail_step()));
 }
 
 TEST_CASE("ponytail: a drawn section tells where the tie is, and how wide") {
@@ -81,7 +81,7 @@ TEST_CASE("ponytail: a drawn section tells where the tie is, and how wide") {
     options.radius = 0.018;
     CHECK(shape_of(straight(), options).tie().radius == Approx(0.018));
     options.section = circle(kTie + Vec3(0.05, 0, -0.02), 0.025);
-    CHECK(code_of(straight(), options) == ErrorCode::invalid_argument);
+    CHECK(ponytail_code_of(straight(), options) == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("ponytail: profiles tell radii, and where sections begin and end") {
@@ -101,16 +101,16 @@ TEST_CASE("ponytail: profiles tell radii, and where sections begin and end") {
     CHECK(shape_of(straight(), options).sections.back().radius == Approx(0.015));
     options.profiles = {};
     options.profiles[0] = {kTie + Vec3(0.02, 0, 0.05), kTie + Vec3(0.02, 0, 0.02)};
-    CHECK(code_of(straight(), options) == ErrorCode::invalid_argument);
+    CHECK(ponytail_code_of(straight(), options) == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("ponytail: the shape does not depend on how finely the spine is given") {
-    const std::vector<Vec3> coarse = smooth_curve(falling(), step()),
-                            fine = smooth_curve(falling(), 0.05 * step());
+    const std::vector<Vec3> coarse = smooth_curve(falling(), ponytail_step()),
+                            fine = smooth_curve(falling(), 0.05 * ponytail_step());
     const PonytailShape a = shape_of(coarse), b = shape_of(fine);
     REQUIRE(a.sections.size() == b.sections.size());
     for (std::size_t i = 0; i < a.sections.size(); ++i) {
-        CHECK((a.sections[i].center - b.sections[i].center).norm() < 0.05 * step());
+        CHECK((a.sections[i].center - b.sections[i].center).norm() < 0.05 * ponytail_step());
         CHECK(a.sections[i].radius == Approx(b.sections[i].radius).epsilon(0.01));
     }
 }
@@ -120,8 +120,8 @@ TEST_CASE("ponytail: three kinds of vectors") {
     options.radius = 0.02;
     options.profiles[0] = {kTie + Vec3(0.02, 0, 0), kTie + Vec3(0.02, 0, -0.7 * 0.08)};
     options.grip = options.spread = 0.0;
-    const double d = step();
-    const auto all = constraints(straight(), options);
+    const double d = ponytail_step();
+    const auto all = ponytail_constraints(straight(), options);
     CHECK(test::ascending(all));
     Index along = 0, to_center = 0, vanishing = 0;
     for (const GridConstraint& c : all) {
@@ -151,13 +151,13 @@ TEST_CASE("ponytail: three kinds of vectors") {
     CHECK(to_center > 20);
     CHECK(vanishing > 0);
     options.tightness = 0.0;
-    CHECK(static_cast<Index>(constraints(straight(), options).size()) ==
+    CHECK(static_cast<Index>(ponytail_constraints(straight(), options).size()) ==
           static_cast<Index>(all.size()) - to_center);
 }
 
 TEST_CASE("ponytail: mirror images, and vectors no longer than one") {
     for (const auto& spine : {straight(), falling()}) {
-        const auto all = constraints(spine);
+        const auto all = ponytail_constraints(spine);
         CHECK(test::asymmetry(test::ball().layout(), all) < 1e-9);
         for (const GridConstraint& c : all) CHECK(c.value.norm() <= 1.0 + 1e-12);
     }
@@ -169,11 +169,11 @@ TEST_CASE("ponytail: the outline holds hair in, and hair inside spreads") {
     options.fullness = 0.0;
     options.share = 1.0;
     Index inside = 0, outside = 0;
-    for (const GridConstraint& c : constraints(straight(), options)) {
+    for (const GridConstraint& c : ponytail_constraints(straight(), options)) {
         const Vec3 from = test::place_of(test::ball().layout(), c.point) - kTie;
         const Vec3 away(from.x(), from.y(), 0.0);
         // Behind the ring, on the first half of the tail.
-        if (-from.z() < 0.6 * step() || -from.z() > 0.035) continue;
+        if (-from.z() < 0.6 * ponytail_step() || -from.z() > 0.035) continue;
         if (away.norm() < 0.028) {
             ++inside;
             CHECK(c.value.dot(away) > 0.0);
@@ -188,28 +188,28 @@ TEST_CASE("ponytail: the outline holds hair in, and hair inside spreads") {
 }
 
 TEST_CASE("ponytail: a tail leaves the points next to the head to the hair there") {
-    const std::vector<Vec3> spine = smooth_curve(falling(), 0.5 * step());
+    const std::vector<Vec3> spine = smooth_curve(falling(), 0.5 * ponytail_step());
     PonytailOptions options;
     options.tightness = 0.0;
     options.clearance = 0.0;
-    const auto all = constraints(spine, options);
+    const auto all = ponytail_constraints(spine, options);
     options.clearance = 0.03;
-    const auto fewer = constraints(spine, options);
+    const auto fewer = ponytail_constraints(spine, options);
     CHECK(fewer.size() < all.size());
     for (const GridConstraint& c : fewer) {
         const Vec3 at = test::place_of(test::ball().layout(), c.point);
-        const bool kept =
-            test::ball().value(at) > 0.03 - 1.8 * step() || (at - kTie).norm() < 0.03 + 0.06;
+        const bool kept = test::ball().value(at) > 0.03 - 1.8 * ponytail_step() ||
+                          (at - kTie).norm() < 0.03 + 0.06;
         CHECK(kept);
     }
 }
 
 TEST_CASE("ponytail: bad spines and options are refused") {
-    CHECK(code_of({}) == ErrorCode::invalid_argument);
-    CHECK(code_of({kTie}) == ErrorCode::invalid_argument);
-    CHECK(code_of({kTie, Vec3(0, test::kNaN, 0)}) == ErrorCode::not_finite);
-    CHECK(code_of({Vec3(5, 5, 5), Vec3(5, 6, 5)}) == ErrorCode::out_of_range);
-    CHECK(code_of({Vec3(1e200, 0, 0), Vec3(1e200, 1, 0)}) != ErrorCode::internal);
+    CHECK(ponytail_code_of({}) == ErrorCode::invalid_argument);
+    CHECK(ponytail_code_of({kTie}) == ErrorCode::invalid_argument);
+    CHECK(ponytail_code_of({kTie, Vec3(0, test::kNaN, 0)}) == ErrorCode::not_finite);
+    CHECK(ponytail_code_of({Vec3(5, 5, 5), Vec3(5, 6, 5)}) == ErrorCode::out_of_range);
+    CHECK(ponytail_code_of({Vec3(1e200, 0, 0), Vec3(1e200, 1, 0)}) != ErrorCode::internal);
     for (const double bad : {-2.0, test::kNaN}) {
         for (auto number :
              {&PonytailOptions::share, &PonytailOptions::inner, &PonytailOptions::outer,
@@ -217,17 +217,17 @@ TEST_CASE("ponytail: bad spines and options are refused") {
               &PonytailOptions::stop_length, &PonytailOptions::weight}) {
             PonytailOptions options;
             options.*number = bad;
-            CHECK(code_of(straight(), options) == ErrorCode::invalid_argument);
+            CHECK(ponytail_code_of(straight(), options) == ErrorCode::invalid_argument);
         }
         for (auto length : {&PonytailOptions::radius, &PonytailOptions::ring,
                             &PonytailOptions::lead, &PonytailOptions::clearance}) {
             PonytailOptions options;
             options.*length = bad;
-            CHECK(code_of(straight(), options) == ErrorCode::invalid_argument);
+            CHECK(ponytail_code_of(straight(), options) == ErrorCode::invalid_argument);
         }
     }
     PonytailOptions nan;
     nan.section = circle(kTie, 0.02);
     nan.section[3].x() = test::kNaN;
-    CHECK(code_of(straight(), nan) == ErrorCode::not_finite);
+    CHECK(ponytail_code_of(straight(), nan) == ErrorCode::not_finite);
 }

@@ -10,8 +10,6 @@ using doctest::Approx;
 
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 Mat3 mat3(const Vec3& a, const Vec3& b, const Vec3& c) {
     Mat3 result;
     result << a, b, c;

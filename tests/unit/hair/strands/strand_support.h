@@ -8,6 +8,7 @@
 
 #include "kernel/hair/strands/strand_measures.h"
 #include "kernel/hair/strands/strands.h"
+#include "tests/unit/hair/threads.h"
 #include "tests/unit/support.h"
 
 namespace lissom::test {
@@ -76,13 +77,6 @@ inline Strands rich_hair(Index count, unsigned seed = 1) {
     strands.set_ids(ids);
     strands.set_comment("a test");
     return strands;
-}
-
-/// A context with this many threads.
-inline Context threads(int count) {
-    ContextOptions options;
-    options.threads = count;
-    return Context(options);
 }
 
 inline bool same_points(const StrandView& a, const StrandView& b) {

@@ -8,8 +8,6 @@ using namespace lissom;
 
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 double mean_radius(const Mesh& mesh, const std::vector<Index>& loop) {
     Vec3 center = Vec3::Zero();
     for (const Index v : loop) center += mesh.position(v) / static_cast<double>(loop.size());

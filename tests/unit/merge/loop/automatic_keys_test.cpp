@@ -12,7 +12,7 @@ using namespace lissom::test;
 
 namespace {
 
-Loop ring(const Mesh& mesh, Index count) {
+Loop first_ring(const Mesh& mesh, Index count) {
     std::vector<Index> ids(static_cast<std::size_t>(count));
     std::iota(ids.begin(), ids.end(), 0);
     return Loop(mesh, ids);
@@ -38,7 +38,7 @@ TEST_CASE("without keys the loops meet where a similarity brings them together")
             tube(75, 3, [&](double angle, double height) { return pear(angle + start, height); });
         const Affine turn = rotation(Vec3(2, -1, 1), 2.0, Vec3::Zero());
         for (Vec3& p : b.edit_positions()) p = 40.0 * turn(p) + Vec3(100, 0, -30);
-        const Loop source = ring(a, 120), target = ring(b, 75);
+        const Loop source = first_ring(a, 120), target = first_ring(b, 75);
         const LoopJoin join{&source, &target};
         const OffsetGuess guess = guess_offsets(std::span(&join, 1)).front();
         // The source's start lies at angle -start of the target.
@@ -52,7 +52,7 @@ TEST_CASE("without keys the loops meet where a similarity brings them together")
 
 TEST_CASE("a round loop could meet anywhere, and the guess says so") {
     const Mesh a = round_tube(60, 3), b = round_tube(60, 3);
-    const Loop source = ring(a, 60), target = ring(b, 60);
+    const Loop source = first_ring(a, 60), target = first_ring(b, 60);
     const LoopJoin join{&source, &target};
     CHECK(guess_offsets(std::span(&join, 1)).front().certainty < 1.5);
 }
@@ -72,7 +72,7 @@ TEST_CASE("round loops of several joins find each other by where the others are"
         for (Vec3& p : meshes.back().edit_positions()) p = 2.0 * turn(p);
     }
     std::vector<Loop> loops;
-    for (const Mesh& mesh : meshes) loops.push_back(ring(mesh, 60));
+    for (const Mesh& mesh : meshes) loops.push_back(first_ring(mesh, 60));
     std::vector<LoopJoin> joins;
     for (std::size_t k = 0; k < loops.size(); k += 2) joins.push_back({&loops[k], &loops[k + 1]});
     for (const OffsetGuess& guess : guess_offsets(joins)) {

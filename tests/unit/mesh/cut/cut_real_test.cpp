@@ -14,8 +14,6 @@ using namespace lissom;
 
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 // A part of a model that is easily named: the plane that cuts it, and where the rest is.
 struct NamedCut {
     std::string file;

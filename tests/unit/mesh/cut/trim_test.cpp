@@ -11,8 +11,6 @@ using doctest::Approx;
 
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 // The part of a mesh on one side of a plane, cut along the edges of its faces.
 Mesh jagged(const Mesh& mesh, const Vec3& point, const Vec3& normal) {
     return extract(mesh, select_plane(mesh, point, normal)).mesh;

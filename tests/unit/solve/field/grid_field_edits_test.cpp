@@ -22,14 +22,14 @@ Curves random_curves(int count, std::mt19937& random) {
     return curves;
 }
 
-GridFieldOptions iterative() {
+GridFieldOptions iterative_edits() {
     GridFieldOptions options;
     options.dense_limit = 0;
     options.tolerance = 1e-12;
     return options;
 }
 
-GridFieldOptions cholesky() {
+GridFieldOptions cholesky_edits() {
     GridFieldOptions options;
     options.solver = GridSolver::cholesky;
     options.refinements = 1;
@@ -69,7 +69,8 @@ void edit(std::vector<GridConstraint>& curve, std::mt19937& random) {
 TEST_CASE("grid field edits: the order of edits does not matter, nor what was in between") {
     std::mt19937 random(31);
     const Curves curves = random_curves(5, random);
-    for (const GridFieldOptions& options : {GridFieldOptions{}, iterative(), cholesky()}) {
+    for (const GridFieldOptions& options :
+         {GridFieldOptions{}, iterative_edits(), cholesky_edits()}) {
         const Field direct = field_of(curves, options);
         GridField field(kSize, options);
         for (const int owner : {3, 0, 4}) {
@@ -87,7 +88,8 @@ TEST_CASE("grid field edits: the order of edits does not matter, nor what was in
 TEST_CASE("grid field edits: removing an owner returns to before") {
     std::mt19937 random(32);
     const Curves curves = random_curves(3, random);
-    for (const GridFieldOptions& options : {GridFieldOptions{}, iterative(), cholesky()}) {
+    for (const GridFieldOptions& options :
+         {GridFieldOptions{}, iterative_edits(), cholesky_edits()}) {
         GridField field(kSize, options);
         field.set_constraints(0, curves[0]);
         field.set_constraints(1, curves[1]);
@@ -104,10 +106,11 @@ TEST_CASE("grid field edits: removing an owner returns to before") {
     }
 }
 
-TEST_CASE("grid field edits: after 200 random edits the dual and cholesky solvers agree to 1e-8") {
+TEST_CASE(
+    "grid field edits: after 200 random edits the dual and cholesky_edits solvers agree to 1e-8") {
     std::mt19937 random(33);
     for (const GridBoundary boundary : {GridBoundary::zero_flux, GridBoundary::thesis}) {
-        GridFieldOptions dual, factored = cholesky();
+        GridFieldOptions dual, factored = cholesky_edits();
         dual.boundary = factored.boundary = boundary;
         dual.refinements = 1;
         dual.tolerance = 1e-11;
@@ -155,7 +158,8 @@ TEST_CASE("grid field edits: a cancelled solve leaves the field of the last one"
     GridFieldOptions thesis;
     thesis.boundary = GridBoundary::thesis;
     thesis.tolerance = 1e-11;
-    for (const GridFieldOptions& options : {GridFieldOptions{}, iterative(), thesis, cholesky()}) {
+    for (const GridFieldOptions& options :
+         {GridFieldOptions{}, iterative_edits(), thesis, cholesky_edits()}) {
         for (int stop = 1; stop < 40; stop += 3) {
             GridField field(kSize, options);
             field.set_constraints(0, curves[0]);

@@ -34,7 +34,7 @@ GridFieldOptions thesis() {
     return options;
 }
 
-GridFieldOptions cholesky(GridBoundary boundary = GridBoundary::zero_flux) {
+GridFieldOptions cholesky_solve(GridBoundary boundary = GridBoundary::zero_flux) {
     GridFieldOptions options;
     options.solver = GridSolver::cholesky;
     options.boundary = boundary;
@@ -64,7 +64,7 @@ TEST_CASE("grid field: every solver and boundary gives the minimiser of the ener
                 test::random_constraints(size, std::max(1, size.count() / 9), random);
             for (const GridBoundary boundary : {GridBoundary::zero_flux, GridBoundary::thesis}) {
                 const Field oracle = test::dense_solution(size, constraints, boundary, tension);
-                for (GridFieldOptions options : {dense(), iterative(), cholesky()}) {
+                for (GridFieldOptions options : {dense(), iterative(), cholesky_solve()}) {
                     options.boundary = boundary;
                     options.tension = tension;
                     options.tolerance = 1e-12;
@@ -93,7 +93,7 @@ TEST_CASE("grid field: weights from soft to nearly hard give the minimiser") {
 }
 
 TEST_CASE("grid field: without a constraint the field is zero") {
-    for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky()}) {
+    for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky_solve()}) {
         const Field field = solved_field({4, 3, 5}, {}, options);
         CHECK(greatest_difference(field, Field(60, Vec3::Zero())) == 0.0);
     }
@@ -101,7 +101,7 @@ TEST_CASE("grid field: without a constraint the field is zero") {
 
 TEST_CASE("grid field: one constraint, or equal ones, give a constant field") {
     const Vec3 v(0.3, -0.7, 0.2);
-    for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky()}) {
+    for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky_solve()}) {
         CHECK(greatest_difference(solved_field({4, 3, 5}, {{17, v}}, options), Field(60, v)) <
               1e-9);
         CHECK(greatest_difference(solved_field({4, 3, 5}, {{17, v}, {3, v, 2.0}, {50, v}}, options),
@@ -114,14 +114,14 @@ TEST_CASE("grid field: all points may be constrained") {
     std::mt19937 random(13);
     const GridSize size{5, 6, 4};
     const auto constraints = test::random_constraints(size, size.count(), random);
-    for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky()}) {
+    for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky_solve()}) {
         const Field oracle = test::dense_solution(size, constraints, options.boundary, 0.0);
         CHECK(greatest_difference(solved_field(size, constraints, options), oracle) < 1e-9);
     }
 }
 
 TEST_CASE("grid field: owners that contradict each other give the average by squared weight") {
-    for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky()}) {
+    for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky_solve()}) {
         GridField field({4, 3, 5}, options);
         field.set_constraints(1, {{17, Vec3(1.0, 0.0, 0.0), 100.0}});
         field.set_constraints(2, {{17, Vec3(-1.0, 1.0, 0.0), 200.0}});
@@ -256,7 +256,7 @@ TEST_CASE("grid field: threads change no bit") {
     const auto constraints = test::random_constraints(size, 300, random);
     GridFieldOptions loose = iterative();
     loose.tolerance = 1e-7;
-    for (const GridFieldOptions& options : {dense(), loose, thesis(), cholesky()}) {
+    for (const GridFieldOptions& options : {dense(), loose, thesis(), cholesky_solve()}) {
         const Field one = solved_field(size, constraints, options);
         const Field two = solved_field(size, constraints, options, two_threads());
         CHECK(greatest_difference(one, two) == 0.0);
@@ -267,7 +267,7 @@ TEST_CASE("grid field: quads hold the field and keep their fourth number") {
     std::mt19937 random(20);
     const GridSize size{8, 9, 7};
     const auto constraints = test::random_constraints(size, 40, random);
-    for (const GridFieldOptions& options : {dense(), thesis(), cholesky()}) {
+    for (const GridFieldOptions& options : {dense(), thesis(), cholesky_solve()}) {
         GridField field(size, options);
         field.set_constraints(3, constraints);
         const Field vectors = solved_field(field);

@@ -41,8 +41,8 @@ std::vector<Vec3> random_rows(Index size, double scale) {
 }
 
 // b - A x.
-std::vector<Vec3> residual(const SymmetricMatrix& a, const std::vector<Vec3>& x,
-                           std::vector<Vec3> b) {
+std::vector<Vec3> single_residual(const SymmetricMatrix& a, const std::vector<Vec3>& x,
+                                  std::vector<Vec3> b) {
     for (Index j = 0; j < a.size(); ++j) {
         b[j] -= a.value[a.begin[j]] * x[j];
         for (Index k = a.begin[j] + 1; k < a.begin[j + 1]; ++k) {
@@ -68,7 +68,7 @@ SparseSystem factored(const SymmetricMatrix& a) {
 
 }  // namespace
 
-TEST_CASE("single factor: each correction takes five digits off the residual") {
+TEST_CASE("single factor: each correction takes five digits off the single_residual") {
     for (const double scale : {1e-20, 1.0, 1e20}) {
         CAPTURE(scale);
         const SymmetricMatrix a = grids(60, 1, scale, 0.01);
@@ -78,9 +78,9 @@ TEST_CASE("single factor: each correction takes five digits off the residual") {
         std::vector<Vec3> x(b.size(), Vec3::Zero()), correction(b.size());
         SingleFactor::Scratch scratch;
         for (const double bound : {1e-4, 1e-9, 1e-13}) {
-            factor.solve(residual(a, x, b), correction, scratch);
+            factor.solve(single_residual(a, x, b), correction, scratch);
             for (std::size_t i = 0; i < x.size(); ++i) x[i] += correction[i];
-            CHECK(norm(residual(a, x, b)) < bound * norm(b));
+            CHECK(norm(single_residual(a, x, b)) < bound * norm(b));
         }
     }
 }
@@ -91,7 +91,7 @@ TEST_CASE("single factor: separate components are solved as the whole is") {
     std::vector<Vec3> b = random_rows(a.size(), 1.0), x = b;
     SingleFactor::Scratch scratch;
     factor.solve(x, x, scratch);
-    CHECK(norm(residual(a, x, b)) < 1e-5 * norm(b));
+    CHECK(norm(single_residual(a, x, b)) < 1e-5 * norm(b));
 }
 
 TEST_CASE("single factor: threads and old scratch do not change the result") {

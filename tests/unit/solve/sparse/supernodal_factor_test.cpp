@@ -17,7 +17,8 @@ struct Factored {
     Index failed = kNoIndex;
 };
 
-Factored factored(const SymmetricMatrix& a, Processor processor, const Context& context = {}) {
+Factored supernodal_factored(const SymmetricMatrix& a, Processor processor,
+                             const Context& context = {}) {
     Factored f{analyze_supernodes(a), {}, kNoIndex};
     f.value.assign(f.nodes.value_count(), std::nan(""));
     f.failed =
@@ -72,7 +73,7 @@ TEST_CASE("supernodal factor: L L^T is the matrix, for every structure and proce
         CAPTURE(named.name);
         if (a.size() > 3000) continue;
         for (const Processor processor : processors()) {
-            const Factored f = factored(a, processor);
+            const Factored f = supernodal_factored(a, processor);
             REQUIRE(f.failed == kNoIndex);
             CHECK(defect(f, a) < 1e-12 * std::sqrt(static_cast<double>(a.size())));
         }
@@ -83,7 +84,8 @@ TEST_CASE("supernodal factor: the paths for two processors agree") {
     for (const test::NamedMatrix& named : test::matrices()) {
         const SymmetricMatrix& a = named.matrix;
         CAPTURE(named.name);
-        const Factored plain = factored(a, Processor::any), best = factored(a, best_processor());
+        const Factored plain = supernodal_factored(a, Processor::any),
+                       best = supernodal_factored(a, best_processor());
         CHECK(greatest_difference(plain.value, best.value) < 1e-12);
     }
 }
@@ -92,11 +94,11 @@ TEST_CASE("supernodal factor: threads do not change a bit") {
     for (const test::NamedMatrix& named : test::matrices()) {
         const SymmetricMatrix& a = named.matrix;
         CAPTURE(named.name);
-        const Factored one = factored(a, best_processor());
+        const Factored one = supernodal_factored(a, best_processor());
         for (const int threads : {2, 4}) {
             ContextOptions options;
             options.threads = threads;
-            CHECK(factored(a, best_processor(), Context(options)).value == one.value);
+            CHECK(supernodal_factored(a, best_processor(), Context(options)).value == one.value);
         }
     }
 }
@@ -123,11 +125,11 @@ TEST_CASE("supernodal factor: the first bad pivot is named, for any number of th
     for (const Index bad : {0, 17, 4999, 9899}) {
         SymmetricMatrix b = a;
         b.value[b.begin[bad]] = -1.0;
-        const Factored one = factored(b, best_processor());
+        const Factored one = supernodal_factored(b, best_processor());
         REQUIRE(one.failed != kNoIndex);
         ContextOptions options;
         options.threads = 4;
-        CHECK(factored(b, best_processor(), Context(options)).failed == one.failed);
+        CHECK(supernodal_factored(b, best_processor(), Context(options)).failed == one.failed);
     }
 }
 
@@ -135,7 +137,7 @@ TEST_CASE("supernodal factor: extreme but honest scales survive") {
     for (const double scale : {1e-150, 1e150}) {
         SymmetricMatrix a = test::grid(30, 30);
         for (double& v : a.value) v *= scale;
-        const Factored f = factored(a, best_processor());
+        const Factored f = supernodal_factored(a, best_processor());
         REQUIRE(f.failed == kNoIndex);
         CHECK(defect(f, a) < 1e-12 * scale);
     }

@@ -2,20 +2,10 @@
 /// normals of the picture (McGuire, Mara and Luebke, "Scalable ambient obscurance", 2012).
 #pragma once
 
+#include "viewer/draw/view_parameters.h"
 #include "viewer/gl/gpu_drawing.h"
 
 namespace lissom {
-
-/// What the passes need to know about the camera.
-struct ViewParameters {
-    /// Picture space to view space, and that to clip space for the whole picture.
-    Mat4 view = Mat4::Identity();
-    Mat4 projection = Mat4::Identity();
-    /// Half the width and height of what is seen, in world units; at depth 1 with perspective.
-    Vec2 half_extent = Vec2::Ones();
-    bool perspective = true;
-    double near = 0.1;
-};
 
 struct OcclusionOptions {
     gl::Extent extent;

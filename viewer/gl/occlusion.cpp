@@ -1,4 +1,4 @@
-#include "viewer/draw/occlusion.h"
+#include "viewer/gl/occlusion.h"
 
 #include "viewer/gl/shaders.h"
 

@@ -1,0 +1,14 @@
+/// Which positions and gradients the constraints give; private to kernel/deform.
+#pragma once
+
+#include <vector>
+
+namespace lissom {
+
+/// What is known of every local vertex. A vertex whose gradient is not needed has it neither known
+/// nor wanted: far outside, or without faces.
+struct KnownMask {
+    std::vector<char> position, gradient, gradient_wanted;
+};
+
+}  // namespace lissom

@@ -1,0 +1,130 @@
+/// Options of deformation, and what is prescribed at handles, vertices and points.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "kernel/core/geometry.h"
+#include "kernel/deform/mesh_point.h"
+
+namespace lissom {
+
+/// Weights of the Laplacian coordinates: cotangents, or 1 / valence.
+enum class LaplacianWeights { cotangent, uniform };
+
+/// The system that reconstructs positions from rotations: a blend of the two others that is smooth
+/// at the border of handles and has little distortion; Laplacian coordinates (Eq 2.10); edge
+/// vectors.
+enum class SecondSystem { blend, laplacian, poisson };
+
+/// Whether details keep their size (Eq 2.10) or scale with the surface around them (Eq 2.11).
+enum class LocalSize { keep, scale };
+
+/// How the region follows its handles. All but `implicit` are the methods that the thesis compares
+/// its own with (sections 2.3 to 2.5). They use the same operators and keep the same promises: hard
+/// positions, the rest shape to the bit, nothing moves outside the region, no factorisation for a
+/// new transform. They have one quality only, so `preview` and `solve_draft` give what `solve`
+/// gives, and no handle basis; weights of handles, and points that are not vertices, are refused as
+/// `unsupported`.
+enum class DeformMethod {
+    /// Fu 2007: gradients implicit in the positions, then shear taken out.
+    implicit,
+    /// Eq 2.1: Laplacian coordinates keep their direction in space.
+    naive,
+    /// Lipman et al. 2004: rotations estimated from the naive solution, then a second solve.
+    rotation_estimate,
+    /// Sorkine et al. 2004: linearised similarities implicit in the positions.
+    similarity,
+    /// Yu et al. 2004: handle gradients propagated by geodesic distance, then a Poisson system.
+    geodesic,
+    /// Zayer et al. 2005: the same by harmonic fields.
+    harmonic,
+    /// Lipman et al. 2005: rotation-invariant coordinates; frames first, then positions.
+    frames,
+};
+
+/// "implicit", "naive", ...: the name in scripts.
+std::string_view method_name(DeformMethod method);
+
+/// A comparison method refuses values other than the defaults of the options that it has no use
+/// for: `weights` serves all but geodesic, `scale_free` the first three, and the others none.
+struct DeformOptions {
+    DeformMethod method = DeformMethod::implicit;
+    SecondSystem second = SecondSystem::blend;
+    LocalSize local_size = LocalSize::keep;
+    LaplacianWeights weights = LaplacianWeights::cotangent;
+    /// How often, 0 to 2, the rotations are fitted to the result and it is solved for again: less
+    /// distortion, for half a frame each. Rotations go further than what fits, so that two do what
+    /// four or five would; more would wear twisted parts thin.
+    int refine = 0;
+    /// Rings of neighbours whose gradients are kept similar (the pairs SF of Eq 2.7): 1 or 2.
+    int coherence = 1;
+    /// Weight of the coherence term beside the Laplacian term; the result hardly depends on it.
+    double coherence_weight = 1.0;
+    /// A vertex is degenerate where the condition number of V_i V_i^T exceeds this (section 2.4.3).
+    double degenerate_threshold = 2e4;
+    /// Works on a surface that is refined along the borders of what is held, where they are coarse
+    /// beside the region (section 2.5): else a few held vertices would say where a detailed region
+    /// goes. The result is that of the mesh's own vertices; see Deformer::refined_mesh.
+    bool refine_borders = true;
+    /// s_disp of Eq 2.9: displacement of degenerate vertices in mean lengths of their edges; above
+    /// 0.
+    double displacement = 0.2;
+    /// Weights each vertex by its area and each coherence pair by its cotangent, so that the result
+    /// does not depend on scale or resolution. Off: both terms literally as Eq 2.6 and 2.7.
+    bool scale_free = true;
+    /// Within this geodesic distance of the region's outline the surface is drawn to rest, more and
+    /// more, so that the deformation fades into what stays; in units of length.
+    double transition = 0.0;
+
+    /// The thesis to the letter: coherence 2, threshold 2e5, literal weights, second system (2.10).
+    static DeformOptions thesis();
+};
+
+/// What a handle prescribes at its vertices: their positions, their deformation gradients, or both.
+struct HandleOptions {
+    bool position = true;
+    bool gradient = true;
+    /// Absent: the handle is hard, and its vertices lie exactly where it takes them. Otherwise they
+    /// are drawn there: at 1 a compromise with the shape of the surface, at 1e6 nearly hard. What a
+    /// weight does depends on neither scale nor resolution.
+    std::optional<double> weight = std::nullopt;
+    /// Within this geodesic distance of the handle the surface follows it softly, less and less; in
+    /// units of length.
+    double falloff = 0.0;
+};
+
+/// A plane in which a handle is mirrored.
+struct MirrorPlane {
+    Vec3 point = Vec3::Zero(), normal = Vec3::UnitX();
+    /// How far a vertex may lie from the mirror image of its counterpart; 0 is a thousandth of the
+    /// surface's radius.
+    double tolerance = 0.0;
+};
+
+/// Names a handle of one Deformer. Ids are not used again after a removal.
+struct HandleId {
+    Index value = kNoIndex;
+    bool operator==(const HandleId&) const = default;
+};
+
+/// Prescribes the position, the deformation gradient, or both, of one vertex.
+struct VertexConstraint {
+    Index vertex = kNoIndex;
+    std::optional<Vec3> position = std::nullopt;
+    std::optional<Mat3> gradient = std::nullopt;
+    /// As HandleOptions::weight.
+    std::optional<double> weight = std::nullopt;
+};
+
+/// The same for a point of a face or an edge. A hard position holds exactly for the mean of the
+/// deformed vertices. The gradient is that of the vertices around the point which nothing else
+/// holds.
+struct PointConstraint {
+    MeshPoint point;
+    std::optional<Vec3> position = std::nullopt;
+    std::optional<Mat3> gradient = std::nullopt;
+    std::optional<double> weight = std::nullopt;
+};
+
+}  // namespace lissom

@@ -1,0 +1,47 @@
+/// What mesh files and hair files have in common: extensions, units, and the place of an error;
+/// private to kernel/io.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "kernel/core/error.h"
+
+namespace lissom {
+
+/// Lower case, without the dot.
+inline std::string normalized_extension(std::string_view extension) {
+    if (extension.starts_with('.')) extension.remove_prefix(1);
+    std::string result(extension);
+    for (char& c : result) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return result;
+}
+
+/// Errors: invalid_argument where `unit` is not positive and finite.
+inline void require_unit(double unit) {
+    if (unit > 0.0 && std::isfinite(unit)) return;
+    throw Error(ErrorCode::invalid_argument,
+                "unit is " + std::to_string(unit) + ", but must be positive and finite");
+}
+
+/// The result of `action`; its errors begin with the file, and the line where there is one.
+template <typename Action>
+auto with_place_in_errors(const std::string& file, const Action& action) {
+    try {
+        return action();
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::cancelled) throw;
+        std::string place = file;
+        const Elements& elements = error.elements();
+        if (elements.kind == ElementKind::line && !elements.ids.empty()) {
+            place += (file.empty() ? "line " : ":") + std::to_string(elements.ids[0] + 1LL);
+        }
+        if (!place.empty()) place += ": ";
+        throw Error(error.code(), place + error.message(), elements);
+    }
+}
+
+}  // namespace lissom

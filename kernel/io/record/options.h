@@ -1,0 +1,70 @@
+/// Options of mesh files and hair files: axes, units, encodings and checks.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "kernel/core/geometry.h"
+#include "kernel/io/stream/endianness.h"
+#include "kernel/mesh/repair/repair.h"
+
+namespace lissom {
+
+/// The axis that points up in a file. In the kernel it is y.
+enum class UpAxis {
+    none,  ///< as it is: nothing is turned
+    y,     ///< the kernel's own convention: nothing is turned
+    z,     ///< turned about x, so that the file's z is the kernel's y and its y the kernel's -z
+};
+
+/// How the coordinates of a file become those of the mesh. Normals are turned but not scaled.
+struct LoadOptions {
+    /// Which vertices at the same place become one; where absent, Weld::all for STL, which stores
+    /// each triangle by itself, and Weld::seams for all others.
+    std::optional<Weld> weld = std::nullopt;
+    /// False: what would be mended (see repair.h) is an error instead.
+    bool repair = true;
+    /// The file's up axis.
+    UpAxis up = UpAxis::none;
+    /// Length of the file's unit in the mesh's unit: positions are multiplied by it. Positive,
+    /// finite.
+    double unit = 1.0;
+};
+
+/// The inverse of LoadOptions, and how the file is encoded.
+struct SaveOptions {
+    /// The up axis the file shall have.
+    UpAxis up = UpAxis::none;
+    /// Length of the file's unit in the mesh's unit: positions are divided by it. Positive, finite.
+    double unit = 1.0;
+    /// Binary or text, for formats that have both (PLY, STL). OBJ and OFF are written as text, glTF
+    /// as its extension says.
+    bool binary = true;
+    /// Byte order of binary PLY.
+    Endianness endianness = Endianness::little;
+};
+
+/// How the coordinates of a file become those of the strands.
+struct StrandLoadOptions {
+    /// The file's up axis. None: what the file says (.usda), else nothing is turned. The sample
+    /// files of .hair are z-up.
+    UpAxis up = UpAxis::none;
+    /// Length of the file's unit in metres: points and widths are multiplied by it. Positive,
+    /// finite. Absent: what the file says (.usda), else 1.
+    std::optional<double> unit = std::nullopt;
+};
+
+/// The inverse of StrandLoadOptions, and what is checked.
+struct StrandSaveOptions {
+    /// The up axis the file shall have.
+    UpAxis up = UpAxis::none;
+    /// Length of the file's unit in metres: points and widths are divided by it. Positive, finite.
+    double unit = 1.0;
+    /// False: what would be changed or left out for the file (see StrandFindingKind, but for
+    /// content_dropped) is an error instead.
+    bool mend = true;
+    /// Signed distance in metres to the head; empty: it is not checked that roots come first.
+    std::function<double(const Vec3&)> distance = {};
+};
+
+}  // namespace lissom
