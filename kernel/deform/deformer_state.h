@@ -69,6 +69,15 @@ struct Prepared {
     }
 };
 
+/// The first system at a fraction of the turns that are asked for.
+struct TurnPart {
+    double fraction = 1.0;
+    /// Where local vertices then lie, relative to where the base takes them.
+    std::vector<Vec4> deviation;
+    /// What the handles' translations and the vertex constraints add that the turns do not.
+    std::vector<Vec4> remainder;
+};
+
 struct HandlePoses {
     std::vector<HandleState> handles;
     /// Of the patch, which a new rest shape moves.
@@ -137,15 +146,20 @@ struct Deformer::State {
     std::vector<Mat3> surface_gradients() const;
 
     void evaluate_deviation(const Context& context);
-    Mat3 gradient_of(Index v) const;
+    Mat3 gradient_of(Index v, const TurnPart* part = nullptr) const;
     void find_gradients();
     std::vector<Mat3> shown_rotations();
     Mat3 rotation_of(const Mat3& gradient) const;
     void preview(const Context& context);
-    void find_turns(const Mat3& base_rotation, const Context& context);
+    void find_turns(const Mat3& base_rotation, double greatest, const Context& context);
     void turn_held(const Mat3& base_rotation);
     std::vector<Vec4> relative_turns() const;
     double greatest_turn() const;
+    static double turn_fraction(double greatest);
+    TurnPart part_of_turns(double fraction, const Context& context) const;
+    std::vector<Vec4> spread_moves(std::span<const Mat4> differences, const Context& context) const;
+    void turn_on(const TurnPart& part, std::span<const Index> vertices,
+                 std::span<Mat3> gradient) const;
     static double winding_share(double greatest);
     static double far_share(double greatest);
     std::vector<Vec4> spread(const std::vector<Vec4>& value) const;
@@ -160,6 +174,7 @@ struct Deformer::State {
                     const Mat3& base_rotation);
     void blend_turns(std::span<const Index> vertices, std::span<const PaddedMat3> before,
                      double share, const Mat3& base_rotation);
+    std::vector<Vec4> size_changes() const;
     void refine_turns(const Mat3& base_rotation, double further, const Context& context);
     void solve_second(bool draft, const Context& context);
     void solve(bool draft, const Context& context);

@@ -55,7 +55,9 @@ struct DeformOptions {
     LaplacianWeights weights = LaplacianWeights::cotangent;
     /// How often, 0 to 2, the rotations are fitted to the result and it is solved for again: less
     /// distortion, for half a frame each. Rotations go further than what fits, so that two do what
-    /// four or five would; more would wear twisted parts thin.
+    /// four or five would; more would wear twisted parts thin. Left alone are places where no
+    /// rotation fits, as the surface has caved in, and those whose size handles change. Refined
+    /// parts get thinner: not for surfaces that run through themselves or nearly do.
     int refine = 0;
     /// Rings of neighbours whose gradients are kept similar (the pairs SF of Eq 2.7): 1 or 2.
     int coherence = 1;

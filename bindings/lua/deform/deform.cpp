@@ -448,7 +448,10 @@ std::vector<Parameter> deform_parameters() {
         choice(
             "second", {"blend", "laplacian", "poisson"},
             "The system that makes the shape from the rotations: blend is smooth at handles with "
-            "little distortion, laplacian is the thesis's, poisson has the least distortion.")
+            "little distortion, laplacian is the thesis's, poisson has the least distortion. Keep "
+            "blend unless something asks for another: laplacian where the surface has to be as "
+            "smooth as can be and may stretch, poisson where it may crease at handles, as along an "
+            "edge of the part. Compared in examples/deform/second.png.")
             .optional("\"blend\""),
         integer("coherence", "Rings of neighbours that turn alike.")
             .between(1, 2)
@@ -457,7 +460,10 @@ std::vector<Parameter> deform_parameters() {
             .optional("\"cotangent\""),
         integer("refine",
                 "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
-                "less distortion for half a frame each.")
+                "less distortion for half a frame each. For bars and limbs that bend and twist. "
+                "Leave it at 0 where the surface runs through itself or nearly does, since "
+                "refined parts get thinner and cross more; beside handles that change their size "
+                "it fades to nothing. Compared in examples/deform/refine.png.")
             .at_least(0)
             .optional(std::to_string(defaults.refine)),
         boolean("refine_borders",
