@@ -82,14 +82,14 @@ std::vector<Vec4> Deformer::State::spread_moves(std::span<const Mat4> difference
 void Deformer::State::turn_on(const TurnPart& part, std::span<const Index> vertices,
                               std::span<Mat3> gradient) const {
     const Mat3 back = nearest_rotation(frame_base.topLeftCorner<3, 3>()).transpose();
-    const double rest = 1.0 / part.fraction - 1.0;
+    const double left = 1.0 / part.fraction - 1.0;
     std::array<Mat3, kFrameBlock> rotation, added;
     const auto count = static_cast<Index>(vertices.size());
     nearest_rotations(gradient, {rotation.data(), vertices.size()});
     prepared->gradient_loop().gather(vertices.data(), part.remainder.data(), added.data(), 0,
                                      count);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        gradient[i] = turned_further(rotation[i] * back, rest) * gradient[i] + added[i];
+        gradient[i] = turned_further(rotation[i] * back, left) * gradient[i] + added[i];
     }
 }
 
