@@ -81,7 +81,7 @@ Parameter stop_field() {
                    metres_field("length", "How far behind the end.").at_least(0)},
                   "Keeps hair from growing on beyond the end of the curve, by vectors that vanish "
                   "over a length.")
-        .optional("true, 0.04 metres_field");
+        .optional("true, 0.04 metres");
 }
 
 std::vector<Parameter> own_stream_fields() {

@@ -722,7 +722,7 @@ Function clump_method() {
                         meters("offset", "Random distance by which the tip of a whole clump moves.")
                             .defaults(d.offset)
                             .at_least(0),
-                        boolean("within_groups", "Guides are of the strand's strands_of group.")
+                        boolean("within_groups", "Guides are of the strand's own group.")
                             .defaults(d.within_groups),
                         keep_length_field(), seed_field()},
             .results = kSelfStrands,

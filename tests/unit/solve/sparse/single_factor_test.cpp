@@ -68,7 +68,7 @@ SparseSystem factored(const SymmetricMatrix& a) {
 
 }  // namespace
 
-TEST_CASE("single factor: each correction takes five digits off the single_residual") {
+TEST_CASE("single factor: each correction takes five digits off the residual") {
     for (const double scale : {1e-20, 1.0, 1e20}) {
         CAPTURE(scale);
         const SymmetricMatrix a = grids(60, 1, scale, 0.01);
