@@ -50,14 +50,18 @@ sources() {
     done | sort
 }
 
-# compiled FOLDER REGEX : sources in the compile database of FOLDER whose path from the root matches.
+# compiled FOLDER REGEX : units of the compile database of FOLDER, single sources and rooms that are compiled
+# together, whose path from the root or from FOLDER matches.
 compiled() {
-    sed -n "s|^ *\"file\": \"$PWD/\(.*\)\".*|\1|p" "$1/compile_commands.json" | sort -u | grep -E "$2"
+    sed -n "s|^ *\"file\": \"$PWD/\(.*\)\".*|\1|p" "$1/compile_commands.json" | sort -u |
+        grep -E "^($1/)?($2)"
 }
 
-# tidy REGEX : clang-tidy, with the checks of .clang-tidy, over the sources that match, as clang built them.
+# tidy REGEX : clang-tidy, with the checks of .clang-tidy, over the units that match, as clang built them.
 tidy() {
-    compiled build/clang "$1" | xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/clang
+    local units
+    units=$(compiled build/clang "$1") || { echo "no source matches $1"; return 1; }
+    printf '%s\n' "$units" | xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/clang
 }
 
 # unit_tests PRESET : builds and runs the unit tests of a preset.
