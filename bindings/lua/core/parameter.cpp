@@ -93,6 +93,10 @@ Parameter choice(std::string name, std::vector<std::string> choices, std::string
 Parameter id(std::string name, std::string help) {
     return make(std::move(name), Kind::id, std::move(help));
 }
+Parameter open_vector(std::string name, std::string help) {
+    return make(std::move(name), Kind::open_vector, std::move(help));
+}
+
 Parameter vector(std::string name, std::string help) {
     return make(std::move(name), Kind::vector, std::move(help));
 }

@@ -60,6 +60,8 @@ enum class Kind {
     table,
     /// One of `alternatives`, told apart by the Lua type of the value.
     either,
+    /// {x, y, z} of which some, but not all, may be nil or infinite; nil is read as NaN.
+    open_vector,
 };
 
 /// One argument or option. Make one with a function below and refine it with the methods, which
@@ -114,6 +116,7 @@ Parameter string(std::string name, std::string help);
 Parameter choice(std::string name, std::vector<std::string> choices, std::string help);
 Parameter id(std::string name, std::string help);
 Parameter vector(std::string name, std::string help);
+Parameter open_vector(std::string name, std::string help);
 Parameter factors(std::string name, std::string help);
 Parameter axis(std::string name, std::string help);
 Parameter affine(std::string name, std::string help);

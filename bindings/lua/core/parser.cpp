@@ -117,6 +117,8 @@ std::string expectation(const Parameter& p) {
             return "id from 1";
         case Kind::vector:
             return "{x, y, z}";
+        case Kind::open_vector:
+            return "{x, y, z} with nil or math.huge for an open side";
         case Kind::factors:
             return "number or {x, y, z}";
         case Kind::axis:
@@ -364,6 +366,8 @@ void Parser::read(const Parameter& p, int index, Value& value, const Place& plac
             return read_choice(p, index, value, place);
         case Kind::vector:
             return read_vector(p, index, value.xyz, place);
+        case Kind::open_vector:
+            return read_open_vector(p, index, value.xyz, place);
         case Kind::factors:
             return read_factors(p, index, value, place);
         case Kind::axis:
@@ -435,6 +439,21 @@ double Parser::read_coordinate(const Parameter& p, int index, const Place& place
     const bool usable = p.infinite ? !std::isnan(number) : std::isfinite(number);
     if (lua_type(L_, index) != LUA_TNUMBER || !usable) mismatch(p, index, place);
     return number;
+}
+
+void Parser::read_open_vector(const Parameter& p, int index, double* xyz, const Place& place) {
+    if (lua_type(L_, index) != LUA_TTABLE) mismatch(p, index, place);
+    int keys = 0, given = 0;
+    for (lua_pushnil(L_); lua_next(L_, index) != 0; lua_pop(L_, 1)) ++keys;
+    for (int k = 0; k < 3; ++k) {
+        lua_rawgeti(L_, index, k + 1);
+        const bool is_number = lua_type(L_, -1) == LUA_TNUMBER;
+        xyz[k] = is_number ? lua_tonumber(L_, -1) : std::numeric_limits<double>::quiet_NaN();
+        given += is_number && !std::isnan(xyz[k]) ? 1 : 0;
+        lua_pop(L_, 1);
+    }
+    // Of the wrong type, at the wrong place, or NaN.
+    if (given == 0 || given != keys) mismatch(p, index, place);
 }
 
 void Parser::read_vector(const Parameter& p, int index, double* xyz, const Place& place) {

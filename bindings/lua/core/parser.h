@@ -44,6 +44,7 @@ class Parser {
     Holder* read_object(const Parameter& p, int index, const Place& place);
     void read_choice(const Parameter& p, int index, Value& value, const Place& place);
     void read_vector(const Parameter& p, int index, double* xyz, const Place& place);
+    void read_open_vector(const Parameter& p, int index, double* xyz, const Place& place);
     void read_factors(const Parameter& p, int index, Value& value, const Place& place);
     void read_axis(const Parameter& p, int index, Value& value, const Place& place);
     void read_matrix(const Parameter& p, int index, Value& value, const Place& place);

@@ -27,6 +27,14 @@
 ---@field normal lissom.Vector Unit normal of the triangle; zero where it has no area.
 ---@field distance number Distance from the query point, or along the ray.
 
+---How a surface differs from its rest, at every vertex.
+---@class lissom.Distortion
+---@field stretch lissom.Buffer Length of the edge that changed most, over its length at rest: 1 as at rest.
+---@field area lissom.Buffer Area of the faces around it, over their area at rest.
+---@field angle lissom.Buffer Greatest change of a corner's angle, in degrees.
+---@field flips lissom.Buffer Number of flipped faces around it.
+---@field flipped integer[] Faces that look against the faces around them, and did not at rest.
+
 ---A point of a path.
 ---@class lissom.PathPoint
 ---@field position lissom.Vector The point.
@@ -472,16 +480,24 @@ function Mesh:nearest(point) end
 function Mesh:pick(origin, direction) end
 
 ---@class lissom.Mesh.DistancesOptions
----@field from integer|lissom.Region|integer[] Where distances start.
+---@field from integer|lissom.Region|table Where distances start: a vertex, a region, a list of vertices, or a point {x, y, z}, of which the nearest on the surface counts, also as Mesh:nearest and Mesh:pick return it. Three whole numbers above 0 may be vertices or a point: write { vertices = {a, b, c} } or { point = {x, y, z} }.
 ---@field method? "heat"|"edges" Geodesic by the heat method, or along edges. Default: "heat".
 
----Distance of every vertex over the surface to the nearest of the given vertices; infinite where there is no way.
+---Distance of every vertex over the surface to the nearest of the given vertices, or to a point; infinite where there is no way.
 ---@param options lissom.Mesh.DistancesOptions
 ---@return lissom.Buffer distances # One number a vertex.
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function Mesh:distances(options) end
+
+---How far this mesh is stretched, sheared and folded beside another shape of it, as numbers of the vertices that lissom.render draws in colours: lissom.render{ mesh = mesh, scalars = mesh:distortion(rest).area, ... }.
+---@param rest lissom.Mesh A mesh with the same faces, such as a copy from before.
+---@return lissom.Distortion found # Numbers of the vertices.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:distortion(rest) end
 
 ---@class lissom.Mesh.SaveOptions
 ---@field up? "y"|"z" The up axis that the file shall have. Default: as it is.
@@ -537,20 +553,25 @@ function Mesh:remove_attribute(name) end
 ---@field radius number Its radius. In mesh units.
 
 ---@class lissom.Mesh.RegionOptions.Box
----@field min? lissom.Vector Smallest coordinates. Default: no limit.
----@field max? lissom.Vector Greatest coordinates. Default: no limit.
+---@field min? lissom.Vector Smallest coordinates; nil or math.huge where a side is open. Default: no limit.
+---@field max? lissom.Vector Greatest coordinates; nil or math.huge where a side is open. Default: no limit.
+
+---@class lissom.Mesh.RegionOptions.Fraction
+---@field min? lissom.Vector Smallest fractions; nil or math.huge where a side is open. Default: no limit.
+---@field max? lissom.Vector Greatest fractions; nil or math.huge where a side is open. Default: no limit.
 
 ---@class lissom.Mesh.RegionOptions.Plane
 ---@field point lissom.Vector A point of the plane.
 ---@field normal lissom.Vector Points to the side that is selected.
 
 ---@class lissom.Mesh.RegionOptions.Geodesic
----@field from integer|lissom.Region|integer[] Where distances start.
+---@field from integer|lissom.Region|table Where distances start: a vertex, a region, a list of vertices, or a point {x, y, z}, of which the nearest on the surface counts, also as Mesh:nearest and Mesh:pick return it. Three whole numbers above 0 may be vertices or a point: write { vertices = {a, b, c} } or { point = {x, y, z} }.
 ---@field radius number Distance over the surface. In mesh units.
 
 ---@class lissom.Mesh.RegionOptions
 ---@field sphere? lissom.Mesh.RegionOptions.Sphere Vertices within a sphere.
 ---@field box? lissom.Mesh.RegionOptions.Box Vertices within an axis-aligned box, its sides included.
+---@field fraction? lissom.Mesh.RegionOptions.Fraction Vertices within a box in fractions of the mesh's bounds: 0 is the least coordinate of an axis, 1 the greatest.
 ---@field plane? lissom.Mesh.RegionOptions.Plane Vertices on one side of a plane, the plane included.
 ---@field geodesic? lissom.Mesh.RegionOptions.Geodesic Vertices within a distance over the surface.
 ---@field vertices? integer[] These vertices.
@@ -580,6 +601,14 @@ function Mesh:set_region(name, region) end
 ---@param name string Its name.
 ---@return boolean removed # False where there was none.
 function Mesh:remove_region(name) end
+
+---The names of the groups of faces that the mesh has: what region{ group = } takes.
+---@return string[] names # In the order of the file.
+function Mesh:groups() end
+
+---The names of its materials: what region{ material = } takes.
+---@return string[] names # In the order of the file.
+function Mesh:materials() end
 
 ---The names of the regions that are kept with the mesh.
 ---@return string[] names # In alphabetical order.
@@ -671,6 +700,14 @@ function Region:grow(rings) end
 ---@param rings? integer Number of rings of neighbours. Default: 1.
 ---@return lissom.Region region # A new region.
 function Region:shrink(rings) end
+
+---@class lissom.Region.ConnectedOptions
+---@field at integer|lissom.Vector A vertex of the region, or a point, of which the region's nearest vertex counts.
+
+---The part of this region that is connected with a point: what edges between the region's vertices join.
+---@param options lissom.Region.ConnectedOptions
+---@return lissom.Region region # A new region.
+function Region:connected(options) end
 
 ---A smoother outline by majority vote over one-rings; specks and pinholes go.
 ---@param iterations? integer Number of votes. Default: 3.
@@ -891,7 +928,7 @@ function Deformation:preview() end
 ---@class lissom.Deformation.SolveOptions
 ---@field draft? boolean For the frames of a drag: about five digits in half the time. Solve once more when the drag ends. Default: false.
 
----Solves both systems and writes the result into the mesh. Handles that are where they began give the rest shape, to the bit.
+---Solves both systems and writes the result into the mesh. Handles that are where they began give the rest shape, to the bit. What else has moved the region's vertices is overwritten; where the mesh around the region was moved, so that the result would tear, it is an error.
 ---@param options? lissom.Deformation.SolveOptions
 ---@return lissom.Mesh mesh # The mesh; nil, message, code where there is no solution.
 ---@return string? message # What is wrong, where the first result is nil.
@@ -944,7 +981,7 @@ function Deformation:save_basis(path, options) end
 ---@field normals? boolean Gives a mesh without normals those of its surface, so that light follows the motion. Default: true.
 ---@field name? string Name of the animation. Default: "deformation".
 
----Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles stand where they stand now, the function moves them, and the deformation is solved. Handles and mesh are afterwards as they were, also where the function fails.
+---Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles stand where they stand now, the function moves them, and the deformation is solved. Handles, mesh and last result are afterwards as they were, also where the function fails.
 ---@param options lissom.Deformation.BakeOptions
 ---@return lissom.Mesh mesh # The rest shape with its targets and the animation; nil, message, code where a pose has no solution.
 ---@return string? message # What is wrong, where the first result is nil.
@@ -1000,7 +1037,7 @@ function Handle:scale(factor, options) end
 ---@return lissom.Handle handle # The handle itself.
 function Handle:set(options) end
 
----Sets the whole transform as a matrix.
+---Sets the whole transform as a matrix. A matrix does not say how often the handle has turned round: the field `turn` that Handle:matrix gives does; without it, the turn nearest to the present one is taken.
 ---@param matrix number[][] Rows of a 4 x 4 matrix; takes rest positions to where they go.
 ---@return lissom.Handle handle # The handle itself.
 function Handle:set_matrix(matrix) end
@@ -1010,7 +1047,7 @@ function Handle:set_matrix(matrix) end
 function Handle:reset() end
 
 ---The transform so far.
----@return number[][] matrix # Rows of a 4 x 4 matrix.
+---@return number[][] matrix # Rows of a 4 x 4 matrix; its field `turn` is the rotation as {x, y, z}, axis times angle in degrees, counting full turns.
 function Handle:matrix() end
 
 ---The handle's center where it is now.
@@ -1806,7 +1843,7 @@ function lissom.shapes.head(options) end
 ---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. Default: 0.
 ---@field refine_borders? boolean Works on a surface that is refined where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
 ---@field displacement? number How far degenerate vertices are displaced. In mean lengths of their edges. Default: 0.2.
----@field degenerate_threshold? number Condition number from which a vertex counts as degenerate. Default: 20000.
+---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000.
 ---@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.
 ---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise. Default: "default".
 

@@ -333,6 +333,7 @@ std::string annotation_type(const Parameter& p) {
             return joined(words, "|");
         }
         case Kind::vector:
+        case Kind::open_vector:
             return "lissom.Vector";
         case Kind::factors:
             return "number|lissom.Vector";
