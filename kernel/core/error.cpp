@@ -85,8 +85,9 @@ constexpr std::array<CodeEntry, 40> kCodes{{
      "The region has no vertices. Enlarge the sphere, box or radius that selects it."},
     {ErrorCode::topology_mismatch, "topology_mismatch",
      "A region, path or handle belongs to another mesh or to an older version of this mesh's "
-     "topology. "
-     "Select it again on the mesh as it is now."},
+     "topology, or the mesh has changed around the region of a deformation, whose result would "
+     "tear "
+     "there. Make it again on the mesh as it is now."},
     {ErrorCode::handle_outside_region, "handle_outside_region",
      "A handle has vertices outside the region that may deform. Enlarge the region or shrink the "
      "handle."},

@@ -256,22 +256,44 @@ const std::vector<Vec3>& Deformer::rest_positions() const {
 }
 
 void Deformer::apply_to(Mesh& mesh) const {
-    State& s = *state_;
-    require_same_topology(mesh, s.region.topology(), "the deformer");
-    const bool turns = !s.directions.empty();
-    const std::vector<Mat3> rotations = turns ? s.shown_rotations() : std::vector<Mat3>();
+    const State& s = *state_;
+    require_surroundings(mesh);
+    const std::vector<Mat3> alone = s.turns_without_faces();
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row)
         out[s.region.vertices()[row]] = s.positions[row];
-    if (turns) s.directions.apply_to(mesh, rotations);
+    s.directions.apply_to(mesh, alone);
+}
+
+void Deformer::require_surroundings(const Mesh& mesh) const {
+    require_same_topology(mesh, state_->region.topology(), "the deformer");
+    state_->require_surroundings(mesh);
 }
 
 void Deformer::apply_rest_to(Mesh& mesh) const {
     const State& s = *state_;
-    require_same_topology(mesh, s.region.topology(), "the deformer");
+    require_surroundings(mesh);
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row) out[s.region.vertices()[row]] = s.rest[row];
-    s.directions.apply_to(mesh, std::vector<Mat3>(s.rest.size(), Mat3::Identity()));
+    s.directions.apply_to(mesh,
+                          std::vector<Mat3>(s.directions.without_faces().size(), Mat3::Identity()));
+}
+
+std::shared_ptr<const ShownResult> Deformer::result() {
+    State& s = *state_;
+    s.find_gradients();
+    return std::make_shared<ShownResult>(
+        ShownResult{s.positions, s.inserted, s.shown_patch, s.shown, s.gradients});
+}
+
+void Deformer::show(const ShownResult& result) {
+    State& s = *state_;
+    s.positions = result.positions;
+    s.inserted = result.inserted;
+    s.shown_patch = result.patch;
+    s.shown = result.transforms;
+    s.gradients = result.gradients;
+    s.gradients_current = true;
 }
 
 void Deformer::reset() {

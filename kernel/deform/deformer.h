@@ -57,6 +57,10 @@ struct HandleBasis {
 /// Deformer::poses.
 struct HandlePoses;
 
+/// What a Deformer shows: positions, and all that apply_to, refined_mesh, gradients and rebase take
+/// from the last solve or preview; see Deformer::result.
+struct ShownResult;
+
 /// Deforms one region of one mesh. Vertices outside the region never move and keep the identity as
 /// gradient. Factors are kept: a new transform costs no factorisation, a new handle does, at the
 /// next solve. Accepts polygon meshes of any genus, with or without boundary.
@@ -168,16 +172,25 @@ class Deformer {
     const std::vector<Vec3>& positions() const;
     /// Rest positions of the region's vertices.
     const std::vector<Vec3>& rest_positions() const;
-    /// Writes `positions()` into the region's vertices of `mesh`; custom normals turn with the
-    /// surface. Errors: topology_mismatch.
+    /// Writes `positions()` into the region's vertices of `mesh`. Custom normals, tangents and
+    /// morph targets in the region and of the vertices next to it are carried by what the surface
+    /// did: they keep their angle to its normal and turn about it as its edges do. Errors: as
+    /// require_surroundings.
     void apply_to(Mesh& mesh) const;
+    /// Throws topology_mismatch where `mesh` has another topology, or has changed around the region
+    /// since the deformer was made: the result would tear there.
+    void require_surroundings(const Mesh& mesh) const;
+    /// What is shown, to be put back by `show`, to the bit, whatever was solved in between.
+    std::shared_ptr<const ShownResult> result();
+    /// Shows a result of this deformer again. The handles stay where they are; see `restore`.
+    void show(const ShownResult& result);
     /// `mesh` as apply_to leaves it, with the vertices that a refinement of coarse borders
     /// inserted: behind its own, where the last result has them. Faces that they lie on become
     /// triangles; attributes are interpolated. A mesh without such vertices is only copied. Errors:
-    /// topology_mismatch; as prepare.
+    /// as apply_to; as prepare.
     Mesh refined_mesh(const Mesh& mesh, const Context& context = {});
     /// Writes the rest shape into the region's vertices of `mesh`, with the custom normals it had.
-    /// Errors: topology_mismatch.
+    /// Errors: as apply_to.
     void apply_rest_to(Mesh& mesh) const;
 
     /// All transforms to the identity and `positions()` to the rest shape, to the bit; vertex

@@ -15,6 +15,27 @@ namespace {
 constexpr double kFurther = 1.6;
 constexpr double kLastFurther = 0.5;
 
+// While it lives the handles stand as they are shown; then, after an error too, as they were asked
+// to.
+class ShownPoses {
+  public:
+    ShownPoses(std::vector<HandleState>& handles, std::vector<Affine>& shown)
+        : handles_(handles), shown_(shown) {
+        exchange();
+    }
+    ~ShownPoses() { exchange(); }
+    ShownPoses(const ShownPoses&) = delete;
+    ShownPoses& operator=(const ShownPoses&) = delete;
+
+  private:
+    void exchange() {
+        for (std::size_t h = 0; h < shown_.size(); ++h) std::swap(handles_[h].in_patch, shown_[h]);
+    }
+
+    std::vector<HandleState>& handles_;
+    std::vector<Affine>& shown_;
+};
+
 }  // namespace
 
 // ---- First system
@@ -90,31 +111,12 @@ Mat3 Deformer::State::gradient_of(Index v) const {
 // Of the frame that is shown, whatever transforms have been asked for since.
 void Deformer::State::find_gradients() {
     if (gradients_current) return;
-    const auto exchange = [&] {
-        for (std::size_t h = 0; h < shown.size(); ++h) std::swap(handles[h].in_patch, shown[h]);
-    };
-    exchange();
+    const ShownPoses in_place(handles, shown);
     evaluate_deviation({});
     for (Index row = 0; row < region.size(); ++row) {
         gradients[row] = gradient_of(prepared->work->patch.of_region[row]);
     }
-    exchange();
     gradients_current = true;
-}
-
-// What directions of the surface that is shown have turned by: S_i of the second system where it
-// was solved, else deformation gradients.
-std::vector<Mat3> Deformer::State::shown_rotations() {
-    if (prepared && prepared->comparison) return surface_gradients();
-    if (!turned) {
-        find_gradients();
-        return gradients;
-    }
-    std::vector<Mat3> rotations;
-    for (const Index v : rest_patch->patch.of_region) {
-        rotations.push_back(turned_base + turns[v].topRows<3>());
-    }
-    return rotations;
 }
 
 // S of the second system for a deformation gradient: R, or R s.
@@ -219,7 +221,6 @@ void Deformer::State::refine_turns(const Mat3& base_rotation, double further,
 void Deformer::State::solve_second(bool draft, const Context& context) {
     const Patch& patch = prepared->work->patch;
     const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
-    turned_base = base_rotation;
     const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
     find_turns(base_rotation, context);
     if (!remainder.isZero(0.0)) {
@@ -253,12 +254,9 @@ void Deformer::State::solve(bool draft, const Context& context) {
     if (at_rest()) return to_rest();
     if (prepared->comparison) return solve_comparison(context);
     next_positions.resize(rest.size() + prepared->work->patch.inserted.size());
-    turned = false;
     evaluate_deviation(context);
-    const bool has_free = !prepared->second->free_vertices().empty();
-    if (has_free) solve_second(draft, context);
+    if (!prepared->second->free_vertices().empty()) solve_second(draft, context);
     show_next();
-    turned = has_free;
 }
 
 // Moves what is behind the region in `next_positions` to `inserted`.
@@ -290,15 +288,13 @@ void Deformer::State::show_next() {
     shown.clear();
     for (const HandleState& h : handles) shown.push_back(h.in_patch);
     gradients_current = false;
-    turned = false;
 }
 
 void Deformer::State::to_rest() {
     positions = rest;
-    turned = false;
-    compared.clear();
     inserted.clear();
     shown_patch.reset();
+    shown.clear();
     gradients.assign(rest.size(), Mat3::Identity());
     gradients_current = true;
 }

@@ -69,6 +69,13 @@ struct Prepared {
     }
 };
 
+struct ShownResult {
+    std::vector<Vec3> positions, inserted;
+    std::shared_ptr<const WorkingPatch> patch;
+    std::vector<Affine> transforms;
+    std::vector<Mat3> gradients;
+};
+
 struct HandlePoses {
     std::vector<HandleState> handles;
     /// Of the patch, which a new rest shape moves.
@@ -80,6 +87,8 @@ struct Deformer::State {
 
     HandleState& handle(HandleId id);
     Index local_vertex(Index mesh_vertex) const;
+    std::vector<Mat3> turns_without_faces() const;
+    void require_surroundings(const Mesh& mesh) const;
     bool at_rest() const;
 
     void number_rows();
@@ -134,12 +143,10 @@ struct Deformer::State {
     Affine comparison_base() const;
     std::vector<SourceMotion> source_motions() const;
     void solve_comparison(const Context& context);
-    std::vector<Mat3> surface_gradients() const;
 
     void evaluate_deviation(const Context& context);
     Mat3 gradient_of(Index v) const;
     void find_gradients();
-    std::vector<Mat3> shown_rotations();
     Mat3 rotation_of(const Mat3& gradient) const;
     void preview(const Context& context);
     void find_turns(const Mat3& base_rotation, const Context& context);
@@ -180,6 +187,8 @@ struct Deformer::State {
     /// Whether coordinates of the mesh have fewer digits for its shape than `in_patch` of handles.
     bool far_away = false;
     RestDirections directions;
+    /// Vertices around the region and where they lie.
+    std::vector<std::pair<Index, Vec3>> surroundings;
 
     std::vector<HandleState> handles;
     /// Hard constraints of vertices.
@@ -204,13 +213,8 @@ struct Deformer::State {
     /// S_i less that of the base, for the second system. Outside the region they stay zero, as then
     /// the base is the identity.
     std::vector<PaddedMat3> turns;
-    /// Whether `turns`, over this base, are those of the frame that is shown.
-    bool turned = false;
-    Mat3 turned_base = Mat3::Identity();
     /// Scratch of the refinement: positions less the translation of the base.
     std::vector<Vec4> absolute;
-    /// Local positions of the last solve by a comparison method.
-    std::vector<Vec3> compared;
     /// What is shown: the positions of the last frame, the transforms of handles in it, and its
     /// gradients where they are current. Before anything that the preparation rests on changes,
     /// they are brought up to date. `next_positions` holds the positions of a frame that is not

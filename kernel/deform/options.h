@@ -61,7 +61,9 @@ struct DeformOptions {
     int coherence = 1;
     /// Weight of the coherence term beside the Laplacian term; the result hardly depends on it.
     double coherence_weight = 1.0;
-    /// A vertex is degenerate where the condition number of V_i V_i^T exceeds this (section 2.4.3).
+    /// A vertex is degenerate, and displaced once, where the condition number of V_i V_i^T exceeds
+    /// this (section 2.4.3); above 1. Whatever it is below 2e4, gradients are used up to 2e4: no
+    /// displacement brings a ring much below 100.
     double degenerate_threshold = 2e4;
     /// Works on a surface that is refined along the borders of what is held, where they are coarse
     /// beside the region (section 2.5): else a few held vertices would say where a detailed region

@@ -168,6 +168,7 @@ int write_result(Call& call, const Solve& solve) {
     const auto edit = call.self<DeformObject>();
     const bool done = call.attempt([&] {
         Deformer& deformer = edit->deformer();
+        deformer.require_surroundings(edit->mesh->mesh);
         solve(deformer);
         deformer.apply_to(edit->mesh->mesh);
         edit->mesh->changed();
@@ -360,7 +361,9 @@ std::vector<Function> solving_methods() {
          .body = solve,
          .summary =
              "Solves both systems and writes the result into the mesh. Handles that are where "
-             "they began give the rest shape, to the bit.",
+             "they began give the rest shape, to the bit. What else has moved the region's "
+             "vertices is overwritten; where the mesh around the region was moved, so that the "
+             "result would tear, it is an error.",
          .options = {boolean("draft",
                              "For the frames of a drag: about five digits in half the time. Solve "
                              "once more when the drag ends.")
@@ -468,7 +471,9 @@ std::vector<Parameter> deform_parameters() {
             .above(0)
             .in("mean lengths of their edges")
             .optional(shown(defaults.displacement)),
-        number("degenerate_threshold", "Condition number from which a vertex counts as degenerate.")
+        number("degenerate_threshold",
+               "Condition number from which a vertex counts as degenerate and is displaced. Below "
+               "about 100 that is nearly every vertex.")
             .above(1)
             .optional(shown(defaults.degenerate_threshold)),
         number("transition",
