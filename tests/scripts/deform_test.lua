@@ -206,7 +206,11 @@ for _, angle in ipairs{ 30, 180, 200, 360, 540, -400 } do
     top:reset():set_matrix(matrix)
     expect.truthy(math.abs(top:matrix().turn[2]) <= 180 + 1e-9)
 end
-expect.error("turn: {x, y, z} expected", function() top:set_matrix{ { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 }, turn = 3 } end)
+expect.error("turn: {x, y, z} expected", function()
+    local matrix = top:matrix()
+    matrix.turn = 3
+    top:set_matrix(matrix)
+end)
 
 -- Every threshold of degenerate vertices works.
 for _, threshold in ipairs{ 1.01, 10, 100, 1000 } do

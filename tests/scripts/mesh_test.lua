@@ -113,20 +113,20 @@ expect.equal(#lissom.shapes.grid():groups(), 0)
 os.remove(path)
 
 -- How far a shape is from another.
-local rest = lissom.shapes.grid{ size = 1, segments = 4 }
-local shape = rest:copy():transform{ scale = { 2, 1, 1 } }
-local found = shape:distortion(rest)
-expect.equal(#found.stretch, #rest)
-for i = 1, #rest do
-    expect.near(found.stretch[i], 2)
-    expect.near(found.area[i], 2)
-    expect.near(found.angle[i], 0)
-    expect.equal(found.flips[i], 0)
+local plain = lissom.shapes.grid{ size = 1, segments = 4 }
+local shape = plain:copy():transform{ scale = { 2, 1, 1 } }
+local change = shape:distortion(plain)
+expect.equal(#change.stretch, #plain)
+for i = 1, #plain do
+    expect.near(change.stretch[i], 2)
+    expect.near(change.area[i], 2)
+    expect.near(change.angle[i], 0)
+    expect.equal(change.flips[i], 0)
 end
 shape:set_position(13, 1.3, 0, 0)
-found = shape:distortion(rest)
-expect.equal(#found.flipped, found.flips[13])
-expect.truthy(#found.flipped > 0)
+change = shape:distortion(plain)
+expect.equal(#change.flipped, change.flips[13])
+expect.truthy(#change.flipped > 0)
 expect.error("[topology_mismatch]", function() shape:distortion(lissom.shapes.box()) end)
 
 -- A check names what is odd.

@@ -35,7 +35,8 @@ local around = grid:region{ geodesic = { from = point, radius = 0.5 } }
 expect.truthy(#around > 60 and #around < 100)
 expect.truthy(around == grid:region{ geodesic = { from = grid:nearest(point), radius = 0.5 } })
 expect.truthy(around == grid:region{ geodesic = { from = { point = point }, radius = 0.5 } })
-expect.equal(grid:region{ geodesic = { from = { vertices = { 1, 2, 3 } }, radius = 0 } }, grid:region{ vertices = { 1, 2, 3 } })
+local three = { vertices = { 1, 2, 3 } }
+expect.equal(grid:region{ geodesic = { from = three, radius = 0 } }, grid:region(three))
 expect.equal(#grid:region{ geodesic = { from = { 1, 2, 3, 4 }, radius = 0 } }, 4)
 local away = grid:distances{ from = point }
 for i = 1, #grid do
@@ -47,10 +48,15 @@ expect.error("may be a point or vertices", function() grid:distances{ from = { 1
 expect.error("may be a point or vertices", function()
     grid:region{ geodesic = { from = { 10, 20, 5 }, radius = 1 } }
 end)
-for _, from in ipairs{ { 0.5 }, { "a" }, { 1.5, 2, 3, 4 }, { point = { 1, 2 } }, { vertices = { 0 } }, { 0 / 0, 1, 2 } } do
+local wrong = {
+    { 0.5 }, { "a" }, { 1.5, 2, 3, 4 }, { point = { 1, 2 } }, { vertices = { 0 } }, { 0 / 0, 1, 2 },
+}
+for _, from in ipairs(wrong) do
     expect.error("bad option 'from'", function() grid:distances{ from = from } end)
 end
-expect.error("bad option 'geodesic.from'", function() grid:region{ geodesic = { from = "a", radius = 1 } } end)
+expect.error("bad option 'geodesic.from'", function()
+    grid:region{ geodesic = { from = "a", radius = 1 } }
+end)
 
 -- Wrong ones.
 expect.error("'region' needs a name or exactly one of the options", function() grid:region{} end)
@@ -82,9 +88,10 @@ expect.truthy(rawequal(left:mesh(), grid))
 expect.truthy(tostring(left):find("231 of 441"))
 
 -- The part that is connected with a point.
-local edges = grid:region{ fraction = { max = { 0.1, nil, nil } } }:union(grid:region{ fraction = { min = { 0.9, nil, nil } } })
+local far_side = grid:region{ fraction = { min = { 0.9, nil, nil } } }
+local edges = grid:region{ fraction = { max = { 0.1, nil, nil } } }:union(far_side)
 local part = edges:connected{ at = { 0.4, 3, 0 } }
-expect.truthy(part == grid:region{ fraction = { min = { 0.9, nil, nil } } })
+expect.truthy(part == far_side)
 expect.truthy(edges:connected{ at = part:vertices()[1] } == part)
 expect.error("is not in the region", function() part:connected{ at = edges:minus(part):vertices()[1] } end)
 expect.error("missing option 'at'", function() part:connected() end)
