@@ -174,8 +174,8 @@ end
 
 -- ---- Joining
 
-local merge_options = { "configuration", "fixed", "reach", "frames", "seam", "smooth", "transition", "trim",
-    "refine", "fidelity" }
+local merge_options = { "configuration", "fixed", "reach", "frames", "seam", "smooth", "collar", "transition",
+    "trim", "refine", "fidelity" }
 
 --- The values of a recipe's parameters (`schema` as of lissom.params), those given or else the defaults,
 -- and a table of the given options that are lissom.merge's own. Any other name is an error at the caller of

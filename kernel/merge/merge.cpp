@@ -48,8 +48,7 @@ MergeResult Merge::solve(const Context& context) {
     moved.set_positions(state.all_positions(deformed));
     state.turn_directions(deformed, moved);
     progress.step(0.5);
-    Sewn sewn = sew(state.target, moved, pairs, state.sewing(), context);
-    state.finish_seams(sewn, thesis, report, context);
+    Sewn sewn = state.sew_sides(moved, pairs, thesis, report, context);
     if (state.options.find_intersections) {
         report.intersections = state.new_intersections(sewn, context);
         if (!report.intersections.empty()) {

@@ -55,8 +55,12 @@ struct MergeOptions {
     /// keeps its directions (the thesis's way, which leaves a crease).
     bool turn_frames = true;
     SeamKind seam = SeamKind::conform;
-    /// Umbrella steps at the seam.
+    /// Umbrella steps at the seam, at most: the first that would fold it is the last.
     int smooth = 3;
+    /// Remeshes the faces beside a seam on a side that is sparser than the seam (SewOptions). Where
+    /// the seam shows less without, as where the sides fold, it is left out. False, with `smooth`
+    /// 0, leaves the targets as they are, to the bit. The thesis's way has none.
+    bool collar = true;
     /// Widths of the transition region (3.3.3) on each side, in the units of source and target; 0
     /// is none. The thesis's transition needs both, and regions that are bands: its widths are
     /// lengths along edges.
@@ -70,7 +74,7 @@ struct MergeOptions {
     /// Splits the faces at a boundary of the source once where its edges are more than 1.5 times as
     /// long as those it meets (section 2.5).
     bool refine = true;
-    /// Looks for faces of the source that run through others and did not before; see
+    /// Looks for faces that run through others and did not before; see
     /// MergeReport::intersections.
     bool find_intersections = true;
     /// The thesis to the letter: raw frames, scales from tangent lengths, its operators; |M| / sqrt
@@ -107,8 +111,7 @@ struct MergeReport {
     SewReport seam;
     /// Bands of the transition region, where there is one.
     TransitionReport transition;
-    /// Pairs of faces of the result, one of them at least of the source, that run through one
-    /// another and come from faces that did not.
+    /// Pairs of faces of the result that run through one another and come from faces that did not.
     std::vector<FacePair> intersections;
     /// Wall-clock seconds of preparation and of the last solve.
     double prepare_seconds = 0.0, solve_seconds = 0.0;
@@ -149,7 +152,8 @@ class Merge {
 
     /// Finds the correspondence, deforms the source, and sews.
     /// Errors: key_conflict; invalid_argument where a region of the thesis's transition is no band
-    /// (too narrow, too wide, with a handle, or meeting another); as `sew`; cancelled.
+    /// (too narrow, too wide, with a handle, or meeting another); as `sew`; cancelled; internal in
+    /// place of a mesh that is not sound.
     MergeResult solve(const Context& context = {});
 
     /// Bytes held: both inputs and the factors.

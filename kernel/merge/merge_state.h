@@ -69,10 +69,13 @@ struct Merge::State {
                                             const MergeReport& now, const Context& context) const;
 
     // Seams.
-    SewOptions sewing() const;
+    SewOptions sewing(bool collar) const;
+    Sewn sew_sides(const Mesh& moved, const std::vector<LoopPair>& pairs,
+                   const std::optional<ThesisMerge>& thesis, MergeReport& now,
+                   const Context& context) const;
     std::vector<FacePair> new_intersections(const Sewn& sewn, const Context& context) const;
-    FacePair origin_of(const Sewn& sewn, const FacePair& pair) const;
-    std::vector<FacePair> own_intersections(const Sewn& sewn, const std::vector<FacePair>& pairs,
+    std::vector<Index> changed_faces(const Sewn& sewn) const;
+    std::vector<FacePair> own_intersections(const std::vector<Index>& origins,
                                             const Context& context) const;
     void finish_seams(Sewn& sewn, const std::optional<ThesisMerge>& thesis, MergeReport& now,
                       const Context& context) const;

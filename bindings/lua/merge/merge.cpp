@@ -19,6 +19,7 @@ MergeOptions merge_options(const Call& call) {
     options.turn_frames = call.integer("frames") == 0;
     options.seam = call.choice<SeamKind>("seam");
     options.smooth = call.integer("smooth");
+    options.collar = call.boolean("collar");
     if (call.has("transition")) {
         options.source_transition = call.number("transition.source");
         options.target_transition = call.number("transition.target");
@@ -226,9 +227,16 @@ std::vector<Parameter> merge_parameters(bool intersections) {
             "that. band: a band of the "
             "target's faces is replaced, as in the thesis.")
             .defaults("conform"),
-        integer("smooth", "Umbrella steps at the seam; with 0 no vertex of the target moves.")
+        integer(
+            "smooth",
+            "Umbrella steps at the seam, at most: the first that would fold it is the last. With "
+            "0 and without a collar no vertex of the target moves.")
             .between(0, 1000)
             .defaults(3),
+        boolean("collar",
+                "Where the edges of one side are more than 1.5 times as long as the seam's, its "
+                "faces there are made anew, from small to large; sharp edges keep their shape.")
+            .defaults(true),
         options("transition",
                 {number("source", "Width on the source.")
                      .at_least(0)

@@ -25,7 +25,7 @@ void push_quality(const Call& call, const SeamQuality& quality) {
 }
 
 void push_seam(const Call& call, const SewReport& seam) {
-    lua_createtable(call.lua(), 0, 8);
+    lua_createtable(call.lua(), 0, 12);
     call.set_field("inserted_into_target", call.push(seam.inserted_into_target));
     call.set_field("inserted_into_source", call.push(seam.inserted_into_source));
     call.set_field("snapped", call.push(seam.snapped));
@@ -33,6 +33,9 @@ void push_seam(const Call& call, const SewReport& seam) {
     call.set_field("flipped", call.push(seam.flipped));
     call.set_field("band_removed", call.push(seam.band_removed));
     call.set_field("band_added", call.push(seam.band_added));
+    call.set_field("smoothed", call.push(seam.smoothed));
+    call.set_field("collar_removed", call.push(seam.collar_removed));
+    call.set_field("collar_added", call.push(seam.collar_added));
     push_quality(call, seam.before);
     call.set_field("before");
     push_quality(call, seam.after);
@@ -293,7 +296,10 @@ std::vector<Record> merge_records() {
           {"integer", "flipped", "Edges flipped to avoid slivers."},
           {"integer", "band_removed", "Faces of the target that the band replaced."},
           {"integer", "band_added", "Faces that the band added."},
-          {"lissom.SeamQuality", "before", "Before smoothing."},
+          {"integer", "smoothed", "Umbrella steps that were made."},
+          {"integer", "collar_removed", "Faces that collars took the place of."},
+          {"integer", "collar_added", "Triangles of the collars."},
+          {"lissom.SeamQuality", "before", "Before collars and smoothing."},
           {"lissom.SeamQuality", "after", "As it is."}}},
         {"lissom.JoinReport",
          "What was found at one join; angles in degrees.",

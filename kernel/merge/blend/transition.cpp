@@ -225,7 +225,7 @@ TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> 
     for (Index pass = 0; pass < options.passes; ++pass) {
         band.bend(core.relaxed(band, blended, context), context);
     }
-    band.write(sewn.mesh);
+    report.kept = band.write_guarded(sewn.mesh, sewn.seams, context);
     return report;
 }
 

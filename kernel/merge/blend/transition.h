@@ -47,6 +47,9 @@ struct TransitionReport {
     std::vector<TransitionBand> target, source;
     /// Vertices that were free to move, ascending.
     std::vector<Index> moved;
+    /// The part of the way that the bands went: less than 1 where all of it would have folded the
+    /// surface.
+    double kept = 1.0;
 };
 
 /// Blends the two sides of every seam of `sewn` within bands beside it, in place. A vertex of one
@@ -55,7 +58,9 @@ struct TransitionReport {
 /// counterpart's, half of either at the seam and all its own at the end of the band (smoothstep);
 /// in the core of the seam what continues that around it. The bands take the shape with these
 /// curvatures in the least squares, weighted by area; everything else stays to the bit, open
-/// boundaries included. "normal" attributes turn with the surface.
+/// boundaries included. "normal" attributes turn with the surface. The way there is gone only as
+/// far as it does no harm: no dihedral angle at the seams may become greater than the greatest
+/// before, and no face may run through another that it did not.
 /// Errors: invalid_argument for a number of widths other than that of seams, widths that are
 /// negative or not finite, and options out of range; not_positive_definite; memory_limit;
 /// cancelled. The mesh is then unchanged.
