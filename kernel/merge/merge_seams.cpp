@@ -35,9 +35,9 @@ Sewn Merge::State::sew_sides(const Mesh& moved, const std::vector<LoopPair>& pai
                              const std::optional<ThesisMerge>& thesis, MergeReport& now,
                              const Context& context) const {
     MergeReport plain_report = now;
-    const auto sew_with = [&](bool collar, MergeReport& report) {
+    const auto sew_with = [&](bool collar, MergeReport& told) {
         Sewn sewn = sew(target, moved, pairs, sewing(collar), context);
-        finish_seams(sewn, thesis, report, context);
+        finish_seams(sewn, thesis, told, context);
         require_sound(sewn, target, moved, pairs.size());
         return sewn;
     };
@@ -80,7 +80,7 @@ std::vector<Index> Merge::State::changed_faces(const Sewn& sewn) const {
         return sources.size() == 1 && sources.front().element < target.vertex_count() &&
                sewn.mesh.position(v) == target.position(sources.front().element);
     };
-    const auto is_kept = [&](Index f) {
+    const auto stays = [&](Index f) {
         const std::span<const Index> face = sewn.mesh.topology().face(f);
         const std::span<const Index> old = target.topology().face(sewn.map.faces.main_source(f));
         if (face.size() != old.size()) return false;
@@ -91,7 +91,7 @@ std::vector<Index> Merge::State::changed_faces(const Sewn& sewn) const {
     };
     std::vector<Index> faces;
     for (Index f = 0; f < sewn.mesh.face_count(); ++f) {
-        if (sewn.side_of_face[f] == SeamSide::source || !is_kept(f)) faces.push_back(f);
+        if (sewn.side_of_face[f] == SeamSide::source || !stays(f)) faces.push_back(f);
     }
     return faces;
 }

@@ -97,8 +97,9 @@ local elsewhere = lissom.merge{
 }
 same(elsewhere, mesh, 1e-9 * mesh:size())
 
--- Without smoothing the target stays to the bit.
-local sharp, sharp_report = lissom.merge{ smooth = 0, joins = { join{ { from, to } } } }
+-- Without smoothing and collars the target stays to the bit.
+local sharp, sharp_report = lissom.merge{ smooth = 0, collar = false, joins = { join{ { from, to } } } }
+expect.equal(sharp_report.seam.collar_added, 0)
 for v = 1, #sharp do
     local origins = sharp_report.provenance:vertex(v)
     if #origins == 1 and origins[1].side == "target" then
@@ -115,11 +116,28 @@ for _, seam in ipairs{ "conform", "fair", "band" } do
     expect.equal(of_seam.seam.band_removed > 0, seam == "band")
 end
 for _, options in ipairs{
-    { transition = { source = 0.3, target = 0.9 } }, { refine = false }, { trim = false },
+    { transition = { source = 0.3, target = 0.9 } }, { refine = false }, { trim = false }, { collar = false },
     { greatest_turn = 5 }, { fidelity = "thesis" }, { fidelity = "lissom", smooth = 10 },
 } do
     options.joins = { join{ { from, to } } }
     expect.truthy(lissom.merge(options):is_closed())
+end
+
+-- A sparse side gets a collar: no slivers at the seam, and nothing worse than it was.
+local dense = half(lissom.shapes.sphere{ segments = 96 }, 0.1)
+local coarse = half(lissom.shapes.sphere{ segments = 12 }, 0.1)
+local function sewn(collar)
+    return lissom.merge{ collar = collar, joins = { { source = rim(dense), target = rim(coarse) } } }
+end
+local fine, of_fine = sewn()
+local plain, of_plain = sewn(false)
+expect.truthy(fine:is_closed() and plain:is_closed())
+expect.truthy(of_fine.seam.collar_added > of_fine.seam.collar_removed and of_fine.seam.collar_removed > 0)
+expect.equal(of_plain.seam.collar_added, 0)
+expect.truthy(of_fine.seam.after.smallest_angle > 12 and of_plain.seam.after.smallest_angle < 10)
+for _, of_seam in ipairs{ of_fine.seam, of_plain.seam } do
+    expect.truthy(of_seam.after.greatest_dihedral <= of_seam.before.greatest_dihedral + 1e-4)
+    expect.truthy(of_seam.after.greatest_near <= of_seam.before.greatest_near + 1e-4)
 end
 
 -- Fixed: the source stays but near its boundary, or but for what is not held.

@@ -196,7 +196,10 @@
 ---@field flipped integer Edges flipped to avoid slivers.
 ---@field band_removed integer Faces of the target that the band replaced.
 ---@field band_added integer Faces that the band added.
----@field before lissom.SeamQuality Before smoothing.
+---@field smoothed integer Umbrella steps that were made.
+---@field collar_removed integer Faces that collars took the place of.
+---@field collar_added integer Triangles of the collars.
+---@field before lissom.SeamQuality Before collars and smoothing.
 ---@field after lissom.SeamQuality As it is.
 
 ---What was found at one join; angles in degrees.
@@ -1833,7 +1836,8 @@ function lissom.deform(mesh, options) end
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
----@field smooth? integer Umbrella steps at the seam; with 0 no vertex of the target moves. Default: 3.
+---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
+---@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true.
 ---@field transition? lissom.MergeOptions.Transition Bands on either side of the seam in which details of both fade into each other. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
@@ -1861,7 +1865,8 @@ function lissom.merge(options) end
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
----@field smooth? integer Umbrella steps at the seam; with 0 no vertex of the target moves. Default: 3.
+---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
+---@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true.
 ---@field transition? lissom.MergingOptions.Transition Bands on either side of the seam in which details of both fade into each other. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -17,7 +18,6 @@ namespace {
 constexpr double kSparse = 1.5;
 // How fast edges grow with the distance from the seam: 1.43 times a ring.
 constexpr double kGradation = 0.5;
-constexpr double kDegree = kPi / 180.0;
 constexpr double kSharp = 20.0 * kDegree, kAllEdges = 1.0 * kDegree;
 // Dihedral angles up to these may arise.
 constexpr double kFlippedDihedral = 20.0 * kDegree, kRemeshedDihedral = 10.0 * kDegree;
@@ -351,16 +351,24 @@ void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& con
     const std::vector<Index> faces = at.faces(sizes, side_edge);
     const SheetLimits limits = limits_of(sewn, kRemeshedDihedral);
     const SheetLimits flips = limits_of(sewn, kFlippedDihedral);
+    // Where sharp edges alone leave slivers, or faces that run through one another, all do better.
+    std::optional<Remade> best;
+    double least = 0.0;
     for (const double sharp : {kSharp, kAllEdges}) {
         SeamSheet sheet(sewn.mesh, faces, sewn.seams, sharp, context);
         sheet.remesh([&](const Vec3& p) { return sizes.at(p); }, limits, flips, context);
         Remade remade(sewn, {&sheet, 1}, context);
         if (!is_kept(sewn, remade, context)) continue;
-        remade.sewn.report.collar_removed += static_cast<Index>(faces.size());
-        remade.sewn.report.collar_added += static_cast<Index>(remade.made.size());
-        sewn = std::move(remade.sewn);
-        return;
+        const double angle = seam_quality(remade.sewn.mesh, remade.sewn.seams).smallest_angle;
+        if (best && angle <= least) continue;
+        best.emplace(std::move(remade));
+        least = angle;
+        if (least > kGoodSeamAngle) break;
     }
+    if (!best) return;
+    best->sewn.report.collar_removed += static_cast<Index>(faces.size());
+    best->sewn.report.collar_added += static_cast<Index>(best->made.size());
+    sewn = std::move(best->sewn);
 }
 
 }  // namespace

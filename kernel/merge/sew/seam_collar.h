@@ -11,7 +11,8 @@ namespace lissom {
 /// far as edges must grow from the one length to the other by half their distance from the seam.
 /// Seam, the end of the collar and open boundaries stay; features (edges above 20 degrees, borders
 /// of charts and labels) keep their shape. A collar is not kept where it makes the seam worse or
-/// faces run through one another; it is tried again with all edges above 1 degree as features.
+/// faces run through one another. Then, and where it has angles below 15 degrees at the seam, it is
+/// made again with all edges above 1 degree as features, and the one with fewer slivers is kept.
 /// Vertices and faces made come after the others of their side; what the collar's vertices and
 /// corners carry is interpolated. Counts are added to the report.
 void make_collars(Sewn& sewn, const Context& context);

@@ -75,9 +75,10 @@ class SeamPatch {
     /// Flips edges between triangles of one side where that makes the smallest angle greater, but
     /// makes no dihedral angle greater than `allowed_dihedral` (radians), the greatest of the
     /// patch, and the greatest of the edges concerned; angles across the seam count by themselves.
-    /// Edges with different corner attributes or labels on their sides stay. Returns how many flips
+    /// Edges with different corner attributes or labels on their sides stay. Nothing is flipped
+    /// where faces of the patch would run through one another that did not. Returns how many flips
     /// there were.
-    Index flip_edges(double allowed_dihedral);
+    Index flip_edges(double allowed_dihedral, const Context& context);
 
     /// The vertices of all seams, ascending.
     const std::vector<Index>& seam_vertices() const { return seam_vertices_; }

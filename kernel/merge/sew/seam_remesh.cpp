@@ -36,13 +36,14 @@ bool SeamSheet::flip(Index a, Index c, const SheetLimits& limits) {
     if (b == d || is_joined(b, d)) return false;
     const std::array<Triangle, 2> before{{{a, c, d}, {c, a, b}}}, after{{{a, b, d}, {b, c, d}}};
     const std::array<Index, 2> faces{left, right};
-    const Star now = measure(before, faces, kNoIndex, {});
-    const Star then = measure(after, faces, kNoIndex, {});
+    const Star now = measure(before, faces, kNoIndex, Vec3::Zero());
+    const Star then = measure(after, faces, kNoIndex, Vec3::Zero());
     if (!(then.angle > now.angle * (1.0 + kFlipGain) + kFlipGain)) return false;
     if (!is_allowed(now, then, limits, kPi)) return false;
-    const Vec3 mean = normal(before[0], kNoIndex, {}) + normal(before[1], kNoIndex, {});
+    const Vec3 mean =
+        normal(before[0], kNoIndex, Vec3::Zero()) + normal(before[1], kNoIndex, Vec3::Zero());
     for (const Triangle& t : after) {
-        if (!(normal(t, kNoIndex, {}).dot(mean) > 0.0)) return false;
+        if (!(normal(t, kNoIndex, Vec3::Zero()).dot(mean) > 0.0)) return false;
     }
     leave(left);
     leave(right);
@@ -91,8 +92,8 @@ bool SeamSheet::split(Index a, Index c, const SheetLimits& limits) {
     } else {
         const std::array<Index, 2> faces{left, right};
         const Vec3 on_surface = rest_->nearest(middle).position;
-        const Star now = measure(before, faces, kNoIndex, {});
-        const Star flat = measure(after, faces, kNoIndex, {});
+        const Star now = measure(before, faces, kNoIndex, Vec3::Zero());
+        const Star flat = measure(after, faces, kNoIndex, Vec3::Zero());
         const Star then = measure(after, faces, m, on_surface);
         const bool holds = then.angle >= 0.5 * flat.angle && is_allowed(now, then, limits, 0.0);
         if (holds) x_[m] = on_surface;
@@ -143,9 +144,9 @@ bool SeamSheet::collapse(Index gone, Index kept, const SheetLimits& limits) {
         std::replace(t.begin(), t.end(), gone, kept);
         after.push_back(t);
     }
-    if (after.empty() || turns(changed, after, kNoIndex, {}, kGreatestTurn)) return false;
-    const Star now = measure(before, faces, kNoIndex, {});
-    const Star then = measure(after, faces, kNoIndex, {});
+    if (after.empty() || turns(changed, after, kNoIndex, Vec3::Zero(), kGreatestTurn)) return false;
+    const Star now = measure(before, faces, kNoIndex, Vec3::Zero());
+    const Star then = measure(after, faces, kNoIndex, Vec3::Zero());
     if (!is_allowed(now, then, limits, kCollapsedAngle)) return false;
     for (const Index f : faces) leave(f);
     for (std::size_t i = 0; i < after.size(); ++i) enter(changing[i], after[i]);
@@ -172,7 +173,8 @@ void SeamSheet::relax(Index v, const SheetLimits& limits) {
         const Triangle& t = triangles_[f];
         star.push_back(t);
         const double size = (size_[t[0]] + size_[t[1]] + size_[t[2]]) / 3.0;
-        const double weight = normal(t, kNoIndex, {}).norm() / (size * size * size * size);
+        const double weight =
+            normal(t, kNoIndex, Vec3::Zero()).norm() / (size * size * size * size);
         mean += weight * (x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0;
         sum += weight;
     }
@@ -185,7 +187,7 @@ void SeamSheet::relax(Index v, const SheetLimits& limits) {
         way = on > back ? Vec3(std::clamp(on, 0.0, 0.5) * next)
                         : Vec3(std::clamp(back, 0.0, 0.5) * last);
     }
-    const Star now = measure(star, around_[v], kNoIndex, {});
+    const Star now = measure(star, around_[v], kNoIndex, Vec3::Zero());
     for (const double part : {1.0, 0.5}) {
         Vec3 to = x_[v] + part * way;
         if (free) to = rest_->nearest(to).position;

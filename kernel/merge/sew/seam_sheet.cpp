@@ -34,7 +34,7 @@ Vec3 weights_near(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
     return w / w.sum();
 }
 
-std::vector<ElementMap::Source> weighted(const Triangle& elements, const Vec3& weights) {
+std::vector<ElementMap::Source> weighted_sources(const Triangle& elements, const Vec3& weights) {
     std::vector<ElementMap::Source> sources;
     for (std::size_t k = 0; k < 3; ++k) {
         const double weight = weights[static_cast<Index>(k)];
@@ -153,8 +153,8 @@ void SeamSheet::mark_features(double sharp) {
             const Index a = triangles_[f][k], c = triangles_[f][(k + 1) % 3];
             const Index other = left_of(c, a);
             if (other == kNoIndex || other < f) continue;
-            const Vec3 n = normal(triangles_[f], kNoIndex, {}),
-                       m = normal(triangles_[other], kNoIndex, {});
+            const Vec3 n = normal(triangles_[f], kNoIndex, Vec3::Zero()),
+                       m = normal(triangles_[other], kNoIndex, Vec3::Zero());
             const bool is_sharp = !n.isZero(0.0) && !m.isZero(0.0) && angle_between(n, m) > sharp;
             if (is_sharp || is_chart_border(f, other, a, c)) features_.insert(key(a, c));
         }
@@ -280,7 +280,8 @@ bool SeamSheet::is_allowed(const Star& before, const Star& after, const SheetLim
 bool SeamSheet::turns(std::span<const Triangle> before, std::span<const Triangle> after,
                       Index moved, const Vec3& to, double greatest) const {
     for (std::size_t i = 0; i < after.size(); ++i) {
-        const Vec3 old = normal(before[i], kNoIndex, {}), now = normal(after[i], moved, to);
+        const Vec3 old = normal(before[i], kNoIndex, Vec3::Zero()),
+                   now = normal(after[i], moved, to);
         if (!old.isZero(0.0) && angle_between(old, now) > greatest) return true;
     }
     return false;
@@ -303,7 +304,7 @@ std::vector<ElementMap::Source> SeamSheet::vertex_sources(Index v) const {
     const auto at = static_cast<std::size_t>(point.face);
     const Vec3 weights = weights_near(rest_points_[3 * at], rest_points_[3 * at + 1],
                                       rest_points_[3 * at + 2], point.position);
-    return weighted(rest_vertices_[at], weights);
+    return weighted_sources(rest_vertices_[at], weights);
 }
 
 Index SeamSheet::face_source(const Triangle& t) const {
@@ -316,7 +317,7 @@ std::vector<ElementMap::Source> SeamSheet::corner_sources(const Triangle& t, std
     const auto at = static_cast<std::size_t>(rest_->nearest(x + kTowards * (middle - x)).face);
     const Vec3 weights =
         weights_near(rest_points_[3 * at], rest_points_[3 * at + 1], rest_points_[3 * at + 2], x);
-    return weighted(rest_corners_[at], weights);
+    return weighted_sources(rest_corners_[at], weights);
 }
 
 }  // namespace lissom

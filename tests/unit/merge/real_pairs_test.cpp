@@ -126,12 +126,13 @@ TEST_CASE("pairs of real models become one watertight surface whose seam is hidd
     }
 }
 
-TEST_CASE("without smoothing the target stays as it is, to the bit and in its order") {
+TEST_CASE("without smoothing and collars the target stays as it is, to the bit and in its order") {
     for (const LoadedPair& pair : loaded_pairs()) {
         CAPTURE(pair.pair->name);
         MergeOptions options;
         options.smooth = 0;
         options.trim = false;
+        options.collar = false;
         const MergeResult result = pair.merged(options);
         Index last = -1, kept = 0;
         for (Index v = 0; v < result.mesh.vertex_count(); ++v) {

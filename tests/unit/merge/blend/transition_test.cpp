@@ -260,7 +260,16 @@ TEST_CASE("bands stop where the surface has no more room") {
         tube.seams.push_back(tube.seams[0]);
         const Mesh before = tube.mesh;
         for (Index& v : tube.seams[1]) v += 96;
-        tube.seams[1][0] = tube.seams[0][0];
+        // The second goes by way of a vertex of the first.
+        const Index common = tube.seams[0][0];
+        const std::span<const Index> ring = tube.mesh.topology().neighbors(common);
+        const auto is_near = [&](Index v) {
+            return std::find(ring.begin(), ring.end(), v) != ring.end();
+        };
+        std::vector<Index>& second = tube.seams[1];
+        std::size_t k = 0;
+        while (!is_near(second[k]) || !is_near(second[(k + 1) % second.size()])) ++k;
+        second.insert(second.begin() + static_cast<std::ptrdiff_t>(k) + 1, common);
         const TransitionReport report = blend(tube);
         CHECK(report.source[0].width == 0.0);
     }

@@ -1,6 +1,8 @@
 // No step that is done to a seam makes it worse: umbrella, flips, fairing, transitions, collars.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -21,7 +23,7 @@ using namespace lissom::test;
 
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
+constexpr double kStepDegree = kPi / 180.0;
 
 // Two tubes that meet at an angle, so that there is something to smooth.
 SewScene bent_tubes(Index target, Index source) {
@@ -54,7 +56,7 @@ double smallest_at_seam(const Sewn& sewn, SeamSide side) {
             const Vec3 at = sewn.mesh.position(face[k]);
             const Vec3 u = (sewn.mesh.position(face[(k + 1) % 3]) - at).normalized();
             const Vec3 w = (sewn.mesh.position(face[(k + 2) % 3]) - at).normalized();
-            smallest = std::min(smallest, std::acos(std::clamp(u.dot(w), -1.0, 1.0)) / kDegree);
+            smallest = std::min(smallest, std::acos(std::clamp(u.dot(w), -1.0, 1.0)) / kStepDegree);
         }
     }
     return smallest;
@@ -279,7 +281,7 @@ Mesh dented_dome(bool with_tetrahedron) {
     std::vector<Index> end;
     for (Index k = 0; k < 12; ++k) end.push_back(6 * 12 + k);
     std::reverse(end.begin(), end.end());
-    faces.add(std::vector<Index>(end.rbegin(), end.rend()));
+    faces.add(end);
     Mesh mesh(std::move(positions), std::move(faces));
     if (!with_tetrahedron) return mesh;
     const std::span<const Index> face = open.topology().face(0);
@@ -361,7 +363,7 @@ TEST_CASE("the turn of a boundary is told where it is not trimmed too") {
     options.trim = false;
     const MergeResult result =
         Merge(jagged, targets, {Join{lower(jagged), lower(smooth)}}, options).solve();
-    CHECK(result.report.joins[0].source_turn > 20.0 * kDegree);
-    CHECK(result.report.joins[0].target_turn == doctest::Approx(15.0 * kDegree));
+    CHECK(result.report.joins[0].source_turn > 20.0 * kStepDegree);
+    CHECK(result.report.joins[0].target_turn == doctest::Approx(15.0 * kStepDegree));
     CHECK_FALSE(result.report.joins[0].source_trimmed);
 }

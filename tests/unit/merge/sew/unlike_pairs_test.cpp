@@ -19,7 +19,7 @@ using namespace lissom::test;
 
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
+constexpr double kPairDegree = kPi / 180.0;
 
 // What is left of a model above (`keep` 1) or below (-1) a fraction of its height along an axis; a
 // model that is open as it is has no cut (`keep` 0).
@@ -155,14 +155,14 @@ TEST_CASE("on twelve unlike pairs no seam is worse after than before, with and w
                                   << (collar ? ", collar" : "") << ": "
                                   << result.report.joins[0].source_size << ":"
                                   << result.report.joins[0].target_size << " seam "
-                                  << before.greatest_dihedral / kDegree << " -> "
-                                  << after.greatest_dihedral / kDegree << ", near "
-                                  << before.greatest_near / kDegree << " -> "
-                                  << after.greatest_near / kDegree << ", least "
-                                  << before.smallest_angle / kDegree << " -> "
-                                  << after.smallest_angle / kDegree << ", crossings " << crossings
-                                  << " -> " << result.report.intersections.size() << ", collar "
-                                  << result.report.seam.collar_removed << " -> "
+                                  << before.greatest_dihedral / kPairDegree << " -> "
+                                  << after.greatest_dihedral / kPairDegree << ", near "
+                                  << before.greatest_near / kPairDegree << " -> "
+                                  << after.greatest_near / kPairDegree << ", least "
+                                  << before.smallest_angle / kPairDegree << " -> "
+                                  << after.smallest_angle / kPairDegree << ", crossings "
+                                  << crossings << " -> " << result.report.intersections.size()
+                                  << ", collar " << result.report.seam.collar_removed << " -> "
                                   << result.report.seam.collar_added << ", "
                                   << result.report.solve_seconds << " s");
                 CHECK(after.greatest_dihedral <= before.greatest_dihedral + 1e-4);
@@ -175,7 +175,7 @@ TEST_CASE("on twelve unlike pairs no seam is worse after than before, with and w
                 for (const SeamSide side : {SeamSide::target, SeamSide::source}) {
                     const Mesh& own = side == SeamSide::target ? target->mesh : source->mesh;
                     CHECK(least_angle_at_seam(result, side) >=
-                          std::min(15.0 * kDegree, least_angle_of(own)) - 1e-6);
+                          std::min(15.0 * kPairDegree, least_angle_of(own)) - 1e-6);
                 }
             }
         }
