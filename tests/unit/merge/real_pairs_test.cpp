@@ -193,7 +193,8 @@ TEST_CASE("a transition region hides the seam further, and moves nothing beyond 
             moved += result.mesh.position(v) != plain.mesh.position(v);
         }
         CHECK(moved <= static_cast<Index>(result.report.transition.moved.size()));
-        CHECK(moved > 0);
+        // Where the seam shows less than the details that would fade across it, nothing moves.
+        CHECK((moved > 0) == (result.report.transition.kept > 0.0));
         MESSAGE(pair.pair->name << ": " << kDegrees * plain.report.seam.after.greatest_dihedral
                                 << " -> " << kDegrees * result.report.seam.after.greatest_dihedral
                                 << " near " << kDegrees * plain.report.seam.after.greatest_near

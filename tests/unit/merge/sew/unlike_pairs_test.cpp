@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
 
 #include "kernel/io/mesh_file.h"
 #include "kernel/merge/merge.h"
@@ -31,7 +32,7 @@ struct Slice {
 };
 
 struct UnlikePair {
-    const char* name;
+    std::string name;
     Slice source, target;
 };
 
@@ -151,8 +152,8 @@ TEST_CASE("on twelve unlike pairs no seam is worse after than before, with and w
                 const MergeResult result = merged(options);
                 const SeamQuality &before = result.report.seam.before,
                                   &after = result.report.seam.after;
-                MESSAGE(pair.name << (kind == SeamKind::fair ? ", fair" : "")
-                                  << (collar ? ", collar" : "") << ": "
+                MESSAGE(pair.name << std::string(kind == SeamKind::fair ? ", fair" : "")
+                                  << std::string(collar ? ", collar" : "") << ": "
                                   << result.report.joins[0].source_size << ":"
                                   << result.report.joins[0].target_size << " seam "
                                   << before.greatest_dihedral / kPairDegree << " -> "
