@@ -167,6 +167,10 @@ int path_region(Call& call) {
     const auto result = call.create<RegionObject>();
     const bool done = call.attempt([&] {
         const Path& path = self->current();
+        if (!path.on_mesh()) {
+            throw Error(ErrorCode::invalid_argument,
+                        "the path runs through points of its own and no vertices of the mesh");
+        }
         result.set(
             std::make_shared<RegionObject>(self->mesh, Region(path.topology(), path.vertices())));
     });
@@ -200,7 +204,8 @@ Type path_type() {
     Type type{.name = "lissom.Path",
               .summary =
                   "A line through vertices of one version of a mesh's topology, open or closed. A "
-                  "boundary is a closed path around a hole, with the surface on its left."};
+                  "boundary is a closed path around a hole, with the surface on its left. The "
+                  "preview of a cut returns lines through points of their own, without vertices."};
     type.operators = {{"__len", path_size, "#path", "number of vertices"},
                       {"__tostring", path_text, "tostring(path)", "its size"}};
     type.methods = {
