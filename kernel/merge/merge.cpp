@@ -5,6 +5,7 @@
 
 #include "kernel/merge/merge_state.h"
 #include "kernel/merge/provenance.h"
+#include "kernel/merge/verdict.h"
 
 namespace lissom {
 
@@ -20,6 +21,7 @@ void Merge::set_keys(Index join, std::vector<KeyPair> keys) {
     if (join < 0 || join >= static_cast<Index>(state_->joins.size())) {
         throw Error(ErrorCode::out_of_range, "there is no such join");
     }
+    (void)state_->keys_of(static_cast<std::size_t>(join), keys);
     state_->joins[join].keys = std::move(keys);
 }
 
@@ -36,7 +38,7 @@ MergeResult Merge::solve(const Context& context) {
     Progress progress(context, "merge");
     const auto start = MergeClock::now();
     MergeReport report = state.report;
-    const std::vector<LoopPair> pairs = state.correspond(report);
+    const std::vector<LoopPair> pairs = state.correspond(report, context);
     progress.step(0.5);
     BoundaryDeformation deformed = state.deform(pairs, context);
     std::optional<ThesisMerge> thesis = state.thesis_merge(pairs, report, context);
@@ -60,6 +62,9 @@ MergeResult Merge::solve(const Context& context) {
     }
     const MeshMap origins =
         appended_map(state.target_map, state.source.map, *state.given_target_topology);
+    const Verdict verdict = verdict_of(report, state.options.find_intersections);
+    report.ok = verdict.good;
+    report.verdict = verdict.text;
     report.solve_seconds = seconds_since(start);
     return {std::move(sewn.mesh), std::move(report), composed(sewn.map, origins),
             std::move(sewn.side_of_face), std::move(sewn.seams)};

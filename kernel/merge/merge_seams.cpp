@@ -1,11 +1,40 @@
 // What a merge does last: the seams, and what runs through what.
 #include <algorithm>
+#include <cstdio>
+#include <string>
 #include <utility>
 
 #include "kernel/merge/blend/fair_seam.h"
 #include "kernel/merge/merge_state.h"
 
 namespace lissom {
+namespace {
+
+// A band narrower than this part of the width asked for is told.
+constexpr double kNarrow = 0.95;
+
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+void note_narrow_bands(std::span<const TransitionWidths> asked, MergeReport& now) {
+    const auto note = [&](std::size_t seam, const char* side, double width, double used) {
+        if (!(used < kNarrow * width)) return;
+        now.warnings.push_back("join " + std::to_string(seam + 1) + ": the transition on the " +
+                               side + " is " + short_number(used) + " wide in place of " +
+                               short_number(width) +
+                               ", in the unit of the target: the surface "
+                               "has no room for more");
+    };
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        note(k, "source", asked[k].source, now.transition.source[k].width);
+        note(k, "target", asked[k].target, now.transition.target[k].width);
+    }
+}
+
+}  // namespace
 
 SewOptions Merge::State::sewing() const {
     SewOptions how;
@@ -14,17 +43,25 @@ SewOptions Merge::State::sewing() const {
     return how;
 }
 
+std::vector<TransitionWidths> Merge::State::asked_widths(const MergeReport& now) const {
+    std::vector<TransitionWidths> widths;
+    for (const JoinReport& join : now.joins) {
+        widths.push_back({options.target_transition, options.source_transition * join.scale});
+    }
+    return widths;
+}
+
 void Merge::State::finish_seams(Sewn& sewn, const std::optional<ThesisMerge>& thesis,
                                 MergeReport& now, const Context& context) const {
-    const bool blends = options.source_transition > 0.0 || options.target_transition > 0.0;
+    const bool blends = options.suit_transition || options.source_transition > 0.0 ||
+                        options.target_transition > 0.0;
     if (thesis) {
         now.transition = thesis->reconstruct(sewn, context);
     } else if (blends) {
-        std::vector<TransitionWidths> widths;
-        for (const JoinReport& join : now.joins) {
-            widths.push_back({options.target_transition, options.source_transition * join.scale});
-        }
+        const std::vector<TransitionWidths> widths =
+            options.suit_transition ? suitable_widths(sewn, context) : asked_widths(now);
         now.transition = blend_transition(sewn, widths, {}, context);
+        note_narrow_bands(widths, now);
     } else if (options.seam == SeamKind::fair) {
         fair_seam(sewn.mesh, sewn.seams, {}, context);
     }

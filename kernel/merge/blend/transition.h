@@ -18,6 +18,11 @@ struct TransitionWidths {
     double target = 0.0, source = 0.0;
 };
 
+/// Widths that suit each seam of `sewn`: .9 of its radius (length over 2 pi), at least three edges
+/// of the side beside it, at most half of the greatest distance there is on the side, and never
+/// more than there is room for. Errors: memory_limit; cancelled.
+std::vector<TransitionWidths> suitable_widths(const Sewn& sewn, const Context& context = {});
+
 struct TransitionOptions {
     /// The core of the seam, as SeamFairing: rings whose curvature continues what is around them,
     /// at least 1, umbrella steps within it, 0 or more, and times that the bands are bent, at

@@ -325,3 +325,25 @@ TEST_CASE("bad widths and options, and a cancel at any step, change nothing") {
     CHECK(finished);
     CHECK(hash(tube.mesh) == before);
 }
+
+TEST_CASE("widths that suit a seam: nine tenths of its radius where there is room") {
+    // Seven units of tube on either side of a seam of radius 1.
+    const Sewn tube = test::revolution(48, 60, [](double, double) { return 1.0; });
+    const TransitionWidths wide = suitable_widths(tube).front();
+    CHECK(wide.source == Approx(0.9).epsilon(0.01));
+    CHECK(wide.target == Approx(0.9).epsilon(0.01));
+    // Half of what there is on a short side.
+    const Sewn ring = test::revolution(48, 8, [](double, double) { return 1.0; });
+    double end = 0.0;
+    for (const Vec3& p : ring.mesh.positions()) end = std::max(end, p.z());
+    CHECK(suitable_widths(ring).front().source == Approx(0.5 * end).epsilon(0.02));
+    // Three edges on a coarse one.
+    const Sewn coarse = test::revolution(10, 30, [](double, double) { return 1.0; });
+    CHECK(suitable_widths(coarse).front().source > 1.7);
+    // The transition uses them as they are.
+    Sewn copy = tube;
+    const std::vector<TransitionWidths> widths = suitable_widths(copy);
+    const TransitionReport report = blend_transition(copy, widths);
+    CHECK(report.source[0].width == widths[0].source);
+    CHECK(report.target[0].width == widths[0].target);
+}
