@@ -67,6 +67,12 @@ Parameter Parameter::or_infinite() const {
     return copy;
 }
 
+Parameter Parameter::or_true() const {
+    Parameter copy = *this;
+    copy.flag = true;
+    return copy;
+}
+
 Parameter Parameter::in(std::string name_of_unit) const {
     Parameter copy = *this;
     copy.unit = std::move(name_of_unit);

@@ -27,7 +27,7 @@ enum class Kind {
     vector,
     /// One number for all axes or {x, y, z}.
     factors,
-    /// "x", "y", "z" or a vector with a length.
+    /// "x", "-y", ... or a vector with a length.
     axis,
     /// Rows {{...}, ...} of a 4 x 4 matrix whose last row is {0, 0, 0, 1}.
     affine,
@@ -83,6 +83,7 @@ struct Parameter {
     double max = std::numeric_limits<double>::infinity();
     bool above_min = false;
     bool infinite = false;
+    bool flag = false;
     std::string unit;
     std::vector<std::string> choices;
     std::string type_name;
@@ -103,6 +104,9 @@ struct Parameter {
     Parameter above(double low) const;
     /// Infinite numbers are allowed too (never NaN).
     Parameter or_infinite() const;
+    /// A table of options may also be `true`, with the defaults of all fields, or `false`, which
+    /// counts as left out. Read with `kind`: Kind::boolean then.
+    Parameter or_true() const;
     /// Unit, for the reference: "degrees", "mesh units", ...
     Parameter in(std::string name_of_unit) const;
 };

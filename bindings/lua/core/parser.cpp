@@ -88,9 +88,16 @@ std::vector<std::string_view> slot_names(const Entry& entry, int first, int last
     return names;
 }
 
-// The unit vector of the axis called "x", "y" or "z".
+bool is_axis_name(const char* name) {
+    if (name[0] == '-' || name[0] == '+') ++name;
+    return name[0] >= 'x' && name[0] <= 'z' && name[1] == '\0';
+}
+
+// The unit vector of the axis called "x", "y" or "z", perhaps with a sign.
 void set_axis(const char* name, Value& value) noexcept {
-    for (int k = 0; k < 3; ++k) value.xyz[k] = name[0] - 'x' == k ? 1.0 : 0.0;
+    const double sign = name[0] == '-' ? -1.0 : 1.0;
+    if (name[0] == '-' || name[0] == '+') ++name;
+    for (int k = 0; k < 3; ++k) value.xyz[k] = name[0] - 'x' == k ? sign : 0.0;
 }
 
 }  // namespace
@@ -120,7 +127,7 @@ std::string expectation(const Parameter& p) {
         case Kind::factors:
             return "number or {x, y, z}";
         case Kind::axis:
-            return "\"x\", \"y\", \"z\" or {x, y, z} with a length";
+            return "\"x\", \"-y\", ... or {x, y, z} with a length";
         case Kind::affine:
             return "4 rows of 4 numbers, the last 0, 0, 0, 1";
         case Kind::matrix3:
@@ -144,7 +151,7 @@ std::string expectation(const Parameter& p) {
         case Kind::function:
             return "function";
         case Kind::options:
-            return "table of options";
+            return p.flag ? "table of options or true" : "table of options";
         case Kind::option_map:
             return "table of tables of options";
         case Kind::table:
@@ -245,6 +252,14 @@ void Parser::read_table(int index, int first, int last) {
             lua_pop(L_, 1);
             if (p.required) refuse_missing(p, place);
             fill_default(p, value);
+        } else if (p.flag && lua_isboolean(L_, -1)) {
+            value.present = lua_toboolean(L_, -1) != 0;
+            value.kind = Kind::boolean;
+            value.number = lua_toboolean(L_, -1);
+            lua_pop(L_, 1);
+            if (value.present) {
+                fill_defaults(entry_.slots[slot].first, entry_.slots[slot].last);
+            }
         } else if (p.kind == Kind::options) {
             if (lua_type(L_, -1) != LUA_TTABLE) mismatch(p, lua_gettop(L_), place);
             value.present = true;
@@ -459,8 +474,7 @@ void Parser::read_axis(const Parameter& p, int index, Value& value, const Place&
         return;
     }
     const char* name = lua_tostring(L_, index);
-    const bool is_name = name[0] >= 'x' && name[0] <= 'z' && name[1] == '\0';
-    if (!is_name) mismatch(p, index, place);
+    if (!is_axis_name(name)) mismatch(p, index, place);
     set_axis(name, value);
 }
 

@@ -213,9 +213,12 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     call.charge(provenance);
     lua_pushvalue(call.lua(), first);
     call.remember(owner.get());
-    lua_createtable(call.lua(), 0, 16);
+    lua_createtable(call.lua(), 0, 19);
     push_joins(call, result.report.joins);
     call.set_field("joins");
+    call.set_field("ok", call.push(result.report.ok));
+    call.set_field("verdict", call.push(result.report.verdict));
+    call.set_field("loose_parts", call.push(result.report.loose_parts));
     push_texts(call, result.report.warnings);
     call.set_field("warnings");
     push_flips(call, result.report);
@@ -310,8 +313,16 @@ std::vector<Record> merge_records() {
           {"boolean", "refined", "Faces of the source were split there."}}},
         {"lissom.MergeReport",
          "What a merge found and did.",
-         {{"lissom.JoinReport[]", "joins", "One a join."},
+         {{"boolean", "ok",
+           "Whether the seams are good: they turn by no more than 30 degrees, or than the surfaces "
+           "did beside the boundaries; no triangle at them has less than 2 degrees, or than there "
+           "were; no faces run through one another that did not before; and no place is a toss."},
+          {"string", "verdict", "The same in one line: what holds, or what does not."},
+          {"lissom.JoinReport[]", "joins", "One a join."},
           {"string[]", "warnings", "What to look at, in plain words."},
+          {"integer", "loose_parts",
+           "Parts of the source without a joined boundary: in the free configuration they move "
+           "along with what is nearest."},
           {"table", "flipped", "source and targets: what was inside out and has been turned over."},
           {"lissom.SeamReport", "seam", "What was done to sew, and how well."},
           {"table[]", "transition",

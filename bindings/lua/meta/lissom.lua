@@ -146,6 +146,7 @@
 ---@class lissom.CutLines
 ---@field [integer] lissom.Path With the surface on its left; closed unless it ends at open boundaries.
 ---@field b lissom.Path[] The same lines on the rest: from the same points, the other way.
+---@field others lissom.Path[]|nil Of a preview: lines in which the plane crosses too and which would not be cut.
 ---@field report lissom.CutReport What was found and done.
 
 ---What a cut found and did.
@@ -154,12 +155,13 @@
 ---@field touched_boundaries integer[] Open boundaries that lines end at: places in mesh:boundaries() of before.
 ---@field lines_left integer Lines in which the plane crosses too, not cut.
 ---@field whole_components integer Components that went to one part as a whole.
+---@field kept_fraction number Part of the mesh's area, 0 to 1, on the side of the lines that is kept.
 ---@field slid_vertices integer[] Vertices of before that slid onto a line.
 ---@field divided_faces integer Faces that were divided.
 
 ---Why the result of a cut may not be what was wanted.
 ---@class lissom.CutWarning
----@field kind string touches_boundary: a line ends at an open boundary; folded_line: a line seems to run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too.
+---@field kind string touches_boundary: a line ends at an open boundary; folded_line: a line seems to run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too; keeps_most: a plane or path keeps more than 80 % of the area, perhaps the wrong part; not_separating, of a preview: the cut would fail, its sides are connected.
 ---@field message string What was found and what to do about it.
 ---@field vertices integer[] Vertices of before where it was found, at most 100.
 
@@ -214,8 +216,11 @@
 
 ---What a merge found and did.
 ---@class lissom.MergeReport
+---@field ok boolean Whether the seams are good: they turn by no more than 30 degrees, or than the surfaces did beside the boundaries; no triangle at them has less than 2 degrees, or than there were; no faces run through one another that did not before; and no place is a toss.
+---@field verdict string The same in one line: what holds, or what does not.
 ---@field joins lissom.JoinReport[] One a join.
 ---@field warnings string[] What to look at, in plain words.
+---@field loose_parts integer Parts of the source without a joined boundary: in the free configuration they move along with what is nearest.
 ---@field flipped table source and targets: what was inside out and has been turned over.
 ---@field seam lissom.SeamReport What was done to sew, and how well.
 ---@field transition table[] For each seam source and target: width, vertices, and flipped and unmapped ones, of its bands.
@@ -627,10 +632,11 @@ function Mesh:fill(boundary, options) end
 ---@field seed? lissom.Vector A point on or near the part to keep, for a plane or path.
 ---@field smoothing? number The line along a path or outline is smoothed over two edges around, but no more than this fraction of its length. Default: 0.04.
 ---@field slide? number A vertex slides onto the line where that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.25.
+---@field preview? boolean Cuts nothing and returns the lines alone: those that would be cut, as free paths with the kept part on their left, and in their fields `others`, lines in which the plane crosses too, and `report`. Default: false.
 
 ---Cuts the mesh in two along a smooth line through its faces: by exactly one of plane, path and region. Attributes are interpolated; vertices and faces off the line stay as they are. The mesh itself is not changed.
 ---@param options? lissom.Mesh.CutOptions
----@return lissom.Mesh a # The part that is kept.
+---@return lissom.Mesh a # The part that is kept; with `preview` the lines alone.
 ---@return lissom.Mesh b # The rest.
 ---@return lissom.CutLines loops # The lines on both parts, and a report.
 function Mesh:cut(options) end
@@ -709,7 +715,7 @@ function Region:mesh() end
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Region:close() end
 
----A line through vertices of one version of a mesh's topology, open or closed. A boundary is a closed path around a hole, with the surface on its left.
+---A line through vertices of one version of a mesh's topology, open or closed. A boundary is a closed path around a hole, with the surface on its left. The preview of a cut returns lines through points of their own, without vertices.
 ---@class lissom.Path
 ---@operator len: integer
 local Path = {}
@@ -1040,10 +1046,13 @@ function Handle:close() end
 ---@class lissom.Merging
 local Merging = {}
 
----Replaces the keys of one join, and returns the merge.
+---Replaces the keys of one join, and returns the merge. Keys that do not fit are an error at once, and those of before stay.
 ---@param join integer Number of the join, from 1.
 ---@param keys table List of { s, t }, as in lissom.merge.
 ---@return lissom.Merging merging # The same merge.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
 function Merging:set_keys(join, keys) end
 
 ---Merges, and returns a new mesh and what was done.
@@ -1825,16 +1834,20 @@ function lissom.deform(mesh, options) end
 ---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergeOptions
----@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, and the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
+---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, with the directions below and, where all these leave a choice, with the planes of symmetry of the parts; the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
+---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
+---@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: where a face looks.
+---@field target_front? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field configuration? "free"|"fixed" free: the source comes from wherever it lies, turned and scaled as fits (thesis 3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2). Default: "free".
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
 ---@field smooth? integer Umbrella steps at the seam; with 0 no vertex of the target moves. Default: 3.
----@field transition? lissom.MergeOptions.Transition Bands on either side of the seam in which details of both fade into each other. Default: none.
+---@field transition? lissom.MergeOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
@@ -1853,16 +1866,20 @@ function lissom.merge(options) end
 ---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergingOptions
----@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, and the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
+---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, with the directions below and, where all these leave a choice, with the planes of symmetry of the parts; the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
+---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
+---@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: where a face looks.
+---@field target_front? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field configuration? "free"|"fixed" free: the source comes from wherever it lies, turned and scaled as fits (thesis 3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2). Default: "free".
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
 ---@field smooth? integer Umbrella steps at the seam; with 0 no vertex of the target moves. Default: 3.
----@field transition? lissom.MergingOptions.Transition Bands on either side of the seam in which details of both fade into each other. Default: none.
+---@field transition? lissom.MergingOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.

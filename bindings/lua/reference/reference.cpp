@@ -65,7 +65,9 @@ void add_option_class(std::string& text, const std::vector<Parameter>& fields,
 }
 
 std::string field_type(const Parameter& p, const std::string& owner) {
-    if (p.kind == Kind::options) return owner + "." + capitalized(p.name);
+    if (p.kind == Kind::options) {
+        return owner + "." + capitalized(p.name) + (p.flag ? "|boolean" : "");
+    }
     if (p.kind == Kind::option_map) {
         return "table<string, " + owner + "." + capitalized(p.name) + ">";
     }

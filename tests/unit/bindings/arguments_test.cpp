@@ -216,7 +216,7 @@ TEST_CASE("what does not fit is named with what is expected") {
     refuses("ids = { 1, 'a' }",
             "bad option 'ids' of 'describe' (list of ids expected at [2], got \"a\")");
     refuses("axis = { 0, 0, 0 }",
-            "bad option 'axis' of 'describe' (\"x\", \"y\", \"z\" or {x, y, z} "
+            "bad option 'axis' of 'describe' (\"x\", \"-y\", ... or {x, y, z} "
             "with a length expected, got table)");
     refuses("inner = { }", "missing option 'inner.deep' of 'describe' (finite number)");
     refuses("inner = { depe = 1 }",
