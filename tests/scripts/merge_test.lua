@@ -256,7 +256,7 @@ local _, of_wide = lissom.merge{
     joins = { join{ { from, to } } }, transition = { source = 100, target = 0.5 },
 }
 expect.equal(#of_wide.warnings, 1)
-expect.truthy(of_wide.warnings[1]:find("in place of 3", 1, true))
+expect.truthy(of_wide.warnings[1]:find("in place of 29", 1, true))
 local plain, of_plain = lissom.merge{ joins = { join{ { from, to } } }, transition = false }
 same(plain, mesh, 0)
 expect.equal(#of_plain.transition, 0)

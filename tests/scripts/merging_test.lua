@@ -94,14 +94,15 @@ end
 
 -- Recipes tell what their cuts found, and take all options of a merge.
 local transplant = require "recipes.transplant_head"
-local wrong = { source_cut = { point = { 0, -0.15, 0 }, normal = { 0, -1, 0.25 } }, intersections = false,
-    greatest_turn = 30 }
-local _, of_wrong, wrong_parts = transplant.make(head, torso, wrong)
-expect.truthy(of_wrong and #of_wrong.intersections == 0)
-expect.equal(#wrong_parts.warnings, 0)
-wrong.source_cut = { point = { 0, 0.22, 0 }, normal = { 0, -1, 0.1 } }
-local _, _, most_parts = transplant.make(head, torso, wrong)
-expect.truthy(table.concat(most_parts.warnings, "\n"):find("source: the cut keeps %d+ %% of the mesh"))
+local plenty = { source_cut = { point = { 0, -0.295, 0 }, normal = "y" },
+    intersections = false, greatest_turn = 30 }
+local _, of_plenty, plenty_parts = transplant.make(head, torso, plenty)
+expect.equal(#of_plenty.intersections, 0)
+expect.truthy(of_plenty.verdict:find("were not looked for", 1, true))
+expect.truthy(table.concat(plenty_parts.warnings, "\n"):find("source: the cut keeps %d+ %% of the mesh"))
+plenty.source_cut = { point = { 0, -0.12, 0 }, normal = "y" }
+local _, _, half_parts = transplant.make(head, torso, plenty)
+expect.equal(#half_parts.warnings, 0)
 local example_of = {}
 for _, name in ipairs{ "add_tail", "ears", "replace_limb", "stack" } do
     example_of[name] = { require("recipes." .. name).example(2) }

@@ -118,7 +118,7 @@ double certainty_of(const Costs& cost, int best, double floor) {
         const int apart = std::abs(k - best);
         if (std::min(apart, kSamples - apart) > kSameGuess) second = std::min(second, cost[k]);
     }
-    return (second + floor) / (cost[best] + floor);
+    return std::max(1.0, (second + floor) / (cost[best] + floor));
 }
 
 // The offset near a sample at which `cost` is as high a little before as a little after: in a
