@@ -26,6 +26,8 @@ constexpr double kTie = 1e-3;
 // Costs of neighbours that differ by less are level: rounding changes them by less than that where
 // a copy of the source lies elsewhere.
 constexpr double kFlat = 1e-6;
+// A rise below this is none, whatever the sign that rounding gives it.
+constexpr double kLevel = 1e-10;
 // Directions whose parts in the planes of the loops have a smaller product say nothing.
 constexpr double kLeastLean = 0.01;
 // What directions of the user's count where they are opposite to each other, halved.
@@ -128,10 +130,12 @@ double refined(int offset, const Cost& cost) {
     const double apart = 0.5 / kSamples;
     const auto rise = [&](double x) { return cost(x + apart) - cost(x - apart); };
     double low = (offset - 1.0) / kSamples, high = (offset + 1.0) / kSamples;
-    if (!(rise(low) < 0.0 && rise(high) > 0.0)) return static_cast<double>(offset) / kSamples;
+    if (!(rise(low) < -kLevel && rise(high) > kLevel)) {
+        return static_cast<double>(offset) / kSamples;
+    }
     for (int step = 0; step < kRefinements; ++step) {
         const double middle = 0.5 * (low + high);
-        (rise(middle) < 0.0 ? low : high) = middle;
+        (rise(middle) < -kLevel ? low : high) = middle;
     }
     return 0.5 * (low + high);
 }
