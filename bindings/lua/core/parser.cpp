@@ -93,12 +93,27 @@ void set_axis(const char* name, Value& value) noexcept {
     for (int k = 0; k < 3; ++k) value.xyz[k] = name[0] - 'x' == k ? 1.0 : 0.0;
 }
 
+constexpr const char* kNormalTypeName = "lissom.Normal";
+
 }  // namespace
 
 std::string plain_number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.14g", value);
     return text;
+}
+
+void mark_normal(lua_State* L) {
+    luaL_newmetatable(L, kNormalTypeName);
+    lua_setmetatable(L, -2);
+}
+
+bool is_normal(lua_State* L, int index) {
+    if (!lua_istable(L, index) || !lua_getmetatable(L, index)) return false;
+    luaL_getmetatable(L, kNormalTypeName);
+    const bool same = lua_rawequal(L, -1, -2) != 0;
+    lua_pop(L, 2);
+    return same;
 }
 
 std::string expectation(const Parameter& p) {
@@ -502,6 +517,7 @@ void Parser::read_list(const Parameter& p, int index, Value& value, const Place&
         case Kind::points: {
             auto* xyz = call_.scratch<double>(3 * size);
             for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
+                if (is_normal(L_, at)) refuse(item, "point", kNormalAmongPoints);
                 read_vector(p, at, xyz + 3 * i, item);
             });
             value.data = xyz;

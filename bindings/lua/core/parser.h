@@ -9,6 +9,15 @@ namespace lissom::lua {
 /// z}".
 std::string expectation(const Parameter& parameter);
 
+/// Marks the table on top of the stack as a normal that came beside a point: lists of points refuse
+/// it, for `{ style:at{...} }` holds both.
+void mark_normal(lua_State* L);
+bool is_normal(lua_State* L, int index);
+
+/// What lists of points say of it.
+inline constexpr const char* kNormalAmongPoints =
+    "the normal that comes second from at{...}; write (style:at{...}) for the point alone";
+
 class Parser {
   public:
     explicit Parser(Call& call) : call_(call), L_(call.L_), entry_(*call.entry_) {}

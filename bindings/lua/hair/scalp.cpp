@@ -1,5 +1,6 @@
 // lissom.Scalp: where hair grows on a head, and its frame.
 #include "bindings/lua/core/library.h"
+#include "bindings/lua/core/parser.h"
 #include "bindings/lua/hair/hair_object.h"
 
 namespace lissom::lua {
@@ -88,7 +89,8 @@ std::vector<Function> scalp_methods() {
          .body = scalp_at,
          .summary =
              "A point over the head, in a direction from the center of its frame. At the end "
-             "of a list of points write (scalp:at{...}), which is the point alone.",
+             "of a list of points write (scalp:at{...}), which is the point alone; lists of points "
+             "refuse the normal.",
          .options = direction_fields(),
          .results = direction_results(),
          .errors = {ErrorCode::out_of_range},
@@ -176,6 +178,7 @@ int push_point_at(Call& call, const Scalp& scalp) {
     }
     call.push_vector(found->position);
     call.push_vector(found->normal);
+    mark_normal(call.lua());
     return 2;
 }
 
