@@ -9,11 +9,11 @@
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/path_object.h"
+#include "kernel/hair/strands/strand_place.h"
 #include "viewer/lua/camera_object.h"
 #include "viewer/lua/paint.h"
 #include "viewer/lua/png_file.h"
 #include "viewer/lua/viewer_library.h"
-#include "viewer/strands/strand_place.h"
 
 namespace lissom::lua {
 namespace {
@@ -128,6 +128,10 @@ PictureStrands placed_strands(const Call& call, const Strands& strands, std::siz
         result.drawn.style.unit = call.number("hair.unit");
     } else if (const auto unit = unit_of_roots(strands, *meshes[mesh].mesh)) {
         result.drawn.style.unit = *unit;
+    } else {
+        const std::string doubt =
+            doubt_about_unit(strands, *meshes[mesh].mesh, result.drawn.style.unit);
+        if (!doubt.empty()) call.context().log(LogLevel::warning, doubt);
     }
     return result;
 }

@@ -1,8 +1,12 @@
-#include "viewer/strands/strand_place.h"
+#include "kernel/hair/strands/strand_place.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
+
+#include "kernel/hair/curve/length_text.h"
+#include "kernel/hair/strands/strand_measures.h"
 
 namespace lissom {
 namespace {
@@ -11,6 +15,20 @@ namespace {
 constexpr std::size_t kLookedAt = 2000;
 // Ratio of the distances that may remain between both: else they are of another mesh.
 constexpr double kTolerance = 0.02;
+
+// Of the size of a mesh: hair is seldom smaller than that of a body's, or larger than a head's.
+constexpr double kSmallest = 0.05, kLargest = 20.0;
+
+struct UsualUnit {
+    double metres;
+    const char* name;
+};
+constexpr std::array<UsualUnit, 6> kUsualUnits = {{{1.0, "metres"},
+                                                   {0.3048, "feet"},
+                                                   {0.1, "decimetres"},
+                                                   {0.0254, "inches"},
+                                                   {0.01, "centimetres"},
+                                                   {0.001, "millimetres"}}};
 
 double spread(const std::vector<Vec3>& points) {
     Vec3 center = Vec3::Zero();
@@ -57,6 +75,26 @@ std::optional<double> unit_of_roots(const Strands& strands, const Mesh& mesh) {
         off = std::max(off, (places[i] - points[i]).norm());
     }
     return off < kTolerance * spread(points) ? std::optional(unit) : std::nullopt;
+}
+
+std::string doubt_about_unit(const Strands& strands, const Mesh& mesh, double unit) {
+    Box box;
+    for (const Vec3& p : mesh.positions()) box.extend(p);
+    const double hair = bounds(strands).diagonal(), size = box.diagonal();
+    const double ratio = hair / (unit * size);
+    if (!(hair > 0.0) || !(size > 0.0) || (ratio > kSmallest && ratio < kLargest)) return {};
+    const UsualUnit* best = &kUsualUnits.front();
+    const auto miss = [&](const UsualUnit& one) {
+        return std::abs(std::log(hair / (one.metres * size)));
+    };
+    for (const UsualUnit& one : kUsualUnits) {
+        if (miss(one) < miss(*best)) best = &one;
+    }
+    return "the strands are " + length_text(hair) + " m large and the mesh " + length_text(size) +
+           " units, which count as " + length_text(unit) +
+           " m each: hair will hardly be seen on it; "
+           "give hair = { unit = " +
+           length_text(best->metres) + " } if the mesh is in " + best->name;
 }
 
 }  // namespace lissom
