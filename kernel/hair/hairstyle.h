@@ -55,7 +55,8 @@ class Hairstyle {
     /// Takes the present shape of `head`, which may change or die afterwards; `scalp` must have
     /// been made for it.
     /// Errors: invalid_argument for a volume or resolution out of range; topology_mismatch;
-    /// mesh_empty; memory_limit; cancelled.
+    /// mesh_empty; memory_limit, before anything is computed where the grid needs more memory than
+    /// the limit of the context, or without one than the machine has; cancelled.
     Hairstyle(const Mesh& head, std::shared_ptr<const Scalp> scalp,
               const HairstyleOptions& options = {}, const Context& context = {});
     ~Hairstyle();
@@ -68,6 +69,9 @@ class Hairstyle {
     /// The head in metres of the frame.
     const Mesh& head() const;
     const GridLayout& layout() const;
+    /// Signed distance to the surface of the head itself, negative inside; far away that of the
+    /// field. Thread-safe.
+    double surface_distance(const Vec3& point) const;
 
     /// Adds a curve behind all others. Errors: as set.
     CurveId add(StyleCurve curve);
@@ -110,7 +114,7 @@ class Hairstyle {
     /// Grows hair into `strands`, whose memory is used again; solves first where needed. Groups are
     /// named after the ponytails through whose tie strands pass. The first n strands of a larger
     /// count are those of count n.
-    /// Errors: unconstrained without an enabled curve; as make_roots, grow and solve.
+    /// Errors: invalid_argument without an enabled curve; as make_roots, grow and solve.
     GrowthReport grow(const HairOptions& options, Strands& strands, const Context& context = {});
     Strands grow(const HairOptions& options = {}, const Context& context = {});
 

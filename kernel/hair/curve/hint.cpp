@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "kernel/core/error.h"
 #include "kernel/hair/curve/curve.h"
 #include "kernel/hair/curve/curve_foot.h"
+#include "kernel/hair/curve/length_text.h"
 
 namespace lissom {
 namespace {
@@ -73,11 +73,10 @@ Meeting crossing(const Path& curve, const Path& hint) {
 
 void require_near(const Meeting& meeting, const HintOptions& options, const char* what) {
     if (meeting.distance <= options.reach) return;
-    std::ostringstream message;
-    message.precision(3);
-    message << what << " " << meeting.distance << " away from the curve, and " << options.reach
-            << " is the most; draw it nearer, or set reach";
-    throw Error(ErrorCode::out_of_range, message.str());
+    throw Error(ErrorCode::out_of_range, std::string(what) + " " + length_text(meeting.distance) +
+                                             " m away from the curve, and " +
+                                             length_text(options.reach) +
+                                             " m is the most; draw it nearer, or set reach");
 }
 
 // A cubic from one point to another that leaves and arrives along unit tangents; without its first

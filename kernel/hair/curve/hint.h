@@ -11,7 +11,7 @@ namespace lissom {
 
 enum class HintOperation { cut, concatenate, insert };
 
-/// Lengths are in the unit of the curves.
+/// Lengths in metres, as the curves of a style.
 struct HintOptions {
     /// A hint that is farther than this from the curve has nothing to do with it.
     double reach = 0.03;

@@ -10,6 +10,7 @@
 #include "kernel/hair/curve/curve.h"
 #include "kernel/hair/curve/curve_foot.h"
 #include "kernel/hair/curve/grid_range.h"
+#include "kernel/hair/curve/length_text.h"
 #include "kernel/hair/curve/stream_curve.h"
 
 namespace lissom {
@@ -202,6 +203,26 @@ Outline outline_of(const Spine& spine, double step, const PonytailOptions& optio
     return outline;
 }
 
+// A tie that is wider than the volume, or in the head, gathers nothing.
+void require_place(const DistanceGrid& distances, const PonytailSection& tie) {
+    const Box box = distances.layout().box();
+    const double most = 0.5 * (box.max - box.min).minCoeff();
+    if (tie.radius > most) {
+        throw Error(ErrorCode::invalid_argument,
+                    "the radius of the ponytail's tie is " + length_text(tie.radius) +
+                        " m, but can be " + length_text(most) +
+                        " m at most, half of the least extent of the hairstyle's volume");
+    }
+    const double height = distances.value(tie.center);
+    if (height < 0.0) {
+        throw Error(
+            ErrorCode::invalid_argument,
+            "the tie of the ponytail lies " + length_text(-height) +
+                " m inside the head; begin its spine outside, best at least the radius of " +
+                length_text(tie.radius) + " m above the scalp");
+    }
+}
+
 // What a ponytail says at the points of a grid.
 class Tail {
   public:
@@ -348,6 +369,7 @@ std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
     require_ponytail(options);
     require(!shape.sections.empty() && shape.spine.size() > 1 && shape.last() < shape.spine.size(),
             "the shape of a ponytail needs a spine with cross sections");
+    require_place(distances, shape.tie());
     const GridLayout& layout = distances.layout();
     const Tail tail(distances, shape, options);
     // The first kind that names a point counts.
