@@ -118,33 +118,29 @@ int remove_curve(Call& call) {
     return done ? 0 : call.fail();
 }
 
-// Replaces the drawn points by edit(curve, hint), where the curve is as smooth as it is seen.
+// Replaces the drawn points by edit(curve, hint, options), where the curve is as smooth as it is
+// seen.
 template <typename Edit>
-int edit_by_hint(Call& call, const Edit& edit) {
+int edit_by_hint(Call& call, bool joins, const Edit& edit) {
     return change_curve(call, [&](Hairstyle& style, CurveId id) {
+        HintOptions options;
+        options.reach = call.number("reach");
+        if (joins) options.join = call.number("join");
         const std::vector<Vec3> hint = points_in_metres(call, "hint", style);
         const std::vector<Vec3> smooth =
             smooth_curve(drawn_points(style.curve(id)), style.layout().step);
-        style.set_points(id, edit(smooth, hint));
+        style.set_points(id, edit(smooth, hint, options));
     });
 }
 
 int cut_by_hint(Call& call) {
-    return edit_by_hint(call, [](const std::vector<Vec3>& curve, const std::vector<Vec3>& hint) {
-        return cut_curve(curve, hint);
-    });
+    return edit_by_hint(call, false, cut_curve);
 }
-
 int concatenate_hint(Call& call) {
-    return edit_by_hint(call, [](const std::vector<Vec3>& curve, const std::vector<Vec3>& hint) {
-        return concatenated_curve(curve, hint);
-    });
+    return edit_by_hint(call, true, concatenated_curve);
 }
-
 int insert_hint(Call& call) {
-    return edit_by_hint(call, [](const std::vector<Vec3>& curve, const std::vector<Vec3>& hint) {
-        return inserted_curve(curve, hint);
-    });
+    return edit_by_hint(call, true, inserted_curve);
 }
 
 int curve_style(Call& call) {
@@ -223,6 +219,23 @@ std::vector<Parameter> hint_argument(const std::string& help) {
     return {points("hint", help).in("mesh units")};
 }
 
+std::vector<Parameter> reach_option() {
+    return {number("reach", "A hint that is farther from the curve has nothing to do with it.")
+                .in("metres")
+                .at_least(0)
+                .defaults(HintOptions{}.reach)};
+}
+
+std::vector<Parameter> joining_options() {
+    std::vector<Parameter> options = reach_option();
+    options.push_back(
+        number("join", "Length of the curve and of the hint that a smooth join replaces.")
+            .in("metres")
+            .at_least(0)
+            .defaults(HintOptions{}.join));
+    return options;
+}
+
 std::vector<Function> changing_methods() {
     return {
         {.name = "set_points",
@@ -267,18 +280,20 @@ std::vector<Function> hint_methods() {
              .body = cut_by_hint,
              .summary = "Ends the curve where a hint stroke crosses it.",
              .arguments = hint_argument("A polyline that passes near the curve."),
+             .options = reach_option(),
              .results = kSelfCurve,
              .errors = kChangeErrors,
              .example = kStyle + R"(local points = curve:points()
 local middle = {}
 for k = 1, 3 do middle[k] = (points[1][k] + points[2][k]) / 2 end
 local above = { middle[1], middle[2] + 0.02, middle[3] }
-curve:cut{ above, middle })"},
+curve:cut({ above, middle }, { reach = 0.02 }))"},
             {.name = "concatenate",
              .body = concatenate_hint,
              .summary = "Goes on along a hint stroke that begins near the curve: from there to the "
                         "end the curve is replaced.",
              .arguments = hint_argument("A polyline that begins near the curve."),
+             .options = joining_options(),
              .results = kSelfCurve,
              .errors = kChangeErrors,
              .example = kStyle + R"(local tip = curve:points()[2]
@@ -288,6 +303,7 @@ curve:concatenate{ tip, { tip[1], tip[2] - 0.05, tip[3] } })"},
              .summary = "Replaces the part of the curve between the ends of a hint stroke that "
                         "begins and ends near it.",
              .arguments = hint_argument("A polyline whose ends are near the curve."),
+             .options = joining_options(),
              .results = kSelfCurve,
              .errors = kChangeErrors,
              .example = kStyle + R"(local from, to = curve:points()[1], curve:points()[2]

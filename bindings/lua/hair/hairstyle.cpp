@@ -1,4 +1,5 @@
 // lissom.Hairstyle: style curves, the field that they determine, and growth.
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -219,6 +220,21 @@ std::vector<double> vertex_factors(const Call& call, const char* path, const Mes
     return attribute_factors(head, call.string(path));
 }
 
+// Lengths in metres, one for all hair or by the script's function, and factors of them.
+void set_lengths(const Call& call, std::span<const double> lengths, std::vector<double> factors,
+                 GrowthOptions& growth) {
+    growth.length_map = std::move(factors);
+    if (call.kind("length") != Kind::function) {
+        growth.length = call.number("length");
+        return;
+    }
+    growth.length = lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
+    growth.length_map.resize(lengths.size(), 1.0);
+    for (std::size_t v = 0; v < lengths.size() && growth.length > 0.0; ++v) {
+        growth.length_map[v] *= lengths[v] / growth.length;
+    }
+}
+
 // What the script's function says of every vertex; runs before any C++ object is alive.
 std::span<const double> ask_factors(Call& call, const char* path) {
     if (!call.has(path) || call.kind(path) != Kind::function) return {};
@@ -244,7 +260,6 @@ std::span<const double> ask_factors(Call& call, const char* path) {
 
 void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
     growth.seed = static_cast<std::uint64_t>(call.integer("seed"));
-    growth.length = call.number("length");
     growth.variation = call.number("variation");
     growth.segment = call.number("segment");
     growth.least_speed = call.number("least_speed");
@@ -268,7 +283,8 @@ void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
 int grow_hair(Call& call) {
     const auto style = call.self<HairstyleObject>();
     const auto density = ask_factors(call, "density");
-    const auto lengths = ask_factors(call, "lengths");
+    const auto factors = ask_factors(call, "lengths");
+    const auto lengths = ask_factors(call, "length");
     const bool reuse = call.has("into");
     const auto result = reuse ? call.object<StrandsObject>("into") : call.create<StrandsObject>();
     const bool done = call.attempt([&] {
@@ -279,7 +295,8 @@ int grow_hair(Call& call) {
         options.roots.pattern = call.choice<RootPattern>("roots");
         options.roots.density = vertex_factors(call, "density", style->head->mesh, density);
         read_growth(call, own.scalp(), options.growth);
-        options.growth.length_map = vertex_factors(call, "lengths", style->head->mesh, lengths);
+        set_lengths(call, lengths, vertex_factors(call, "lengths", style->head->mesh, factors),
+                    options.growth);
         if (!reuse) result.set(std::make_shared<StrandsObject>(Strands()));
         own.grow(options, result->strands, call.context());
     });
@@ -433,13 +450,16 @@ std::vector<Function> field_methods() {
          .example = kStyle + "style:avoid_scalp():forget_scalp()"}};
 }
 
+constexpr const char* kOfVertex = "fun(vertex: integer, x: number, y: number, z: number): number";
+
 Parameter factors_option(const std::string& name, const std::string& help) {
     return either(
                name,
                {numbers("list", "One for each vertex of the head."),
                 string("attribute", "Name of an attribute of vertices."),
-                function("factor", "fun(vertex: integer, x: number, y: number, z: number): number",
-                         "Asked for each vertex.")},
+                function("factor", kOfVertex,
+                         "Asked for each vertex of the head with its number and its place in mesh "
+                         "units.")},
                help)
         .optional("1 everywhere");
 }
@@ -455,7 +475,15 @@ std::vector<Parameter> growth_fields() {
             .defaults(100000)
             .between(0, kMaximumRoots),
         integer("seed", "Another seed gives other roots and other chance.").defaults(1).at_least(0),
-        metres("length", defaults.length, "Of a strand."),
+        either("length",
+               {number("metres", "Of every strand.").in("metres").at_least(0),
+                function("metres", kOfVertex,
+                         "Asked for each vertex of the head with its number and its place in mesh "
+                         "units; gives metres.")},
+               "Of a strand, at most twice the diagonal of the volume. By a function, for instance "
+               "for a fringe that is shorter than the rest.")
+            .in("metres")
+            .defaults(defaults.length),
         number("variation", "Share by which strands are longer or shorter at most.")
             .defaults(defaults.variation)
             .between(0, 1),
@@ -479,7 +507,7 @@ std::vector<Parameter> growth_fields() {
             .at_least(0),
         number("segment", "Length of a segment, in steps of the grid.")
             .defaults(defaults.segment)
-            .above(0),
+            .between(kLeastSegment, kGreatestSegment),
         number("least_speed", "A strand ends where the field is shorter than this.")
             .defaults(defaults.least_speed)
             .between(0, 0.99),
@@ -499,9 +527,9 @@ std::vector<Function> growth_methods() {
                  "a ponytail are in the group of its name.",
              .options = growth_fields(),
              .results = {{"lissom.Strands", "hair", "The strands."}},
-             .errors = {ErrorCode::unconstrained, ErrorCode::invalid_argument,
-                        ErrorCode::region_empty, ErrorCode::not_positive_definite,
-                        ErrorCode::memory_limit, ErrorCode::handle_removed, ErrorCode::cancelled},
+             .errors = {ErrorCode::invalid_argument, ErrorCode::region_empty,
+                        ErrorCode::not_positive_definite, ErrorCode::memory_limit,
+                        ErrorCode::handle_removed, ErrorCode::cancelled},
              .example = kStyle + "local hair = style:grow{ count = 1000, length = 0.2 }\n"
                                  "assert(#hair == 1000)"}};
 }
@@ -512,7 +540,8 @@ std::vector<Function> plain_methods() {
          .body = style_at,
          .summary =
              "A point over the head, in a direction from the center of its frame. At the end "
-             "of a list of points write (style:at{...}), which is the point alone.",
+             "of a list of points write (style:at{...}), which is the point alone; lists of points "
+             "refuse the normal.",
          .options = direction_fields(),
          .results = direction_results(),
          .errors = {ErrorCode::out_of_range, ErrorCode::handle_removed},
