@@ -26,9 +26,9 @@ local function at(azimuth, elevation, lift)
     return (style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 })
 end
 
--- No curve, no hair.
-local nothing, message, code = style:grow{ count = 10 }
-expect.failure("unconstrained", nothing, message, code)
+-- Growing without curves is a mistake of the script, as a stream without points is.
+expect.error("add a curve", function() style:grow{ count = 10 } end)
+expect.error("two points", function() style:stream{ points = {} } end)
 
 -- Curves keep their identity.
 local side = { at(20, 50, 0.01), at(70, 25, 0.02), at(85, -15, 0.02) }
@@ -62,6 +62,12 @@ expect.error("outside", function() style:stream{ points = { { 9, 9, 9 }, { 9, 8,
 expect.error("from the head", function() style:dividing{ points = { { 0, 0.2, 0.2 }, { 0, 0.2, 0.1 } } } end)
 expect.equal(#style:curves(), 3)
 
+-- The normal that comes with a point is no point.
+local function with_normal() style:stream{ points = { at(20, 50), style:at{ azimuth = 70, elevation = 10 } } } end
+expect.error("write (style:at{...})", with_normal)
+expect.error("normal", function() stream:set_points{ style:at{ azimuth = 70, elevation = 10 } } end)
+expect.equal(#style:curves(), 3)
+
 -- The field follows the curves.
 local function along(curve)
     local course = curve:course()
@@ -89,6 +95,15 @@ expect.equal(hair:stats().zero_segments, 0)
 expect.equal(hair:stats{ style = style }.penetrating, 0)
 expect.equal(hair:stats{ style = style, depth = -1 }.penetrating, #hair)
 expect.equal(hair:stats().penetrating, nil)
+-- What is inside counts against the surface, however wide the steps of the grid are.
+local under, counts = {}, {}
+for i, lift in ipairs{ -0.002, -0.001, 0.001 } do
+    for azimuth = 0, 1 do under[#under + 1] = at(40 + azimuth, 60, lift) end
+    counts[i] = 2
+end
+local buried = lissom.strands{ points = under, counts = counts }:stats{ style = style }
+expect.equal(buried.penetrating, 2)
+expect.near(buried.deepest, 0.002, 3e-4)
 expect.equal(hair:hash(), style:grow{ count = 900, length = 0.1, seed = 3 }:select{ first = 600 }:hash())
 expect.truthy(hair:hash() ~= style:grow{ count = 600, length = 0.1, seed = 4 }:hash())
 local root = hair:root(7)
@@ -114,6 +129,20 @@ expect.near(half / style:grow{ count = 300, length = 0.1 }:stats().mean_length, 
 local function text() return "x" end
 expect.error("must give a number", function() style:grow{ count = 10, density = text } end)
 expect.error("no attribute", function() style:grow{ count = 10, density = "nothing" } end)
+-- A fringe by length: metres at every vertex, times the factors.
+local function fringe(vertex, _, _, z)
+    expect.truthy(vertex >= 1 and vertex <= #head)
+    return z > 0.02 and 0.05 or 0.1
+end
+local fringed = style:grow{ count = 300, length = fringe, variation = 0 }
+expect.near(fringed:stats().most_length, 0.1, 2e-3)
+expect.near(style:grow{ count = 300, length = fringe, lengths = short, variation = 0 }:stats().most_length, 0.05, 1e-3)
+expect.truthy(fringed:select{ where = function(_, _, _, z) return z > 0.05 end }:stats().most_length < 0.051)
+expect.error("must give a number", function() style:grow{ count = 10, length = text } end)
+expect.error("0.01 to 10", function() style:grow{ count = 10, segment = 1e-9 } end)
+expect.error("at most", function() style:grow{ count = 10, length = 50 } end)
+expect.error("at most", function() pony:set{ radius = 5 } end)
+
 local cut = style:grow{ count = 500, length = 0.3, cut = { point = scalp:from_metres(0, 0, 0), ragged = 0 } }
 expect.truthy(cut:bounds().min[2] < 0.001)
 
@@ -139,6 +168,11 @@ local cut_length = #stream:course()
 local tip = stream:points()[#stream:points()]
 stream:concatenate{ tip, { tip[1] + 0.01, tip[2] - 0.06, tip[3] } }
 expect.truthy(#stream:course() > cut_length)
+-- A hint that is too far away names the reach, which can be given.
+local far = { { tip[1], tip[2], tip[3] + 0.05 }, { tip[1], tip[2] - 0.03, tip[3] + 0.08 } }
+expect.error("set reach", function() stream:cut(far) end)
+expect.truthy(stream:cut(far, { reach = 0.2 }) == stream)
+expect.error("join", function() stream:cut(far, { join = 0.1 }) end)
 expect.error("curve", function() stream:insert{ { 0, -0.3, 0.1 }, { 0, -0.35, 0.1 } } end)
 
 -- A style and its file.
