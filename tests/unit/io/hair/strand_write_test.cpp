@@ -28,8 +28,7 @@ class RibFile {
     explicit RibFile(const std::string& text) {
         std::istringstream stream(text);
         std::string word;
-        int line = 0;
-        for (std::string row; std::getline(stream, row); ++line) {
+        for (std::string row; std::getline(stream, row);) {
             if (row.starts_with("##")) continue;
             std::istringstream words(row);
             while (words >> word) {
