@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/error.h"
 #include "kernel/io/hair/rib_curves.h"
 #include "kernel/io/stream/text_writer.h"
 #include "kernel/mesh/measure/measures.h"
