@@ -6,11 +6,14 @@ local hairdo = {}
 -- With two arguments in every Lua.
 local atan2 = rawget(math, "atan2") or math.atan
 
--- Parameters of a hairstyle; `more` are those of its own.
+-- Parameters of a hairstyle: the `name` of its files, the `count` of its strands, `more` of its own.
 function hairdo.params(options)
     local list = {
         head = { type = "file", default = "", help = "a bald head, instead of the generated one" },
-        count = { type = "integer", default = 100000, min = 0, max = 2000000, help = "strands" },
+        vertices = { type = "integer", default = 40000, min = 3000, max = 500000,
+            help = "of the generated head" },
+        count = { type = "integer", default = options.count or 100000, min = 0, max = 2000000,
+            help = "strands" },
         resolution = { type = "integer", default = 50000, min = 1000, max = 2000000, help = "grid points" },
         detail = { type = "boolean", default = true, help = "clumps, noise and tapered tips" },
         pictures = { type = "boolean", default = true, help = "writes pictures" },
@@ -24,7 +27,7 @@ function hairdo.params(options)
 end
 
 function hairdo.head(params)
-    if params.head == "" then return lissom.shapes.head{} end
+    if params.head == "" then return lissom.shapes.head{ vertices = params.vertices } end
     return assert(lissom.load(params.head))
 end
 
