@@ -61,6 +61,8 @@ void require_lengths(const GrowthOptions& o) {
     require(is_share(o.variation), "variation must be from 0 to 1");
     require(o.segment > 0.0 && o.segment <= 10.0, "segment must be above 0 and at most 10 steps");
     require(o.least_speed >= 0.0 && o.least_speed < 1.0, "least_speed must be from 0 to below 1");
+    require(o.greatest_turn >= 0.0 && o.greatest_turn <= kPi,
+            "greatest_turn must be from 0 to 180 degrees");
     require(o.most_segments >= 1, "most_segments must be at least 1");
     require(is_length(o.lift), "lift must be 0 or more");
     require(is_length(o.clearance) && is_length(o.layer) && is_length(o.ramp),
@@ -120,6 +122,9 @@ GrowthRules rules_of(const GridLayout& layout, const GrowthOptions& options) {
     rules.segment = static_cast<float>(options.segment);
     rules.least_speed = static_cast<float>(options.least_speed);
     rules.least_move = static_cast<float>(least_move(layout, options));
+    // Cosines of rounded vectors may lie below -1.
+    rules.least_cosine =
+        options.greatest_turn < kPi ? static_cast<float>(std::cos(options.greatest_turn)) : -2.0f;
     rules.lift = static_cast<float>(options.lift);
     rules.inverse_ramp = static_cast<float>(1.0 / std::max(options.ramp / layout.step, 1e-6));
     rules.inverse_step = static_cast<float>(1.0 / layout.step);

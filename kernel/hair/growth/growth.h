@@ -51,6 +51,10 @@ struct GrowthOptions {
     double segment = 0.5;
     /// A strand ends where the field is shorter than this.
     double least_speed = 0.05;
+    /// A strand ends before a segment that turns by more than this, radians from 0 to pi, as about
+    /// a sink of the field. At 88 degrees rounding of the points makes no right angle of it; pi
+    /// lets strands turn as they like, until they are long enough or have `most_segments`.
+    double greatest_turn = 88.0 * kPi / 180.0;
     /// Segments at most: flow lines around a ponytail may be closed.
     Index most_segments = 400;
     /// Share of the normal in the first segment, which never points inward.
@@ -77,7 +81,7 @@ enum class StrandEnd {
     cut,        ///< a cut
     slow,       ///< the field is shorter than least_speed
     left_grid,  ///< it left the grid; its last point lies outside
-    turned,     ///< the next segment would have turned by more than 88 degrees, as about a sink
+    turned,     ///< the next segment would have turned by more than greatest_turn
     stuck,      ///< it was pushed back to where it came from
     segments,   ///< it has as many segments as allowed
 };

@@ -41,6 +41,8 @@ struct CutRule {
 
 struct GrowthRules {
     float segment, least_speed, least_move, lift, inverse_ramp;
+    /// Of the greatest turn.
+    float least_cosine;
     /// Steps in a unit of the distances.
     float inverse_step;
     bool avoid, spare_tied;

@@ -25,9 +25,6 @@ inline constexpr std::int32_t kPushes = 3;
 // A strand so little below its floor, in steps, is not pushed: it would have to look again.
 inline constexpr float kLeastPush = 0.02f;
 
-// Of the sharpest turn, 88 degrees: rounding of the points makes no right angle of it.
-inline constexpr float kLeastCosine = 0.035f;
-
 // Most tails are about as long as they may be.
 inline constexpr double kTailPower = 1.4;
 
@@ -256,8 +253,9 @@ class LaneGrower {
         const Floats speed = root(dot(here.vector, here.vector));
         const Floats grown = grown_ + next.length, left = length_ - grown;
         const Ints moves = next.length > all(rules_.least_move);
-        const Ints turns = (dot(next.way, way_) < all(kLeastCosine) * next.length * way_length_) &
-                           (segments_ > all(0));
+        const Ints turns =
+            (dot(next.way, way_) < all(rules_.least_cosine) * next.length * way_length_) &
+            (segments_ > all(0));
         const Ints take = next.go & moves & no(turns);
         const Ints end = next.go & ends_of(next, moves, turns, left, speed);
 
