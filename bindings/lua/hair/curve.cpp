@@ -147,6 +147,22 @@ int insert_hint(Call& call) {
     });
 }
 
+int tell_operation(Call& call) {
+    constexpr std::string_view kNames[] = {"cut", "concatenate", "insert"};
+    const auto curve = call.self<CurveObject>();
+    HintReading reading;
+    const bool done = call.attempt([&] {
+        const Hairstyle& style = curve->owner->style();
+        const std::vector<Vec3> smooth =
+            smooth_curve(drawn_points(style.curve(curve->id)), style.layout().step);
+        reading = hint_reading(smooth, points_in_metres(call, "hint", style), call.number("near"));
+    });
+    if (!done) return call.fail();
+    call.push(kNames[static_cast<std::size_t>(reading.operation)]);
+    call.push(reading.sure);
+    return 2;
+}
+
 int curve_style(Call& call) {
     return call.push_shared(call.self<CurveObject>()->owner);
 }
@@ -263,7 +279,27 @@ std::vector<Function> changing_methods() {
 }
 
 std::vector<Function> hint_methods() {
-    return {{.name = "cut",
+    return {{.name = "hint_operation",
+             .body = tell_operation,
+             .summary = "What a hint stroke means, by where it starts and ends and by its general "
+                        "direction. Call the method of that name with it.",
+             .arguments = hint_argument("A polyline that begins, ends or passes near the curve."),
+             .options = {number("near",
+                                "What is nearer than this to the curve is at it: about 20 "
+                                "pixels of the picture that the stroke was drawn in.")
+                             .in("metres")
+                             .above(0)
+                             .defaults(0.007)},
+             .results = {{"string", "operation", "\"cut\", \"concatenate\" or \"insert\"."},
+                         {"boolean", "sure",
+                          "False where a stroke drawn a little otherwise means something else."}},
+             .errors = kChangeErrors,
+             .example = kStyle + R"(local tip = curve:points()[2]
+local hint = { tip, { tip[1], tip[2] - 0.05, tip[3] } }
+local operation = curve:hint_operation(hint)
+assert(operation == 'concatenate')
+curve[operation](curve, hint))"},
+            {.name = "cut",
              .body = cut_by_hint,
              .summary = "Ends the curve where a hint stroke crosses it.",
              .arguments = hint_argument("A polyline that passes near the curve."),
