@@ -194,9 +194,12 @@ Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options,
 
 void save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOptions& options,
                const Context& context) {
+    Progress progress(context, "save mesh");
+    progress.step(0.8);
     const std::string bytes = with_place_in_errors(display_name(path), [&] {
         return encode(mesh, find_format(display_name(path.extension())), options, context);
     });
+    progress.step(0.2);
     write_file_atomically(path, bytes, context);
 }
 

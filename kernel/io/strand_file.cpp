@@ -197,10 +197,13 @@ Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions&
 
 StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,
                           const StrandSaveOptions& options, const Context& context) {
+    Progress progress(context, "save strands");
+    progress.step(0.8);
     EncodedStrands encoded = with_place_in_errors(display_name(path), [&] {
         return encode_as(strands, find_strand_format(display_name(path.extension()), false),
                          options, context);
     });
+    progress.step(0.2);
     write_file_atomically(path, encoded.bytes, context);
     return std::move(encoded.report);
 }

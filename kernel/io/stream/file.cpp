@@ -209,11 +209,12 @@ void write_file_atomically(const fs::path& path, std::string_view bytes, const C
     // Permissions come first: what is private shall not be open to others while it is written.
     TemporaryFile file(target);
     if (exists) file.take_permissions(status.permissions());
+    Progress progress(context, "write file");
     for (std::size_t done = 0; done < bytes.size(); done += kPieceBytes) {
-        context.checkpoint();
+        progress.update(static_cast<double>(done) / static_cast<double>(bytes.size()));
         file.write(bytes.substr(done, kPieceBytes));
     }
-    context.checkpoint();
+    progress.update(1.0);
     file.replace_target();
 }
 

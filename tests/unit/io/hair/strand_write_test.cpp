@@ -37,6 +37,42 @@ TEST_CASE("OBJ has a vertex a point and a line a strand") {
     CHECK(holds(encode_strands(strands, "obj").bytes, "l 1 2 3\ng fringe\nl 4 5\n"));
 }
 
+TEST_CASE("progress grows from 0 to 1 while strands are saved, and they can be cancelled") {
+    const TemporaryFolder folder;
+    std::vector<float> points;
+    std::vector<Index> offsets = {0};
+    for (Index s = 0; s < 4000; ++s) {
+        for (int k = 0; k < 25; ++k) {
+            points.insert(points.end(), {0.001f * static_cast<float>(s), 0.01f * k, 0.0f});
+        }
+        offsets.push_back(offsets.back() + 25);
+    }
+    const Strands strands(std::move(points), std::move(offsets));
+    for (const char* name : {"a.usda", "a.hair", "a.data", "a.rib", "a.glb", "a.obj"}) {
+        CAPTURE(name);
+        std::vector<double> fractions;
+        ContextOptions options;
+        options.progress = [&](std::string_view, double fraction) {
+            fractions.push_back(fraction);
+        };
+        save_strands(strands, folder / name, {}, Context(options));
+        CHECK(fractions.size() > 4);
+        CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+        CHECK(fractions.front() == 0.0);
+        CHECK(fractions.back() == doctest::Approx(1.0));
+        Context* running = nullptr;
+        ContextOptions stopping;
+        stopping.progress = [&](std::string_view, double fraction) {
+            if (running && fraction > 0.5) running->cancel();
+        };
+        Context context(stopping);
+        running = &context;
+        CHECK(error_of([&] { save_strands(strands, folder / "b.usda", {}, context); }).code() ==
+              ErrorCode::cancelled);
+        CHECK_FALSE(std::filesystem::exists(folder / "b.usda"));
+    }
+}
+
 TEST_CASE("RIB has linear curves with diameters") {
     Strands strands = two_strands();
     const std::string plain = encode_strands(strands, "rib").bytes;

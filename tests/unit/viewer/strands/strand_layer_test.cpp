@@ -42,6 +42,18 @@ Eigen::Array3f mean_color(const StrandLayer& layer) {
 
 }  // namespace
 
+TEST_CASE("strand layer: drawing tells how far it is") {
+    const Strands hair = test::curtain(20000, 0.0, 0.0002);
+    std::vector<double> fractions;
+    ContextOptions options;
+    options.progress = [&](std::string_view, double fraction) { fractions.push_back(fraction); };
+    const Context context(options);
+    Progress progress(context, "render");
+    test::layer_of(test::drawing_of(hair), test::front_view(), test::small_options(), context);
+    CHECK(fractions.size() > 8);
+    CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+}
+
 TEST_CASE("strand layer: a strand covers its length times its width") {
     // One pixel is 1/48.
     for (const double width : {0.25, 0.5, 1.0, 4.0}) {
