@@ -233,6 +233,41 @@ const std::vector<Vec3>& Hairstyle::course(CurveId id) const {
     return state_->at(id).derived.course;
 }
 
+std::vector<StyleConstraint> Hairstyle::constraints() const {
+    const State& s = *state_;
+    std::vector<ConstraintOwner> owners = {kScalpOwner};
+    for (const CurveId id : s.order) owners.push_back(id.value);
+    struct Said {
+        ConstraintOwner owner;
+        const GridConstraint* constraint;
+    };
+    std::map<Index, Said> decisive;
+    const auto divides = [&](ConstraintOwner owner) {
+        return owner != kScalpOwner &&
+               std::holds_alternative<DividingCurve>(curve(CurveId{owner}).shape);
+    };
+    for (const ConstraintOwner owner : owners) {
+        const auto sent = s.sent.find(owner);
+        if (sent == s.sent.end()) continue;
+        for (const GridConstraint& one : sent->second) {
+            const auto [found, is_new] = decisive.try_emplace(one.point, Said{owner, &one});
+            if (is_new || (divides(found->second.owner) && !divides(owner))) continue;
+            found->second = {owner, &one};
+        }
+    }
+    std::vector<StyleConstraint> result;
+    for (const auto& [point, said] : decisive) {
+        const GridConstraint& one = *said.constraint;
+        StyleConstraint& listed = result.emplace_back();
+        listed.point = layout().point(point);
+        listed.vector = one.value;
+        listed.kind = static_cast<ConstraintKind>(one.tag);
+        if (said.owner != kScalpOwner) listed.curve = CurveId{said.owner};
+        listed.weight = one.weight;
+    }
+    return result;
+}
+
 // ---- The field
 
 void Hairstyle::solve(const Context& context) {
@@ -257,6 +292,9 @@ void Hairstyle::avoid_scalp(const ScalpStepOptions& options, const Context& cont
             return state_->over_scalp(point) && (!options.where || options.where(point));
         };
         state_->scalp_step = scalp_step(state_->field, all);
+        for (GridConstraint& one : state_->scalp_step) {
+            one.tag = static_cast<int>(ConstraintKind::scalp);
+        }
         state_->constraints_changed();
         solve(context);
     } catch (...) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/hair/curve/constraint_kind.h"
 #include "kernel/hair/curve/style_curve.h"
 #include "kernel/hair/field/hair_field.h"
 #include "kernel/hair/field/scalp_step.h"
@@ -38,6 +39,16 @@ struct HairstyleOptions {
 struct CurveId {
     ConstraintOwner value = 0;
     bool operator==(const CurveId&) const = default;
+};
+
+/// A vector that the style gives the field at a grid point.
+struct StyleConstraint {
+    Vec3 point = Vec3::Zero(), vector = Vec3::Zero();
+    ConstraintKind kind = ConstraintKind::stream;
+    /// The curve that counts there; none for those of avoid_scalp.
+    std::optional<CurveId> curve = std::nullopt;
+    /// omega of equation (4.2).
+    double weight = 0.0;
 };
 
 /// What to grow.
@@ -88,6 +99,9 @@ class Hairstyle {
     const StyleCurve& curve(CurveId id) const;
     /// The curve as it acts: smooth, outside the head, in segments of about a grid step.
     const std::vector<Vec3>& course(CurveId id) const;
+    /// What the curves that are enabled and avoid_scalp give the field, one a grid point, in the
+    /// order of the grid's points.
+    std::vector<StyleConstraint> constraints() const;
 
     /// Brings the field up to date with the curves; does nothing where none has changed. Without
     /// curves it is zero. After an error the field is that of the last solve.

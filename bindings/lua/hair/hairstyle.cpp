@@ -1,4 +1,6 @@
 // lissom.Hairstyle: style curves, the field that they determine, and growth.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -140,6 +142,35 @@ int style_curves(Call& call) {
     return 1;
 }
 
+// Places of curves among all of a style, from 0.
+Index place_of(std::span<const CurveId> order, CurveId id) {
+    return static_cast<Index>(std::find(order.begin(), order.end(), id) - order.begin());
+}
+
+int style_constraints(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    auto& list = call.hold<std::vector<StyleConstraint>>();
+    const Hairstyle* own = nullptr;
+    const bool done = call.attempt_quick([&] {
+        own = &style->style();
+        list = own->constraints();
+    });
+    if (!done) return call.fail();
+    const Scalp& scalp = own->scalp();
+    lua_createtable(call.lua(), static_cast<int>(list.size()), 0);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const StyleConstraint& one = list[i];
+        lua_createtable(call.lua(), 0, 5);
+        call.set_field("point", call.push_vector(scalp.from_metres(one.point)));
+        call.set_field("vector", call.push_vector(scalp.frame().axes * one.vector));
+        call.set_field("kind", call.push(kind_name(one.kind)));
+        call.set_field("weight", call.push(one.weight));
+        if (one.curve) call.set_field("curve", call.push_id(place_of(own->curves(), *one.curve)));
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
+    return 1;
+}
+
 // ---- The field
 
 // Runs work(Hairstyle&) and returns the style.
@@ -253,6 +284,7 @@ void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
     growth.clearance = call.number("clearance");
     growth.layer = call.number("layer");
     growth.ramp = call.number("ramp");
+    growth.greatest_turn = call.number("greatest_turn") * kPi / 180.0;
     growth.most_segments = call.integer("most_segments");
     if (call.has("cut")) {
         HairCut cut;
@@ -483,6 +515,13 @@ std::vector<Parameter> growth_fields() {
         number("least_speed", "A strand ends where the field is shorter than this.")
             .defaults(defaults.least_speed)
             .between(0, 0.99),
+        number(
+            "greatest_turn",
+            "A strand ends before a segment that turns by more than this, as about a sink of the "
+            "field; 180 lets strands turn as they like.")
+            .in("degrees")
+            .defaults(std::round(defaults.greatest_turn * 180.0 / kPi))
+            .between(0, 180),
         integer("most_segments", "A strand has no more segments.")
             .defaults(static_cast<int>(defaults.most_segments))
             .at_least(1),
@@ -523,6 +562,14 @@ std::vector<Function> plain_methods() {
          .results = {{"lissom.Curve[]", "curves", "A list."}},
          .errors = {ErrorCode::handle_removed},
          .example = kStyle + "assert(style:curves()[1] == curve)"},
+        {.name = "constraints",
+         .body = style_constraints,
+         .summary = "What the curves that are enabled and avoid_scalp give the field: one vector a "
+                    "grid point that is constrained. `lissom.render{ style = }` draws them.",
+         .results = {{"lissom.StyleConstraint[]", "constraints", "A list."}},
+         .errors = {ErrorCode::handle_removed},
+         .example = kStyle + R"(local first = style:constraints()[1]
+assert(first.kind == 'stream' and first.curve == 1))"},
         {.name = "scalp",
          .body = style_scalp,
          .summary = "The scalp that it was made for.",
@@ -596,14 +643,27 @@ Type hairstyle_type() {
 }
 
 std::vector<Record> hairstyle_records() {
-    return {{"lissom.HairstyleStats",
-             "Sizes of a hairstyle.",
-             {{"integer", "curves", "Number of curves."},
-              {"integer", "constraints", "Constrained grid points of the last solve."},
-              {"integer", "grid_points", "Points of the grid."},
-              {"number", "step",
-               "Distance of neighbouring grid points, in metres of an average "
-               "head."}}}};
+    return {
+        {"lissom.StyleConstraint",
+         "A vector that a hairstyle gives its field at a grid point.",
+         {{"number[]", "point", "{x, y, z}, in mesh units."},
+          {"number[]", "vector", "{x, y, z}: the field there, of length 1 at most."},
+          {"string", "kind",
+           "What it stands for: \"stream\", along a stream curve; \"stop\", vanishing beyond "
+           "its end; \"parting\", along the Gaussian beside a dividing curve, and "
+           "\"separation\" above it; \"section\", \"spine\" and \"gather\" of a ponytail: near "
+           "its cross sections, along the rest of its spine, into its tie; \"scalp\", of "
+           "avoid_scalp."},
+          {"integer?", "curve", "Place of the curve among style:curves(); nil for the scalp's."},
+          {"number", "weight", "How strictly it is kept."}}},
+        {"lissom.HairstyleStats",
+         "Sizes of a hairstyle.",
+         {{"integer", "curves", "Number of curves."},
+          {"integer", "constraints", "Constrained grid points of the last solve."},
+          {"integer", "grid_points", "Points of the grid."},
+          {"number", "step",
+           "Distance of neighbouring grid points, in metres of an average "
+           "head."}}}};
 }
 
 std::vector<Function> hairstyle_functions() {

@@ -231,6 +231,14 @@
 ---@field prepare_seconds number Time to check, trim and factor.
 ---@field solve_seconds number Time to deform and sew.
 
+---A vector that a hairstyle gives its field at a grid point.
+---@class lissom.StyleConstraint
+---@field point number[] {x, y, z}, in mesh units.
+---@field vector number[] {x, y, z}: the field there, of length 1 at most.
+---@field kind string What it stands for: "stream", along a stream curve; "stop", vanishing beyond its end; "parting", along the Gaussian beside a dividing curve, and "separation" above it; "section", "spine" and "gather" of a ponytail: near its cross sections, along the rest of its spine, into its tie; "scalp", of avoid_scalp.
+---@field curve integer? Place of the curve among style:curves(); nil for the scalp's.
+---@field weight number How strictly it is kept.
+
 ---Sizes of a hairstyle.
 ---@class lissom.HairstyleStats
 ---@field curves integer Number of curves.
@@ -1098,6 +1106,14 @@ function Scalp:head() end
 ---@return boolean guessed # False where a region was given or named.
 function Scalp:guessed() end
 
+---How sure it is where the head is and which way it looks. Making a scalp whose confidence is below 0.5 gives a warning: look at `up` and `front`, or give them, and the region.
+---@return number confidence # Near 1 for a whole bald head, near 0 for masks, halves of heads, and what is none.
+function Scalp:confidence() end
+
+---What makes the confidence less than it could be.
+---@return string doubt # Empty where nothing does.
+function Scalp:doubt() end
+
 ---The center of the frame, about the middle between the ears.
 ---@return number[] center # {x, y, z}, in mesh units.
 function Scalp:center() end
@@ -1117,6 +1133,10 @@ function Scalp:left() end
 ---How long a unit of the mesh is.
 ---@return number unit # Metres in one unit of the mesh.
 function Scalp:unit() end
+
+---Whether the unit was given, or a usual one makes this the width of a head. Where neither is so, `unit` is that of an average head, and making the scalp gives a warning.
+---@return boolean known # False for models of some other size.
+function Scalp:knows_unit() end
 
 ---How large the head is: styles are made in metres of an average head.
 ---@return number scale # Mesh units in one metre of a style.
@@ -1156,6 +1176,10 @@ function Hairstyle:at(options) end
 ---@return lissom.Curve[] curves # A list.
 function Hairstyle:curves() end
 
+---What the curves that are enabled and avoid_scalp give the field: one vector a grid point that is constrained. `lissom.render{ style = }` draws them.
+---@return lissom.StyleConstraint[] constraints # A list.
+function Hairstyle:constraints() end
+
 ---The scalp that it was made for.
 ---@return lissom.Scalp scalp # The scalp.
 function Hairstyle:scalp() end
@@ -1182,7 +1206,7 @@ function Hairstyle:stats() end
 
 ---@class lissom.Hairstyle.StreamOptions
 ---@field points lissom.Vector[] From the root to the tip; the curve runs smoothly through them. In mesh units.
----@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
+---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres_field.
 ---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
@@ -1224,7 +1248,7 @@ function Hairstyle:dividing(options) end
 
 ---@class lissom.Hairstyle.PonytailOptions
 ---@field spine lissom.Vector[] From the tie to the tip of the tail. In mesh units.
----@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
+---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres_field.
 ---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
 ---@field section? lissom.Vector[] A closed curve around the spine: the tie is as wide, and stands there.
 ---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, from their beginning to their end.
@@ -1303,6 +1327,7 @@ function Hairstyle:forget_scalp() end
 ---@field lift? number Share of the normal of the head in the first segment. Default: 0.15.
 ---@field segment? number Length of a segment, in steps of the grid. Default: 0.5.
 ---@field least_speed? number A strand ends where the field is shorter than this. Default: 0.05.
+---@field greatest_turn? number A strand ends before a segment that turns by more than this, as about a sink of the field; 180 lets strands turn as they like. In degrees. Default: 88.
 ---@field most_segments? integer A strand has no more segments. Default: 400.
 ---@field into? lissom.Strands Strands whose place the new ones take. Default: new strands.
 
@@ -1356,7 +1381,7 @@ function Curve:set_points(points) end
 ---@class lissom.Curve.SetOptions
 ---@field points? lissom.Vector[] Of a stream or dividing curve.
 ---@field spine? lissom.Vector[] Of a ponytail.
----@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
+---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres_field.
 ---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004.
 ---@field tilt? number[] {at its first point, at its last}: by how much hair on both sides is turned towards the curve's end, in degrees. Default: {0, 0}.
 ---@field left? number[] The same for one side, as seen along the curve from outside. Default: tilt.
@@ -1409,6 +1434,16 @@ function Curve:reorder(place) end
 
 ---Takes it out of the style.
 function Curve:remove() end
+
+---@class lissom.Curve.Hint_operationOptions
+---@field near? number What is nearer than this to the curve is at it: about 20 pixels of the picture that the stroke was drawn in. In metres. Default: 0.007.
+
+---What a hint stroke means, by where it starts and ends and by its general direction. Call the method of that name with it.
+---@param hint lissom.Vector[] A polyline that begins, ends or passes near the curve. In mesh units.
+---@param options? lissom.Curve.Hint_operationOptions
+---@return string operation # "cut", "concatenate" or "insert".
+---@return boolean sure # False where a stroke drawn a little otherwise means something else.
+function Curve:hint_operation(hint, options) end
 
 ---Ends the curve where a hint stroke crosses it.
 ---@param hint lissom.Vector[] A polyline that passes near the curve. In mesh units.
@@ -1582,7 +1617,7 @@ function Strands:set_colors(options) end
 ---@field apart? number How much it counts for the choice of a guide that strands are combed apart, as at a parting. Default: 0.5.
 ---@field tip_spread? number Random distance by which tips miss their guide. In metres. Default: 0.001.
 ---@field offset? number Random distance by which the tip of a whole clump moves. In metres. Default: 0.
----@field within_groups? boolean Guides are of the strand's own group. Default: true.
+---@field within_groups? boolean Guides are of the strand's strands_of group. Default: true.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -1881,7 +1916,7 @@ function lissom.merging(options) end
 ---@field region? lissom.Region Where hair grows. Default: the region "scalp", or what is above an average hairline.
 ---@field up? "x"|"y"|"z"|lissom.Vector Which way is up. Default: guessed.
 ---@field front? "x"|"y"|"z"|lissom.Vector Which way the head looks. Default: guessed.
----@field unit? number How long a unit of the mesh is. In metres. Default: the usual unit that makes this the width of a head.
+---@field unit? number How long a unit of the mesh is. In metres. Default: m, cm, mm, dm or inch, if one makes this the width of a head; else that of an average head.
 ---@field softness? number Width of the band over which hair thins out at the hairline. In metres. Default: 0.011.
 
 ---Finds the scalp of a bald head, bust or body, and which way it looks.

@@ -294,6 +294,43 @@ TEST_CASE("hairstyle: the scalp step turns the field along the head, and can be 
     CHECK(greatest_difference(before, field_of(style)) < 1e-5);
 }
 
+TEST_CASE("hairstyle: its constraints are listed once a point, with kind and curve") {
+    Hairstyle style = small_style();
+    const CurveId flow = style.add(stream(side(style, 1)));
+    const CurveId line = style.add(parting(style));
+    const CurveId pony = style.add(tail(style));
+    const CurveId off = style.add(stream(side(style, -1)));
+    style.enable(off, false);
+    style.avoid_scalp();
+    const std::vector<StyleConstraint> all = style.constraints();
+    CHECK(static_cast<int>(all.size()) == style.field().grid().constraint_count());
+    std::array<int, 8> counts{};
+    for (const StyleConstraint& one : all) {
+        ++counts[static_cast<std::size_t>(one.kind)];
+        CHECK(one.vector.norm() <= 1.0 + 1e-9);
+        CHECK(one.weight == 100.0);
+        const bool own = one.kind == ConstraintKind::stream       ? one.curve == flow
+                         : one.kind == ConstraintKind::parting    ? one.curve == line
+                         : one.kind == ConstraintKind::separation ? one.curve == line
+                         : one.kind == ConstraintKind::section    ? one.curve == pony
+                         : one.kind == ConstraintKind::gather     ? one.curve == pony
+                         : one.kind == ConstraintKind::scalp      ? !one.curve
+                                                                  : one.curve.has_value();
+        CHECK(own);
+        CHECK_FALSE(one.curve == off);
+        // The field keeps them.
+        const Vec3 field = style.field().sample(one.point).direction;
+        if (one.kind != ConstraintKind::scalp) CHECK((field - one.vector).norm() < 0.3);
+    }
+    for (const ConstraintKind kind :
+         {ConstraintKind::stream, ConstraintKind::stop, ConstraintKind::parting,
+          ConstraintKind::separation, ConstraintKind::section, ConstraintKind::gather,
+          ConstraintKind::scalp}) {
+        CAPTURE(kind_name(kind));
+        CHECK(counts[static_cast<std::size_t>(kind)] > 0);
+    }
+}
+
 TEST_CASE("hairstyle: refused curves leave everything as it was") {
     Hairstyle style = small_style();
     const CurveId id = style.add(stream(side(style, 1)));
