@@ -16,7 +16,7 @@ function hairdo.params(options)
         pictures = { type = "boolean", default = true, help = "writes pictures" },
         size = { type = "integer", default = 800, min = 64, max = 4096, unit = "pixels",
             help = "width and height of each picture" },
-        out = { type = "string", default = "out", help = "folder that the files go to" },
+        out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
         name = { type = "string", default = options.name, help = "name of the files" },
     }
     for key, value in pairs(options.more or {}) do list[key] = value end

@@ -21,7 +21,7 @@ local script_schema = {
     fade_source = { type = "number", default = 0, min = 0,
         help = "width of the transition region on the source" },
     fade_target = { type = "number", default = 0, min = 0, help = "and on the target" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
     size = { type = "integer", default = 640, min = 64, max = 4096, unit = "pixels", help = "of a picture" },
 }
 

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <optional>
 #include <thread>
@@ -148,7 +149,8 @@ void print_help(const ProgramParts& parts) {
     }
     std::cout
         << "\nlissom VERB --help lists the options of a verb; lissom --version tells what this "
-           "build is made of.\nExit status: 0 done, 1 failed, 2 called wrongly.\n";
+           "build is made of.\nExit status: 0 done, 1 failed, 2 called wrongly, 130 stopped by "
+           "Ctrl-C.\n";
 }
 
 int print_version(const ProgramParts& parts, bool json) {
@@ -195,11 +197,7 @@ int run_verb(Program& program, const Verb& verb, const std::vector<std::string>&
     }
 }
 
-}  // namespace
-
-int run_program(int argc, char** argv, const ProgramParts& parts) {
-    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-    Program program(parts);
+int run_words(Program& program, const ProgramParts& parts, const std::vector<std::string>& words) {
     if (words.empty()) {
         print_help(parts);
         return kUsage;
@@ -213,7 +211,25 @@ int run_program(int argc, char** argv, const ProgramParts& parts) {
     if (first == "--version") return print_version(parts, json);
     const Verb* verb = find_verb(parts, first);
     if (!verb) return refuse_verb(program, first);
-    return run_verb(program, *verb, {words.begin() + 1, words.end()});
+    const int status = run_verb(program, *verb, {words.begin() + 1, words.end()});
+    return status != kSuccess && program.interrupted() ? kInterrupted : status;
+}
+
+// Both the program and Lua write to it. Some systems tell only in the end that a disk is full.
+bool output_is_written() {
+    std::cout << std::flush;
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const ProgramParts& parts) {
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    Program program(parts);
+    const int status = run_words(program, parts, words);
+    if (output_is_written()) return status;
+    std::cerr << "lissom: the standard output could not be written in full" << std::endl;
+    return status == kSuccess ? kFailure : status;
 }
 
 }  // namespace lissom::cli

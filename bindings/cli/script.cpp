@@ -1,11 +1,13 @@
 #include "bindings/cli/script.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
+#include "bindings/cli/help_guard.h"
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/lua/core/script_parameters.h"
 
@@ -69,6 +71,7 @@ int prepare(lua_State* L) {
     set_search_path(L, opening->path.c_str());
     set_arguments(L, opening->options->arguments);
     Interrupt::watch(L);
+    if (lua::find_state(L)->only_help) guard_for_help(L);
     return 0;
 }
 
@@ -190,13 +193,22 @@ Script::~Script() {
 }
 
 ScriptResult Script::run_file(const std::string& path) {
-    if (luaL_loadfilex(L_, path.c_str(), "t") != LUA_OK) {
-        lua_createtable(L_, 1, 0);
-        lua_insert(L_, -2);
-        lua_rawseti(L_, -2, 1);
-        return failure();
-    }
-    return call_function();
+    return run_loaded(luaL_loadfilex(L_, path.c_str(), "t"));
+}
+
+ScriptResult Script::run_text(std::string text) {
+    // A first line for the shell is no Lua; its place is kept for the numbers of the others.
+    if (text.starts_with('#')) text.erase(0, std::min(text.find('\n'), text.size()));
+    return run_loaded(luaL_loadbufferx(L_, text.data(), text.size(), "=stdin", "t"));
+}
+
+// The chunk or a message is on top of the stack.
+ScriptResult Script::run_loaded(int status) {
+    if (status == LUA_OK) return call_function();
+    lua_createtable(L_, 1, 0);
+    lua_insert(L_, -2);
+    lua_rawseti(L_, -2, 1);
+    return failure();
 }
 
 ScriptResult Script::call_function() {

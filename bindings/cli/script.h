@@ -34,6 +34,8 @@ class Script {
 
     /// Runs the file `path`; --help and wrong flags of its parameters end it early.
     ScriptResult run_file(const std::string& path);
+    /// The same for a text that came from the standard input.
+    ScriptResult run_text(std::string text);
 
     /// Calls the function on top of the stack, whose results stay there.
     ScriptResult call_function();
@@ -42,6 +44,7 @@ class Script {
     static std::string shipped_scripts();
 
   private:
+    ScriptResult run_loaded(int status);
     ScriptResult failure();
 
     Program& program_;

@@ -197,6 +197,7 @@ Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions&
 
 StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,
                           const StrandSaveOptions& options, const Context& context) {
+    require_folder_of(path);
     EncodedStrands encoded = with_place_in_errors(display_name(path), [&] {
         return encode_as(strands, find_strand_format(display_name(path.extension()), false),
                          options, context);

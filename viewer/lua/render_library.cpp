@@ -9,6 +9,7 @@
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/path_object.h"
+#include "kernel/io/stream/file.h"
 #include "viewer/lua/camera_object.h"
 #include "viewer/lua/paint.h"
 #include "viewer/lua/png_file.h"
@@ -329,6 +330,7 @@ int render(Call& call) {
     RendererSlot& renderer = renderer_slot(call);
     const bool done = call.attempt([&] {
         require_picture_path(file_path(file));
+        require_folder_of(file_path(file));
         const Picture picture = compose(call, view, size);
         if (!renderer) renderer = std::make_unique<Renderer>();
         const Image image = draw_picture(*renderer, picture, call.context());

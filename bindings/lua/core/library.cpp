@@ -177,7 +177,7 @@ std::vector<Record> kernel_records() {
         {"lissom.ParamSchema",
          "The declaration of a parameter.",
          {{"string", "name", "Its name."},
-          {"string", "type", "number, integer, boolean, string, choice or file."},
+          {"string", "type", "number, integer, boolean, string, choice, file or folder."},
           {"any", "default", "Its default; nil where it must be given."},
           {"any", "value", "Its present value."},
           {"number?", "min", "Smallest value."},

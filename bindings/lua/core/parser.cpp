@@ -74,12 +74,17 @@ const char* push_description(lua_State* L, int index, const char* expected_type)
         return lua_tostring(L, -1);
     }
     if (type == LUA_TSTRING) return lua_pushfstring(L, "\"%s\"", lua_tostring(L, index));
+    if (const Holder* holder = find_holder(L, index, nullptr)) {
+        const bool is_expected = std::strcmp(holder->type_name, expected_type) == 0;
+        return is_expected ? lua_pushfstring(L, "a closed %s", expected_type) : holder->type_name;
+    }
     if (type != LUA_TUSERDATA || !luaL_getmetafield(L, index, "__name")) {
         return type == LUA_TNONE ? "no value" : lua_typename(L, type);
     }
     const char* name = lua_tostring(L, -1);
-    if (!name) return lua_typename(L, type);
-    return std::strcmp(name, expected_type) == 0 ? lua_pushfstring(L, "a closed %s", name) : name;
+    // A name that was set on what is no object of ours is no name of it.
+    const bool is_own = name && std::strcmp(name, expected_type) != 0;
+    return is_own ? name : lua_typename(L, type);
 }
 
 std::vector<std::string_view> slot_names(const Entry& entry, int first, int last) {
@@ -171,8 +176,8 @@ void Parser::run() {
 
 void Parser::check_self() {
     const char* name = entry_.type->name.c_str();
-    const void* holder = luaL_testudata(L_, 1, name);
-    if (holder && static_cast<const Holder*>(holder)->object) return;
+    const Holder* holder = find_holder(L_, 1, name);
+    if (holder && holder->object) return;
     refuse({1, "", 0}, name, push_description(L_, 1, name));
 }
 
@@ -357,8 +362,7 @@ void Parser::read(const Parameter& p, int index, Value& value, const Place& plac
             value.number = read_number(p, index, place);
             return;
         case Kind::string:
-            if (lua_type(L_, index) != LUA_TSTRING) mismatch(p, index, place);
-            value.data = lua_tolstring(L_, index, &value.size);
+            value.data = read_string(p, index, value.size, place);
             return;
         case Kind::choice:
             return read_choice(p, index, value, place);
@@ -415,9 +419,17 @@ int Parser::read_whole(const Parameter& p, int index, const Place& place) {
     return static_cast<int>(number);
 }
 
-void Parser::read_choice(const Parameter& p, int index, Value& value, const Place& place) {
+// A string that ends at its first zero byte: what follows one would be lost without a word.
+const char* Parser::read_string(const Parameter& p, int index, std::size_t& size,
+                                const Place& place) {
     if (lua_type(L_, index) != LUA_TSTRING) mismatch(p, index, place);
-    const char* given = lua_tolstring(L_, index, &value.size);
+    const char* text = lua_tolstring(L_, index, &size);
+    if (std::strlen(text) < size) refuse(place, "string without zero bytes", "one with them");
+    return text;
+}
+
+void Parser::read_choice(const Parameter& p, int index, Value& value, const Place& place) {
+    const char* given = read_string(p, index, value.size, place);
     const auto found = std::find(p.choices.begin(), p.choices.end(), given);
     if (found == p.choices.end()) mismatch(p, index, place);
     value.data = given;
@@ -425,7 +437,7 @@ void Parser::read_choice(const Parameter& p, int index, Value& value, const Plac
 }
 
 Holder* Parser::read_object(const Parameter& p, int index, const Place& place) {
-    auto* holder = static_cast<Holder*>(luaL_testudata(L_, index, p.type_name.c_str()));
+    Holder* holder = find_holder(L_, index, p.type_name.c_str());
     if (!holder || !holder->object) mismatch(p, index, place);
     return holder;
 }
@@ -458,8 +470,9 @@ void Parser::read_axis(const Parameter& p, int index, Value& value, const Place&
         if (Vec3(value.xyz[0], value.xyz[1], value.xyz[2]).norm() == 0.0) mismatch(p, index, place);
         return;
     }
-    const char* name = lua_tostring(L_, index);
-    const bool is_name = name[0] >= 'x' && name[0] <= 'z' && name[1] == '\0';
+    std::size_t size = 0;
+    const char* name = lua_tolstring(L_, index, &size);
+    const bool is_name = size == 1 && name[0] >= 'x' && name[0] <= 'z';
     if (!is_name) mismatch(p, index, place);
     set_axis(name, value);
 }
@@ -519,8 +532,8 @@ void Parser::read_list(const Parameter& p, int index, Value& value, const Place&
             // The strings stay in the script's table, which stays on the stack.
             auto** list = call_.scratch<const char*>(size);
             for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
-                if (lua_type(L_, at) != LUA_TSTRING) mismatch(p, at, item);
-                list[i] = lua_tostring(L_, at);
+                std::size_t length = 0;
+                list[i] = read_string(p, at, length, item);
             });
             value.data = list;
             return;
@@ -607,7 +620,7 @@ bool Parser::fits(const Parameter& p, int index) const {
         case Kind::axis:
             return type == LUA_TSTRING || type == LUA_TTABLE;
         case Kind::object:
-            return luaL_testudata(L_, index, p.type_name.c_str()) != nullptr;
+            return find_holder(L_, index, p.type_name.c_str()) != nullptr;
         case Kind::function:
             return type == LUA_TFUNCTION;
         case Kind::strings:

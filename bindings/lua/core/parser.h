@@ -42,6 +42,7 @@ class Parser {
     int read_whole(const Parameter& p, int index, const Place& place);
     double read_coordinate(const Parameter& p, int index, const Place& place);
     Holder* read_object(const Parameter& p, int index, const Place& place);
+    const char* read_string(const Parameter& p, int index, std::size_t& size, const Place& place);
     void read_choice(const Parameter& p, int index, Value& value, const Place& place);
     void read_vector(const Parameter& p, int index, double* xyz, const Place& place);
     void read_factors(const Parameter& p, int index, Value& value, const Place& place);

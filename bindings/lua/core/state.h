@@ -34,8 +34,8 @@ struct HostOptions {
 
 struct ParameterSet;
 
-/// Why lissom.params ended the script: its help was asked for, or its command line is wrong. The
-/// text is the message of the Lua error that was raised.
+/// Why a script was ended: its help was asked for, or its command line is wrong. The text is the
+/// message of the Lua error that was raised.
 enum class ScriptEnd { none, help, usage };
 
 struct State {
@@ -58,6 +58,9 @@ struct State {
     HostOptions host;
     /// What lissom.params declared last; null before.
     std::shared_ptr<ParameterSet> parameters;
+    /// The command line asks for the script's help: it runs up to lissom.params, and every other
+    /// call ends it.
+    bool only_help = false;
     ScriptEnd script_end = ScriptEnd::none;
     std::string script_end_text;
 
@@ -74,6 +77,10 @@ struct State {
 /// Opens the binding in `L`, or finds it opened, and pushes the table of the module. May raise a
 /// Lua error; `options` must outlive the call.
 void open(lua_State* L, const HostOptions& options);
+
+/// Raises a Lua error that ends the script, which has begun to work although only its help was
+/// asked for (State::only_help).
+int end_for_help(lua_State* L, State& state);
 
 /// The binding's state, or null where it was not opened in `L`.
 State* find_state(lua_State* L);

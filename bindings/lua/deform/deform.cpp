@@ -100,7 +100,7 @@ MirrorPlane mirror_plane(const Call& call) {
 int add_handle(Call& call) {
     const auto edit = call.self<DeformObject>();
     const bool has_weight = call.has("weight"), has_points = call.kind("where") == Kind::table;
-    const bool on_path = luaL_testudata(call.lua(), 2, PathObject::kTypeName) != nullptr;
+    const bool on_path = find_holder(call.lua(), 2, PathObject::kTypeName) != nullptr;
     const auto region = call.object<RegionObject>("where");
     const auto path = call.object<PathObject>("where");
     const HandleOptions options{

@@ -2,6 +2,7 @@
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "kernel/mesh/fill/fill.h"
+#include "kernel/mesh/query/path_smooth.h"
 
 namespace lissom::lua {
 
@@ -137,7 +138,7 @@ int smooth_vertices(Call& call) {
     const Index iterations = call.integer("iterations");
     const double strength = call.number("strength");
     const bool done = call.attempt([&] {
-        smooth_path(self->mesh->mesh, self->current(), iterations, strength);
+        smooth_path(self->mesh->mesh, self->current(), iterations, strength, call.context());
         self->mesh->changed();
     });
     return done ? call.push_argument() : call.fail();
@@ -241,7 +242,7 @@ Type path_type() {
                          .defaults(0.5)
                          .between(0, 1)},
          .results = {{"lissom.Path", "path", "The path itself."}},
-         .errors = errors,
+         .errors = {ErrorCode::topology_mismatch, ErrorCode::cancelled},
          .example = border + "border:smooth{ iterations = 3 }"},
         {.name = "is_closed",
          .body = path_closed,

@@ -131,7 +131,7 @@
 ---The declaration of a parameter.
 ---@class lissom.ParamSchema
 ---@field name string Its name.
----@field type string number, integer, boolean, string, choice or file.
+---@field type string number, integer, boolean, string, choice, file or folder.
 ---@field default any Its default; nil where it must be given.
 ---@field value any Its present value.
 ---@field min number? Smallest value.
@@ -488,14 +488,13 @@ function Mesh:distances(options) end
 ---@field unit? number Length of the file's unit in the unit of the mesh: positions are divided by it. In mesh units. Default: 1.
 ---@field binary? boolean Binary or text, for .ply and .stl. Default: true.
 ---@field endianness? "little"|"big" Byte order of a binary .ply. Default: "little".
+---@field origin? "keep"|"auto" "auto" moves the file's origin into a mesh that is farther from it than it is large, so that 32-bit numbers (.glb, .gltf, binary .stl) can hold its detail. glTF keeps the place in its nodes; for other formats it is returned. Default: "keep".
 
 ---Writes the mesh to a file, whole or not at all.
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.Mesh.SaveOptions
 ---@return lissom.Mesh mesh # The mesh itself; nil, message, code where the file could not be written.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Vector? origin # With origin = "auto": the point of the mesh that is the origin of the file, zero where it stayed or glTF keeps it.
 function Mesh:save(path, options) end
 
 ---What was welded, split, dropped, flagged or left out when the mesh was loaded: a list of findings, each also under the name of its kind. Empty for a mesh that was made otherwise.
@@ -739,6 +738,9 @@ function Path:nearest(point) end
 ---Smooths the line by moving the mesh's vertices under it, and returns the path. Ends of open paths stay.
 ---@param options? lissom.Path.SmoothOptions
 ---@return lissom.Path path # The path itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
 function Path:smooth(options) end
 
 ---Whether its end is joined to its start.
@@ -1182,7 +1184,7 @@ function Hairstyle:stats() end
 
 ---@class lissom.Hairstyle.StreamOptions
 ---@field points lissom.Vector[] From the root to the tip; the curve runs smoothly through them. In mesh units.
----@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
+---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres_field.
 ---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
@@ -1224,7 +1226,7 @@ function Hairstyle:dividing(options) end
 
 ---@class lissom.Hairstyle.PonytailOptions
 ---@field spine lissom.Vector[] From the tie to the tip of the tail. In mesh units.
----@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
+---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres_field.
 ---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
 ---@field section? lissom.Vector[] A closed curve around the spine: the tie is as wide, and stands there.
 ---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, from their beginning to their end.
@@ -1356,7 +1358,7 @@ function Curve:set_points(points) end
 ---@class lissom.Curve.SetOptions
 ---@field points? lissom.Vector[] Of a stream or dividing curve.
 ---@field spine? lissom.Vector[] Of a ponytail.
----@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
+---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres_field.
 ---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004.
 ---@field tilt? number[] {at its first point, at its last}: by how much hair on both sides is turned towards the curve's end, in degrees. Default: {0, 0}.
 ---@field left? number[] The same for one side, as seen along the curve from outside. Default: tilt.
@@ -1582,7 +1584,7 @@ function Strands:set_colors(options) end
 ---@field apart? number How much it counts for the choice of a guide that strands are combed apart, as at a parting. Default: 0.5.
 ---@field tip_spread? number Random distance by which tips miss their guide. In metres. Default: 0.001.
 ---@field offset? number Random distance by which the tip of a whole clump moves. In metres. Default: 0.
----@field within_groups? boolean Guides are of the strand's own group. Default: true.
+---@field within_groups? boolean Guides are of the strand's strands_of group. Default: true.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -1950,7 +1952,7 @@ function lissom.load_strands(path, options) end
 function lissom.strands(options) end
 
 ---@class lissom.ParamsOptions.Declarations
----@field type "number"|"integer"|"boolean"|"string"|"choice"|"file" What its values are.
+---@field type "number"|"integer"|"boolean"|"string"|"choice"|"file"|"folder" What its values are. A folder is one to write to: it is made, where it is missing, when the parameters are declared or it is set.
 ---@field default? boolean|number|string Its value where none is given; without one it must be given. Default: required.
 ---@field min? number Smallest value of a number or integer. Default: no limit.
 ---@field max? number Greatest value. Default: no limit.
