@@ -10,7 +10,8 @@
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/cli/terminal/progress_bar.h"
 #include "bindings/cli/terminal/terminal.h"
-#include "bindings/lua/core/nearest.h"
+#include "kernel/core/nearest.h"
+#include "kernel/core/version.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom::cli {
@@ -104,6 +105,10 @@ void Program::forget_interrupt() {
     if (own_->interrupt) own_->interrupt->clear();
 }
 
+void Program::wait_at_prompt(bool waits) {
+    Interrupt::wait_at_prompt(waits);
+}
+
 void Program::clear_progress() {
     own_->bar.clear();
 }
@@ -179,7 +184,7 @@ int refuse_verb(Program& program, const std::string& word) {
     for (const Verb& verb : program.parts().verbs) names.push_back(verb.name);
     const bool is_script = word.size() > 4 && word.compare(word.size() - 4, 4, ".lua") == 0;
     const std::string hint =
-        is_script ? "; to run a script: lissom run " + word : lua::name_hint(word, names);
+        is_script ? "; to run a script: lissom run " + word : name_hint(word, names);
     return program.fail("lissom: no verb '" + word + "'" + hint, kUsage);
 }
 
@@ -206,7 +211,7 @@ int run_program(int argc, char** argv, const ProgramParts& parts) {
     }
     const std::string& first = words[0];
     const bool json = words.size() > 1 && words[1] == "--json";
-    if (first == "--help" || first == "-h" || first == "help") {
+    if (first == "--help" || first == "-h" || (first == "help" && words.size() == 1)) {
         print_help(parts);
         return kSuccess;
     }

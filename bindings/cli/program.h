@@ -100,6 +100,8 @@ class Program {
     bool interrupted() const;
     /// Goes on as if it had not been pressed.
     void forget_interrupt();
+    /// While a line is typed Ctrl-C only gives it up, however often it is pressed.
+    static void wait_at_prompt(bool waits);
     /// Takes the progress bar away; before anything is written.
     void clear_progress();
 

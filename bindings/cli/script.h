@@ -35,7 +35,8 @@ class Script {
     /// Runs the file `path`; --help and wrong flags of its parameters end it early.
     ScriptResult run_file(const std::string& path);
 
-    /// Calls the function on top of the stack, whose results stay there.
+    /// Calls the function on top of the stack, whose results stay there. It has failed too where it
+    /// dropped failures of lissom (see lua::DroppedFailure).
     ScriptResult call_function();
 
     /// Folder of the Lua library that ships with the program; empty where it is not found.
@@ -43,6 +44,8 @@ class Script {
 
   private:
     ScriptResult failure();
+    ScriptResult dropped(std::size_t before);
+    ScriptResult returned_failure(int first);
 
     Program& program_;
     lua::HostOptions options_;

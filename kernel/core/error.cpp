@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "kernel/core/memory_error.h"
+
 namespace lissom {
 namespace {
 
@@ -118,9 +120,8 @@ constexpr std::array<CodeEntry, 40> kCodes{{
      "The linear system has no unique solution. A part of the mesh lacks a constraint, or its "
      "triangles are too degenerate."},
     {ErrorCode::memory_limit, "memory_limit",
-     "The operation would need more memory than the context allows. Raise the limit, or use a "
-     "smaller "
-     "region or mesh."},
+     "The operation would need more memory than the context allows, or than there is. Raise the "
+     "limit, or use a smaller region or mesh."},
     {ErrorCode::unsupported, "unsupported",
      "The request is valid but this build or format cannot serve it. The message says what can."},
     {ErrorCode::no_display, "no_display",
@@ -193,6 +194,17 @@ std::string describe(const Elements& elements, Index base, std::size_t limit) {
     }
     if (shown < elements.count) text += " (of " + std::to_string(elements.count) + ")";
     return text;
+}
+
+void throw_out_of_memory() {
+    std::string message = "out of memory";
+    try {
+        message =
+            "there is not enough memory; close what else runs, or use a smaller mesh or region";
+    } catch (const std::bad_alloc&) {
+        // The short message needs none.
+    }
+    throw Error(ErrorCode::memory_limit, std::move(message));
 }
 
 }  // namespace lissom

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/deform/deformer_state.h"
 #include "kernel/deform/holds/mirror.h"
 #include "kernel/deform/rotation/polar.h"
@@ -102,7 +103,7 @@ Deformer::Deformer(const Mesh& mesh, const Region& region, const DeformOptions& 
         throw Error(ErrorCode::region_empty, "the region to deform has no vertices; enlarge it");
     }
     context.checkpoint();
-    state_ = std::make_unique<State>(mesh, region, options);
+    with_memory_errors([&] { state_ = std::make_unique<State>(mesh, region, options, context); });
 }
 
 Deformer::~Deformer() = default;
@@ -114,6 +115,9 @@ const Region& Deformer::region() const {
 }
 const DeformOptions& Deformer::options() const {
     return state_->options;
+}
+const Context& Deformer::context() const {
+    return state_->own_context;
 }
 
 std::vector<HandleId> Deformer::handles() const {
@@ -195,21 +199,21 @@ Affine Deformer::transform_about(HandleId id, const Vec3& about) const {
 }
 
 void Deformer::prepare(const Context& context) {
-    state_->prepare(context);
+    with_memory_errors([&] { state_->prepare(context); });
 }
 
 const std::vector<Vec3>& Deformer::preview(const Context& context) {
-    state_->preview(context);
+    with_memory_errors([&] { state_->preview(context); });
     return state_->positions;
 }
 
 const std::vector<Vec3>& Deformer::solve(const Context& context) {
-    state_->solve(false, context);
+    with_memory_errors([&] { state_->solve(false, context); });
     return state_->positions;
 }
 
 const std::vector<Vec3>& Deformer::solve_draft(const Context& context) {
-    state_->solve(true, context);
+    with_memory_errors([&] { state_->solve(true, context); });
     return state_->positions;
 }
 

@@ -23,9 +23,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen)
+Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen,
+                       const Context& given_context)
     : region(given),
       options(chosen),
+      own_context(given_context),
       rest_patch(std::make_shared<WorkingPatch>(
           build_patch(given, mesh.positions(), kPatchRings, near_order(given, kPatchRings)),
           chosen)),

@@ -76,7 +76,8 @@ struct HandlePoses {
 };
 
 struct Deformer::State {
-    State(const Mesh& mesh, const Region& given, const DeformOptions& chosen);
+    State(const Mesh& mesh, const Region& given, const DeformOptions& chosen,
+          const Context& given_context);
 
     HandleState& handle(HandleId id);
     Index local_vertex(Index mesh_vertex) const;
@@ -170,6 +171,8 @@ struct Deformer::State {
 
     Region region;
     DeformOptions options;
+    /// Of operations that are given none.
+    Context own_context;
     /// The region as the mesh has it.
     std::shared_ptr<const WorkingPatch> rest_patch;
     /// Row in the region of each local vertex of the rest patch, or kNoIndex.

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/hair/curve_conflicts.h"
 #include "kernel/hair/curve_derivation.h"
 #include "kernel/hair/scalp/root_uvs.h"
@@ -235,8 +236,10 @@ const std::vector<Vec3>& Hairstyle::course(CurveId id) const {
 
 // ---- The field
 
-void Hairstyle::solve(const Context& context) {
+void Hairstyle::solve(const Context& context) try {
     if (!solved()) state_->field.solve(context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 bool Hairstyle::solved() const {
@@ -318,7 +321,8 @@ std::vector<HairTie> Hairstyle::State::ties(std::vector<std::string>& names) con
     return result;
 }
 
-GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands, const Context& context) {
+GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands,
+                             const Context& context) try {
     State& s = *state_;
     const bool any = std::any_of(s.curves.begin(), s.curves.end(),
                                  [](const PlacedCurve& one) { return one.curve.enabled; });
@@ -338,6 +342,8 @@ GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands, const
     strands.set_roots(std::move(roots));
     if (!names.empty()) strands.set_groups(std::move(report.ties), std::move(names));
     return report;
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 Strands Hairstyle::grow(const HairOptions& options, const Context& context) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/memory_error.h"
 #include "kernel/io/gltf/gltf.h"
 #include "kernel/io/obj/mtl.h"
 #include "kernel/io/obj/obj.h"
@@ -188,14 +189,18 @@ Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options,
     const FileContent file = read_file(path, context);
     const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     return with_place_in_errors(name, [&] {
-        return decode({file.bytes, folder}, format, options, context);
+        return with_memory_errors([&] {
+            return decode({file.bytes, folder}, format, options, context);
+        });
     });
 }
 
 void save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOptions& options,
                const Context& context) {
     const std::string bytes = with_place_in_errors(display_name(path), [&] {
-        return encode(mesh, find_format(display_name(path.extension())), options, context);
+        return with_memory_errors([&] {
+            return encode(mesh, find_format(display_name(path.extension())), options, context);
+        });
     });
     write_file_atomically(path, bytes, context);
 }
@@ -203,12 +208,15 @@ void save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOp
 Mesh decode_mesh(std::string_view bytes, std::string_view extension, const LoadOptions& options,
                  const Context& context) {
     const Format& format = find_format(extension);
-    return with_place_in_errors("", [&] { return decode({bytes, {}}, format, options, context); });
+    return with_place_in_errors("", [&] {
+        return with_memory_errors([&] { return decode({bytes, {}}, format, options, context); });
+    });
 }
 
 std::string encode_mesh(const Mesh& mesh, std::string_view extension, const SaveOptions& options,
                         const Context& context) {
-    return encode(mesh, find_format(extension), options, context);
+    return with_memory_errors(
+        [&] { return encode(mesh, find_format(extension), options, context); });
 }
 
 const std::vector<std::string>& readable_extensions() {

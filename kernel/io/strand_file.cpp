@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/memory_error.h"
 #include "kernel/io/gltf/strands.h"
 #include "kernel/io/hair/cyhair.h"
 #include "kernel/io/hair/hair_salon.h"
@@ -178,7 +179,7 @@ EncodedStrands encode_as(const Strands& strands, const StrandFormat& format,
 }  // namespace
 
 Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions& options,
-                     const Context& context) {
+                     const Context& context) try {
     require_file(path);
     const std::string name = display_name(path);
     const StrandFormat& format = with_place_in_errors(name, [&]() -> const StrandFormat& {
@@ -193,16 +194,20 @@ Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions&
         ByteSource source(path);
         return decode_as(&source, {}, format, options, context);
     });
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,
-                          const StrandSaveOptions& options, const Context& context) {
+                          const StrandSaveOptions& options, const Context& context) try {
     EncodedStrands encoded = with_place_in_errors(display_name(path), [&] {
         return encode_as(strands, find_strand_format(display_name(path.extension()), false),
                          options, context);
     });
     write_file_atomically(path, encoded.bytes, context);
     return std::move(encoded.report);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 Strands decode_strands(std::string_view bytes, std::string_view extension,

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/merge/merge_state.h"
 #include "kernel/merge/provenance.h"
 
@@ -31,7 +32,7 @@ std::size_t Merge::memory_bytes() const {
     return bytes;
 }
 
-MergeResult Merge::solve(const Context& context) {
+MergeResult Merge::solve(const Context& context) try {
     State& state = *state_;
     Progress progress(context, "merge");
     const auto start = MergeClock::now();
@@ -63,6 +64,8 @@ MergeResult Merge::solve(const Context& context) {
     report.solve_seconds = seconds_since(start);
     return {std::move(sewn.mesh), std::move(report), composed(sewn.map, origins),
             std::move(sewn.side_of_face), std::move(sewn.seams)};
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 }  // namespace lissom

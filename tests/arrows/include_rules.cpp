@@ -43,7 +43,6 @@ const std::vector<Rule>& rules() {
         {"bindings/c", {"kernel", "bindings/c"}, {"Eigen"}},
         {"bindings/engine", {}, {"platform"}},
         {"bindings/lua", {"kernel", "bindings/lua"}, {"Eigen", "Lua"}},
-        {"bindings/lua/reference/reference_main.cpp", {"bindings/lua"}, {"printing"}},
         {"bindings/cli",
          {"kernel", "bindings"},
          {"Eigen", "Lua", "CLI11", "JSON", "readline", "printing", "platform"}},

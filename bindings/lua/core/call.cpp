@@ -184,6 +184,7 @@ int Call::answer_failure() {
     std::snprintf(state_->last_failure_place, sizeof state_->last_failure_place, "%s",
                   lua_tostring(L_, -1));
     lua_pop(L_, 1);
+    state_->tell_if_dropped(L_);
     lua_pushnil(L_);
     lua_pushstring(L_, failure_.message);
     push(code_name(failure_.code));

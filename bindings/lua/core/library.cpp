@@ -1,15 +1,11 @@
 #include "bindings/lua/core/library.h"
 
-#include "kernel/mesh/report.h"
-
 #include <iterator>
 #include <utility>
 
 #include "bindings/lua/core/listeners.h"
-
-#ifndef LISSOM_VERSION
-#error "the build defines LISSOM_VERSION"
-#endif
+#include "kernel/core/version.h"
+#include "kernel/mesh/report.h"
 
 namespace lissom::lua {
 namespace {
@@ -56,6 +52,7 @@ Library kernel_library() {
     add(library.functions, strand_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
+    library.functions.push_back(failures_function());
     library.types = {whole_mesh_type(),  region_type(),    whole_path_type(), buffer_type(),
                      deformation_type(), handle_type(),    merging_type(),    provenance_type(),
                      scalp_type(),       hairstyle_type(), curve_type(),      strands_type(),
@@ -174,6 +171,11 @@ std::vector<Record> kernel_records() {
           {"lissom.Handle[]", "handles", "The handles, in the order of `weights`."},
           {"lissom.Buffer[]", "weights", "For each handle four numbers a vertex."},
           {"lissom.Buffer", "fixed", "What no handle moves: three numbers a vertex."}}},
+        {"lissom.DroppedFailure",
+         "A failure that nobody looked at.",
+         {{"string", "place", "File and line of the call, as in messages: \"file:3: \"."},
+          {"string", "message", "What went wrong."},
+          {"string", "code", "Its code."}}},
         {"lissom.ParamSchema",
          "The declaration of a parameter.",
          {{"string", "name", "Its name."},

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bindings/lua/core/call.h"
-#include "bindings/lua/core/nearest.h"
+#include "kernel/core/nearest.h"
 
 namespace lissom::lua {
 namespace {
@@ -336,6 +336,24 @@ void open(lua_State* L, const HostOptions& options) {
     lua_pushvalue(L, -1);
     raw_set_pointer(L, LUA_REGISTRYINDEX, &kModuleKey);
     lua_remove(L, box);
+}
+
+const Entry* find_entry(lua_State* L, int index) {
+    if (lua_tocfunction(L, index) != dispatch || !lua_getupvalue(L, index, 1)) return nullptr;
+    const auto* entry = static_cast<const Entry*>(lua_touserdata(L, -1));
+    lua_pop(L, 1);
+    return entry;
+}
+
+const Type* find_type(lua_State* L, int index) {
+    const State* state = find_state(L);
+    if (!state || lua_type(L, index) != LUA_TUSERDATA) return nullptr;
+    for (const auto& library : state->registry->libraries()) {
+        for (const Type& type : library->types) {
+            if (luaL_testudata(L, index, type.name.c_str())) return &type;
+        }
+    }
+    return nullptr;
 }
 
 State* find_state(lua_State* L) {

@@ -5,8 +5,8 @@
 
 #include "bindings/lua/core/call.h"
 #include "bindings/lua/core/library.h"
-#include "bindings/lua/core/nearest.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "kernel/core/nearest.h"
 
 namespace lissom::lua {
 namespace {

@@ -7,7 +7,8 @@
 #include <limits>
 #include <variant>
 
-#include "bindings/lua/core/nearest.h"
+#include "bindings/lua/reference/reference.h"
+#include "kernel/core/nearest.h"
 
 namespace lissom::lua {
 namespace {
@@ -173,7 +174,16 @@ void Parser::check_self() {
     const char* name = entry_.type->name.c_str();
     const void* holder = luaL_testudata(L_, 1, name);
     if (holder && static_cast<const Holder*>(holder)->object) return;
-    refuse({1, "", 0}, name, push_description(L_, 1, name));
+    const char* got = push_description(L_, 1, name);
+    const int type = lua_type(L_, 1);
+    if (type == LUA_TUSERDATA || type == LUA_TNIL) refuse({1, "", 0}, name, got);
+    char hinted[kTextSize];
+    compose_text(hinted, [&] {
+        const std::string object = variable_name(*entry_.type);
+        return std::string(got) + "; write " + object + ":" + call_.name_ + ", not " + object +
+               "." + call_.name_;
+    });
+    refuse({1, "", 0}, name, hinted);
 }
 
 // Returns the index of the argument after this one.

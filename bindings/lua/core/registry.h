@@ -1,5 +1,5 @@
 /// The registration table: one description of everything that scripts can call. The binding, its
-/// argument checks, the editor annotations (meta/lissom.lua), the reference page (reference.md) and
+/// argument checks, the editor annotations (meta/lissom.lua), the reference (docs/lua) and
 /// the tests of all examples are made from it.
 ///
 /// A library describes what it exposes as one `Library` and is added to the `Registry` of a state:

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <tuple>
 
-#include "bindings/lua/core/nearest.h"
 #include "bindings/lua/core/parser.h"
+#include "kernel/core/nearest.h"
 
 namespace lissom::lua {
 namespace {

@@ -462,12 +462,12 @@ int taper_strands(Call& call) {
 }
 
 int trim_strands(Call& call) {
-    TrimOptions options;
+    StrandTrimOptions options;
     if (call.has("length")) options.length = call.number("length");
     options.factor = call.number("factor");
     options.variation = call.number("variation");
     if (call.has("plane")) {
-        options.plane = TrimPlane{call.vector("plane.point"), call.vector("plane.normal")};
+        options.plane = StrandTrimPlane{call.vector("plane.point"), call.vector("plane.normal")};
     }
     options.jitter = call.number("jitter");
     options.least = call.number("least");
@@ -753,7 +753,7 @@ Function noise_method() {
 }
 
 Function trim_method() {
-    const TrimOptions d;
+    const StrandTrimOptions d;
     return {
         .name = "trim",
         .body = trim_strands,

@@ -7,8 +7,10 @@
 #include <random>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/core/nearest.h"
 
 #ifdef _WIN32
 #include <io.h>
@@ -154,7 +156,41 @@ void require_replaceable(const fs::path& path, const fs::file_status& status) {
     }
 }
 
+// Of files, or of folders only; at most the first of a very large folder.
+std::vector<std::string> names_in(const fs::path& folder, bool folders) {
+    constexpr std::size_t kMostNames = 20000;
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+        std::error_code unknown;
+        if (at->is_directory(unknown) != folders) continue;
+        names.push_back(display_name(at->path().filename()));
+        if (names.size() == kMostNames) break;
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string nearest_in(const fs::path& path, bool folders) {
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const std::vector<std::string> names = names_in(folder, folders);
+    const std::string_view nearest = nearest_name(
+        display_name(path.filename()), std::vector<std::string_view>(names.begin(), names.end()));
+    if (nearest.empty()) return "";
+    return ", did you mean '" +
+           display_name(path.parent_path() / std::u8string(nearest.begin(), nearest.end())) + "'?";
+}
+
 }  // namespace
+
+std::string missing_file_text(const fs::path& path) {
+    std::error_code error;
+    const fs::path folder = path.parent_path();
+    if (folder.empty() || fs::exists(folder, error)) {
+        return "there is no such file" + nearest_in(path, false);
+    }
+    return "there is no folder '" + display_name(folder) + "'" + nearest_in(folder, true);
+}
 
 std::string display_name(const fs::path& path) {
     const auto utf8 = path.u8string();
@@ -165,7 +201,7 @@ void require_file(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) {
-        refuse(ErrorCode::file_not_found, path, "there is no such file");
+        refuse(ErrorCode::file_not_found, path, missing_file_text(path));
     }
     if (fs::is_directory(status)) {
         refuse(ErrorCode::file_is_directory, path, "is a folder; add the file's name");

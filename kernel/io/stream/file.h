@@ -18,6 +18,10 @@ struct FileContent {
 /// The path as it appears in messages, in UTF-8.
 std::string display_name(const std::filesystem::path& path);
 
+/// "there is no such file, did you mean 'scan.obj'?": what a message says of a path that does not
+/// exist, with the nearest name in its folder, or of a folder that does not exist.
+std::string missing_file_text(const std::filesystem::path& path);
+
 /// Throws where `path` is not a regular file with content.
 /// Errors: file_not_found, file_is_directory, file_empty, file_unreadable.
 void require_file(const std::filesystem::path& path);

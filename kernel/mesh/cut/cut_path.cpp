@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/cut/cut_parts.h"
 #include "kernel/mesh/cut/surface_curve.h"
@@ -192,7 +193,8 @@ void require_apart(const std::vector<ContourLine>& lines) {
 
 }  // namespace
 
-Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options, const Context& context) {
+Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options,
+        const Context& context) try {
     require_cuttable(mesh, options);
     require_smoothing(path.smoothing);
     Progress progress(context, "cut");
@@ -214,10 +216,12 @@ Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options, const 
     progress.step(0.4);
     return cut_along(mesh, std::move(lines), std::move(side), kept, options, std::move(report),
                      context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options,
-        const Context& context) {
+        const Context& context) try {
     require_cuttable(mesh, options);
     require_smoothing(region.smoothing);
     require_same_topology(mesh, region.region.topology(), "the region");
@@ -241,6 +245,8 @@ Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options,
     progress.step(0.4);
     return cut_along(mesh, std::move(lines), std::move(side), 1, options, std::move(report),
                      context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 }  // namespace lissom

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/cut/cut_parts.h"
 
@@ -73,7 +74,7 @@ void keep_nearest(const Mesh& mesh, const Vec3& picked, std::vector<ContourLine>
 }  // namespace
 
 Cut cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options,
-        const Context& context) {
+        const Context& context) try {
     require_cuttable(mesh, options);
     require_plane(plane);
     Progress progress(context, "cut");
@@ -99,6 +100,8 @@ Cut cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options,
     progress.step(0.6);
     return cut_along(mesh, std::move(lines), std::move(side), kept, options, std::move(report),
                      context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 }  // namespace lissom

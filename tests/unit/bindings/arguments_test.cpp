@@ -91,6 +91,18 @@ std::string option_text(const Entry::Slot& slot, const std::string& value) {
            " } }";
 }
 
+TEST_CASE("a method called with a dot is told of the colon") {
+    test::LuaState lua;
+    const std::string message = lua.run("local m = lissom.shapes.box() m.smooth{ iterations = 1 }");
+    CHECK(
+        message ==
+        "test:1: bad argument #1 to 'smooth' (lissom.Mesh expected, got table; write mesh:smooth, "
+        "not mesh.smooth)");
+    CHECK(lua.run("lissom.shapes.box().area()")
+              .find("got no value; write mesh:area, not mesh.area") != std::string::npos);
+    CHECK(lua.run("lissom.shapes.box().area(nil)").find("write") == std::string::npos);
+}
+
 TEST_CASE("no function crashes on arguments of any type") {
     const Registry registry = kernel_registry();
     for (const auto& entry : registry.entries()) {

@@ -120,6 +120,55 @@ TEST_CASE("scripts end with a status and the place of their error") {
     CHECK(ends("local t\nprint(t.x)").err.find("may come from") == std::string::npos);
 }
 
+TEST_CASE("a failure that nobody looked at is told with file and line, and the status is 1") {
+    const Folder folder;
+    const std::string script = folder.write(
+        "s.lua",
+        "local lissom = require 'lissom'\nlocal box = lissom.shapes.box()\n"
+        "box:save('no/folder.obj')\nprint('goes on')\n"
+        "local _ = box:save('no/folder.obj')\nif box:save('no/folder.obj') then return end\n");
+    const Ended ended = run({"run", script});
+    CHECK(ended.status == kFailure);
+    CHECK(ended.err.find("warning: " + script + ":3: no/folder.obj: ") == 0);
+    CHECK(ended.err.find("[file_write_failed]; nobody looked at this failure") !=
+          std::string::npos);
+    CHECK(ended.err.find("\n" + script + ":3: a failure that nobody looked at") !=
+          std::string::npos);
+    CHECK(std::count(ended.err.begin(), ended.err.end(), '\n') == 2);
+    const Ended json = run({"run", "--json", script});
+    const Json error = Json::parse(json.err.substr(json.err.rfind("{\"error\"")))["error"];
+    CHECK(error["code"] == "file_write_failed");
+    CHECK(error["file"] == script);
+    CHECK(error["line"] == 3);
+    const std::string last = folder.write("t.lua", "return require 'lissom'.load('none.obj')");
+    const Ended returned = run({"run", last});
+    CHECK(returned.status == kFailure);
+    CHECK(returned.err.find(last + ":1: none.obj: there is no such file [file_not_found]") == 0);
+    const std::string good = folder.write("u.lua", "return require 'lissom'.shapes.box()");
+    CHECK(run({"run", good}).status == kSuccess);
+}
+
+TEST_CASE("a missing file gets the nearest name") {
+    const Folder folder;
+    const std::string mesh = folder.write("models/armadillo.obj", kTriangle);
+    folder.write("first.lua", "local x = 1");
+    const auto said = [&](const std::vector<std::string>& words) {
+        const Ended ended = run(words);
+        CHECK(ended.status == kFailure);
+        return ended.err;
+    };
+    CHECK(
+        said({"run", folder.path("frist.lua")}).find("did you mean '" + folder.path("first.lua")) !=
+        std::string::npos);
+    CHECK(said({"inspect", folder.path("models/armadilo.obj")})
+              .find("did you mean '" + mesh + "'?") != std::string::npos);
+    CHECK(said({"inspect", folder.path("models/armadillo")}).find("did you mean '" + mesh + "'?") !=
+          std::string::npos);
+    CHECK(said({"inspect", folder.path("model/armadillo.obj")})
+              .find("there is no folder '" + folder.path("model") + "', did you mean '" +
+                    folder.path("models") + "'?") != std::string::npos);
+}
+
 TEST_CASE("errors of scripts as JSON") {
     const Folder folder;
     const std::string script =

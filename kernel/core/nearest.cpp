@@ -1,9 +1,9 @@
-#include "bindings/lua/core/nearest.h"
+#include "kernel/core/nearest.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace lissom::lua {
+namespace lissom {
 namespace {
 
 // Optimal string alignment distance.
@@ -54,4 +54,4 @@ std::string name_hint(std::string_view name, const std::vector<std::string_view>
     return text;
 }
 
-}  // namespace lissom::lua
+}  // namespace lissom

@@ -1,8 +1,8 @@
-#include "bindings/lua/core/nearest.h"
+#include "kernel/core/nearest.h"
 
 #include <doctest/doctest.h>
 
-namespace lissom::lua {
+namespace lissom {
 namespace {
 
 const std::vector<std::string_view> kNames{"smooth", "size", "subdivide", "set_region"};
@@ -27,4 +27,4 @@ TEST_CASE("what is far from all names gives no hint") {
 }
 
 }  // namespace
-}  // namespace lissom::lua
+}  // namespace lissom

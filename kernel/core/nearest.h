@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lissom::lua {
+namespace lissom {
 
 /// The candidate with the fewest edits (letters changed, added, left out or swapped with their
 /// neighbour) from `name`, the first of equals; at most a third of the letters, and one in short
@@ -16,4 +16,4 @@ std::string_view nearest_name(std::string_view name,
 /// ", did you mean 'smooth'?" where a candidate is near, else "; there is: a, b, c".
 std::string name_hint(std::string_view name, const std::vector<std::string_view>& candidates);
 
-}  // namespace lissom::lua
+}  // namespace lissom
