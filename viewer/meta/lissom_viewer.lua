@@ -1,4 +1,4 @@
----@meta lissom
+---@meta _
 -- Made from the registration table; do not edit.
 
 ---How a world is seen in a picture. It does not change. Pixels count from the top left corner of the picture.

@@ -128,6 +128,12 @@
 ---@field weights lissom.Buffer[] For each handle four numbers a vertex.
 ---@field fixed lissom.Buffer What no handle moves: three numbers a vertex.
 
+---A failure that nobody looked at.
+---@class lissom.DroppedFailure
+---@field place string File and line of the call, as in messages: "file:3: ".
+---@field message string What went wrong.
+---@field code string Its code.
+
 ---The declaration of a parameter.
 ---@class lissom.ParamSchema
 ---@field name string Its name.
@@ -438,6 +444,7 @@ function Mesh:copy() end
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
+---@overload fun(self: lissom.Mesh, options: lissom.Mesh.SubdivideOptions): lissom.Mesh
 function Mesh:subdivide(levels, options) end
 
 ---The faces of a region with their vertices as a mesh of their own.
@@ -468,7 +475,7 @@ function Mesh:nearest(point) end
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
----@overload fun(self: lissom.Mesh, x: number, y: number, z: number, x: number, y: number, z: number): lissom.SurfacePoint?
+---@overload fun(self: lissom.Mesh, origin_x: number, origin_y: number, origin_z: number, direction_x: number, direction_y: number, direction_z: number): lissom.SurfacePoint?
 function Mesh:pick(origin, direction) end
 
 ---@class lissom.Mesh.DistancesOptions
@@ -568,6 +575,7 @@ function Mesh:remove_attribute(name) end
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
+---@overload fun(self: lissom.Mesh, options: lissom.Mesh.RegionOptions): lissom.Region
 function Mesh:region(name, options) end
 
 ---Keeps a region under a name, in place of one before, and returns the mesh. Named regions are saved where the format can.
@@ -1293,8 +1301,8 @@ function Hairstyle:forget_scalp() end
 ---@field length? number Of a strand. In metres. Default: 0.25.
 ---@field variation? number Share by which strands are longer or shorter at most. Default: 0.1.
 ---@field roots? "poisson"|"angles" Evenly spread, or on the thesis's grid of polar angles. Default: "poisson".
----@field density? number[]|string|fun(vertex: integer, x: number, y: number, z: number): number Relative density of hair. Default: 1 everywhere.
----@field lengths? number[]|string|fun(vertex: integer, x: number, y: number, z: number): number Factors of the length. Default: 1 everywhere.
+---@field density? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Relative density of hair. Default: 1 everywhere.
+---@field lengths? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Factors of the length. Default: 1 everywhere.
 ---@field cut? lissom.Hairstyle.GrowOptions.Cut Cuts hair off along a plane, but for tails.
 ---@field avoid? boolean Keeps strands outside the head while they grow. Default: true.
 ---@field clearance? number The lowest strands lie this high. In metres. Default: 0.002.
@@ -1973,5 +1981,9 @@ function lissom.params(declarations) end
 ---Sets the functions that hear of long operations, in place of those before. They cannot call lissom themselves.
 ---@param options? lissom.ListenOptions
 function lissom.listen(options) end
+
+---The failures that nobody can have looked at: a function was called as a statement, and what it returned was nil, message, code. Each was told when it came: `lissom run` writes it and ends with status 1; elsewhere it is a warning for the log function of lissom.listen, or without one for Lua 5.4's own warnings (lua -W).
+---@return lissom.DroppedFailure[] failures # The first hundred, in order.
+function lissom.failures() end
 
 return lissom
