@@ -71,6 +71,7 @@ class Lookup {
 
     // Pushes what the path "a.b.c" at the end of `text` holds; false where it holds nothing.
     bool push_path(std::string_view text) {
+        text = trimmed(text);
         const std::size_t begin = word_begin(text);
         const std::string name(text.substr(begin));
         if (name.empty()) return false;

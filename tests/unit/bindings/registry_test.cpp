@@ -53,9 +53,9 @@ TEST_CASE("lua-language-server understands the annotations") {
     for (const std::string& mistake : mistakes) CHECK_MESSAGE(false, mistake);
     CHECK(mistakes.empty());
     const std::string wrong =
-        "---@field a? strin\n---@field b fun(x: integer): number|string\n---@param c number\n"
+        "---@field a? strin\n---@field b (fun(x: integer): number)|string\n---@param c number\n"
         "function f(d) end\n---@return lissom.Nothing\n---@overload number\n";
-    CHECK(test::annotation_mistakes(wrong, {}).size() == 5);
+    CHECK(test::annotation_mistakes(wrong, {}).size() == 4);
 }
 
 TEST_CASE("help says how a function is called, under all its names") {

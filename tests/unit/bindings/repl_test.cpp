@@ -31,7 +31,9 @@ class Terminal {
         setenv("TERM", "dumb", 1);
         std::string name = "lissom", verb = "repl";
         char* argv[] = {name.data(), verb.data(), nullptr};
-        _exit(run_program(2, argv, kernel_parts()));
+        const int status = run_program(2, argv, kernel_parts());
+        std::cout << std::flush;
+        _exit(status);
     }
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
