@@ -20,10 +20,7 @@ install(TARGETS ${LISSOM_KERNEL_TARGETS} EXPORT lissom-targets
 install(EXPORT lissom-targets NAMESPACE lissom:: DESTINATION ${LISSOM_PACKAGE_DIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernel DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom
         FILES_MATCHING PATTERN "*.h"
-        # These show libraries that users of the package need not have.
-        PATTERN "gltf" EXCLUDE
-        PATTERN "growth_lanes.h" EXCLUDE
-        PATTERN "lane_grower.h" EXCLUDE)
+        REGEX "${LISSOM_PRIVATE_HEADERS}" EXCLUDE)
 
 # The evaluator of saved bases needs nothing else of the package.
 install(FILES ${PROJECT_SOURCE_DIR}/bindings/engine/lissom_basis.h
@@ -40,15 +37,30 @@ install(FILES ${PROJECT_BINARY_DIR}/lissom-config.cmake
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+# Where lua5.4 and luajit look below the prefix: LuaJIT keeps the version of the language it speaks.
 if(TARGET lissom_lua54_module)
     install(TARGETS lissom_lua54_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lua/5.4)
 endif()
+if(TARGET lissom_luajit_module)
+    install(TARGETS lissom_luajit_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lua/5.1)
+endif()
 if(TARGET lissom)
     install(TARGETS lissom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    # The Lua library, which the program finds beside itself.
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
+            FILES_MATCHING PATTERN "*.lua")
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples
             DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
             FILES_MATCHING PATTERN "*.lua" PATTERN "engine/*.c" PATTERN "engine/*.vert")
-    # Annotations of the Lua functions for editors.
+    # Annotations of the Lua functions for editors, a setting that finds them, and the reference.
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/lua/meta ${PROJECT_SOURCE_DIR}/viewer/meta
             DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom)
+    install(CODE "
+        set(annotations \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/lissom/meta\")
+        configure_file(\"${PROJECT_SOURCE_DIR}/cmake/luarc.json.in\"
+                       \"${PROJECT_BINARY_DIR}/luarc.json\" @ONLY)")
+    install(FILES ${PROJECT_BINARY_DIR}/luarc.json DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
+            RENAME .luarc.json)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/lua DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endif()

@@ -1,6 +1,9 @@
 # Functions that declare this project's libraries and tests, so that every target gets the same
 # language level, include root and warnings.
 
+# Headers that show libraries or processors which users of the package need not have: not installed.
+set(LISSOM_PRIVATE_HEADERS "/io/gltf|/growth_lanes\\.h$|/lane_grower\\.h$")
+
 # lissom_target_defaults(TARGET): what every target of this project is compiled with.
 function(lissom_target_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_20)

@@ -6,17 +6,20 @@ local hairdo = {}
 -- With two arguments in every Lua.
 local atan2 = rawget(math, "atan2") or math.atan
 
--- Parameters of a hairstyle; `more` are those of its own.
+-- Parameters of a hairstyle: the `name` of its files, the `count` of its strands, `more` of its own.
 function hairdo.params(options)
     local list = {
         head = { type = "file", default = "", help = "a bald head, instead of the generated one" },
-        count = { type = "integer", default = 100000, min = 0, max = 2000000, help = "strands" },
+        vertices = { type = "integer", default = 40000, min = 3000, max = 500000,
+            help = "of the generated head" },
+        count = { type = "integer", default = options.count or 100000, min = 0, max = 2000000,
+            help = "strands" },
         resolution = { type = "integer", default = 50000, min = 1000, max = 2000000, help = "grid points" },
         detail = { type = "boolean", default = true, help = "clumps, noise and tapered tips" },
         pictures = { type = "boolean", default = true, help = "writes pictures" },
         size = { type = "integer", default = 800, min = 64, max = 4096, unit = "pixels",
             help = "width and height of each picture" },
-        out = { type = "string", default = "out", help = "folder that the files go to" },
+        out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
         name = { type = "string", default = options.name, help = "name of the files" },
     }
     for key, value in pairs(options.more or {}) do list[key] = value end
@@ -24,7 +27,7 @@ function hairdo.params(options)
 end
 
 function hairdo.head(params)
-    if params.head == "" then return lissom.shapes.head{} end
+    if params.head == "" then return lissom.shapes.head{ vertices = params.vertices } end
     return assert(lissom.load(params.head))
 end
 
@@ -33,23 +36,23 @@ function hairdo.style(head, params, volume)
     return assert(lissom.hairstyle(head, { resolution = params.resolution, volume = volume }))
 end
 
--- The volume of a style, {min=, max=} in metres, that holds the scalp and lists of points, with room around
--- them. The smaller the volume is, the finer is the grid of the field.
-function hairdo.volume(scalp, ...)
+-- The volume of a style, {min=, max=} in metres, that holds the scalp and the spines of tails, with so much
+-- `room` around those. The smaller the volume is, the finer is the grid of the field.
+function hairdo.volume(scalp, room, ...)
     local positions = scalp:head():positions()
     local low, high = { 1e9, 1e9, 1e9 }, { -1e9, -1e9, -1e9 }
-    local function extend(point, room)
+    local function extend(point, around)
         local p = scalp:to_metres(point)
         for k = 1, 3 do
-            low[k] = math.min(low[k], p[k] - room)
-            high[k] = math.max(high[k], p[k] + room)
+            low[k] = math.min(low[k], p[k] - around)
+            high[k] = math.max(high[k], p[k] + around)
         end
     end
     for _, v in ipairs(scalp:region():vertices()) do
         extend({ positions[3 * v - 2], positions[3 * v - 1], positions[3 * v] }, 0.03)
     end
     for _, points in ipairs{ ... } do
-        for _, point in ipairs(points) do extend(point, 0.04) end
+        for _, point in ipairs(points) do extend(point, room) end
     end
     return { min = low, max = high }
 end
@@ -87,42 +90,98 @@ function hairdo.tail_spine(scalp, tail)
     return points
 end
 
+-- A unit vector in metres of a scalp's frame, and back.
+local function direction_of(azimuth, elevation)
+    local a, e = math.rad(azimuth), math.rad(elevation)
+    return { math.cos(e) * math.sin(a), math.sin(e), math.cos(e) * math.cos(a) }
+end
+
+local function angles_of(d)
+    return math.deg(atan2(d[1], d[3])), math.deg(math.asin(math.max(-1, math.min(1, d[2]))))
+end
+
+local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
+
+-- Where a tie is: its center in metres, the direction to it, and its distance from the center of the head.
+local function tie_of(scalp, tail)
+    local center = scalp:to_metres((scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation,
+        lift = tail.lift }))
+    return { center = center, out = direction_of(tail.azimuth, tail.elevation),
+        radius = math.sqrt(dot(center, center)) }
+end
+
+-- A stream through directions over the head, {azimuth, elevation, lift}, and on into the rim of a tie, where
+-- it comes from.
+local function lead_into(style, tail, tie, places, name)
+    local scalp, points = style:scalp(), {}
+    for i, place in ipairs(places) do
+        points[i] = style:at{ azimuth = place[1], elevation = place[2], lift = place[3] }
+    end
+    local last, inward = scalp:to_metres(points[#points]), {}
+    local along = 0
+    for k = 1, 3 do along = along + (last[k] - tie.center[k]) * tie.out[k] end
+    for k = 1, 3 do inward[k] = last[k] - tie.center[k] - along * tie.out[k] end
+    local length = math.sqrt(dot(inward, inward))
+    for k = 1, 3 do inward[k] = tie.center[k] + 0.5 * tail.radius * inward[k] / length end
+    points[#points + 1] = scalp:from_metres(inward)
+    style:stream{ points = points, stop = false, name = name }
+end
+
 -- Streams from all around a tie into it, close over the head: `count` of them. `low` is their height over the
 -- head, `reach` how far from the tie they begin; in metres. A function `skip(azimuth, elevation)` leaves out
 -- those that begin where it is true.
 function hairdo.gather(style, tail, options)
-    local scalp, a, e = style:scalp(), math.rad(tail.azimuth), math.rad(tail.elevation)
-    local out = { math.cos(e) * math.sin(a), math.sin(e), math.cos(e) * math.cos(a) }
-    local side = { math.cos(a), 0, -math.sin(a) }
+    local tie, a = tie_of(style:scalp(), tail), math.rad(tail.azimuth)
+    local out, side = tie.out, { math.cos(a), 0, -math.sin(a) }
     local up = { out[2] * side[3] - out[3] * side[2], out[3] * side[1] - out[1] * side[3],
         out[1] * side[2] - out[2] * side[1] }
-    local tie = scalp:to_metres((scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation,
-        lift = tail.lift }))
-    local radius = math.sqrt(tie[1] ^ 2 + tie[2] ^ 2 + tie[3] ^ 2)
     for i = 1, options.count do
-        local turn, points = 2 * math.pi * (i - 1) / options.count, {}
-        local skipped = false
+        local turn, places = 2 * math.pi * (i - 1) / options.count, {}
         for _, f in ipairs{ 1, 0.75, 0.5, 0.3 } do
-            local angle = f * options.reach / radius
+            local angle = f * options.reach / tie.radius
             local d = {}
             for k = 1, 3 do
                 d[k] = math.cos(angle) * out[k]
                     + math.sin(angle) * (math.cos(turn) * side[k] + math.sin(turn) * up[k])
             end
-            local azimuth, elevation = math.deg(atan2(d[1], d[3])), math.deg(math.asin(d[2]))
-            skipped = skipped or f == 1 and options.skip and options.skip(azimuth, elevation)
-            points[#points + 1] = style:at{ azimuth = azimuth, elevation = elevation,
-                lift = options.low + (1 - f) ^ 2 * tail.lift * 0.8 }
+            local azimuth, elevation = angles_of(d)
+            places[#places + 1] = { azimuth, elevation, options.low + (1 - f) ^ 2 * tail.lift * 0.8 }
         end
-        -- Into the rim of the tie, where the stream comes from.
-        local last, inward = scalp:to_metres(points[#points]), {}
-        local along = 0
-        for k = 1, 3 do along = along + (last[k] - tie[k]) * out[k] end
-        for k = 1, 3 do inward[k] = last[k] - tie[k] - along * out[k] end
-        local length = math.sqrt(inward[1] ^ 2 + inward[2] ^ 2 + inward[3] ^ 2)
-        for k = 1, 3 do inward[k] = tie[k] + 0.5 * tail.radius * inward[k] / length end
-        points[#points + 1] = scalp:from_metres(inward)
-        if not skipped then style:stream{ points = points, stop = false, name = "gather " .. i } end
+        if not (options.skip and options.skip(places[1][1], places[1][2])) then
+            lead_into(style, tail, tie, places, "gather " .. i)
+        end
+    end
+end
+
+-- Streams into a tie from farther away: each of `routes` is a list of directions over the head, {azimuth,
+-- elevation}, from which hair goes on to the tie on the shortest way. `low` as in hairdo.gather.
+function hairdo.lead(style, tail, options)
+    local tie = tie_of(style:scalp(), tail)
+    local near = math.rad(12)
+    for i, route in ipairs(options.routes) do
+        local places = {}
+        local function add(d)
+            local angle = math.acos(math.max(-1, math.min(1, dot(d, tie.out))))
+            local azimuth, elevation = angles_of(d)
+            local rise = math.max(0, 1 - angle * tie.radius / 0.08) ^ 2 * tail.lift * 0.8
+            if angle > near then places[#places + 1] = { azimuth, elevation, options.low + rise } end
+            return angle
+        end
+        local d, angle
+        for _, place in ipairs(route) do
+            d = direction_of(place[1], place[2])
+            angle = add(d)
+        end
+        local steps = math.floor(angle / math.rad(20))
+        for k = 1, steps do
+            local f, on = k / (steps + 1), {}
+            for j = 1, 3 do
+                on[j] = math.sin((1 - f) * angle) * d[j] + math.sin(f * angle) * tie.out[j]
+                on[j] = on[j] / math.sin(angle)
+            end
+            add(on)
+        end
+        if #places > 1 then lead_into(style, tail, tie, places, "lead " .. i) end
     end
 end
 

@@ -24,11 +24,13 @@ function merge_pictures.print(name, mesh, report, parts)
     print(string.format("  seam: greatest angle between faces %.1f degrees (%.1f before smoothing), "
         .. "rms %.1f, smallest angles %.1f", after.greatest_dihedral, before.greatest_dihedral,
         after.rms_dihedral, after.low_angle))
+    print("  " .. report.verdict)
     for _, warning in ipairs(parts and parts.warnings or {}) do print("  " .. warning) end
     for _, warning in ipairs(report.warnings) do print("  " .. warning) end
 end
 
-local blue, sand = { 0.42, 0.58, 0.80, 1 }, { 0.86, 0.70, 0.46, 1 }
+--- Colours, as of the attribute "color", of what comes from targets and from sources.
+merge_pictures.blue, merge_pictures.sand = { 0.42, 0.58, 0.80, 1 }, { 0.86, 0.70, 0.46, 1 }
 
 --- A copy of a merged mesh in two colours: blue what comes from the targets, sand what comes from the source.
 function merge_pictures.colored(mesh, report)
@@ -36,7 +38,7 @@ function merge_pictures.colored(mesh, report)
     for _, name in ipairs{ "color", "normal" } do copy:remove_attribute(name) end
     local colors = copy:add_attribute{ name = "color", domain = "vertex", width = 4 }
     for v = 1, #mesh do
-        local color = report.target:contains(v) and blue or sand
+        local color = report.target:contains(v) and merge_pictures.blue or merge_pictures.sand
         for k = 1, 4 do colors[4 * v - 4 + k] = color[k] end
     end
     return copy

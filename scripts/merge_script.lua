@@ -18,10 +18,12 @@ local script_schema = {
     levels = { type = "integer", default = 0, min = 0, max = 3, help = "Loop subdivisions of models first" },
     seam = { type = "choice", default = "conform", choices = { "conform", "fair", "band" },
         help = "how the seam is sewn" },
+    fade = { type = "boolean", default = false,
+        help = "a transition region of widths that suit the seam, in place of the two below" },
     fade_source = { type = "number", default = 0, min = 0,
         help = "width of the transition region on the source" },
     fade_target = { type = "number", default = 0, min = 0, help = "and on the target" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
     size = { type = "integer", default = 640, min = 64, max = 4096, unit = "pixels", help = "of a picture" },
 }
 
@@ -37,7 +39,9 @@ end
 -- Options of lissom.merge that come from the parameters of a script.
 local function script_options(params)
     local options = { seam = params.seam }
-    if params.fade_source > 0 or params.fade_target > 0 then
+    if params.fade then
+        options.transition = true
+    elseif params.fade_source > 0 or params.fade_target > 0 then
         options.transition = { source = params.fade_source, target = params.fade_target }
     end
     return options

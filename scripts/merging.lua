@@ -12,9 +12,16 @@
 -- lies on the normal's side, or holds the seed, is kept. Without a cut the longest open boundary is taken.
 -- A key is a pair of directions: the vertex of the source's boundary that is farthest along the first meets
 -- the vertex of the target's that is farthest along the second. A direction is {x, y, z}, "x", "-z" or "0,
--- 1, -0.5".
+-- 1, -0.5". On a boundary that is tilted towards a direction, so that this comes near to the boundary's axis,
+-- the farthest vertex is where the tilt puts it and not where the direction points: a warning says so, and a
+-- direction in the boundary's plane, a vertex in `joins` of lissom.merge, or source_front and target_front
+-- (whose part in that plane counts) are surer.
 local lissom = require "lissom"
 local vectors = require "vectors"
+
+-- A direction whose part in the plane of a boundary is less than this is ambiguous as a key: it comes within
+-- 30 degrees of the boundary's axis.
+local least_part = 0.5
 
 local cross, dot, length, plus, unit = vectors.cross, vectors.dot, vectors.length, vectors.plus, vectors.unit
 
@@ -106,18 +113,6 @@ function merging.extreme(boundary, direction)
     return boundary:vertices()[best]
 end
 
---- Key vertices of two boundaries: for each pair of directions the vertices that are farthest along them.
-function merging.keys(source, target, directions)
-    local keys = {}
-    for i, pair in ipairs(directions) do
-        if type(pair) ~= "table" or #pair ~= 2 then
-            error("key " .. i .. " is no pair of directions, the source's and the target's", 2)
-        end
-        keys[i] = { merging.extreme(source, pair[1]), merging.extreme(target, pair[2]) }
-    end
-    return keys
-end
-
 --- The mean point of a boundary's vertices.
 function merging.center(boundary)
     local sum, points = { 0, 0, 0 }, boundary:points()
@@ -143,6 +138,37 @@ function merging.axis(boundary)
         axis = plus(axis, cross(plus(p, center, -1), plus(points[i % #points + 1], center, -1)), -1)
     end
     return unit(axis)
+end
+
+--- The angle in degrees between a direction and the plane of a boundary: 0 where the farthest vertex along it
+-- is certain, towards 90 where the boundary's tilt decides.
+function merging.tilt(boundary, direction)
+    local d = unit(merging.direction(direction))
+    return math.deg(math.asin(math.min(1, math.abs(dot(d, merging.axis(boundary))))))
+end
+
+-- What to say of a key whose direction is ambiguous on a boundary.
+local function tilt_warning(number, side, boundary, direction)
+    local tilt = merging.tilt(boundary, direction)
+    if math.cos(math.rad(tilt)) >= least_part then return nil end
+    return string.format("key %d: the %s's boundary is tilted, its axis %.0f degrees from the direction: the "
+        .. "farthest vertex may not be the one you mean; give a direction in the boundary's plane",
+        number, side, 90 - tilt)
+end
+
+--- Key vertices of two boundaries: for each pair of directions the vertices that are farthest along them;
+-- and a list of warnings about directions that are ambiguous because a boundary is tilted.
+function merging.keys(source, target, directions)
+    local keys, warnings = {}, {}
+    for i, pair in ipairs(directions) do
+        if type(pair) ~= "table" or #pair ~= 2 then
+            error("key " .. i .. " is no pair of directions, the source's and the target's", 2)
+        end
+        keys[i] = { merging.extreme(source, pair[1]), merging.extreme(target, pair[2]) }
+        table.insert(warnings, tilt_warning(i, "source", source, pair[1]))
+        table.insert(warnings, tilt_warning(i, "target", target, pair[2]))
+    end
+    return keys, warnings
 end
 
 --- The open boundary of a mesh that comes nearest to a point, or nil.
@@ -174,8 +200,10 @@ end
 
 -- ---- Joining
 
-local merge_options = { "configuration", "fixed", "reach", "frames", "seam", "smooth", "transition", "trim",
-    "refine", "fidelity" }
+local direction_options = { "source_up", "source_front", "target_up", "target_front" }
+local merge_options = { "configuration", "fixed", "reach", "frames", "seam", "smooth", "collar", "transition",
+    "trim", "greatest_turn", "refine", "intersections", "fidelity", "source_up", "source_front", "target_up",
+    "target_front" }
 
 --- The values of a recipe's parameters (`schema` as of lissom.params), those given or else the defaults,
 -- and a table of the given options that are lissom.merge's own. Any other name is an error at the caller of
@@ -211,14 +239,27 @@ function merging.merge(joins, options, warnings)
     local all = { joins = joins }
     for key, value in pairs(options or {}) do all[key] = value end
     if type(all.fixed) == "function" then all.fixed = all.fixed(source) end
+    for _, name in ipairs(direction_options) do
+        if all[name] ~= nil then all[name] = merging.direction(all[name]) end
+    end
     local mesh, report, code = lissom.merge(all)
     if not mesh then return nil, report, code end
     return mesh, report, { source = source, targets = targets, joins = joins, warnings = warnings or {} }
 end
 
--- Adds what a cut found to a list, with the side it was found on.
-local function note(list, side, warnings)
-    for _, warning in ipairs(warnings) do table.insert(list, side .. ": " .. warning.message) end
+--- Adds what a cut found (a list of warnings) to a list of texts, with the name of what was cut.
+function merging.note(list, name, warnings)
+    for _, warning in ipairs(warnings) do table.insert(list, name .. ": " .. warning.message) end
+    return list
+end
+
+--- A join of two boundaries with keys by pairs of directions, or without keys where these are nil. What is to
+-- be said of the keys is added to a list of warnings.
+function merging.joined(source, target, directions, warnings)
+    if not directions then return { source = source, target = target } end
+    local keys, of_keys = merging.keys(source, target, directions)
+    table.move(of_keys, 1, #of_keys, #warnings + 1, warnings)
+    return { source = source, target = target, keys = keys }
 end
 
 --- Parameters of merging.join, as lissom.params takes them.
@@ -240,11 +281,10 @@ function merging.join(source, target, options)
     if not a then return nil, "source: " .. from, of_source end
     local b, to, of_target = merging.part(target, merging.read_cut(values.target_cut))
     if not b then return nil, "target: " .. to, of_target end
-    local warnings, directions = {}, merging.read_keys(values.keys)
-    note(warnings, "source", of_source)
-    note(warnings, "target", of_target)
-    return merging.merge({ { source = from, target = to,
-        keys = directions and merging.keys(from, to, directions) } }, own, warnings)
+    local warnings = merging.note({}, "source", of_source)
+    merging.note(warnings, "target", of_target)
+    local join = merging.joined(from, to, merging.read_keys(values.keys), warnings)
+    return merging.merge({ join }, own, warnings)
 end
 
 -- The columns of a frame: the way out of an opening (`sign` 1) or into it, the part of a direction that is

@@ -42,15 +42,6 @@ class LogFilter {
     Program& program_;
 };
 
-void create_folder_of(const fs::path& file) {
-    std::error_code error;
-    if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
-    if (!error) return;
-    throw Error(ErrorCode::file_write_failed, display_name(file.parent_path()) +
-                                                  ": the folder cannot be created (" +
-                                                  error.message() + ")");
-}
-
 // The message without the path of the input, which stands beside it.
 std::string short_message(const Conversion& conversion) {
     std::string message = lua::lua_message(*conversion.error);
@@ -86,10 +77,10 @@ Conversion convert_file(Program& program, const fs::path& in, const fs::path& ou
     conversion.out = out;
     LogFilter log(program, options.shows_warnings);
     const Clock::time_point start = Clock::now();
+    make_folder(out.parent_path());
     const Mesh mesh = load_mesh(in, options.load, program.context());
-    create_folder_of(out);
     log.is_saving = true;
-    save_mesh(mesh, out, options.save, program.context());
+    conversion.origin = save_mesh(mesh, out, options.save, program.context()).origin;
     conversion.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     conversion.vertices = mesh.vertex_count();
     conversion.faces = mesh.face_count();
@@ -109,6 +100,8 @@ Json conversion_json(const Conversion& conversion) {
     json["vertices"] = conversion.vertices;
     json["faces"] = conversion.faces;
     json["seconds"] = conversion.seconds;
+    const Vec3& origin = conversion.origin;
+    json["origin"] = {origin.x(), origin.y(), origin.z()};
     json["report"] = report_json(conversion.report);
     json["lost"] = conversion.lost;
     return json;

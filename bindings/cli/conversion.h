@@ -28,6 +28,8 @@ struct Conversion {
     Index vertices = 0, faces = 0;
     double seconds = 0.0;
     Report report;
+    /// The point of the mesh that is the origin of the output.
+    Vec3 origin = Vec3::Zero();
     /// What was said of parts of the mesh that the output does not hold.
     std::vector<std::string> lost;
     /// Why it failed, where it did.
@@ -37,14 +39,14 @@ struct Conversion {
     const char* outcome() const;
 };
 
-/// Reads `in` and writes `out`, creating the folders that it needs. Errors: those of `load_mesh`
-/// and `save_mesh`; file_write_failed where `out` is `in` and may not be, or where a folder cannot
-/// be created.
+/// Reads `in` and writes `out`, whose folder is made first where it is missing. Errors: those of
+/// `load_mesh` and `save_mesh`; file_write_failed where `out` is `in` and may not be, or where a
+/// folder cannot be created.
 Conversion convert_file(Program& program, const std::filesystem::path& in,
                         const std::filesystem::path& out, const ConversionOptions& options);
 
-/// {"file", "out", "outcome", "vertices", "faces", "seconds", "report", "lost"}, or with "error" in
-/// place of what there is only of a success.
+/// {"file", "out", "outcome", "vertices", "faces", "seconds", "origin", "report", "lost"}, or with
+/// "error" in place of what there is only of a success.
 Json conversion_json(const Conversion& conversion);
 
 /// Why it failed, or what was repaired and lost, in a few words.

@@ -12,7 +12,7 @@ namespace lissom::cli {
 namespace {
 
 struct Request {
-    std::string in, out, in_up, up;
+    std::string in, out, in_up, up, origin;
     ManyFiles many;
     ConversionOptions options;
     LoadFlags load_flags;
@@ -70,6 +70,10 @@ void declare(CLI::App& app, Request& request) {
     app.add_option("--in-unit", request.options.load.unit,
                    "Length of the input's unit: coordinates are multiplied by it (default: 1)")
         ->check(CLI::PositiveNumber);
+    app.add_option("--origin", request.origin,
+                   "auto: move the output's origin into a mesh that is far from it, so that 32-bit "
+                   "numbers can hold its detail (default: keep)")
+        ->check(CLI::IsMember({"keep", "auto"}));
     app.add_flag("--text", request.text, "Write text where the format has text and binary");
     app.add_flag("--big-endian", request.big_endian, "Byte order of a binary .ply");
     request.load_flags.declare(app);
@@ -80,6 +84,7 @@ void complete(Request& request) {
     request.options.save.up = up_axis(request.up);
     request.options.save.binary = !request.text;
     request.options.save.endianness = request.big_endian ? Endianness::big : Endianness::little;
+    if (request.origin == "auto") request.options.save.origin = FileOrigin::automatic;
     request.load_flags.apply(request.options.load);
 }
 

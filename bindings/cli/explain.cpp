@@ -5,7 +5,7 @@
 #include "bindings/cli/json.h"
 #include "bindings/cli/verbs.h"
 #include "bindings/lua/core/failure.h"
-#include "bindings/lua/core/nearest.h"
+#include "kernel/core/nearest.h"
 
 namespace lissom::cli {
 namespace {
@@ -36,7 +36,7 @@ int explain(Program& program, const std::vector<std::string>& words) {
         if (name.empty() || name == code_name(code)) found.push_back(code_json(code));
     }
     if (found.empty()) {
-        return program.fail("lissom explain: no code '" + name + "'" + lua::name_hint(name, names),
+        return program.fail("lissom explain: no code '" + name + "'" + name_hint(name, names),
                             kUsage);
     }
     if (program.json()) {

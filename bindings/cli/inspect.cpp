@@ -1,5 +1,6 @@
 // lissom inspect MESH...
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "bindings/cli/load_flags.h"
 #include "bindings/cli/verbs.h"
 #include "kernel/io/mesh_file.h"
+#include "kernel/mesh/label_adder.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/path.h"
 
@@ -30,15 +32,24 @@ Json attributes_json(const Mesh& mesh) {
 }
 
 // Faces of each label, by kind: {"group": {"hand": 120}}.
-Json labels_json(const Mesh& mesh) {
+Json labels_json(const Mesh& mesh, const Context& context) {
     Json kinds = Json::object();
     for (const auto& [kind, labels] : mesh.attributes().labels()) {
-        std::vector<Index> counts(labels.names.size(), 0);
+        context.checkpoint();
+        FaceLabels distinct;
+        LabelAdder adder(distinct);
+        std::vector<Index> number;
+        for (const std::string& name : labels.names) number.push_back(adder.add(name));
+        std::vector<Index> counts(distinct.names.size(), 0);
         for (const Index label : labels.of_face) {
-            if (label != kNoIndex) ++counts[static_cast<std::size_t>(label)];
+            if (label != kNoIndex) ++counts[number[label]];
         }
-        Json& faces = kinds[kind] = Json::object();
-        for (std::size_t i = 0; i < counts.size(); ++i) faces[labels.names[i]] = counts[i];
+        // At once, because adding one to an object that keeps its order looks at all the others.
+        std::vector<std::pair<std::string, Json>> faces;
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            faces.emplace_back(std::move(distinct.names[i]), counts[i]);
+        }
+        kinds[kind] = Json::object_t(faces.begin(), faces.end());
     }
     return kinds;
 }
@@ -57,36 +68,49 @@ Json regions_json(const Mesh& mesh) {
     return sizes;
 }
 
-Json mesh_json(const std::string& file, const Mesh& mesh) {
+Index isolated_count(const Topology& topology) {
+    Index count = 0;
+    for (Index v = 0; v < topology.vertex_count(); ++v) count += topology.is_isolated(v) ? 1 : 0;
+    return count;
+}
+
+// Each measure may take a while, so that they can be cancelled one by one. What exceeds the range
+// of numbers is NaN or infinite, and then null where JSON is written.
+Json mesh_json(const std::string& file, const Mesh& mesh, const Context& context) {
     const Topology& topology = mesh.topology();
-    Index isolated = 0;
-    for (Index v = 0; v < topology.vertex_count(); ++v) isolated += topology.is_isolated(v) ? 1 : 0;
-    return {{"file", file},
-            {"vertices", topology.vertex_count()},
-            {"edges", topology.edge_count()},
-            {"faces", topology.face_count()},
-            {"triangles_only", topology.is_triangle_mesh()},
-            {"bounds", bounds_json(bounds(mesh))},
-            {"size", surface_radius(mesh)},
-            {"area", area(mesh)},
-            {"volume", volume(mesh)},
-            {"genus", genus(topology)},
-            {"components", topology.component_count()},
-            {"closed", topology.is_closed()},
-            {"boundaries", boundaries_json(mesh)},
-            {"isolated_vertices", isolated},
-            {"zero_area_faces", zero_area_faces(mesh).size()},
-            {"attributes", attributes_json(mesh)},
-            {"labels", labels_json(mesh)},
-            {"regions", regions_json(mesh)},
-            {"report", report_json(mesh.report())}};
+    Json json = {{"file", file}};
+    const auto add = [&](const char* name, const auto& measure) {
+        context.checkpoint();
+        json[name] = measure();
+    };
+    add("vertices", [&] { return topology.vertex_count(); });
+    add("edges", [&] { return topology.edge_count(); });
+    add("faces", [&] { return topology.face_count(); });
+    add("triangles_only", [&] { return topology.is_triangle_mesh(); });
+    add("bounds", [&] { return bounds_json(bounds(mesh)); });
+    add("size", [&] { return surface_radius(mesh); });
+    add("area", [&] { return area(mesh); });
+    add("volume", [&] { return volume(mesh); });
+    add("genus", [&] { return genus(topology); });
+    add("components", [&] { return topology.component_count(); });
+    add("closed", [&] { return topology.is_closed(); });
+    add("boundaries", [&] { return boundaries_json(mesh); });
+    add("isolated_vertices", [&] { return isolated_count(topology); });
+    add("zero_area_faces", [&] { return zero_area_faces(mesh).size(); });
+    add("attributes", [&] { return attributes_json(mesh); });
+    add("labels", [&] { return labels_json(mesh, context); });
+    add("regions", [&] { return regions_json(mesh); });
+    add("report", [&] { return report_json(mesh.report()); });
+    return json;
 }
 
 // ---- The same for people
 
 std::string number_text(const Json& value) {
+    const auto number = value.get<double>();
+    if (!std::isfinite(number)) return "beyond the range of numbers";
     char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value.get<double>());
+    std::snprintf(text, sizeof text, "%.6g", number);
     return text;
 }
 
@@ -191,7 +215,7 @@ int inspect(Program& program, const std::vector<std::string>& words) {
         try {
             const Mesh mesh = load_mesh(file, options, program.context());
             program.clear_progress();
-            answers.push_back(mesh_json(file, mesh));
+            answers.push_back(mesh_json(file, mesh, program.context()));
             if (program.json()) continue;
             print_mesh(answers.back());
             print_report(mesh.report());

@@ -9,6 +9,7 @@ ProgramParts kernel_parts() {
                    {"inspect", "MESH...", "Says what is in mesh files.", inspect},
                    {"convert", "IN OUT", "Writes meshes in another format.", convert},
                    {"repl", "", "Runs Lua line by line.", repl},
+                   {"help", "NAME", "Says how a Lua function is called.", help},
                    {"explain", "[CODE]", "Says what an error code means.", explain}};
     parts.libraries = {lua::kernel_library};
     parts.version_lines = {"Lissom's own code is under the MIT licence."};

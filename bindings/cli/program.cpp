@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <optional>
 #include <thread>
@@ -10,7 +11,8 @@
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/cli/terminal/progress_bar.h"
 #include "bindings/cli/terminal/terminal.h"
-#include "bindings/lua/core/nearest.h"
+#include "kernel/core/nearest.h"
+#include "kernel/core/version.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom::cli {
@@ -104,6 +106,10 @@ void Program::forget_interrupt() {
     if (own_->interrupt) own_->interrupt->clear();
 }
 
+void Program::wait_at_prompt(bool waits) {
+    Interrupt::wait_at_prompt(waits);
+}
+
 void Program::clear_progress() {
     own_->bar.clear();
 }
@@ -148,7 +154,8 @@ void print_help(const ProgramParts& parts) {
     }
     std::cout
         << "\nlissom VERB --help lists the options of a verb; lissom --version tells what this "
-           "build is made of.\nExit status: 0 done, 1 failed, 2 called wrongly.\n";
+           "build is made of.\nExit status: 0 done, 1 failed, 2 called wrongly, 130 stopped by "
+           "Ctrl-C.\n";
 }
 
 int print_version(const ProgramParts& parts, bool json) {
@@ -179,7 +186,7 @@ int refuse_verb(Program& program, const std::string& word) {
     for (const Verb& verb : program.parts().verbs) names.push_back(verb.name);
     const bool is_script = word.size() > 4 && word.compare(word.size() - 4, 4, ".lua") == 0;
     const std::string hint =
-        is_script ? "; to run a script: lissom run " + word : lua::name_hint(word, names);
+        is_script ? "; to run a script: lissom run " + word : name_hint(word, names);
     return program.fail("lissom: no verb '" + word + "'" + hint, kUsage);
 }
 
@@ -195,25 +202,39 @@ int run_verb(Program& program, const Verb& verb, const std::vector<std::string>&
     }
 }
 
-}  // namespace
-
-int run_program(int argc, char** argv, const ProgramParts& parts) {
-    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-    Program program(parts);
+int run_words(Program& program, const ProgramParts& parts, const std::vector<std::string>& words) {
     if (words.empty()) {
         print_help(parts);
         return kUsage;
     }
     const std::string& first = words[0];
     const bool json = words.size() > 1 && words[1] == "--json";
-    if (first == "--help" || first == "-h" || first == "help") {
+    if (first == "--help" || first == "-h" || (first == "help" && words.size() == 1)) {
         print_help(parts);
         return kSuccess;
     }
     if (first == "--version") return print_version(parts, json);
     const Verb* verb = find_verb(parts, first);
     if (!verb) return refuse_verb(program, first);
-    return run_verb(program, *verb, {words.begin() + 1, words.end()});
+    const int status = run_verb(program, *verb, {words.begin() + 1, words.end()});
+    return status != kSuccess && program.interrupted() ? kInterrupted : status;
+}
+
+// Both the program and Lua write to it. Some systems tell only in the end that a disk is full.
+bool output_is_written() {
+    std::cout << std::flush;
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const ProgramParts& parts) {
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    Program program(parts);
+    const int status = run_words(program, parts, words);
+    if (output_is_written()) return status;
+    std::cerr << "lissom: the standard output could not be written in full" << std::endl;
+    return status == kSuccess ? kFailure : status;
 }
 
 }  // namespace lissom::cli

@@ -27,8 +27,8 @@ namespace lissom::cli {
 
 class Program;
 
-/// Exit statuses.
-inline constexpr int kSuccess = 0, kFailure = 1, kUsage = 2;
+/// Exit statuses; that of Ctrl-C is what shells give a program that a signal ended.
+inline constexpr int kSuccess = 0, kFailure = 1, kUsage = 2, kInterrupted = 130;
 
 /// One thing that the program can do.
 struct Verb {
@@ -52,7 +52,8 @@ struct ProgramParts {
 /// The verbs run, inspect, convert, repl and explain, and the kernel's library.
 ProgramParts kernel_parts();
 
-/// Runs the verb that the command line names. Returns the exit status.
+/// Runs the verb that the command line names. Returns the exit status: that of the verb,
+/// kInterrupted where Ctrl-C stopped it, kFailure where the standard output could not be written.
 int run_program(int argc, char** argv, const ProgramParts& parts);
 
 /// How a verb's answer and its errors are written.
@@ -100,6 +101,8 @@ class Program {
     bool interrupted() const;
     /// Goes on as if it had not been pressed.
     void forget_interrupt();
+    /// While a line is typed Ctrl-C only gives it up, however often it is pressed.
+    static void wait_at_prompt(bool waits);
     /// Takes the progress bar away; before anything is written.
     void clear_progress();
 

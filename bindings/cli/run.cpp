@@ -4,6 +4,7 @@
 
 #include "bindings/cli/json.h"
 #include "bindings/cli/script.h"
+#include "bindings/cli/script_text.h"
 #include "bindings/cli/verbs.h"
 #include "bindings/lua/core/script_parameters.h"
 
@@ -54,12 +55,17 @@ Json parameter_json(const lua::ScriptParameter& p) {
 
 int print_parameters(const Program& program, const lua::State& state) {
     if (!program.json()) {
-        std::cout << state.script_end_text;
+        const bool has_text = state.script_end == lua::ScriptEnd::help;
+        std::cout << (has_text ? state.script_end_text
+                               : "Usage: lissom run " + state.host.arguments.script +
+                                     "\n\nThe script declares no parameters.\n");
         return kSuccess;
     }
     Json parameters = Json::array();
-    for (const lua::ScriptParameter& p : state.parameters->list) {
-        parameters.push_back(parameter_json(p));
+    if (state.parameters) {
+        for (const lua::ScriptParameter& p : state.parameters->list) {
+            parameters.push_back(parameter_json(p));
+        }
     }
     std::cout << json_text({{"script", state.host.arguments.script}, {"parameters", parameters}})
               << std::endl;
@@ -80,25 +86,54 @@ int report(Program& program, const ScriptResult& result) {
     return result.status;
 }
 
+// A flag that nothing takes, or "".
+std::string unclaimed_flag(const std::vector<std::string>& words, const ScriptTraits& traits) {
+    return traits.reads_words ? "" : lua::first_flag(words);
+}
+
+int refuse_flag(Program& program, const std::string& script, const std::string& flag) {
+    return program.fail(script + ": " + lua::unknown_flag_text(flag, {}) + " (see lissom run " +
+                            script + " --help)",
+                        kUsage);
+}
+
+// Runs the script, unless its text shows that it does not know a flag of its command line.
+int run_file(Program& program, const lua::ScriptArguments& arguments) {
+    const bool from_input = arguments.script == "-";
+    const std::optional<std::string> text = script_text(arguments.script);
+    const ScriptTraits traits = text ? script_traits(*text) : ScriptTraits{true, true};
+    const bool only_help = lua::asks_for_help(arguments.words);
+    const std::string flag = only_help ? "" : unclaimed_flag(arguments.words, traits);
+    if (!flag.empty() && !traits.may_declare) {
+        return refuse_flag(program, arguments.script, flag);
+    }
+    Script script(program, arguments);
+    const lua::State& state = script.state();
+    if (only_help && !traits.may_declare) return print_parameters(program, state);
+    const ScriptResult result =
+        from_input ? script.run_text(*text) : script.run_file(arguments.script);
+    const bool ended_well = result.status == kSuccess;
+    if (only_help && ended_well) return print_parameters(program, state);
+    if (ended_well && !flag.empty() && !state.parameters) {
+        return refuse_flag(program, arguments.script, flag);
+    }
+    return ended_well ? kSuccess : report(program, result);
+}
+
 }  // namespace
 
 int run_script(Program& program, const std::vector<std::string>& words) {
     const Words split(words);
     CLI::App app(
         "Runs a Lua script. Words after FILE are the script's; `lissom run FILE --help` lists "
-        "its parameters.",
+        "its parameters and does not run it.",
         "lissom run");
     std::string file;
-    app.add_option("FILE", file, "The script")->required();
+    app.add_option("FILE", file, "The script; - for the standard input")->required();
     int status = kSuccess;
     if (!program.parse(app, split.own, status)) return status;
     if (program.json()) program.output = Output::json_errors;
-    Script script(program, split.script);
-    const ScriptResult result = script.run_file(file);
-    if (script.state().script_end == lua::ScriptEnd::help) {
-        return print_parameters(program, script.state());
-    }
-    return result.status == kSuccess ? kSuccess : report(program, result);
+    return run_file(program, split.script);
 }
 
 }  // namespace lissom::cli

@@ -1,13 +1,16 @@
 #include "bindings/cli/script.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
+#include "bindings/cli/help_guard.h"
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "kernel/io/stream/file.h"
 
 namespace lissom::cli {
 namespace {
@@ -18,6 +21,13 @@ fs::path program_folder() {
     std::error_code error;
     const fs::path self = fs::read_symlink("/proc/self/exe", error);
     return error ? fs::path() : self.parent_path();
+}
+
+bool is_within(const fs::path& path, const fs::path& folder) {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(folder, error);
+    const fs::path inside = fs::weakly_canonical(path, error).lexically_relative(real);
+    return !inside.empty() && *inside.begin() != "..";
 }
 
 // What opening a state needs, reachable through a light userdata inside lua_pcall.
@@ -69,6 +79,7 @@ int prepare(lua_State* L) {
     set_search_path(L, opening->path.c_str());
     set_arguments(L, opening->options->arguments);
     Interrupt::watch(L);
+    if (lua::find_state(L)->only_help) guard_for_help(L);
     return 0;
 }
 
@@ -162,9 +173,14 @@ std::string code_in(const std::string& message) {
 
 std::string Script::shipped_scripts() {
     std::error_code error;
-    const fs::path installed = program_folder() / ".." / "share" / "lissom" / "scripts";
+    const fs::path folder = program_folder();
+    const fs::path installed = folder / ".." / "share" / "lissom" / "scripts";
     if (fs::is_directory(installed, error)) return fs::weakly_canonical(installed, error).string();
-    if (fs::is_directory(LISSOM_SCRIPTS_FOLDER, error)) return LISSOM_SCRIPTS_FOLDER;
+    // A program where it was built serves those of the source; one that was installed, or copied
+    // away, never looks at folders of another machine.
+    if (is_within(folder, LISSOM_BUILD_FOLDER) && fs::is_directory(LISSOM_SCRIPTS_FOLDER, error)) {
+        return LISSOM_SCRIPTS_FOLDER;
+    }
     return "";
 }
 
@@ -190,23 +206,82 @@ Script::~Script() {
 }
 
 ScriptResult Script::run_file(const std::string& path) {
-    if (luaL_loadfilex(L_, path.c_str(), "t") != LUA_OK) {
+    std::error_code error;
+    if (!fs::exists(path, error)) {
+        ScriptResult result;
+        result.status = kFailure;
+        result.code = std::string(code_name(ErrorCode::file_not_found));
+        result.message = path + ": " + missing_file_text(path) + " [" + result.code + "]";
+        return result;
+    }
+    return run_loaded(luaL_loadfilex(L_, path.c_str(), "t"));
+}
+
+ScriptResult Script::run_text(std::string text) {
+    // A first line for the shell is no Lua; its place is kept for the numbers of the others.
+    if (text.starts_with('#')) text.erase(0, std::min(text.find('\n'), text.size()));
+    return run_loaded(luaL_loadbufferx(L_, text.data(), text.size(), "=stdin", "t"));
+}
+
+// The chunk or a message is on top of the stack.
+ScriptResult Script::run_loaded(int status) {
+    if (status != LUA_OK) {
         lua_createtable(L_, 1, 0);
         lua_insert(L_, -2);
         lua_rawseti(L_, -2, 1);
         return failure();
     }
-    return call_function();
+    const int first = lua_gettop(L_);
+    ScriptResult result = call_function();
+    if (result.status == kSuccess) result = returned_failure(first);
+    return result;
 }
 
 ScriptResult Script::call_function() {
     const int function = lua_gettop(L_);
+    const std::size_t dropped_before = state().dropped_count;
     lua_pushcfunction(L_, explain_error);
     lua_insert(L_, function);
     const int status = lua_pcall(L_, 0, LUA_MULTRET, function);
     lua_remove(L_, function);
     program_.clear_progress();
-    return status == LUA_OK ? ScriptResult{} : failure();
+    if (status != LUA_OK) return failure();
+    return state().dropped_count > dropped_before ? dropped(dropped_before) : ScriptResult{};
+}
+
+// What the script said last when it ended with `return mesh:save(path)`: nobody else looks at it.
+ScriptResult Script::returned_failure(int first) {
+    ScriptResult result;
+    const lua::State& opened = state();
+    const char* message = lua_type(L_, first + 1) == LUA_TSTRING ? lua_tostring(L_, first + 1) : "";
+    if (!opened.has_failed || !lua_isnil(L_, first) ||
+        std::strcmp(message, opened.last_failure.message) != 0) {
+        return result;
+    }
+    result.status = kFailure;
+    result.code = std::string(code_name(opened.last_failure.code));
+    result.message = opened.last_failure_place + std::string(message) + " [" + result.code + "]";
+    find_place(result);
+    return result;
+}
+
+// The script ran to its end, but failures were dropped: each was told when it came.
+ScriptResult Script::dropped(std::size_t before) {
+    ScriptResult result;
+    result.status = kFailure;
+    const lua::State& opened = state();
+    const std::size_t count = opened.dropped_count - before;
+    if (before < opened.dropped.size()) {
+        const lua::DroppedFailure& first = opened.dropped[before];
+        result.code = first.code;
+        result.message = first.place;
+        find_place(result);
+    }
+    result.message += count == 1
+                          ? "a failure that nobody looked at (told above)"
+                          : std::to_string(count) +
+                                " failures that nobody looked at (told above), the first here";
+    return result;
 }
 
 // Takes the table {message, traceback} from the stack.

@@ -34,15 +34,21 @@ class Script {
 
     /// Runs the file `path`; --help and wrong flags of its parameters end it early.
     ScriptResult run_file(const std::string& path);
+    /// The same for a text that came from the standard input.
+    ScriptResult run_text(std::string text);
 
-    /// Calls the function on top of the stack, whose results stay there.
+    /// Calls the function on top of the stack, whose results stay there. It has failed too where it
+    /// dropped failures of lissom (see lua::DroppedFailure).
     ScriptResult call_function();
 
     /// Folder of the Lua library that ships with the program; empty where it is not found.
     static std::string shipped_scripts();
 
   private:
+    ScriptResult run_loaded(int status);
     ScriptResult failure();
+    ScriptResult dropped(std::size_t before);
+    ScriptResult returned_failure(int first);
 
     Program& program_;
     lua::HostOptions options_;

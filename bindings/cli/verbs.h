@@ -12,6 +12,7 @@ int run_script(Program& program, const std::vector<std::string>& words);
 int inspect(Program& program, const std::vector<std::string>& words);
 int convert(Program& program, const std::vector<std::string>& words);
 int repl(Program& program, const std::vector<std::string>& words);
+int help(Program& program, const std::vector<std::string>& words);
 int explain(Program& program, const std::vector<std::string>& words);
 
 }  // namespace lissom::cli

@@ -15,7 +15,7 @@ local params = lissom.params{
         help = "how far its left arm is raised and its right arm lowered" },
     turn = { type = "number", default = -35, min = -90, max = 90, unit = "degrees",
         help = "how far the head turns to its left" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 local rest = assert(lissom.load(params.model))

@@ -12,7 +12,7 @@ local params = lissom.params{
     twist = { type = "number", default = 90, min = -360, max = 360, unit = "degrees",
         help = "how far the upper end turns about the bar's own axis" },
     across = { type = "integer", default = 12, min = 2, max = 60, help = "quads across each side" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 local length, width = 6, 1

@@ -13,7 +13,7 @@ local params = lissom.params{
         help = "how far the arms open outwards" },
     vertices = { type = "integer", default = 20000, min = 2000, max = 1000000,
         help = "vertices of the cactus" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 -- The generated cactus stands on y = 0 and comes with names for its parts: "tip", "left_tip", ...

@@ -13,7 +13,7 @@ local params = lissom.params{
         help = "how far the upper end turns about the tube" },
     tilt = { type = "number", default = 70, min = -170, max = 170, unit = "degrees",
         help = "how far it then turns over" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 local corners, sides, rings, height = 3, 48, 60, 6

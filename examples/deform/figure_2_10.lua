@@ -17,7 +17,7 @@ local params = lissom.params{
     closer = { type = "number", default = 0.5, min = 0, max = 0.9,
         help = "how much of the space between the handles goes" },
     rings = { type = "integer", default = 120, min = 60, max = 600, help = "rings of the generated body" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 -- A body along z with rolls of fat: between the handles five of them go round it.

@@ -18,7 +18,7 @@ local params = lissom.params{
     share = { type = "number", default = 0.1, min = 0.02, max = 0.45,
         help = "share of the length that each handle takes" },
     view = { type = "string", default = "three-quarter", help = "side to look from" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 -- The surface of a set of unit cubes, its corners shared.

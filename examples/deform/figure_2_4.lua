@@ -15,7 +15,7 @@ local params = lissom.params{
     lift = { type = "number", default = 0.35, min = 0, max = 1, help = "how far the middle rises" },
     tilt = { type = "number", default = 35, min = -80, max = 80, unit = "degrees",
         help = "how far the middle tilts" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 -- An irregular plane: vertices inside stray, by numbers that are the same in every run.

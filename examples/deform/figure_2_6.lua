@@ -18,7 +18,7 @@ local params = lissom.params{
     vertices = { type = "integer", default = 5000, min = 2000, max = 100000,
         help = "vertices of the cactus" },
     view = { type = "string", default = "front", help = "side to look from" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 local rest = params.mesh ~= "" and assert(lissom.load(params.mesh))

@@ -16,7 +16,7 @@ local params = lissom.params{
     tilt = { type = "number", default = 60, min = 0, max = 120, unit = "degrees",
         help = "how far it then turns over" },
     across = { type = "integer", default = 10, min = 4, max = 60, help = "quads across each side" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 local rest = params.mesh ~= "" and assert(lissom.load(params.mesh))

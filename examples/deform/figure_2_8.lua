@@ -14,7 +14,7 @@ local params = lissom.params{
     mesh = { type = "file", default = "", help = "the dinosaur, instead of the generated tail" },
     rise = { type = "number", default = 1, min = 0, max = 1.5, help = "factor of the distance" },
     rings = { type = "integer", default = 120, min = 60, max = 600, help = "rings of the generated tail" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 local joints = 10

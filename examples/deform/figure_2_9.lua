@@ -14,7 +14,7 @@ local params = lissom.params{
     strength = { type = "number", default = 1, min = 0, max = 1.5, help = "factor of all angles" },
     vertices = { type = "integer", default = 6000, min = 2000, max = 100000,
         help = "vertices of the cactus" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 -- Points as fractions of the bounding box.

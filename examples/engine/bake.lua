@@ -14,7 +14,7 @@ local params = lissom.params{
     duration = { type = "number", default = 2, min = 0.1, max = 10, unit = "s", help = "of one swing" },
     fps = { type = "integer", default = 12, min = 1, max = 60, help = "frames a second" },
     vertices = { type = "integer", default = 3000, min = 2000, max = 200000, help = "of the cactus" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
 local cactus = lissom.shapes.cactus{ vertices = params.vertices }

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "kernel/core/memory_error.h"
+
 namespace lissom {
 namespace {
 
@@ -85,8 +87,9 @@ constexpr std::array<CodeEntry, 40> kCodes{{
      "The region has no vertices. Enlarge the sphere, box or radius that selects it."},
     {ErrorCode::topology_mismatch, "topology_mismatch",
      "A region, path or handle belongs to another mesh or to an older version of this mesh's "
-     "topology. "
-     "Select it again on the mesh as it is now."},
+     "topology, or the mesh has changed around the region of a deformation, whose result would "
+     "tear "
+     "there. Make it again on the mesh as it is now."},
     {ErrorCode::handle_outside_region, "handle_outside_region",
      "A handle has vertices outside the region that may deform. Enlarge the region or shrink the "
      "handle."},
@@ -118,9 +121,8 @@ constexpr std::array<CodeEntry, 40> kCodes{{
      "The linear system has no unique solution. A part of the mesh lacks a constraint, or its "
      "triangles are too degenerate."},
     {ErrorCode::memory_limit, "memory_limit",
-     "The operation would need more memory than the context allows. Raise the limit, or use a "
-     "smaller "
-     "region or mesh."},
+     "The operation would need more memory than the context allows, or than there is. Raise the "
+     "limit, or use a smaller region or mesh."},
     {ErrorCode::unsupported, "unsupported",
      "The request is valid but this build or format cannot serve it. The message says what can."},
     {ErrorCode::no_display, "no_display",
@@ -193,6 +195,17 @@ std::string describe(const Elements& elements, Index base, std::size_t limit) {
     }
     if (shown < elements.count) text += " (of " + std::to_string(elements.count) + ")";
     return text;
+}
+
+void throw_out_of_memory() {
+    std::string message = "out of memory";
+    try {
+        message =
+            "there is not enough memory; close what else runs, or use a smaller mesh or region";
+    } catch (const std::bad_alloc&) {
+        // The short message needs none.
+    }
+    throw Error(ErrorCode::memory_limit, std::move(message));
 }
 
 }  // namespace lissom

@@ -4,6 +4,7 @@
 
 #include "kernel/core/context_state.h"
 #include "kernel/core/error.h"
+#include "kernel/core/memory_error.h"
 
 #ifdef LISSOM_HAS_TBB
 #include <tbb/info.h>
@@ -74,7 +75,7 @@ void Context::parallel_for(Index begin, Index end, Index grain,
         const auto from = static_cast<Index>(begin + static_cast<std::int64_t>(i) * grain);
         const auto to = static_cast<Index>(std::min<std::int64_t>(end, std::int64_t{from} + grain));
         try {
-            body(from, to);
+            with_memory_errors([&] { body(from, to); });
         } catch (...) {
             first.keep(i, std::current_exception());
         }

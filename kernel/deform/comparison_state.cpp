@@ -1,8 +1,5 @@
 // What a Deformer does differently for a comparison method.
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <string>
@@ -13,11 +10,6 @@
 #include "kernel/deform/rotation/winding.h"
 
 namespace lissom {
-namespace {
-
-// The rotation in `gradient` as a vector along its axis, of a length up to pi.
-}  // namespace
-
 // Errors: unsupported where something is held softly or at points that are not vertices, or is
 // stiff.
 void Deformer::State::require_plain_holds() const {
@@ -115,38 +107,7 @@ void Deformer::State::solve_comparison(const Context& context) {
     for (Index row = 0; row < region.size(); ++row) {
         gradients[row] = transforms[patch.of_region[row]];
     }
-    compared = std::move(at);
     gradients_current = true;
-}
-
-// Deformation gradients of the surface as it lies: the linear maps nearest to taking each ring and
-// the normal to where they are. A method's own M_i need not turn with the surface.
-std::vector<Mat3> Deformer::State::surface_gradients() const {
-    std::vector<Mat3> result(rest.size(), Mat3::Identity());
-    if (compared.empty()) return result;
-    const Patch& patch = rest_patch->patch;
-    const Rings real = build_rings(patch.real_count, patch.triangles);
-    const std::span<const Vec3> before(patch.rest.data(), compared.size());
-    const std::vector<Vec3> normal_before = ring_geometry(real, patch.triangles, before).normal;
-    const std::vector<Vec3> normal_after = ring_geometry(real, patch.triangles, compared).normal;
-    for (Index row = 0; row < region.size(); ++row) {
-        const Index v = patch.of_region[row];
-        Mat3 onto = Mat3::Zero(), from = Mat3::Zero();
-        double squares = 0.0;
-        for (const Index j : real.ring(v)) {
-            const Vec3 p = before[j] - before[v];
-            onto += (compared[j] - compared[v]) * p.transpose();
-            from += p * p.transpose();
-            squares += p.squaredNorm();
-        }
-        onto += squares * normal_after[v] * normal_before[v].transpose();
-        from += squares * normal_before[v] * normal_before[v].transpose();
-        bool regular = false;
-        Mat3 inverse;
-        from.computeInverseWithCheck(inverse, regular, 1e-14 * std::pow(squares, 3));
-        if (regular) result[row] = onto * inverse;
-    }
-    return result;
 }
 
 }  // namespace lissom

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/deform/deformer_state.h"
 #include "kernel/deform/holds/mirror.h"
 #include "kernel/deform/rotation/polar.h"
@@ -102,7 +103,7 @@ Deformer::Deformer(const Mesh& mesh, const Region& region, const DeformOptions& 
         throw Error(ErrorCode::region_empty, "the region to deform has no vertices; enlarge it");
     }
     context.checkpoint();
-    state_ = std::make_unique<State>(mesh, region, options);
+    with_memory_errors([&] { state_ = std::make_unique<State>(mesh, region, options, context); });
 }
 
 Deformer::~Deformer() = default;
@@ -114,6 +115,9 @@ const Region& Deformer::region() const {
 }
 const DeformOptions& Deformer::options() const {
     return state_->options;
+}
+const Context& Deformer::context() const {
+    return state_->own_context;
 }
 
 std::vector<HandleId> Deformer::handles() const {
@@ -195,21 +199,21 @@ Affine Deformer::transform_about(HandleId id, const Vec3& about) const {
 }
 
 void Deformer::prepare(const Context& context) {
-    state_->prepare(context);
+    with_memory_errors([&] { state_->prepare(context); });
 }
 
 const std::vector<Vec3>& Deformer::preview(const Context& context) {
-    state_->preview(context);
+    with_memory_errors([&] { state_->preview(context); });
     return state_->positions;
 }
 
 const std::vector<Vec3>& Deformer::solve(const Context& context) {
-    state_->solve(false, context);
+    with_memory_errors([&] { state_->solve(false, context); });
     return state_->positions;
 }
 
 const std::vector<Vec3>& Deformer::solve_draft(const Context& context) {
-    state_->solve(true, context);
+    with_memory_errors([&] { state_->solve(true, context); });
     return state_->positions;
 }
 
@@ -256,22 +260,44 @@ const std::vector<Vec3>& Deformer::rest_positions() const {
 }
 
 void Deformer::apply_to(Mesh& mesh) const {
-    State& s = *state_;
-    require_same_topology(mesh, s.region.topology(), "the deformer");
-    const bool turns = !s.directions.empty();
-    const std::vector<Mat3> rotations = turns ? s.shown_rotations() : std::vector<Mat3>();
+    const State& s = *state_;
+    require_surroundings(mesh);
+    const std::vector<Mat3> alone = s.turns_without_faces();
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row)
         out[s.region.vertices()[row]] = s.positions[row];
-    if (turns) s.directions.apply_to(mesh, rotations);
+    s.directions.apply_to(mesh, alone);
+}
+
+void Deformer::require_surroundings(const Mesh& mesh) const {
+    require_same_topology(mesh, state_->region.topology(), "the deformer");
+    state_->require_surroundings(mesh);
 }
 
 void Deformer::apply_rest_to(Mesh& mesh) const {
     const State& s = *state_;
-    require_same_topology(mesh, s.region.topology(), "the deformer");
+    require_surroundings(mesh);
     const std::span<Vec3> out = mesh.edit_positions();
     for (Index row = 0; row < s.region.size(); ++row) out[s.region.vertices()[row]] = s.rest[row];
-    s.directions.apply_to(mesh, std::vector<Mat3>(s.rest.size(), Mat3::Identity()));
+    s.directions.apply_to(mesh,
+                          std::vector<Mat3>(s.directions.without_faces().size(), Mat3::Identity()));
+}
+
+std::shared_ptr<const ShownResult> Deformer::result() {
+    State& s = *state_;
+    s.find_gradients();
+    return std::make_shared<ShownResult>(
+        ShownResult{s.positions, s.inserted, s.shown_patch, s.shown, s.gradients});
+}
+
+void Deformer::show(const ShownResult& result) {
+    State& s = *state_;
+    s.positions = result.positions;
+    s.inserted = result.inserted;
+    s.shown_patch = result.patch;
+    s.shown = result.transforms;
+    s.gradients = result.gradients;
+    s.gradients_current = true;
 }
 
 void Deformer::reset() {

@@ -57,13 +57,19 @@ struct HandleBasis {
 /// Deformer::poses.
 struct HandlePoses;
 
+/// What a Deformer shows: positions, and all that apply_to, refined_mesh, gradients and rebase take
+/// from the last solve or preview; see Deformer::result.
+struct ShownResult;
+
 /// Deforms one region of one mesh. Vertices outside the region never move and keep the identity as
 /// gradient. Factors are kept: a new transform costs no factorisation, a new handle does, at the
 /// next solve. Accepts polygon meshes of any genus, with or without boundary.
 class Deformer {
   public:
     /// Takes the present shape of `mesh` as rest shape; the mesh may change or die afterwards.
-    /// Errors: region_empty; topology_mismatch; invalid_argument for options out of range.
+    /// Operations that are given no context of their own run under this one: its progress, cancel,
+    /// threads and memory. Errors: region_empty; topology_mismatch; invalid_argument for options
+    /// out of range.
     Deformer(const Mesh& mesh, const Region& region, const DeformOptions& options = {},
              const Context& context = {});
     ~Deformer();
@@ -72,6 +78,8 @@ class Deformer {
 
     const Region& region() const;
     const DeformOptions& options() const;
+    /// The context that the deformer was made with.
+    const Context& context() const;
 
     /// Adds a handle of the given vertices with the identity as transform.
     /// Errors: region_empty; topology_mismatch; handle_outside_region; handle_overlap, each naming
@@ -148,36 +156,51 @@ class Deformer {
     /// and `solve` do it by themselves. Errors: unconstrained, naming a part of the region that
     /// nothing holds; zero_area; not_positive_definite; memory_limit; cancelled; unsupported for
     /// what a comparison method cannot hold.
-    void prepare(const Context& context = {});
+    void prepare() { prepare(context()); }
+    void prepare(const Context& context);
 
     /// Solves the first system only (Eq 2.8), by the handle basis; as `solve` for a comparison
     /// method. Errors: as prepare.
-    const std::vector<Vec3>& preview(const Context& context = {});
+    const std::vector<Vec3>& preview() { return preview(context()); }
+    const std::vector<Vec3>& preview(const Context& context);
     /// Solves both systems. With every transform the identity the result is the rest shape to the
     /// bit.
-    const std::vector<Vec3>& solve(const Context& context = {});
+    const std::vector<Vec3>& solve() { return solve(context()); }
+    const std::vector<Vec3>& solve(const Context& context);
     /// As `solve`, to about five digits of the size, for the frames of a drag: half the time. Solve
     /// once more when the drag ends.
-    const std::vector<Vec3>& solve_draft(const Context& context = {});
+    const std::vector<Vec3>& solve_draft() { return solve_draft(context()); }
+    const std::vector<Vec3>& solve_draft(const Context& context);
     /// Solves the first system by its factor instead of the basis: the oracle of tests.
     /// Errors: as prepare; unsupported for a comparison method.
-    std::vector<Vec3> solve_first_directly(const Context& context = {});
+    std::vector<Vec3> solve_first_directly() { return solve_first_directly(context()); }
+    std::vector<Vec3> solve_first_directly(const Context& context);
 
     /// Positions of the region's vertices, in the order of `region().vertices()`, from the last
     /// solve or preview; rest positions before one.
     const std::vector<Vec3>& positions() const;
     /// Rest positions of the region's vertices.
     const std::vector<Vec3>& rest_positions() const;
-    /// Writes `positions()` into the region's vertices of `mesh`; custom normals turn with the
-    /// surface. Errors: topology_mismatch.
+    /// Writes `positions()` into the region's vertices of `mesh`. Custom normals, tangents and
+    /// morph targets in the region and of the vertices next to it are carried by what the surface
+    /// did: they keep their angle to its normal and turn about it as its edges do. Errors: as
+    /// require_surroundings.
     void apply_to(Mesh& mesh) const;
+    /// Throws topology_mismatch where `mesh` has another topology, or has changed around the region
+    /// since the deformer was made: the result would tear there.
+    void require_surroundings(const Mesh& mesh) const;
+    /// What is shown, to be put back by `show`, to the bit, whatever was solved in between.
+    std::shared_ptr<const ShownResult> result();
+    /// Shows a result of this deformer again. The handles stay where they are; see `restore`.
+    void show(const ShownResult& result);
     /// `mesh` as apply_to leaves it, with the vertices that a refinement of coarse borders
     /// inserted: behind its own, where the last result has them. Faces that they lie on become
     /// triangles; attributes are interpolated. A mesh without such vertices is only copied. Errors:
-    /// topology_mismatch; as prepare.
-    Mesh refined_mesh(const Mesh& mesh, const Context& context = {});
+    /// as apply_to; as prepare.
+    Mesh refined_mesh(const Mesh& mesh) { return refined_mesh(mesh, context()); }
+    Mesh refined_mesh(const Mesh& mesh, const Context& context);
     /// Writes the rest shape into the region's vertices of `mesh`, with the custom normals it had.
-    /// Errors: topology_mismatch.
+    /// Errors: as apply_to.
     void apply_rest_to(Mesh& mesh) const;
 
     /// All transforms to the identity and `positions()` to the rest shape, to the bit; vertex
@@ -196,7 +219,8 @@ class Deformer {
     /// transforms the details (Eq 2.2).
     const std::vector<Mat3>& gradients();
     /// Computes the basis if needed. Errors: as prepare; unsupported for a comparison method.
-    HandleBasis basis(const Context& context = {});
+    HandleBasis basis() { return basis(context()); }
+    HandleBasis basis(const Context& context);
     const DeformStats& stats() const;
 
   private:

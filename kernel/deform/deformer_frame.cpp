@@ -1,10 +1,14 @@
 // The frames of a drag: what Deformer::State does with a preparation.
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "kernel/deform/deformer_state.h"
 #include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/rotation/winding.h"
 
 namespace lissom {
 namespace {
@@ -14,6 +18,35 @@ namespace {
 // four or five without would.
 constexpr double kFurther = 1.6;
 constexpr double kLastFurther = 0.5;
+
+// Rotations that a refinement would change by more than this are followed less, and by twice as
+// much not at all: there the surface has caved in or folded, no rotation fits, and going after the
+// best one would fold it further or unwind what was asked for.
+constexpr double kSureChange = 25.0 * kPi / 180.0;
+
+// Where handles change the size of the surface by this logarithm or more, nothing is refined: no
+// rotation fits, and the best one would trade stretch for a moat beside the handle.
+constexpr double kSizeChange = 0.05;
+// While it lives the handles stand as they are shown; then, after an error too, as they were asked
+// to.
+class ShownPoses {
+  public:
+    ShownPoses(std::vector<HandleState>& handles, std::vector<Affine>& shown)
+        : handles_(handles), shown_(shown) {
+        exchange();
+    }
+    ~ShownPoses() { exchange(); }
+    ShownPoses(const ShownPoses&) = delete;
+    ShownPoses& operator=(const ShownPoses&) = delete;
+
+  private:
+    void exchange() {
+        for (std::size_t h = 0; h < shown_.size(); ++h) std::swap(handles_[h].in_patch, shown_[h]);
+    }
+
+    std::vector<HandleState>& handles_;
+    std::vector<Affine>& shown_;
+};
 
 }  // namespace
 
@@ -66,15 +99,19 @@ void Deformer::State::evaluate_deviation(const Context& context) {
 
 // ---- Deformation gradients
 
-// M_i after the first system; where it does not exist, the mean of those around it.
-Mat3 Deformer::State::gradient_of(Index v) const {
+// M_i after the first system, or what `part` of it leads to; where it does not exist, the mean of
+// those around it.
+Mat3 Deformer::State::gradient_of(Index v, const TurnPart* part) const {
     if (prepared->known.gradient[v]) return known_gradient(v);
     const Mat3 base = frame_base.topLeftCorner<3, 3>();
+    const Vec4* x = part ? part->deviation.data() : deviation.data();
     const auto gathered = [&](Index u) -> Mat3 {
         if (prepared->known.gradient[u]) return known_gradient(u);
         Mat3 m;
-        prepared->gradient_loop().gather(&u, deviation.data(), &m, 0, 1);
-        return base + m;
+        prepared->gradient_loop().gather(&u, x, &m, 0, 1);
+        m += base;
+        if (part) turn_on(*part, {&u, 1}, {&m, 1});
+        return m;
     };
     if (prepared->gradients.defined[v]) return gathered(v);
     Mat3 sum = Mat3::Zero();
@@ -90,31 +127,12 @@ Mat3 Deformer::State::gradient_of(Index v) const {
 // Of the frame that is shown, whatever transforms have been asked for since.
 void Deformer::State::find_gradients() {
     if (gradients_current) return;
-    const auto exchange = [&] {
-        for (std::size_t h = 0; h < shown.size(); ++h) std::swap(handles[h].in_patch, shown[h]);
-    };
-    exchange();
+    const ShownPoses in_place(handles, shown);
     evaluate_deviation({});
     for (Index row = 0; row < region.size(); ++row) {
         gradients[row] = gradient_of(prepared->work->patch.of_region[row]);
     }
-    exchange();
     gradients_current = true;
-}
-
-// What directions of the surface that is shown have turned by: S_i of the second system where it
-// was solved, else deformation gradients.
-std::vector<Mat3> Deformer::State::shown_rotations() {
-    if (prepared && prepared->comparison) return surface_gradients();
-    if (!turned) {
-        find_gradients();
-        return gradients;
-    }
-    std::vector<Mat3> rotations;
-    for (const Index v : rest_patch->patch.of_region) {
-        rotations.push_back(turned_base + turns[v].topRows<3>());
-    }
-    return rotations;
 }
 
 // S of the second system for a deformation gradient: R, or R s.
@@ -123,8 +141,15 @@ Mat3 Deformer::State::rotation_of(const Mat3& gradient) const {
     return options.local_size == LocalSize::scale ? Mat3(uniform_scale(gradient) * r) : r;
 }
 
-// S_i less that of the base, for all vertices of the region.
-void Deformer::State::find_turns(const Mat3& base_rotation, const Context& context) {
+// S_i less that of the base, for all vertices of the region, where handles turn by `greatest`
+// relative to each other.
+void Deformer::State::find_turns(const Mat3& base_rotation, double greatest,
+                                 const Context& context) {
+    std::optional<TurnPart> part;
+    if (const double fraction = turn_fraction(greatest); fraction < 1.0) {
+        part = part_of_turns(fraction, context);
+    }
+    const Vec4* x = part ? part->deviation.data() : deviation.data();
     const Mat3 base = frame_base.topLeftCorner<3, 3>();
     const bool scales = options.local_size == LocalSize::scale;
     if (turns.empty()) {
@@ -136,11 +161,10 @@ void Deformer::State::find_turns(const Mat3& base_rotation, const Context& conte
         std::array<Mat3, kFrameBlock> m;
         std::array<double, kFrameBlock> scale;
         const auto count = static_cast<std::size_t>(end - begin);
-        prepared->gradient_loop().gather(vertices.data(), deviation.data(), m.data(), begin, end);
-        for (std::size_t i = 0; i < count; ++i) {
-            m[i] += base;
-            scale[i] = scales ? uniform_scale(m[i]) : 1.0;
-        }
+        prepared->gradient_loop().gather(vertices.data(), x, m.data(), begin, end);
+        for (std::size_t i = 0; i < count; ++i) m[i] += base;
+        if (part) turn_on(*part, {vertices.data() + begin, count}, {m.data(), count});
+        for (std::size_t i = 0; i < count; ++i) scale[i] = scales ? uniform_scale(m[i]) : 1.0;
         nearest_rotations({m.data(), count}, {m.data(), count});
         for (std::size_t i = 0; i < count; ++i) {
             const Index v = vertices[static_cast<std::size_t>(begin) + i];
@@ -148,7 +172,8 @@ void Deformer::State::find_turns(const Mat3& base_rotation, const Context& conte
         }
     });
     for (const Index v : prepared->averaged) {
-        turns[v] = padded_columns(rotation_of(gradient_of(v)) - base_rotation);
+        turns[v] =
+            padded_columns(rotation_of(gradient_of(v, part ? &*part : nullptr)) - base_rotation);
     }
     turn_held(base_rotation);
 }
@@ -175,10 +200,20 @@ void Deformer::State::turn_held(const Mat3& base_rotation) {
 
 // ---- Second system
 
+// How handles change the size of the surface, as logarithms in the last entry; empty where none
+// does.
+std::vector<Vec4> Deformer::State::size_changes() const {
+    if (!prepared->solution) return {};
+    const std::vector<Vec4> of_handles = relative_turns();
+    const bool any = std::any_of(of_handles.begin(), of_handles.end(),
+                                 [](const Vec4& h) { return std::abs(h[3]) > 1e-9; });
+    return any ? spread(of_handles) : std::vector<Vec4>();
+}
+
 // Rotations that fit the present positions best, as in the local step of Sorkine and Alexa,
 // "As-rigid-as-possible surface modeling" (2007), for the energy of the second system: with its
 // solution in between, that energy never increases. Successive over-relaxation: the rotations then
-// go on by `further` times the change. Scales stay.
+// go on by `further` times the change, and less where no rotation fits. Scales stay.
 void Deformer::State::refine_turns(const Mat3& base_rotation, double further,
                                    const Context& context) {
     const Patch& patch = prepared->work->patch;
@@ -190,6 +225,7 @@ void Deformer::State::refine_turns(const Mat3& base_rotation, double further,
         }
     });
     const EnergyLoop loop = prepared->second->energy();
+    const std::vector<Vec4> sizes = size_changes();
     const bool scales = options.local_size == LocalSize::scale;
     for (const std::vector<Index>* vertices : {&prepared->gathered, &prepared->averaged}) {
         const auto all = static_cast<Index>(vertices->size());
@@ -198,18 +234,25 @@ void Deformer::State::refine_turns(const Mat3& base_rotation, double further,
             const auto count = static_cast<std::size_t>(end - begin);
             loop.fit(x.data(), vertices->data(), m.data(), begin, end);
             nearest_rotations({m.data(), count}, {m.data(), count});
-            const auto turn_of = [&](std::size_t i) {
-                return turns[(*vertices)[static_cast<std::size_t>(begin) + i]].topRows<3>();
+            const auto vertex_of = [&](std::size_t i) {
+                return (*vertices)[static_cast<std::size_t>(begin) + i];
             };
-            std::array<double, kFrameBlock> scale;
+            const auto turn_of = [&](std::size_t i) { return turns[vertex_of(i)].topRows<3>(); };
             for (std::size_t i = 0; i < count; ++i) {
                 const Mat3 before = base_rotation + turn_of(i);
-                scale[i] = scales ? uniform_scale(before) : 1.0;
+                const double scale = scales ? uniform_scale(before) : 1.0;
                 // Nothing to go on from where the surface has shrunk to a point.
-                if (scale[i] > 0.0) m[i] += further * (m[i] - before / scale[i]);
+                if (!(scale > 0.0)) continue;
+                const Mat3 from = before / scale;
+                const Eigen::AngleAxisd change(Mat3(m[i] * from.transpose()));
+                double sure = 1.0 - smooth_step((change.angle() - kSureChange) / kSureChange);
+                if (!sizes.empty()) {
+                    sure *= 1.0 - smooth_step(std::abs(sizes[vertex_of(i)][3]) / kSizeChange);
+                }
+                const double angle = (1.0 + further) * sure * change.angle();
+                turn_of(i) =
+                    scale * (rotation_of_turn(angle * change.axis()) * from) - base_rotation;
             }
-            nearest_rotations({m.data(), count}, {m.data(), count});
-            for (std::size_t i = 0; i < count; ++i) turn_of(i) = scale[i] * m[i] - base_rotation;
         });
     }
 }
@@ -219,9 +262,9 @@ void Deformer::State::refine_turns(const Mat3& base_rotation, double further,
 void Deformer::State::solve_second(bool draft, const Context& context) {
     const Patch& patch = prepared->work->patch;
     const Mat3 base_rotation = rotation_of(frame_base.topLeftCorner<3, 3>());
-    turned_base = base_rotation;
     const Mat3 remainder = frame_base.topLeftCorner<3, 3>() - base_rotation;
-    find_turns(base_rotation, context);
+    const double greatest = greatest_turn(), share = winding_share(greatest);
+    find_turns(base_rotation, greatest, context);
     if (!remainder.isZero(0.0)) {
         for_each_block(context, patch.vertex_count, [&](Index begin, Index end) {
             for (Index v = begin; v < end; ++v) {
@@ -229,7 +272,6 @@ void Deformer::State::solve_second(bool draft, const Context& context) {
             }
         });
     }
-    const double greatest = greatest_turn(), share = winding_share(greatest);
     if (share > 0.0) wind_turns(base_rotation, share, draft, context);
     prepared->second->solve(turns, deviation, draft, context);
     for (int step = 1; step <= options.refine; ++step) {
@@ -253,12 +295,9 @@ void Deformer::State::solve(bool draft, const Context& context) {
     if (at_rest()) return to_rest();
     if (prepared->comparison) return solve_comparison(context);
     next_positions.resize(rest.size() + prepared->work->patch.inserted.size());
-    turned = false;
     evaluate_deviation(context);
-    const bool has_free = !prepared->second->free_vertices().empty();
-    if (has_free) solve_second(draft, context);
+    if (!prepared->second->free_vertices().empty()) solve_second(draft, context);
     show_next();
-    turned = has_free;
 }
 
 // Moves what is behind the region in `next_positions` to `inserted`.
@@ -290,15 +329,13 @@ void Deformer::State::show_next() {
     shown.clear();
     for (const HandleState& h : handles) shown.push_back(h.in_patch);
     gradients_current = false;
-    turned = false;
 }
 
 void Deformer::State::to_rest() {
     positions = rest;
-    turned = false;
-    compared.clear();
     inserted.clear();
     shown_patch.reset();
+    shown.clear();
     gradients.assign(rest.size(), Mat3::Identity());
     gradients_current = true;
 }

@@ -5,14 +5,13 @@ namespace lissom {
 
 void Deformer::State::drop_prepared() {
     if (prepared) find_gradients();
-    if (prepared && prepared->comparison && !directions.empty()) gradients = surface_gradients();
     prepared.reset();
 }
 
 // The patch keeps its faces and numbers; what is around the region stays.
 void Deformer::State::rebase() {
-    if (!directions.empty()) directions.rebase(shown_rotations());
     drop_prepared();
+    directions.rebase(region, positions, turns_without_faces());
     const Patch& before = rest_patch->patch;
     std::vector<Vec3> at(static_cast<std::size_t>(region.topology()->vertex_count()), Vec3::Zero());
     for (Index i = 0; i < before.real_count; ++i) {

@@ -17,20 +17,31 @@ using Mat3L = Eigen::Matrix<long double, 3, 3>;
 // A mesh is far away where its coordinates spend three digits on its place.
 constexpr double kFarAway = 1e3;
 
+// Vertices around the region that have moved by less than this fraction of its size are where they
+// were: no tear would be seen.
+constexpr double kMoved = 1e-6;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
 
-Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen)
+Deformer::State::State(const Mesh& mesh, const Region& given, const DeformOptions& chosen,
+                       const Context& given_context)
     : region(given),
       options(chosen),
+      own_context(given_context),
       rest_patch(std::make_shared<WorkingPatch>(
           build_patch(given, mesh.positions(), kPatchRings, near_order(given, kPatchRings)),
           chosen)),
       directions(mesh, given) {
     for (const Index v : region.vertices()) rest.push_back(mesh.position(v));
+    const Patch& patch = rest_patch->patch;
+    for (Index i = 0; i < patch.mesh_count(); ++i) {
+        const Index v = patch.mesh_vertex[i];
+        if (!patch.in_region[i]) surroundings.emplace_back(v, mesh.position(v));
+    }
     number_rows();
     to_rest();
 }
@@ -63,6 +74,37 @@ Index Deformer::State::local_vertex(Index mesh_vertex) const {
     const std::vector<Index>& ids = region.vertices();
     const auto row = std::lower_bound(ids.begin(), ids.end(), mesh_vertex) - ids.begin();
     return rest_patch->patch.of_region[static_cast<std::size_t>(row)];
+}
+
+// Errors: topology_mismatch, naming vertices around the region that are not where they were.
+void Deformer::State::require_surroundings(const Mesh& mesh) const {
+    Elements moved{ElementKind::vertex, 0, {}};
+    for (const auto& [v, at] : surroundings) {
+        if (!((mesh.position(v) - at).norm() <= kMoved * size)) moved.add(v);
+    }
+    if (moved.count == 0) return;
+    const std::string names = describe(moved);
+    throw Error(ErrorCode::topology_mismatch,
+                "the mesh has changed around the region since the deformation was made, at " +
+                    names +
+                    "; the result would tear there. Make a new deformation, or undo the change",
+                std::move(moved));
+}
+
+// How the vertices that RestDirections::without_faces names have turned: with their handle.
+std::vector<Mat3> Deformer::State::turns_without_faces() const {
+    std::vector<Mat3> result;
+    for (const Index row : directions.without_faces()) {
+        const Index v = rest_patch->patch.of_region[row];
+        result.push_back(Mat3::Identity());
+        for (std::size_t h = 0; h < shown.size(); ++h) {
+            const std::vector<Index>& held = handles[h].local;
+            const bool holds = handles[h].options.gradient && !shown[h].is_identity() &&
+                               std::find(held.begin(), held.end(), v) != held.end();
+            if (holds) result.back() = nearest_rotation(shown[h].linear);
+        }
+    }
+    return result;
 }
 
 bool Deformer::State::at_rest() const {
@@ -163,7 +205,6 @@ void Deformer::State::prepare(const Context& context) {
     if (!prepared) {
         prepared = factored(context);
         turns.clear();
-        turned = false;
         fixed_current = false;
     }
     if (fixed_current) return;

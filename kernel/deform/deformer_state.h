@@ -69,6 +69,22 @@ struct Prepared {
     }
 };
 
+/// The first system at a fraction of the turns that are asked for.
+struct TurnPart {
+    double fraction = 1.0;
+    /// Where local vertices then lie, relative to where the base takes them.
+    std::vector<Vec4> deviation;
+    /// What the handles' translations and the vertex constraints add that the turns do not.
+    std::vector<Vec4> remainder;
+};
+
+struct ShownResult {
+    std::vector<Vec3> positions, inserted;
+    std::shared_ptr<const WorkingPatch> patch;
+    std::vector<Affine> transforms;
+    std::vector<Mat3> gradients;
+};
+
 struct HandlePoses {
     std::vector<HandleState> handles;
     /// Of the patch, which a new rest shape moves.
@@ -76,10 +92,13 @@ struct HandlePoses {
 };
 
 struct Deformer::State {
-    State(const Mesh& mesh, const Region& given, const DeformOptions& chosen);
+    State(const Mesh& mesh, const Region& given, const DeformOptions& chosen,
+          const Context& given_context);
 
     HandleState& handle(HandleId id);
     Index local_vertex(Index mesh_vertex) const;
+    std::vector<Mat3> turns_without_faces() const;
+    void require_surroundings(const Mesh& mesh) const;
     bool at_rest() const;
 
     void number_rows();
@@ -134,18 +153,21 @@ struct Deformer::State {
     Affine comparison_base() const;
     std::vector<SourceMotion> source_motions() const;
     void solve_comparison(const Context& context);
-    std::vector<Mat3> surface_gradients() const;
 
     void evaluate_deviation(const Context& context);
-    Mat3 gradient_of(Index v) const;
+    Mat3 gradient_of(Index v, const TurnPart* part = nullptr) const;
     void find_gradients();
-    std::vector<Mat3> shown_rotations();
     Mat3 rotation_of(const Mat3& gradient) const;
     void preview(const Context& context);
-    void find_turns(const Mat3& base_rotation, const Context& context);
+    void find_turns(const Mat3& base_rotation, double greatest, const Context& context);
     void turn_held(const Mat3& base_rotation);
     std::vector<Vec4> relative_turns() const;
     double greatest_turn() const;
+    static double turn_fraction(double greatest);
+    TurnPart part_of_turns(double fraction, const Context& context) const;
+    std::vector<Vec4> spread_moves(std::span<const Mat4> differences, const Context& context) const;
+    void turn_on(const TurnPart& part, std::span<const Index> vertices,
+                 std::span<Mat3> gradient) const;
     static double winding_share(double greatest);
     static double far_share(double greatest);
     std::vector<Vec4> spread(const std::vector<Vec4>& value) const;
@@ -160,6 +182,7 @@ struct Deformer::State {
                     const Mat3& base_rotation);
     void blend_turns(std::span<const Index> vertices, std::span<const PaddedMat3> before,
                      double share, const Mat3& base_rotation);
+    std::vector<Vec4> size_changes() const;
     void refine_turns(const Mat3& base_rotation, double further, const Context& context);
     void solve_second(bool draft, const Context& context);
     void solve(bool draft, const Context& context);
@@ -170,6 +193,8 @@ struct Deformer::State {
 
     Region region;
     DeformOptions options;
+    /// Of operations that are given none.
+    Context own_context;
     /// The region as the mesh has it.
     std::shared_ptr<const WorkingPatch> rest_patch;
     /// Row in the region of each local vertex of the rest patch, or kNoIndex.
@@ -180,6 +205,8 @@ struct Deformer::State {
     /// Whether coordinates of the mesh have fewer digits for its shape than `in_patch` of handles.
     bool far_away = false;
     RestDirections directions;
+    /// Vertices around the region and where they lie.
+    std::vector<std::pair<Index, Vec3>> surroundings;
 
     std::vector<HandleState> handles;
     /// Hard constraints of vertices.
@@ -204,13 +231,8 @@ struct Deformer::State {
     /// S_i less that of the base, for the second system. Outside the region they stay zero, as then
     /// the base is the identity.
     std::vector<PaddedMat3> turns;
-    /// Whether `turns`, over this base, are those of the frame that is shown.
-    bool turned = false;
-    Mat3 turned_base = Mat3::Identity();
     /// Scratch of the refinement: positions less the translation of the base.
     std::vector<Vec4> absolute;
-    /// Local positions of the last solve by a comparison method.
-    std::vector<Vec3> compared;
     /// What is shown: the positions of the last frame, the transforms of handles in it, and its
     /// gradients where they are current. Before anything that the preparation rests on changes,
     /// they are brought up to date. `next_positions` holds the positions of a frame that is not

@@ -1,6 +1,6 @@
 // Rotations of handles beyond half a turn. The first system cannot tell a turn by t from one by t
 // minus a full turn; what was asked for is propagated instead, and only what the handles'
-// translations add is taken as the first system would.
+// translations add is taken as the first system would. deformer_fraction.cpp leads there.
 #include <Eigen/QR>
 #include <algorithm>
 #include <array>
@@ -14,17 +14,13 @@ namespace lissom {
 namespace {
 
 // Between these angles the field of turns takes over from that of the first system.
-constexpr double kFirstAngle = 150.0 * kPi / 180.0;
-constexpr double kLastAngle = 178.0 * kPi / 180.0;
+constexpr double kFirstAngle = 120.0 * kPi / 180.0;
+constexpr double kLastAngle = 240.0 * kPi / 180.0;
 
-// Up to this angle a refinement stops going further than what fits best: sides of a part that is
-// twisted more would cave in until they meet.
+// Between these angles a refinement stops going further than what fits best: sides of a part that
+// is twisted more would cave in until they meet.
+constexpr double kNearAngle = 178.0 * kPi / 180.0;
 constexpr double kFarAngle = 270.0 * kPi / 180.0;
-
-double smooth_step(double t) {
-    t = std::clamp(t, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
 
 }  // namespace
 
@@ -65,7 +61,7 @@ double Deformer::State::winding_share(double greatest) {
 }
 
 double Deformer::State::far_share(double greatest) {
-    return smooth_step((greatest - kLastAngle) / (kFarAngle - kLastAngle));
+    return smooth_step((greatest - kNearAngle) / (kFarAngle - kNearAngle));
 }
 
 // sum over h of w_h value_h at every local vertex, where w_h are the weights of translations in the
@@ -76,7 +72,9 @@ std::vector<Vec4> Deformer::State::spread(const std::vector<Vec4>& value) const 
     std::vector<Vec4> field(static_cast<std::size_t>(prepared->work->patch.vertex_count),
                             Vec4::Zero());
     for (std::size_t n = 0; n < value.size(); ++n) {
-        for (const Index v : prepared->held[solution.handles()[n]]) field[v] = value[n];
+        for (const Index v : prepared->held[solution.handles()[n]]) {
+            if (prepared->known.position[v]) field[v] = value[n];
+        }
     }
     for (std::size_t row = 0; row < free.size(); ++row) {
         for (std::size_t n = 0; n < value.size(); ++n) {
@@ -247,7 +245,7 @@ void Deformer::State::bend_turns(std::span<const Index> vertices, std::span<Mat3
     }
 }
 
-// Takes the means, by `share`, of `turns` and those from before.
+// Turns those from before to `turns` by `share` of the way.
 void Deformer::State::blend_turns(std::span<const Index> vertices,
                                   std::span<const PaddedMat3> before, double share,
                                   const Mat3& base_rotation) {
@@ -258,8 +256,10 @@ void Deformer::State::blend_turns(std::span<const Index> vertices,
         const Mat3 now = base_rotation + turns[v].topRows<3>();
         const double scale =
             scales ? (1.0 - share) * uniform_scale(first) + share * uniform_scale(now) : 1.0;
-        const Mat3 mean = (1.0 - share) * first + share * now;
-        turns[v].topRows<3>() = scale * nearest_rotation(mean) - base_rotation;
+        const Mat3 mean =
+            scales ? rotation_between(nearest_rotation(first), nearest_rotation(now), share)
+                   : rotation_between(first, now, share);
+        turns[v].topRows<3>() = scale * mean - base_rotation;
     }
 }
 

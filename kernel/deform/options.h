@@ -55,13 +55,17 @@ struct DeformOptions {
     LaplacianWeights weights = LaplacianWeights::cotangent;
     /// How often, 0 to 2, the rotations are fitted to the result and it is solved for again: less
     /// distortion, for half a frame each. Rotations go further than what fits, so that two do what
-    /// four or five would; more would wear twisted parts thin.
+    /// four or five would; more would wear twisted parts thin. Left alone are places where no
+    /// rotation fits, as the surface has caved in, and those whose size handles change. Refined
+    /// parts get thinner: not for surfaces that run through themselves or nearly do.
     int refine = 0;
     /// Rings of neighbours whose gradients are kept similar (the pairs SF of Eq 2.7): 1 or 2.
     int coherence = 1;
     /// Weight of the coherence term beside the Laplacian term; the result hardly depends on it.
     double coherence_weight = 1.0;
-    /// A vertex is degenerate where the condition number of V_i V_i^T exceeds this (section 2.4.3).
+    /// A vertex is degenerate, and displaced once, where the condition number of V_i V_i^T exceeds
+    /// this (section 2.4.3); above 1. Whatever it is below 2e4, gradients are used up to 2e4: no
+    /// displacement brings a ring much below 100.
     double degenerate_threshold = 2e4;
     /// Works on a surface that is refined along the borders of what is held, where they are coarse
     /// beside the region (section 2.5): else a few held vertices would say where a detailed region

@@ -29,7 +29,9 @@ void settle(std::span<const Said> said) {
         sum += share * one.constraint->value;
         total += share;
     }
-    for (const Said& one : said) *one.constraint = {first.point, sum / total, first.weight};
+    for (const Said& one : said) {
+        *one.constraint = {first.point, sum / total, first.weight, first.tag};
+    }
 }
 
 }  // namespace

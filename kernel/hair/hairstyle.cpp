@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 #include <utility>
 
+#include "kernel/core/machine_memory.h"
+#include "kernel/core/memory_error.h"
 #include "kernel/hair/curve_conflicts.h"
 #include "kernel/hair/curve_derivation.h"
 #include "kernel/hair/scalp/root_uvs.h"
+#include "kernel/hair/scalp/surface_distance.h"
 #include "kernel/hair/style_roots.h"
 
 namespace lissom {
@@ -14,6 +18,9 @@ namespace {
 
 // Owner of the constraints of the scalp step; those of curves are above it.
 constexpr ConstraintOwner kScalpOwner = 0;
+
+// Seconds for making and solving a large grid, about, on one thread of a common processor.
+constexpr double kSecondsAPoint = 1.5e-6;
 
 // Who yields to whom at a grid point.
 constexpr int kScalpRank = -1, kCurveRank = 0, kDividingRank = 1;
@@ -47,6 +54,56 @@ GridLayout layout_of(const HairstyleOptions& options) {
     return fit_grid(options.volume.value_or(Scalp::default_volume()), options.resolution);
 }
 
+// The field, the distance with its sign and gradient, and all as they are read.
+std::size_t needed_bytes(const GridLayout& layout, const GridFieldOptions& field) {
+    const auto points = static_cast<std::size_t>(layout.size());
+    const auto [nx, ny, nz] = layout.counts;
+    return GridField::predicted_bytes({nx, ny, nz}, 0, field) +
+           points * (9 * sizeof(float) + sizeof(std::uint8_t));
+}
+
+// Most hair is shorter than asked for reasons that are not the style's.
+void warn_of_short_hair(const GrowthReport& report, Index strands, const Context& context) {
+    const auto warn = [&](StrandEnd end, const std::string& text) {
+        const Index count = report.ended_by(end);
+        if (2 * std::int64_t{count} <= strands) return;
+        context.log(LogLevel::warning,
+                    std::to_string(count) + " of " + std::to_string(strands) + " strands " + text);
+    };
+    warn(StrandEnd::left_grid,
+         "left the volume of the hairstyle before they were as long as asked; enlarge the volume, "
+         "or make hair shorter");
+    warn(StrandEnd::segments,
+         "have as many segments as allowed before they are as long as asked; raise most_segments");
+}
+
+std::string quantity(double amount, const char* unit) {
+    std::ostringstream text;
+    text.precision(amount < 10.0 ? 1 : 0);
+    text << std::fixed << amount << ' ' << unit;
+    return text.str();
+}
+
+// A grid that would not fit into memory fails late, or stops the machine.
+void require_affordable(const HairstyleOptions& options, const Context& context) {
+    const GridLayout layout = layout_of(options);
+    const std::size_t limit = context.memory()->limit(), used = context.memory()->used();
+    const std::size_t room = limit > 0 ? limit - std::min(limit, used) : machine_memory();
+    const std::size_t needed = needed_bytes(layout, options.field);
+    if (room == 0 || needed <= room) return;
+    constexpr double kGigabyte = 1e9;
+    const double points = layout.size(),
+                 share = static_cast<double>(room) / static_cast<double>(needed);
+    throw Error(ErrorCode::memory_limit,
+                "a hairstyle of " + std::to_string(layout.size()) + " grid points needs about " +
+                    quantity(static_cast<double>(needed) / kGigabyte, "GB") + " and " +
+                    quantity(kSecondsAPoint * points, "seconds") + ", but there are " +
+                    quantity(static_cast<double>(room) / kGigabyte, "GB") +
+                    "; a resolution of at most " +
+                    std::to_string(static_cast<Index>(share * points)) +
+                    " would fit, and 50000 do for most styles");
+}
+
 }  // namespace
 
 struct Hairstyle::State {
@@ -57,7 +114,10 @@ struct Hairstyle::State {
           scalp(*scalp_owner),
           options(wanted),
           head(placed_head(mesh, scalp, context)),
-          field(DistanceGrid(head, layout_of(wanted), {}, context), wanted.field, context) {}
+          field(DistanceGrid(head, layout_of(wanted), {}, context), wanted.field, context),
+          surface(scalp, field.distances(), head) {}
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
 
     DerivedCurve derived(const StyleCurve& curve) const {
         return derive(curve, scalp, field.distances());
@@ -77,6 +137,7 @@ struct Hairstyle::State {
     HairstyleOptions options;
     Mesh head;
     HairField field;
+    SurfaceDistance surface;
 
     // In their order.
     std::vector<PlacedCurve> curves;
@@ -138,6 +199,7 @@ Hairstyle::Hairstyle(const Mesh& head, std::shared_ptr<const Scalp> scalp,
         throw Error(ErrorCode::topology_mismatch,
                     "the scalp was made for another head; make one for this head");
     }
+    require_affordable(options, context);
     state_ = std::make_unique<State>(head, std::move(scalp), options, context);
 }
 
@@ -160,12 +222,16 @@ const Mesh& Hairstyle::head() const {
 const HairField& Hairstyle::field() const {
     return state_->field;
 }
+double Hairstyle::surface_distance(const Vec3& point) const {
+    return state_->surface(point);
+}
 
 // ---- Curves
 
 CurveId Hairstyle::add(StyleCurve curve) {
     DerivedCurve derived = state_->derived(curve);
     const CurveId id{++state_->last_id};
+    if (derived.line) state_->root_options.reset();
     state_->curves.push_back({id, std::move(curve), std::move(derived)});
     state_->constraints_changed();
     return id;
@@ -233,10 +299,47 @@ const std::vector<Vec3>& Hairstyle::course(CurveId id) const {
     return state_->at(id).derived.course;
 }
 
+std::vector<StyleConstraint> Hairstyle::constraints() const {
+    const State& s = *state_;
+    std::vector<ConstraintOwner> owners = {kScalpOwner};
+    for (const CurveId id : s.order) owners.push_back(id.value);
+    struct Said {
+        ConstraintOwner owner;
+        const GridConstraint* constraint;
+    };
+    std::map<Index, Said> decisive;
+    const auto divides = [&](ConstraintOwner owner) {
+        return owner != kScalpOwner &&
+               std::holds_alternative<DividingCurve>(curve(CurveId{owner}).shape);
+    };
+    for (const ConstraintOwner owner : owners) {
+        const auto sent = s.sent.find(owner);
+        if (sent == s.sent.end()) continue;
+        for (const GridConstraint& one : sent->second) {
+            const auto [found, is_new] = decisive.try_emplace(one.point, Said{owner, &one});
+            if (is_new || (divides(found->second.owner) && !divides(owner))) continue;
+            found->second = {owner, &one};
+        }
+    }
+    std::vector<StyleConstraint> result;
+    for (const auto& [point, said] : decisive) {
+        const GridConstraint& one = *said.constraint;
+        StyleConstraint& listed = result.emplace_back();
+        listed.point = layout().point(point);
+        listed.vector = one.value;
+        listed.kind = static_cast<ConstraintKind>(one.tag);
+        if (said.owner != kScalpOwner) listed.curve = CurveId{said.owner};
+        listed.weight = one.weight;
+    }
+    return result;
+}
+
 // ---- The field
 
-void Hairstyle::solve(const Context& context) {
+void Hairstyle::solve(const Context& context) try {
     if (!solved()) state_->field.solve(context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 bool Hairstyle::solved() const {
@@ -257,6 +360,9 @@ void Hairstyle::avoid_scalp(const ScalpStepOptions& options, const Context& cont
             return state_->over_scalp(point) && (!options.where || options.where(point));
         };
         state_->scalp_step = scalp_step(state_->field, all);
+        for (GridConstraint& one : state_->scalp_step) {
+            one.tag = static_cast<int>(ConstraintKind::scalp);
+        }
         state_->constraints_changed();
         solve(context);
     } catch (...) {
@@ -318,12 +424,13 @@ std::vector<HairTie> Hairstyle::State::ties(std::vector<std::string>& names) con
     return result;
 }
 
-GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands, const Context& context) {
+GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands,
+                             const Context& context) try {
     State& s = *state_;
     const bool any = std::any_of(s.curves.begin(), s.curves.end(),
                                  [](const PlacedCurve& one) { return one.curve.enabled; });
     if (!any) {
-        throw Error(ErrorCode::unconstrained,
+        throw Error(ErrorCode::invalid_argument,
                     "a hairstyle without curves says nothing of hair; add a curve, or enable one");
     }
     solve(context);
@@ -333,11 +440,14 @@ GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands, const
     std::vector<std::string> names;
     growth.ties = s.ties(names);
     GrowthReport report = s.grower->grow(s.field, growth, strands, context);
+    warn_of_short_hair(report, strands.size(), context);
     StrandRoots roots = strands.roots();
     roots.uvs = s.uvs;
     strands.set_roots(std::move(roots));
     if (!names.empty()) strands.set_groups(std::move(report.ties), std::move(names));
     return report;
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 Strands Hairstyle::grow(const HairOptions& options, const Context& context) {
@@ -353,7 +463,7 @@ std::size_t Hairstyle::memory_bytes() const {
     const auto vertices = static_cast<std::size_t>(s.head.vertex_count());
     const auto points = static_cast<std::size_t>(layout().size());
     return GridField::predicted_bytes(s.field.grid().size(), constraints, s.options.field) +
-           5 * points * sizeof(float) + 4 * vertices * sizeof(Vec3) + s.uvs.size() * 64;
+           9 * points * sizeof(float) + 4 * vertices * sizeof(Vec3) + s.uvs.size() * 64;
 }
 
 const GridLayout& Hairstyle::layout() const {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/hair/curve/constraint_kind.h"
 #include "kernel/hair/curve/style_curve.h"
 #include "kernel/hair/field/hair_field.h"
 #include "kernel/hair/field/scalp_step.h"
@@ -40,6 +41,16 @@ struct CurveId {
     bool operator==(const CurveId&) const = default;
 };
 
+/// A vector that the style gives the field at a grid point.
+struct StyleConstraint {
+    Vec3 point = Vec3::Zero(), vector = Vec3::Zero();
+    ConstraintKind kind = ConstraintKind::stream;
+    /// The curve that counts there; none for those of avoid_scalp.
+    std::optional<CurveId> curve = std::nullopt;
+    /// omega of equation (4.2).
+    double weight = 0.0;
+};
+
 /// What to grow.
 struct HairOptions {
     RootOptions roots = {};
@@ -55,7 +66,8 @@ class Hairstyle {
     /// Takes the present shape of `head`, which may change or die afterwards; `scalp` must have
     /// been made for it.
     /// Errors: invalid_argument for a volume or resolution out of range; topology_mismatch;
-    /// mesh_empty; memory_limit; cancelled.
+    /// mesh_empty; memory_limit, before anything is computed where the grid needs more memory than
+    /// the limit of the context, or without one than the machine has; cancelled.
     Hairstyle(const Mesh& head, std::shared_ptr<const Scalp> scalp,
               const HairstyleOptions& options = {}, const Context& context = {});
     ~Hairstyle();
@@ -68,6 +80,9 @@ class Hairstyle {
     /// The head in metres of the frame.
     const Mesh& head() const;
     const GridLayout& layout() const;
+    /// Signed distance to the surface of the head itself, negative inside; far away that of the
+    /// field. Thread-safe.
+    double surface_distance(const Vec3& point) const;
 
     /// Adds a curve behind all others. Errors: as set.
     CurveId add(StyleCurve curve);
@@ -88,6 +103,9 @@ class Hairstyle {
     const StyleCurve& curve(CurveId id) const;
     /// The curve as it acts: smooth, outside the head, in segments of about a grid step.
     const std::vector<Vec3>& course(CurveId id) const;
+    /// What the curves that are enabled and avoid_scalp give the field, one a grid point, in the
+    /// order of the grid's points.
+    std::vector<StyleConstraint> constraints() const;
 
     /// Brings the field up to date with the curves; does nothing where none has changed. Without
     /// curves it is zero. After an error the field is that of the last solve.
@@ -110,7 +128,7 @@ class Hairstyle {
     /// Grows hair into `strands`, whose memory is used again; solves first where needed. Groups are
     /// named after the ponytails through whose tie strands pass. The first n strands of a larger
     /// count are those of count n.
-    /// Errors: unconstrained without an enabled curve; as make_roots, grow and solve.
+    /// Errors: invalid_argument without an enabled curve; as make_roots, grow and solve.
     GrowthReport grow(const HairOptions& options, Strands& strands, const Context& context = {});
     Strands grow(const HairOptions& options = {}, const Context& context = {});
 

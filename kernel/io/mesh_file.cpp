@@ -2,21 +2,25 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/memory_error.h"
 #include "kernel/io/gltf/gltf.h"
 #include "kernel/io/obj/mtl.h"
 #include "kernel/io/obj/obj.h"
 #include "kernel/io/off/off.h"
 #include "kernel/io/ply/ply.h"
 #include "kernel/io/record/file_rules.h"
+#include "kernel/io/record/float_loss.h"
 #include "kernel/io/sniff.h"
 #include "kernel/io/stl/stl.h"
 #include "kernel/io/stream/file.h"
 #include "kernel/io/stream/scalar.h"
 #include "kernel/mesh/measure/directions.h"
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/repair/repair.h"
 
 namespace lissom {
@@ -27,6 +31,8 @@ struct Format {
     MeshData (*read)(const FileInput& file, const Context& context);
     void (*write)(SavedParts& parts, const SaveOptions& options, std::string& bytes,
                   const Context& context);
+    // Whether it keeps the place of an object apart from its positions.
+    bool has_places = false;
 };
 
 // A format that keeps all in one file.
@@ -46,8 +52,8 @@ constexpr std::array<Format, 6> kFormats{{{"obj", "OBJ", read_obj_file, write_ob
                                           {"ply", "PLY", read_alone<read_ply>, write_ply},
                                           {"off", "OFF", read_alone<read_off>, write_off},
                                           {"stl", "STL", read_alone<read_stl>, write_stl},
-                                          {"gltf", "glTF", read_gltf, write_gltf},
-                                          {"glb", "glTF", read_gltf, write_glb}}};
+                                          {"gltf", "glTF", read_gltf, write_gltf, true},
+                                          {"glb", "glTF", read_gltf, write_glb, true}}};
 
 const Format& find_format(std::string_view extension) {
     const std::string wanted = normalized_extension(extension);
@@ -88,16 +94,37 @@ void apply(const LoadOptions& options, MeshData& data) {
     map_directions(data.attributes, map);
 }
 
-// The mesh in the file's axes and unit, or nothing where they are the kernel's own.
-std::optional<Mesh> in_file_frame(const Mesh& mesh, const SaveOptions& options) {
-    if (is_kernel_frame(options.up, options.unit)) return std::nullopt;
+// The mesh in the file's axes and unit around `origin`, or nothing where they are the kernel's own.
+std::optional<Mesh> in_file_frame(const Mesh& mesh, const SaveOptions& options,
+                                  const Vec3& origin) {
+    const bool is_turned = !is_kernel_frame(options.up, options.unit);
+    if (!is_turned && origin.isZero(0.0)) return std::nullopt;
     const Mat3 turn = from_file(options.up, 1.0).transpose();
     Mesh result = mesh;
     std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
-    for (Vec3& p : positions) p = turn * (p / options.unit);
+    for (Vec3& p : positions) p -= origin;
+    if (is_turned) {
+        for (Vec3& p : positions) p = turn * (p / options.unit);
+        map_directions(result.attributes(), turn / options.unit);
+    }
     result.set_positions(std::move(positions));
-    map_directions(result.attributes(), turn / options.unit);
     return result;
+}
+
+// The origin of a file whose format has no other place for it.
+Vec3 moved_origin(const Mesh& mesh, const Format& format, const SaveOptions& options) {
+    if (options.origin == FileOrigin::keep || format.has_places) return Vec3::Zero();
+    return near_origin(bounds(mesh));
+}
+
+void tell_origin(const Vec3& origin, const Format& format, const Context& context) {
+    if (origin.isZero(0.0)) return;
+    // As many digits as 32-bit numbers have.
+    char place[64];
+    std::snprintf(place, sizeof place, "(%.9g, %.9g, %.9g)", origin.x(), origin.y(), origin.z());
+    context.log(LogLevel::warning, "the origin of the file is the point " + std::string(place) +
+                                       " of the mesh, which " + std::string(format.name) +
+                                       " cannot hold; add it to what is read");
 }
 
 // Text editors put this mark before UTF-8.
@@ -158,17 +185,24 @@ Mesh decode(FileInput file, const Format& format, const LoadOptions& options,
     return mesh;
 }
 
-std::string encode(const Mesh& mesh, const Format& format, const SaveOptions& options,
-                   const Context& context) {
+struct Encoded {
+    std::string bytes;
+    SavedFile saved;
+};
+
+Encoded encode(const Mesh& mesh, const Format& format, const SaveOptions& options,
+               const Context& context) {
     require_unit(options.unit);
     // The size of the file is not known yet, but of the order of the mesh's.
     const MemoryCharge charge = context.charge(mesh.memory_bytes(), "saving a mesh");
-    const std::optional<Mesh> turned = in_file_frame(mesh, options);
+    Encoded result;
+    result.saved.origin = moved_origin(mesh, format, options);
+    const std::optional<Mesh> turned = in_file_frame(mesh, options, result.saved.origin);
     SavedParts parts(turned ? *turned : mesh);
-    std::string bytes;
-    format.write(parts, options, bytes, context);
+    format.write(parts, options, result.bytes, context);
     parts.log_losses(format.name, context);
-    return bytes;
+    tell_origin(result.saved.origin, format, context);
+    return result;
 }
 
 std::vector<std::string> extensions() {
@@ -188,27 +222,39 @@ Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options,
     const FileContent file = read_file(path, context);
     const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     return with_place_in_errors(name, [&] {
-        return decode({file.bytes, folder}, format, options, context);
+        return with_memory_errors([&] {
+            return decode({file.bytes, folder}, format, options, context);
+        });
     });
 }
 
-void save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOptions& options,
-               const Context& context) {
-    const std::string bytes = with_place_in_errors(display_name(path), [&] {
-        return encode(mesh, find_format(display_name(path.extension())), options, context);
+SavedFile save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOptions& options,
+                    const Context& context) {
+    require_folder_of(path);
+    Progress progress(context, "save mesh");
+    progress.step(0.8);
+    const Encoded encoded = with_place_in_errors(display_name(path), [&] {
+        return with_memory_errors([&] {
+            return encode(mesh, find_format(display_name(path.extension())), options, context);
+        });
     });
-    write_file_atomically(path, bytes, context);
+    progress.step(0.2);
+    write_file_atomically(path, encoded.bytes, context);
+    return encoded.saved;
 }
 
 Mesh decode_mesh(std::string_view bytes, std::string_view extension, const LoadOptions& options,
                  const Context& context) {
     const Format& format = find_format(extension);
-    return with_place_in_errors("", [&] { return decode({bytes, {}}, format, options, context); });
+    return with_place_in_errors("", [&] {
+        return with_memory_errors([&] { return decode({bytes, {}}, format, options, context); });
+    });
 }
 
 std::string encode_mesh(const Mesh& mesh, std::string_view extension, const SaveOptions& options,
                         const Context& context) {
-    return encode(mesh, find_format(extension), options, context);
+    return with_memory_errors(
+        [&] { return encode(mesh, find_format(extension), options, context).bytes; });
 }
 
 const std::vector<std::string>& readable_extensions() {

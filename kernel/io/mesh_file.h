@@ -21,6 +21,12 @@
 
 namespace lissom {
 
+/// What became of a mesh that was saved.
+struct SavedFile {
+    /// The point of the mesh that is the origin of the file. Zero but for FileOrigin::automatic.
+    Vec3 origin = Vec3::Zero();
+};
+
 /// Reads a mesh; the extension, in any case, names the format. A byte order mark is passed over.
 /// Other files that a glTF or OBJ file refers to are read from its own folder and nowhere else.
 /// Errors: unknown_format; file_not_found, file_is_directory, file_empty, file_unreadable;
@@ -32,10 +38,11 @@ Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options = {
 
 /// Writes a mesh, whole or not at all; the extension, in any case, names the format.
 /// Errors: unknown_format; file_write_failed, file_is_directory; not_finite where positions exceed
-/// the format's number range; invalid_argument for a bad unit or attributes that do not fit the
-/// mesh.
-void save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOptions& options = {},
-               const Context& context = {});
+/// the format's number range; unsupported where its 32-bit numbers (glTF, binary STL) would join
+/// vertices that it does not number or flatten more than one face in a thousand, and for points
+/// alone as STL; invalid_argument for a bad unit or attributes that do not fit the mesh.
+SavedFile save_mesh(const Mesh& mesh, const std::filesystem::path& path,
+                    const SaveOptions& options = {}, const Context& context = {});
 
 /// As `load_mesh`, from the content of a file in memory, which can refer to no other. `extension`
 /// as in `readable_extensions`.

@@ -1,14 +1,19 @@
 #include "kernel/io/strand_file.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/memory_error.h"
+#include "kernel/hair/strands/strand_measures.h"
+#include "kernel/hair/strands/strand_place.h"
 #include "kernel/io/gltf/strands.h"
 #include "kernel/io/hair/cyhair.h"
 #include "kernel/io/hair/hair_salon.h"
 #include "kernel/io/hair/rib_curves.h"
+#include "kernel/io/hair/rib_scene.h"
 #include "kernel/io/obj/strands.h"
 #include "kernel/io/record/file_rules.h"
 #include "kernel/io/record/strand_check.h"
@@ -25,35 +30,60 @@ struct StrandFormat {
     std::string_view extension;
     Strands (*read)(ByteSource& source, const Context& context);
     UsdaHair (*read_text)(std::string_view bytes, const Context& context);
-    void (*write)(const Strands& strands, const StrandSaveOptions& options, std::string& bytes,
-                  const Context& context);
+    void (*write)(const Strands& strands, const StrandSaveOptions& options, const RibScene& scene,
+                  std::string& bytes, const Context& context);
     StrandCapacity capacity;
 
     bool readable() const { return read || read_text; }
 };
 
-void write_hair_file(const Strands& strands, const StrandSaveOptions&, std::string& bytes,
-                     const Context&) {
+void write_hair_file(const Strands& strands, const StrandSaveOptions&, const RibScene&,
+                     std::string& bytes, const Context&) {
     write_cyhair(strands, bytes);
 }
-void write_data_file(const Strands& strands, const StrandSaveOptions&, std::string& bytes,
-                     const Context&) {
+void write_data_file(const Strands& strands, const StrandSaveOptions&, const RibScene&,
+                     std::string& bytes, const Context&) {
     write_hair_salon(strands, bytes);
 }
-void write_usda_file(const Strands& strands, const StrandSaveOptions& options, std::string& bytes,
-                     const Context& context) {
+void write_usda_file(const Strands& strands, const StrandSaveOptions& options, const RibScene&,
+                     std::string& bytes, const Context& context) {
     write_usda(strands, options.unit, options.up, bytes, context);
 }
+// Metres of the strands to those of the file.
+Affine frame_of_file(const StrandSaveOptions& options) {
+    Mat3 turn = Mat3::Identity();
+    if (options.up == UpAxis::z) turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    return {turn / options.unit, Vec3::Zero()};
+}
+
+// `strands` are in the frame of the file.
+void write_rib_file(const Strands& strands, const StrandSaveOptions& options, const RibScene& scene,
+                    std::string& bytes, const Context& context) {
+    bytes = "##RenderMan RIB-Structure 1.1\nversion 3.04\n";
+    if (scene.archive) return write_rib_curves(strands, bytes, context);
+    const Affine frame = frame_of_file(options);
+    const Box box = bounds(strands);
+    Box hair;
+    if (!box.empty()) {
+        const Mat3 back = frame.linear.inverse();
+        hair.extend(back * box.min);
+        hair.extend(back * box.max);
+    }
+    const RibSceneWriter writer(scene, hair, frame, context);
+    writer.begin(bytes);
+    write_rib_curves(strands, bytes, context);
+    RibSceneWriter::end(bytes);
+}
 template <void (*Write)(const Strands&, std::string&, const Context&)>
-void write_plainly(const Strands& strands, const StrandSaveOptions&, std::string& bytes,
-                   const Context& context) {
+void write_plainly(const Strands& strands, const StrandSaveOptions&, const RibScene&,
+                   std::string& bytes, const Context& context) {
     Write(strands, bytes, context);
 }
 
 constexpr StrandCapacity kCyHair{2, true, true, true, false, false, false};
 // A strand of one point says that there is no hair.
 constexpr StrandCapacity kHairSalon{1, false, false, false, false, false, false};
-constexpr StrandCapacity kUsda{2, true, true, false, true, true, true};
+constexpr StrandCapacity kUsda{2, true, true, true, true, true, true};
 constexpr StrandCapacity kRib{2, true, true, false, false, true, false};
 constexpr StrandCapacity kGltf{2, false, true, false, false, false, false};
 constexpr StrandCapacity kObj{2, false, false, false, false, true, false};
@@ -62,7 +92,7 @@ constexpr std::array<StrandFormat, 7> kStrandFormats{{
     {"hair", read_cyhair, nullptr, write_hair_file, kCyHair},
     {"data", read_hair_salon, nullptr, write_data_file, kHairSalon},
     {"usda", nullptr, read_usda, write_usda_file, kUsda},
-    {"rib", nullptr, nullptr, write_plainly<write_rib>, kRib},
+    {"rib", nullptr, nullptr, write_rib_file, kRib},
     {"glb", nullptr, nullptr, write_plainly<write_glb_strands>, kGltf},
     {"gltf", nullptr, nullptr, write_plainly<write_gltf_strands>, kGltf},
     {"obj", nullptr, nullptr, write_plainly<write_obj_strands>, kObj},
@@ -91,6 +121,17 @@ const StrandFormat& find_strand_format(std::string_view extension, bool for_read
                                       std::string(for_reading ? "read from '." : "written to '.") +
                                       wanted + "' files") +
                     std::string("; known are ") + known);
+}
+
+void require_scene(const RibScene& scene, std::string_view extension) {
+    if (normalized_extension(extension) != "rib") {
+        throw Error(ErrorCode::invalid_argument,
+                    "a scene with a head, a camera, or an archive is for .rib files, not for ." +
+                        normalized_extension(extension));
+    }
+    if (!scene.archive || (!scene.head && !scene.camera)) return;
+    throw Error(ErrorCode::invalid_argument,
+                "an archive holds hair alone; leave out 'archive', or the head and the camera");
 }
 
 // Puts points and widths into another frame: those of a file that is z-up into the kernel's where
@@ -153,7 +194,8 @@ Strands decode_as(ByteSource* source, std::string_view text, const StrandFormat&
 }
 
 EncodedStrands encode_as(const Strands& strands, const StrandFormat& format,
-                         const StrandSaveOptions& options, const Context& context) {
+                         const StrandSaveOptions& options, const RibScene& scene,
+                         const Context& context) {
     require_unit(options.unit);
     Progress progress(context, "save strands");
     progress.step(0.3);
@@ -167,7 +209,10 @@ EncodedStrands encode_as(const Strands& strands, const StrandFormat& format,
         require_range(*checked.changed);
     }
     EncodedStrands result;
-    format.write(checked.changed ? *checked.changed : strands, options, result.bytes, context);
+    RibScene known = scene;
+    if (scene.head && !scene.unit) known.unit = unit_of_roots(strands, *scene.head);
+    format.write(checked.changed ? *checked.changed : strands, options, known, result.bytes,
+                 context);
     result.report = std::move(checked.report);
     for (const StrandFinding& finding : result.report.findings) {
         context.log(LogLevel::warning, finding.message);
@@ -175,10 +220,15 @@ EncodedStrands encode_as(const Strands& strands, const StrandFormat& format,
     return result;
 }
 
+// The picture that a renderer makes of a .rib file.
+std::string picture_beside(const std::filesystem::path& path) {
+    return display_name(path.stem()) + ".tif";
+}
+
 }  // namespace
 
 Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions& options,
-                     const Context& context) {
+                     const Context& context) try {
     require_file(path);
     const std::string name = display_name(path);
     const StrandFormat& format = with_place_in_errors(name, [&]() -> const StrandFormat& {
@@ -193,16 +243,43 @@ Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions&
         ByteSource source(path);
         return decode_as(&source, {}, format, options, context);
     });
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,
-                          const StrandSaveOptions& options, const Context& context) {
+                          const StrandSaveOptions& options, const Context& context) try {
+    require_folder_of(path);
+    Progress progress(context, "save strands");
+    progress.step(0.8);
     EncodedStrands encoded = with_place_in_errors(display_name(path), [&] {
         return encode_as(strands, find_strand_format(display_name(path.extension()), false),
-                         options, context);
+                         options, {.picture = picture_beside(path)}, context);
     });
+    progress.step(0.2);
     write_file_atomically(path, encoded.bytes, context);
     return std::move(encoded.report);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
+
+StrandReport save_rib(const Strands& strands, const std::filesystem::path& path,
+                      const RibScene& scene, const StrandSaveOptions& options,
+                      const Context& context) try {
+    require_folder_of(path);
+    Progress progress(context, "save strands");
+    progress.step(0.8);
+    EncodedStrands encoded = with_place_in_errors(display_name(path), [&] {
+        require_scene(scene, display_name(path.extension()));
+        RibScene named = scene;
+        if (named.picture.empty()) named.picture = picture_beside(path);
+        return encode_rib(strands, named, options, context);
+    });
+    progress.step(0.2);
+    write_file_atomically(path, encoded.bytes, context);
+    return std::move(encoded.report);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 Strands decode_strands(std::string_view bytes, std::string_view extension,
@@ -216,7 +293,13 @@ Strands decode_strands(std::string_view bytes, std::string_view extension,
 
 EncodedStrands encode_strands(const Strands& strands, std::string_view extension,
                               const StrandSaveOptions& options, const Context& context) {
-    return encode_as(strands, find_strand_format(extension, false), options, context);
+    return encode_as(strands, find_strand_format(extension, false), options, {}, context);
+}
+
+EncodedStrands encode_rib(const Strands& strands, const RibScene& scene,
+                          const StrandSaveOptions& options, const Context& context) {
+    require_scene(scene, "rib");
+    return encode_as(strands, find_strand_format("rib", false), options, scene, context);
 }
 
 const std::vector<std::string>& readable_strand_extensions() {

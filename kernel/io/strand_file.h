@@ -1,6 +1,7 @@
 /// Hair files: loading and saving strands by extension. .hair (Cem Yuksel), .data (HairSalon) and
-/// .usda (BasisCurves) are read and written; .rib (RenderMan), .glb and .gltf (one LINES primitive)
-/// and .obj (lines) are written. Each format has a file of its own, which says what it holds.
+/// .usda (BasisCurves) are read and written; .rib (a scene for RenderMan), .glb and .gltf (one
+/// LINES primitive) and .obj (lines) are written. Each format has a file of its own, which says
+/// what it holds.
 ///
 /// In the kernel hair is in metres, y up, widths are diameters. Strands are checked before they are
 /// written: the report says what was found, what was changed for the file, and what was left out of
@@ -17,6 +18,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/hair/strands/strands.h"
+#include "kernel/io/hair/rib_options.h"
 #include "kernel/io/record/options.h"
 #include "kernel/io/record/strand_report.h"
 
@@ -38,6 +40,12 @@ Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions&
 StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,
                           const StrandSaveOptions& options = {}, const Context& context = {});
 
+/// As `save_strands` of a .rib file, with this scene. Errors: also invalid_argument for another
+/// extension, an archive with head or camera, or a scene out of range.
+StrandReport save_rib(const Strands& strands, const std::filesystem::path& path,
+                      const RibScene& scene, const StrandSaveOptions& options = {},
+                      const Context& context = {});
+
 /// As `load_strands`, from the content of a file in memory. `extension` as in
 /// `readable_strand_extensions`.
 Strands decode_strands(std::string_view bytes, std::string_view extension,
@@ -52,6 +60,10 @@ struct EncodedStrands {
 /// As `save_strands`, into memory. `extension` as in `writable_strand_extensions`.
 EncodedStrands encode_strands(const Strands& strands, std::string_view extension,
                               const StrandSaveOptions& options = {}, const Context& context = {});
+
+/// As `save_rib`, into memory.
+EncodedStrands encode_rib(const Strands& strands, const RibScene& scene,
+                          const StrandSaveOptions& options = {}, const Context& context = {});
 
 /// Extensions that `load_strands` knows: lower case, without the dot.
 const std::vector<std::string>& readable_strand_extensions();

@@ -3,8 +3,10 @@
 #include <string>
 #include <utility>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/merge/merge_state.h"
 #include "kernel/merge/provenance.h"
+#include "kernel/merge/verdict.h"
 
 namespace lissom {
 
@@ -20,6 +22,7 @@ void Merge::set_keys(Index join, std::vector<KeyPair> keys) {
     if (join < 0 || join >= static_cast<Index>(state_->joins.size())) {
         throw Error(ErrorCode::out_of_range, "there is no such join");
     }
+    (void)state_->keys_of(static_cast<std::size_t>(join), keys);
     state_->joins[join].keys = std::move(keys);
 }
 
@@ -31,12 +34,12 @@ std::size_t Merge::memory_bytes() const {
     return bytes;
 }
 
-MergeResult Merge::solve(const Context& context) {
+MergeResult Merge::solve(const Context& context) try {
     State& state = *state_;
     Progress progress(context, "merge");
     const auto start = MergeClock::now();
     MergeReport report = state.report;
-    const std::vector<LoopPair> pairs = state.correspond(report);
+    const std::vector<LoopPair> pairs = state.correspond(report, context);
     progress.step(0.5);
     BoundaryDeformation deformed = state.deform(pairs, context);
     std::optional<ThesisMerge> thesis = state.thesis_merge(pairs, report, context);
@@ -48,8 +51,7 @@ MergeResult Merge::solve(const Context& context) {
     moved.set_positions(state.all_positions(deformed));
     state.turn_directions(deformed, moved);
     progress.step(0.5);
-    Sewn sewn = sew(state.target, moved, pairs, state.sewing(), context);
-    state.finish_seams(sewn, thesis, report, context);
+    Sewn sewn = state.sew_sides(moved, pairs, thesis, report, context);
     if (state.options.find_intersections) {
         report.intersections = state.new_intersections(sewn, context);
         if (!report.intersections.empty()) {
@@ -60,9 +62,14 @@ MergeResult Merge::solve(const Context& context) {
     }
     const MeshMap origins =
         appended_map(state.target_map, state.source.map, *state.given_target_topology);
+    const Verdict verdict = verdict_of(report, state.options.find_intersections);
+    report.ok = verdict.good;
+    report.verdict = verdict.text;
     report.solve_seconds = seconds_since(start);
     return {std::move(sewn.mesh), std::move(report), composed(sewn.map, origins),
             std::move(sewn.side_of_face), std::move(sewn.seams)};
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 }  // namespace lissom

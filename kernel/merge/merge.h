@@ -55,12 +55,19 @@ struct MergeOptions {
     /// keeps its directions (the thesis's way, which leaves a crease).
     bool turn_frames = true;
     SeamKind seam = SeamKind::conform;
-    /// Umbrella steps at the seam.
+    /// Umbrella steps at the seam, at most: the first that would fold it is the last.
     int smooth = 3;
+    /// Remeshes the faces beside a seam on a side that is sparser than the seam (SewOptions). Where
+    /// the seam shows less without, as where the sides fold, it is left out. False, with `smooth`
+    /// 0, leaves the targets as they are, to the bit. The thesis's way has none.
+    bool collar = true;
     /// Widths of the transition region (3.3.3) on each side, in the units of source and target; 0
     /// is none. The thesis's transition needs both, and regions that are bands: its widths are
     /// lengths along edges.
     double source_transition = 0.0, target_transition = 0.0;
+    /// Chooses the widths by the seams (suitable_widths) in place of given ones; not for the
+    /// thesis's transition.
+    bool suit_transition = false;
     /// w_T of 3.3.3, of the thesis's transition.
     double transition_weight = 0.1;
     /// Trims boundaries that turn at their vertices, in the mean, by `greatest_turn` radians more
@@ -70,9 +77,12 @@ struct MergeOptions {
     /// Splits the faces at a boundary of the source once where its edges are more than 1.5 times as
     /// long as those it meets (section 2.5).
     bool refine = true;
-    /// Looks for faces of the source that run through others and did not before; see
+    /// Looks for faces that run through others and did not before; see
     /// MergeReport::intersections.
     bool find_intersections = true;
+    /// Directions of source and targets that are to lie the same way, for joins without keys. They
+    /// count as far as they lie in the planes of the boundaries.
+    std::vector<DirectionPair> directions = {};
     /// The thesis to the letter: raw frames, scales from tangent lengths, its operators; |M| / sqrt
     /// 3 and (2.11); its transition. Seam and trimming are as chosen.
     bool thesis = false;
@@ -85,7 +95,7 @@ struct JoinReport {
     /// How much the source grew at it.
     double scale = 1.0;
     /// True where no keys were given; then how much worse the second best place is than the one
-    /// taken: below 1.5 the result is a guess that asks for one key.
+    /// taken: below kCertain the result is a guess that asks for one key.
     bool guessed = false;
     double certainty = 0.0;
     /// Mean turn of the loops, in radians, as given; and whether they were trimmed.
@@ -97,6 +107,15 @@ struct JoinReport {
 
 /// What a merge found and did.
 struct MergeReport {
+    /// Whether the seams are good, and in one line why not; see verdict_of.
+    bool ok = false;
+    std::string verdict;
+    /// The parts beside their boundaries before they were joined: the steepest angles there are
+    /// what a seam is measured by.
+    SeamQuality source_rim, target_rim;
+    /// Parts of the source without a boundary that is joined: in the free configuration each moves
+    /// along with what is nearest to it.
+    Index loose_parts = 0;
     std::vector<JoinReport> joins;
     /// Inputs that were inside out and have been turned over: the source, and targets by number.
     bool source_flipped = false;
@@ -107,8 +126,7 @@ struct MergeReport {
     SewReport seam;
     /// Bands of the transition region, where there is one.
     TransitionReport transition;
-    /// Pairs of faces of the result, one of them at least of the source, that run through one
-    /// another and come from faces that did not.
+    /// Pairs of faces of the result that run through one another and come from faces that did not.
     std::vector<FacePair> intersections;
     /// Wall-clock seconds of preparation and of the last solve.
     double prepare_seconds = 0.0, solve_seconds = 0.0;
@@ -144,12 +162,13 @@ class Merge {
     Merge& operator=(Merge&&) noexcept;
 
     /// Replaces the keys of one join, vertices and points being those of the meshes as given.
-    /// Errors: out_of_range.
+    /// Errors: out_of_range; key_conflict as `solve`. The keys are then those of before.
     void set_keys(Index join, std::vector<KeyPair> keys);
 
     /// Finds the correspondence, deforms the source, and sews.
     /// Errors: key_conflict; invalid_argument where a region of the thesis's transition is no band
-    /// (too narrow, too wide, with a handle, or meeting another); as `sew`; cancelled.
+    /// (too narrow, too wide, with a handle, or meeting another); as `sew`; cancelled; internal in
+    /// place of a mesh that is not sound.
     MergeResult solve(const Context& context = {});
 
     /// Bytes held: both inputs and the factors.

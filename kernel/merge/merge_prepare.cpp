@@ -31,6 +31,16 @@ void require_options(const MergeOptions& options, std::size_t joins, std::size_t
     };
     require(targets > 0, "a merge needs a target");
     require(joins > 0, "a merge needs at least one join of two boundaries");
+    for (const DirectionPair& pair : options.directions) {
+        require(pair.source.allFinite() && pair.target.allFinite() &&
+                    pair.source.stableNorm() > 0.0 && pair.target.stableNorm() > 0.0,
+                "directions that belong together must be finite and have a length above 0");
+    }
+    const bool widths = options.source_transition > 0.0 || options.target_transition > 0.0;
+    require(!(options.suit_transition && widths),
+            "the widths of a transition are either given or chosen");
+    require(!(options.suit_transition && options.thesis),
+            "the thesis's transition needs its widths: it does not choose them");
     require(options.smooth >= 0, "the number of smoothing steps must not be negative");
     require(options.source_transition >= 0.0 && options.target_transition >= 0.0 &&
                 std::isfinite(options.source_transition + options.target_transition),
@@ -115,6 +125,9 @@ Merge::State::State(const Mesh& given_source, std::span<const Mesh* const> given
     make_loops();
     refine_coarse(context);
     carry_features();
+    note_loose_parts();
+    report.source_rim = seam_quality(source.mesh, source.loops);
+    report.target_rim = seam_quality(target, target_loops);
     progress.step(0.7);
     prepare(context);
     report.prepare_seconds = seconds_since(start);
@@ -141,6 +154,29 @@ void Merge::State::note_trims(const MergeSide& side, const char* name) {
         report.warnings.push_back(std::string("a boundary of the ") + name +
                                   " is jagged and could not be trimmed: " + reason);
     }
+}
+
+// In the fixed configuration they stay where they are, as they do without a merge.
+void Merge::State::note_loose_parts() {
+    const Topology& topology = source.mesh.topology();
+    std::vector<char> joined(static_cast<std::size_t>(topology.component_count()), 0),
+        seen = joined;
+    for (const std::vector<Index>& loop : source.loops) joined[topology.components()[loop[0]]] = 1;
+    Index vertices = 0;
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+        const Index part = topology.components()[v];
+        if (joined[part] || topology.is_isolated(v)) continue;
+        report.loose_parts += seen[part] ? 0 : 1;
+        seen[part] = 1;
+        ++vertices;
+    }
+    if (report.loose_parts == 0 || options.configuration == Configuration::fixed) return;
+    const bool one = report.loose_parts == 1;
+    report.warnings.push_back(
+        std::to_string(report.loose_parts) + (one ? " part" : " parts") + " of the source (" +
+        std::to_string(vertices) + " vertices) " + (one ? "has" : "have") +
+        " no boundary that is joined and " + (one ? "moves" : "move") +
+        " along with what is nearest; take what does not belong to it out of the source first");
 }
 
 // Which boundaries of each target are joined.

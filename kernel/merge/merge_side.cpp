@@ -132,8 +132,8 @@ MergeSide make_side(const Mesh& mesh, const std::vector<Path>& boundaries,
         }
         require_simple(mesh, loop, name);
         side.loops.push_back(loop);
+        side.turns.push_back(mean_turn(mesh, Path(mesh.shared_topology(), loop, true)));
     }
-    side.turns.assign(side.loops.size(), 0.0);
     side.trimmed.assign(side.loops.size(), 0);
     return side;
 }
@@ -151,7 +151,6 @@ void orient(MergeSide& side, const Context& context) {
 void trim_jagged(MergeSide& side, double greatest_turn, const Context& context) {
     for (std::size_t k = 0; k < side.loops.size(); ++k) {
         const Path boundary(side.mesh.shared_topology(), side.loops[k], true);
-        side.turns[k] = mean_turn(side.mesh, boundary);
         // A loop of few vertices turns by much without being jagged.
         const double smooth = 2.0 * kPi / static_cast<double>(side.loops[k].size());
         if (side.turns[k] - smooth <= greatest_turn) continue;

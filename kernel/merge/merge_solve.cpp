@@ -14,9 +14,6 @@
 namespace lissom {
 namespace {
 
-// Below this the guessed place of a join is as good as another.
-constexpr double kCertain = 1.5;
-
 // A key on the mesh that was given as a key on the loop that is worked with: where the boundary has
 // been changed, the place nearest to it.
 Key worked_key(const Key& key, const GivenLoop& given, const Loop& loop, std::size_t number,
@@ -74,10 +71,11 @@ BoundaryValue common_value(const Mesh& mesh, const Region& feature, const Region
 
 }  // namespace
 
-std::vector<ParameterPair> Merge::State::keys_of(std::size_t join) const {
+std::vector<ParameterPair> Merge::State::keys_of(std::size_t join,
+                                                 std::span<const KeyPair> given) const {
     std::vector<KeyPair> keys;
-    for (std::size_t k = 0; k < joins[join].keys.size(); ++k) {
-        const KeyPair& key = joins[join].keys[k];
+    for (std::size_t k = 0; k < given.size(); ++k) {
+        const KeyPair& key = given[k];
         keys.push_back(
             {worked_key(key.source, given_source_loops[join], source_curves[join], k, "source"),
              worked_key(key.target, given_target_loops[join], target_curves[join], k, "target")});
@@ -85,28 +83,38 @@ std::vector<ParameterPair> Merge::State::keys_of(std::size_t join) const {
     return key_parameters(source_curves[join], target_curves[join], keys);
 }
 
-std::vector<LoopPair> Merge::State::correspond(MergeReport& now) const {
-    std::vector<OffsetGuess> guesses;
+// The shapes of the parts count only where the loops and the given directions leave a choice.
+std::vector<OffsetGuess> Merge::State::guesses(const Context& context) {
+    std::vector<LoopJoin> loops;
+    for (std::size_t j = 0; j < joins.size(); ++j) {
+        loops.push_back({&source_curves[j], &target_curves[j]});
+    }
+    std::vector<OffsetGuess> guesses = guess_offsets(loops, options.directions);
+    if (guesses.front().certainty >= kCertain) return guesses;
+    if (!source_part) source_part = part_shape(source.mesh, source_curves.front(), context);
+    if (!target_part) target_part = part_shape(target, target_curves.front(), context);
+    loops.front().source_part = &*source_part;
+    loops.front().target_part = &*target_part;
+    return guess_offsets(loops, options.directions);
+}
+
+std::vector<LoopPair> Merge::State::correspond(MergeReport& now, const Context& context) {
+    std::vector<OffsetGuess> guessed;
     const bool guess =
         std::any_of(joins.begin(), joins.end(), [](const Join& join) { return join.keys.empty(); });
-    if (guess) {
-        std::vector<LoopJoin> loops;
-        for (std::size_t j = 0; j < joins.size(); ++j) {
-            loops.push_back({&source_curves[j], &target_curves[j]});
-        }
-        guesses = guess_offsets(loops);
-    }
+    if (guess) guessed = guesses(context);
     std::vector<LoopPair> pairs;
     for (std::size_t j = 0; j < joins.size(); ++j) {
         std::vector<ParameterPair> keys = keys_of(j);
         JoinReport& join = now.joins[j];
         if (keys.empty()) {
-            keys.push_back(guesses[j].key);
+            keys.push_back(guessed[j].key);
             join.guessed = true;
-            join.certainty = guesses[j].certainty;
+            join.certainty = guessed[j].certainty;
             if (join.certainty < kCertain) {
                 now.warnings.push_back("join " + std::to_string(j + 1) +
-                                       ": where the boundaries meet is a guess; give it one key");
+                                       ": where the boundaries meet is a guess; give it one key, "
+                                       "or say which directions of both models belong together");
             }
         }
         pairs.push_back(corresponding(source_curves[j], target_curves[j], keys));

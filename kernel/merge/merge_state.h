@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/merge/loop/automatic_keys.h"
 #include "kernel/merge/loop/loop.h"
 #include "kernel/merge/merge.h"
 #include "kernel/merge/merge_side.h"
@@ -47,6 +48,7 @@ struct Merge::State {
                     const Context& context);
     void take_target_loops(const std::vector<MergeSide>& sides, const TargetPaths& paths);
     void note_flips();
+    void note_loose_parts();
     void note_trims(const MergeSide& side, const char* name);
     void combine(std::span<const Mesh* const> given_targets, std::vector<MergeSide>& sides,
                  const Context& context);
@@ -57,8 +59,12 @@ struct Merge::State {
     void prepare(const Context& context);
 
     // Solution.
-    std::vector<ParameterPair> keys_of(std::size_t join) const;
-    std::vector<LoopPair> correspond(MergeReport& now) const;
+    std::vector<ParameterPair> keys_of(std::size_t join, std::span<const KeyPair> keys) const;
+    std::vector<ParameterPair> keys_of(std::size_t join) const {
+        return keys_of(join, joins[join].keys);
+    }
+    std::vector<OffsetGuess> guesses(const Context& context);
+    std::vector<LoopPair> correspond(MergeReport& now, const Context& context);
     std::vector<BoundaryValue> values_of(const std::vector<LoopPair>& pairs,
                                          const Region& held) const;
     BoundaryDeformation deform(const std::vector<LoopPair>& pairs, const Context& context);
@@ -69,10 +75,14 @@ struct Merge::State {
                                             const MergeReport& now, const Context& context) const;
 
     // Seams.
-    SewOptions sewing() const;
+    SewOptions sewing(bool collar) const;
+    Sewn sew_sides(const Mesh& moved, const std::vector<LoopPair>& pairs,
+                   const std::optional<ThesisMerge>& thesis, MergeReport& now,
+                   const Context& context) const;
+    std::vector<TransitionWidths> asked_widths(const MergeReport& now) const;
     std::vector<FacePair> new_intersections(const Sewn& sewn, const Context& context) const;
-    FacePair origin_of(const Sewn& sewn, const FacePair& pair) const;
-    std::vector<FacePair> own_intersections(const Sewn& sewn, const std::vector<FacePair>& pairs,
+    std::vector<Index> changed_faces(const Sewn& sewn) const;
+    std::vector<FacePair> own_intersections(const std::vector<Index>& origins,
                                             const Context& context) const;
     void finish_seams(Sewn& sewn, const std::optional<ThesisMerge>& thesis, MergeReport& now,
                       const Context& context) const;
@@ -90,6 +100,8 @@ struct Merge::State {
     /// Loops by join, the source's run the other way so that both run the same way.
     std::vector<Loop> source_curves, target_curves;
     std::vector<Region> features;
+    /// The parts behind the first join, once they were asked for.
+    std::optional<PartShape> source_part, target_part;
     MergeReport report;
     std::unique_ptr<BoundaryDeformer> deformer;
     /// With the features of a free configuration held as well.

@@ -163,12 +163,16 @@ Region Region::shrunk(Index rings) const {
 
 Region Region::smoothed(Index iterations) const {
     if (iterations < 0) throw Error(ErrorCode::invalid_argument, "iterations must not be negative");
-    std::vector<char> in = mask();
+    std::vector<char> in = mask(), before;
     for (Index i = 0; i < iterations; ++i) {
         std::vector<char> next = majority(*topology_, in);
         const bool emptied = std::find(next.begin(), next.end(), 1) == next.end();
         if (next == in || emptied) break;
-        in = std::move(next);
+        // Votes that have swung back to an outline swing between the two for ever.
+        if (next == before && (iterations - i) % 2 == 0) break;
+        const bool swings = next == before;
+        before = std::exchange(in, std::move(next));
+        if (swings) break;
     }
     return {topology_, selected(in)};
 }

@@ -41,14 +41,42 @@ local function complete(values)
     return all
 end
 
--- A tail that falls along the neck would catch the hair that grows there, so low ones go out less.
+-- Over what length a tail bends down: one at the crown stands up before it falls.
 local function droop_at(height)
-    local knots = { { -90, 0.02 }, { 0, 0.02 }, { 30, 0.065 }, { 50, 0.13 }, { 90, 0.13 } }
+    local knots = { { -90, 0.02 }, { 0, 0.02 }, { 30, 0.04 }, { 50, 0.05 }, { 90, 0.05 } }
     for i = 2, #knots do
         local a, b = knots[i - 1], knots[i]
         if height <= b[1] then return a[2] + (b[2] - a[2]) * (height - a[1]) / (b[1] - a[1]) end
     end
     return knots[#knots][2]
+end
+
+-- A low tie draws hair from the temples over the ears: first it goes up and over them.
+local over_ears = {
+    { { 69, 4 }, { 77, 14 }, { 88, 22 }, { 104, 24 }, { 121, 17 } },
+    { { 52, 24 }, { 80, 33 }, { 108, 30 }, { 128, 17 } },
+}
+-- A high tail falls in front of the nape, whose hair goes up to the tie.
+local from_nape = {
+    { { 180, -38 }, { 180, -20 } }, { { 158, -36 }, { 160, -20 } }, { { 134, -22 }, { 138, -8 } },
+}
+
+-- Routes on both sides of the head, as far as they do not run past a tie at `azimuth`.
+local function on_both_sides(routes, azimuth)
+    local list = {}
+    local function add(route, sign)
+        local places = {}
+        for _, place in ipairs(route) do
+            local past = sign * azimuth > 0 and place[1] < 180 and place[1] > math.abs(azimuth) - 10
+            if not past then places[#places + 1] = { sign * place[1], place[2] } end
+        end
+        if #places > 0 then list[#list + 1] = places end
+    end
+    for _, route in ipairs(routes) do
+        add(route, 1)
+        if route[1][1] < 180 then add(route, -1) end
+    end
+    return list
 end
 
 -- The curves of a ponytail on a head, and its tail as in hairdo.ring. `options` are those of
@@ -62,10 +90,20 @@ function ponytail.style(head, values, options)
         length = values.length, droop = values.droop >= 0 and values.droop or droop_at(values.height),
         radius = 0.016 + 0.010 * (1 - values.tightness) }
     local spine = hairdo.tail_spine(all.scalp, tie)
-    all.volume = all.volume or hairdo.volume(all.scalp, spine)
+    -- What leaves the volume is cut off flat at its faces.
+    local room = 0.02 + 1.2 * tie.radius * (1 + values.fullness)
+    all.volume = all.volume or hairdo.volume(all.scalp, room, spine)
     local style = assert(lissom.hairstyle(head, all))
     hairdo.gather(style, tie,
         { count = values.gather, reach = 0.08, low = 0.002 + 0.012 * (1 - values.tightness) })
+    local low = 0.002 + 0.012 * (1 - values.tightness)
+    local azimuth = (tie.azimuth + 180) % 360 - 180
+    if values.height < 20 then
+        hairdo.lead(style, tie, { routes = on_both_sides(over_ears, azimuth), low = low })
+    end
+    if values.height > 15 then
+        hairdo.lead(style, tie, { routes = on_both_sides(from_nape, 180), low = low })
+    end
     style:ponytail{
         spine = spine,
         radius = tie.radius,

@@ -32,9 +32,9 @@ function add_tail.make(tail, body, options)
     local none = { 0, 0, 0 }
     local up = merging.direction(values.tail_up)
     local meets = merging.turned(values.body_up, merging.axis(to), values.twist)
-    local keys = merging.keys(from, to,
-        { { up, meets }, { vectors.plus(none, up, -1), vectors.plus(none, meets, -1) } })
-    return merging.merge({ { source = from, target = to, keys = keys } }, own)
+    local directions = { { up, meets }, { vectors.plus(none, up, -1), vectors.plus(none, meets, -1) } }
+    local warnings = merging.note(merging.note({}, "tail", found), "body", seen)
+    return merging.merge({ merging.joined(from, to, directions, warnings) }, own, warnings)
 end
 
 --- A generated tail, a generated torso, and options that join them.

@@ -54,14 +54,14 @@ local function opened(head, left, right, radius)
     end
     local open, rest, lines = head:cut{ region = disc(left):union(disc(right)):invert() }
     if not open then return nil, "head: " .. rest, lines end
-    return open, merging.boundary_near(open, left), merging.boundary_near(open, right)
+    return open, merging.boundary_near(open, left), merging.boundary_near(open, right), lines.report.warnings
 end
 
--- The keys of one ear: its front and back.
-local function keys(from, to, ear_front, head_front)
+-- The join of one ear: its front and back are keys.
+local function join(from, to, ear_front, head_front, warnings)
     local none = { -ear_front[1], -ear_front[2], -ear_front[3] }
-    return merging.keys(from, to, { { ear_front, head_front },
-        { none, { -head_front[1], -head_front[2], -head_front[3] } } })
+    local back = { -head_front[1], -head_front[2], -head_front[3] }
+    return merging.joined(from, to, { { ear_front, head_front }, { none, back } }, warnings)
 end
 
 --- Merges an ear and its mirror image onto a head. `options` are values of the schema and options of
@@ -75,15 +75,13 @@ function ears.make(ear, head, options)
     local radius = values.radius > 0 and values.radius or head:size() / 6
     local part, boundary, code = merging.part(ear, merging.read_cut(values.source_cut))
     if not part then return nil, "ear: " .. boundary, code end
-    local target, to_left, to_right = opened(head, left, right, radius)
+    local target, to_left, to_right, of_head = opened(head, left, right, radius)
     if not target then return nil, to_left, to_right end
     local _, from_left, from_right = both(part, boundary, values.mirror)
     local front, meets = merging.direction(values.ear_front), merging.direction(values.head_front)
-    return merging.merge({
-        { source = from_left, target = to_left, keys = keys(from_left, to_left, front, meets) },
-        { source = from_right, target = to_right,
-            keys = keys(from_right, to_right, mirrored(front, values.mirror), meets) },
-    }, own)
+    local warnings = merging.note(merging.note({}, "ear", code), "head", of_head)
+    return merging.merge({ join(from_left, to_left, front, meets, warnings),
+        join(from_right, to_right, mirrored(front, values.mirror), meets, warnings) }, own, warnings)
 end
 
 --- A generated ear, a generated head, and options that join them.

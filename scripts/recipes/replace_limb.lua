@@ -37,12 +37,13 @@ local function without_mirror(place)
     return cut
 end
 
--- The body after all cuts, and for each a point of its boundary.
-local function cut_all(body, places)
+-- The body after all cuts, and for each a point of its boundary. What the cuts found is added to a list.
+local function cut_all(body, places, warnings)
     local points = {}
     for i, place in ipairs(places) do
-        local kept, boundary, code = merging.part(body, without_mirror(place))
-        if not kept then return nil, "place " .. i .. ": " .. boundary, code end
+        local kept, boundary, found = merging.part(body, without_mirror(place))
+        if not kept then return nil, "place " .. i .. ": " .. boundary, found end
+        merging.note(warnings, "place " .. i, found)
         body, points[i] = kept, boundary:points()[1]
     end
     return body, points
@@ -76,22 +77,23 @@ function replace_limb.make(limb, body, options)
     if #places == 0 then
         error("'replace_limb' needs 'target_cut' or 'places': where limbs are cut off", 2)
     end
-    local part, boundary, code = merging.part(limb, merging.read_cut(values.source_cut))
-    if not part then return nil, "limb: " .. boundary, code end
-    local target, there, failed = cut_all(body, places)
+    local part, boundary, found = merging.part(limb, merging.read_cut(values.source_cut))
+    if not part then return nil, "limb: " .. boundary, found end
+    local warnings = merging.note({}, "limb", found)
+    local target, there, failed = cut_all(body, places, warnings)
     if not target then return nil, there, failed end
     local source, here = copies(part, boundary, places)
 
     local joins, directions = {}, merging.read_keys(values.keys)
     for i, place in ipairs(places) do
         local from, to = merging.boundary_near(source, here[i]), merging.boundary_near(target, there[i])
-        local keys = {}
+        local turned = directions and {}
         for k, pair in ipairs(directions or {}) do
-            keys[k] = { mirrored(merging.direction(pair[1]), place.mirror), pair[2] }
+            turned[k] = { mirrored(merging.direction(pair[1]), place.mirror), pair[2] }
         end
-        joins[i] = { source = from, target = to, keys = directions and merging.keys(from, to, keys) }
+        joins[i] = merging.joined(from, to, turned, warnings)
     end
-    return merging.merge(joins, own)
+    return merging.merge(joins, own, warnings)
 end
 
 --- Arms of a cactus for a generated body on four legs.

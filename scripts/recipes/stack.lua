@@ -47,7 +47,7 @@ local function opened(mesh, axis, share)
     local low, high = extent(mesh, axis)
     local boundary, height = highest(mesh, axis)
     local level = high - share * (high - low)
-    if boundary and height >= level - 0.05 * (high - low) then return mesh, boundary end
+    if boundary and height >= level - 0.05 * (high - low) then return mesh, boundary, {} end
     local best, far = nil, -math.huge
     for v = 1, #mesh do
         local p = { mesh:position(v) }
@@ -60,8 +60,8 @@ local function opened(mesh, axis, share)
 end
 
 --- Stacks a list of parts on the first. `options` are values of the schema and options of lissom.merge.
--- Returns the mesh, the report of the last merge and its parts, and the list of all reports; nil, message,
--- code where it fails.
+-- Returns the mesh, the report of the last merge and its parts (with the warnings of all cuts), and the list
+-- of all reports; nil, message, code where it fails.
 function stack.make(list, options)
     local values, own = merging.read_options("stack", stack.schema, options)
     if #list < 2 then error("'stack' needs a list of two or more parts", 2) end
@@ -69,16 +69,18 @@ function stack.make(list, options)
     local down = vectors.plus({ 0, 0, 0 }, axis, -1)
     local front = merging.direction(values.front)
     local back = vectors.plus({ 0, 0, 0 }, front, -1)
-    local mesh, reports, parts = list[1], {}, nil
+    local directions = { { front, merging.turned(front, axis, values.turn) },
+        { back, merging.turned(back, axis, values.turn) } }
+    local mesh, reports, warnings, parts = list[1], {}, {}, nil
     for i = 2, #list do
-        local target, to, code = opened(mesh, axis, values.high)
-        if not target then return nil, "part " .. (i - 1) .. ": " .. to, code end
-        local source, from, failed = opened(list[i], down, values.low)
-        if not source then return nil, "part " .. i .. ": " .. from, failed end
-        local keys = merging.keys(from, to, { { front, merging.turned(front, axis, values.turn) },
-            { back, merging.turned(back, axis, values.turn) } })
+        local target, to, below = opened(mesh, axis, values.high)
+        if not target then return nil, "part " .. (i - 1) .. ": " .. to, below end
+        local source, from, above = opened(list[i], down, values.low)
+        if not source then return nil, "part " .. i .. ": " .. from, above end
+        merging.note(merging.note(warnings, "part " .. (i - 1), below), "part " .. i, above)
         local report
-        mesh, report, parts = merging.merge({ { source = from, target = to, keys = keys } }, own)
+        local join = merging.joined(from, to, directions, warnings)
+        mesh, report, parts = merging.merge({ join }, own, warnings)
         if not mesh then return nil, "part " .. i .. ": " .. report, parts end
         reports[i - 1] = report
     end

@@ -19,6 +19,7 @@ struct Rule {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> table = {
         {"kernel/core", {"kernel/core"}, {"Eigen", "TBB"}},
+        {"kernel/core/machine_memory.cpp", {"kernel/core"}, {"platform"}},
         {"kernel/solve", {"kernel/core", "kernel/solve"}, {"Eigen", "CHOLMOD"}},
         {"kernel/mesh", {"kernel/core", "kernel/solve", "kernel/mesh"}, {"Eigen", "OpenMesh"}},
         {"kernel/deform",
@@ -43,7 +44,6 @@ const std::vector<Rule>& rules() {
         {"bindings/c", {"kernel", "bindings/c"}, {"Eigen"}},
         {"bindings/engine", {}, {"platform"}},
         {"bindings/lua", {"kernel", "bindings/lua"}, {"Eigen", "Lua"}},
-        {"bindings/lua/reference/reference_main.cpp", {"bindings/lua"}, {"printing"}},
         {"bindings/cli",
          {"kernel", "bindings"},
          {"Eigen", "Lua", "CLI11", "JSON", "readline", "printing", "platform"}},
@@ -72,8 +72,8 @@ const std::vector<Names>& room_orders() {
         {"kernel/deform/mesh_point", "kernel/deform/options", "kernel/deform/patch",
          "kernel/deform/rotation", "kernel/deform/holds", "kernel/deform/system",
          "kernel/deform/comparison", "kernel/deform", "kernel/deform/boundary"},
-        {"kernel/merge/loop", "kernel/merge/sew", "kernel/merge/blend", "kernel/merge/thesis",
-         "kernel/merge"},
+        {"kernel/merge/provenance", "kernel/merge/loop", "kernel/merge/sew", "kernel/merge/blend",
+         "kernel/merge/thesis", "kernel/merge"},
         {"kernel/hair/field", "kernel/hair/scalp", "kernel/hair/curve", "kernel/hair/strands",
          "kernel/hair/growth", "kernel/hair"},
         {"kernel/io/stream", "kernel/io/record", "kernel/io/gltf/file", "kernel/io/gltf/mesh",

@@ -1,5 +1,5 @@
 # cmake -DFOLDER=... -DFILES=... -P run_example.cmake -- COMMAND...: runs COMMAND in FOLDER, which is made
-# anew with a folder `out` in it, and checks that it wrote each of FILES.
+# anew, and checks that it wrote each of FILES.
 set(command)
 set(found FALSE)
 foreach(i RANGE ${CMAKE_ARGC})
@@ -11,7 +11,7 @@ foreach(i RANGE ${CMAKE_ARGC})
 endforeach()
 
 file(REMOVE_RECURSE ${FOLDER})
-file(MAKE_DIRECTORY ${FOLDER}/out)
+file(MAKE_DIRECTORY ${FOLDER})
 execute_process(COMMAND ${command} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
     message(FATAL_ERROR "status ${status}")

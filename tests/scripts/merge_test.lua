@@ -97,8 +97,9 @@ local elsewhere = lissom.merge{
 }
 same(elsewhere, mesh, 1e-9 * mesh:size())
 
--- Without smoothing the target stays to the bit.
-local sharp, sharp_report = lissom.merge{ smooth = 0, joins = { join{ { from, to } } } }
+-- Without smoothing and collars the target stays to the bit.
+local sharp, sharp_report = lissom.merge{ smooth = 0, collar = false, joins = { join{ { from, to } } } }
+expect.equal(sharp_report.seam.collar_added, 0)
 for v = 1, #sharp do
     local origins = sharp_report.provenance:vertex(v)
     if #origins == 1 and origins[1].side == "target" then
@@ -115,11 +116,28 @@ for _, seam in ipairs{ "conform", "fair", "band" } do
     expect.equal(of_seam.seam.band_removed > 0, seam == "band")
 end
 for _, options in ipairs{
-    { transition = { source = 0.3, target = 0.9 } }, { refine = false }, { trim = false },
+    { transition = { source = 0.3, target = 0.9 } }, { refine = false }, { trim = false }, { collar = false },
     { greatest_turn = 5 }, { fidelity = "thesis" }, { fidelity = "lissom", smooth = 10 },
 } do
     options.joins = { join{ { from, to } } }
     expect.truthy(lissom.merge(options):is_closed())
+end
+
+-- A sparse side gets a collar: no slivers at the seam, and nothing worse than it was.
+local dense = half(lissom.shapes.sphere{ segments = 96 }, 0.1)
+local coarse = half(lissom.shapes.sphere{ segments = 12 }, 0.1)
+local function sewn(collar)
+    return lissom.merge{ collar = collar, joins = { { source = rim(dense), target = rim(coarse) } } }
+end
+local fine, of_fine = sewn()
+local plain, of_plain = sewn(false)
+expect.truthy(fine:is_closed() and plain:is_closed())
+expect.truthy(of_fine.seam.collar_added > of_fine.seam.collar_removed and of_fine.seam.collar_removed > 0)
+expect.equal(of_plain.seam.collar_added, 0)
+expect.truthy(of_fine.seam.after.smallest_angle > 12 and of_plain.seam.after.smallest_angle < 10)
+for _, of_seam in ipairs{ of_fine.seam, of_plain.seam } do
+    expect.truthy(of_seam.after.greatest_dihedral <= of_seam.before.greatest_dihedral + 1e-4)
+    expect.truthy(of_seam.after.greatest_near <= of_seam.before.greatest_near + 1e-4)
 end
 
 -- Fixed: the source stays but near its boundary, or but for what is not held.
@@ -200,8 +218,69 @@ local turned = merging:solve()
 same(turned, lissom.merge{ joins = { join{ { from, other } } } }, 1e-9)
 expect.error("[out_of_range]", function() merging:set_keys(2, {}) end)
 expect.error("keys", function() merging:set_keys(1, { { from } }) end)
+-- Keys are checked when they are set; those of before stay.
+local unset, key_message, key_code = merging:set_keys(1, { { #cap + 1, other } })
+expect.failure("key_conflict", unset, key_message, key_code)
+same(merging:solve(), turned, 0)
 merging:close()
 expect.error("closed", function() merging:solve() end)
+
+-- Directions that belong together decide where round rims meet, and one without the other is refused.
+local around = lissom.shapes.cylinder{ radius = 1, height = 2, segments = 40, rings = 8, caps = false }
+local ring_of = around:boundaries()[1]
+for _, front in ipairs{ "z", "-x", { 1, 0, 1 } } do
+    local fitted, of_fitted = lissom.merge{ joins = { { source = rim(cap), target = ring_of } },
+        source_front = front, target_front = "z" }
+    expect.truthy(fitted and of_fitted.joins[1].guessed and of_fitted.joins[1].certainty > 1.5)
+    local d = front == "z" and { 0, 0, 1 } or front == "-x" and { -1, 0, 0 } or { 0.70710678, 0, 0.70710678 }
+    -- What lies at the front of the cap's rim comes to lie at the front of the cylinder's.
+    for v = 1, #fitted do
+        local origins = of_fitted.provenance:vertex(v)
+        if #origins == 1 and origins[1].side == "source" then
+            local x, _, z = cap:position(origins[1].vertex)
+            local r = math.sqrt(x * x + z * z)
+            if r > 0.5 and (x * d[1] + z * d[3]) / r > 0.999 then
+                local a, _, c = fitted:position(v)
+                expect.truthy(c / math.sqrt(a * a + c * c) > 0.99)
+            end
+        end
+    end
+end
+expect.error("directions come in pairs", function()
+    lissom.merge{ joins = { join() }, source_front = "z" }
+end)
+expect.error("source_up", function()
+    lissom.merge{ joins = { join() }, source_up = "north", target_up = "y" }
+end)
+
+-- The verdict.
+expect.truthy(report.ok and report.verdict:find("^good: "))
+local _, of_folded = lissom.merge{ joins = { join{ { from, to } } }, smooth = 0, intersections = false }
+expect.truthy(of_folded.verdict:find("were not looked for", 1, true) or not of_folded.ok)
+
+-- Loose parts are told.
+local with_eye = cap:copy():append(ball(2):transform{ scale = 0.1, translate = { 0.3, 0.8, 0 } })
+local _, of_eye = lissom.merge{
+    joins = { { source = rim(with_eye), target = rim(bowl), keys = { { from, to } } } },
+}
+expect.equal(of_eye.loose_parts, 1)
+expect.truthy(of_eye.warnings[1]:find("1 part of the source", 1, true))
+
+-- Transitions: widths that suit, and those that have no room.
+local suited, of_suited = lissom.merge{ joins = { join{ { from, to } } }, transition = true }
+expect.truthy(suited:is_closed() and of_suited.transition[1].source.width > 0.5)
+expect.equal(#of_suited.warnings, 0)
+local _, of_wide = lissom.merge{
+    joins = { join{ { from, to } } }, transition = { source = 100, target = 0.5 },
+}
+expect.equal(#of_wide.warnings, 1)
+expect.truthy(of_wide.warnings[1]:find("in place of 29", 1, true))
+local without, of_without = lissom.merge{ joins = { join{ { from, to } } }, transition = false }
+same(without, mesh, 0)
+expect.equal(#of_without.transition, 0)
+expect.error("table of options or true expected", function()
+    lissom.merge{ joins = { join() }, transition = 3 }
+end)
 
 -- Inside out is turned over, jagged is trimmed, and both are said.
 local inside_out = cap:copy():flip()

@@ -92,6 +92,47 @@ for _, name in ipairs{ "transplant_head", "add_tail", "ears", "replace_limb" } d
     end)
 end
 
+-- Recipes tell what their cuts found, and take all options of a merge.
+local transplant = require "recipes.transplant_head"
+local plenty = { source_cut = { point = { 0, -0.295, 0 }, normal = "y" },
+    intersections = false, greatest_turn = 30 }
+local _, of_plenty, plenty_parts = transplant.make(head, torso, plenty)
+expect.equal(#of_plenty.intersections, 0)
+expect.truthy(of_plenty.verdict:find("were not looked for", 1, true))
+expect.truthy(table.concat(plenty_parts.warnings, "\n"):find("source: the cut keeps %d+ %% of the mesh"))
+plenty.source_cut = { point = { 0, -0.12, 0 }, normal = "y" }
+local _, _, half_parts = transplant.make(head, torso, plenty)
+expect.equal(#half_parts.warnings, 0)
+local unpack_list = table.unpack or _G["unpack"]
+local example_of = {}
+for _, name in ipairs{ "add_tail", "ears", "replace_limb", "stack" } do
+    example_of[name] = { require("recipes." .. name).example(2) }
+end
+local ear, face, of_ear = unpack_list(example_of.ears)
+of_ear.source_cut = { point = { ear:bounds().center[1], ear:bounds().min[2] + 0.1, 0 }, normal = "y" }
+local _, _, ear_parts = require("recipes.ears").make(ear, face, of_ear)
+expect.truthy(table.concat(ear_parts.warnings, "\n"):find("ear: the cut keeps", 1, true))
+local arm, beast, of_arm = unpack_list(example_of.replace_limb)
+local _, _, arm_parts = require("recipes.replace_limb").make(arm, beast, of_arm)
+expect.truthy(table.concat(arm_parts.warnings, "\n"):find("place 1: the cut keeps", 1, true))
+
+-- Directions are ambiguous as keys where a boundary is tilted towards them: that is said.
+local tilted = lissom.shapes.cylinder{ radius = 1, height = 4, segments = 32, caps = false }
+tilted = merging.part(tilted, { point = { 0, 0, 0 }, normal = { 0, 1, 1.2 } })
+local slanted = merging.boundary_near(tilted, { 0, -1, 0 })
+expect.near(merging.tilt(slanted, "x"), 0, 1)
+expect.near(merging.tilt(slanted, "z"), 50, 2)
+local _, of_clear = merging.keys(slanted, slanted, { { "x", "-x" } })
+expect.equal(#of_clear, 0)
+local _, of_tilt = merging.keys(slanted, slanted, { { { 0, 1, 1 }, "x" } })
+expect.equal(#of_tilt, 1)
+expect.truthy(of_tilt[1]:find("key 1: the source's boundary is tilted", 1, true))
+
+-- Directions as of merging are taken by a merge without keys.
+local by_front, of_front = merging.join(head, torso, { source_cut = options.source_cut,
+    source_front = "z", target_front = "0, 0, 1" })
+expect.truthy(by_front:is_closed() and of_front.joins[1].certainty > 1.5)
+
 -- The head turns with its parameter.
 local transplant_head = require "recipes.transplant_head"
 local function nose(turn)

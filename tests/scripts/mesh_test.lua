@@ -100,6 +100,35 @@ expect.near(plane:distances{ from = { corner } }[opposite], math.sqrt(2), 0.05)
 expect.equal(plane:distances{ from = plane:region("border") }[corner], 0)
 expect.equal(lissom.shapes.box():append(lissom.shapes.box()):distances{ from = 1 }[9], 1 / 0)
 
+-- Names of groups and materials.
+local path = os.tmpname() .. ".obj"
+local file = assert(io.open(path, "w"))
+file:write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng left\nusemtl red\nf 1 2 3\ng right\nf 1 3 4\n")
+file:close()
+local square = assert(lissom.load(path))
+expect.equal(table.concat(square:groups(), " "), "left right")
+expect.equal(table.concat(square:materials(), " "), "red")
+expect.equal(#square:region{ group = square:groups()[2] }, 3)
+expect.equal(#lissom.shapes.grid():groups(), 0)
+os.remove(path)
+
+-- How far a shape is from another.
+local plain = lissom.shapes.grid{ size = 1, segments = 4 }
+local shape = plain:copy():transform{ scale = { 2, 1, 1 } }
+local change = shape:distortion(plain)
+expect.equal(#change.stretch, #plain)
+for i = 1, #plain do
+    expect.near(change.stretch[i], 2)
+    expect.near(change.area[i], 2)
+    expect.near(change.angle[i], 0)
+    expect.equal(change.flips[i], 0)
+end
+shape:set_position(13, 1.3, 0, 0)
+change = shape:distortion(plain)
+expect.equal(#change.flipped, change.flips[13])
+expect.truthy(#change.flipped > 0)
+expect.error("[topology_mismatch]", function() shape:distortion(lissom.shapes.box()) end)
+
 -- A check names what is odd.
 local odd = lissom.mesh{
     positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 5, 5, 5 } },

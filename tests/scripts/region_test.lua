@@ -18,6 +18,46 @@ expect.truthy(#grid:region{ geodesic = { from = grid:region("border"), radius = 
 grid:add_attribute{ name = "heat" }[3] = 7
 expect.near_list(grid:region{ attribute = { "heat", 5, 1 / 0 } }:vertices(), { 3 })
 
+
+-- Boxes with open sides, and in fractions of the bounds.
+expect.equal(#grid:region{ box = { min = { 0.95 } } }, 21)
+expect.equal(#grid:region{ box = { min = { nil, nil, 0.95 }, max = { 0, math.huge, nil } } }, 11)
+expect.equal(#grid:region{ fraction = { min = { 0.975, nil, nil } } }, 21)
+expect.equal(#grid:region{ fraction = { min = { 0, 0, 0 }, max = { 1, 1, 1 } } }, #grid)
+expect.equal(#grid:region{ fraction = { max = { 0, nil, 0 } } }, 1)
+for _, box in ipairs{ { min = {} }, { min = { 1, 2, 3, 4 } }, { max = { x = 1 } }, { max = 2 } } do
+    expect.error("nil or math.huge for an open side", function() grid:region{ box = box } end)
+end
+
+-- Distances from a point, which need not be a vertex.
+local point = { 0.03, 0, 0.02 }
+local around = grid:region{ geodesic = { from = point, radius = 0.5 } }
+expect.truthy(#around > 60 and #around < 100)
+expect.truthy(around == grid:region{ geodesic = { from = grid:nearest(point), radius = 0.5 } })
+expect.truthy(around == grid:region{ geodesic = { from = { point = point }, radius = 0.5 } })
+local three = { vertices = { 1, 2, 3 } }
+expect.equal(grid:region{ geodesic = { from = three, radius = 0 } }, grid:region(three))
+expect.equal(#grid:region{ geodesic = { from = { 1, 2, 3, 4 }, radius = 0 } }, 4)
+local away = grid:distances{ from = point }
+for i = 1, #grid do
+    local x, _, z = grid:position(i)
+    expect.near(away[i], math.sqrt((x - 0.03) ^ 2 + (z - 0.02) ^ 2), 0.05)
+end
+expect.truthy(grid:distances{ from = point, method = "edges" }[1] >= away[1])
+expect.error("may be a point or vertices", function() grid:distances{ from = { 1, 2, 3 } } end)
+expect.error("may be a point or vertices", function()
+    grid:region{ geodesic = { from = { 10, 20, 5 }, radius = 1 } }
+end)
+local wrong = {
+    { 0.5 }, { "a" }, { 1.5, 2, 3, 4 }, { point = { 1, 2 } }, { vertices = { 0 } }, { 0 / 0, 1, 2 },
+}
+for _, from in ipairs(wrong) do
+    expect.error("bad option 'from'", function() grid:distances{ from = from } end)
+end
+expect.error("bad option 'geodesic.from'", function()
+    grid:region{ geodesic = { from = "a", radius = 1 } }
+end)
+
 -- Wrong ones.
 expect.error("'region' needs a name or exactly one of the options", function() grid:region{} end)
 expect.error("got 2", function() grid:region{ all = true, component = 1 } end)
@@ -46,6 +86,16 @@ expect.equal(#left:faces(), 200)
 expect.equal(#left:boundaries(), 1)
 expect.truthy(rawequal(left:mesh(), grid))
 expect.truthy(tostring(left):find("231 of 441"))
+
+-- The part that is connected with a point.
+local far_side = grid:region{ fraction = { min = { 0.9, nil, nil } } }
+local edges = grid:region{ fraction = { max = { 0.1, nil, nil } } }:union(far_side)
+local part = edges:connected{ at = { 0.4, 3, 0 } }
+expect.truthy(part == far_side)
+expect.truthy(edges:connected{ at = part:vertices()[1] } == part)
+expect.error("is not in the region", function() part:connected{ at = edges:minus(part):vertices()[1] } end)
+expect.error("missing option 'at'", function() part:connected() end)
+expect.error("[region_empty]", function() grid:region{ vertices = {} }:connected{ at = { 0, 0, 0 } } end)
 
 -- Named regions stay with the mesh and move to copies.
 grid:set_region("left", left)

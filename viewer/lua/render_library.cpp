@@ -5,15 +5,18 @@
 #include <memory>
 #include <string>
 
+#include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/path_object.h"
+#include "kernel/hair/strands/strand_place.h"
+#include "kernel/io/stream/file.h"
+#include "viewer/draw/style_marks.h"
 #include "viewer/lua/camera_object.h"
 #include "viewer/lua/paint.h"
 #include "viewer/lua/png_file.h"
 #include "viewer/lua/viewer_library.h"
-#include "viewer/strands/strand_place.h"
 
 namespace lissom::lua {
 namespace {
@@ -66,8 +69,12 @@ MeshStyle read_style(const Call& call) {
     return style;
 }
 
+// A style without a mesh or strands is drawn on its head.
 void add_meshes(const Call& call, Picture& picture) {
     const MeshStyle style = read_style(call);
+    if (call.has("style") && !call.has("mesh") && !call.has("meshes") && !call.has("strands")) {
+        picture.meshes.push_back({&call.object<HairstyleObject>("style")->head->mesh, style});
+    }
     if (!call.has("mesh") && !call.has("meshes")) return;
     if (call.has("mesh")) {
         picture.meshes.push_back({&call.object<MeshObject>("mesh")->mesh, style});
@@ -128,6 +135,10 @@ PictureStrands placed_strands(const Call& call, const Strands& strands, std::siz
         result.drawn.style.unit = call.number("hair.unit");
     } else if (const auto unit = unit_of_roots(strands, *meshes[mesh].mesh)) {
         result.drawn.style.unit = *unit;
+    } else {
+        const std::string doubt =
+            doubt_about_unit(strands, *meshes[mesh].mesh, result.drawn.style.unit);
+        if (!doubt.empty()) call.context().log(LogLevel::warning, doubt);
     }
     return result;
 }
@@ -243,6 +254,40 @@ void add_points(const Call& call, Picture& picture) {
     }
 }
 
+StyleMarks read_marks(const Call& call, const Scalp& scalp) {
+    StyleMarks marks;
+    marks.width = line_width(call);
+    if (!call.has("style_marks")) return marks;
+    marks.curves = call.boolean("style_marks.curves");
+    marks.constraints = call.boolean("style_marks.constraints");
+    if (!call.boolean("style_marks.field")) return marks;
+    FieldSlice slice;
+    if (call.has("style_marks.point")) {
+        slice.point = scalp.to_metres(call.vector("style_marks.point"));
+    }
+    if (call.has("style_marks.normal")) {
+        slice.normal = scalp.frame().axes.transpose() * call.vector("style_marks.normal");
+    }
+    if (call.has("style_marks.spacing")) slice.spacing = call.number("style_marks.spacing");
+    marks.field = slice;
+    return marks;
+}
+
+// A style is drawn where its head is drawn.
+void add_style(const Call& call, Picture& picture) {
+    if (!call.has("style")) return;
+    const auto object = call.object<HairstyleObject>("style");
+    Hairstyle& style = object->style();
+    const Mesh& head = object->head->mesh;
+    const StyleMarks marks = read_marks(call, style.scalp());
+    if (marks.field) style.solve(call.context());
+    const Affine place = place_of(picture, head);
+    for (DrawnLine& line : style_lines(style, marks)) {
+        for (Vec3& point : line.points) point = place(point);
+        picture.lines.push_back(std::move(line));
+    }
+}
+
 RenderOptions read_options(const Call& call, const SizeRequest& size) {
     RenderOptions options;
     options.width = size.width;
@@ -271,6 +316,7 @@ Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& si
     color_meshes(call, picture);
     move_meshes(call, picture);
     add_strands(call, picture);
+    add_style(call, picture);
     paint_regions(call, picture);
     paint_handles(call, picture);
     paint_scalars(call, picture);
@@ -285,10 +331,11 @@ void check_options(const Call& call) {
     if (call.has("mesh") && call.has("meshes")) {
         call.reject("mesh", "give either 'mesh', one, or 'meshes', a list");
     }
-    if (!call.has("mesh") && !call.has("meshes") && !call.has("strands")) {
-        call.reject("mesh", "give 'mesh', one, 'meshes', a list, or 'strands'");
+    const bool has_mesh = call.has("mesh") || call.has("meshes");
+    if (!has_mesh && !call.has("strands") && !call.has("style")) {
+        call.reject("mesh", "give 'mesh', one, 'meshes', a list, 'strands' or 'style'");
     }
-    if (!call.has("mesh") && !call.has("meshes") && call.integer("columns") > 0) {
+    if (!has_mesh && call.integer("columns") > 0) {
         call.reject("columns", "it needs 'mesh' or 'meshes'");
     }
     if (call.has("hair") && !call.has("strands")) call.reject("hair", "it needs 'strands'");
@@ -314,10 +361,18 @@ void check_options(const Call& call) {
     if (call.has("crease") && call.choice<Shading>("shading") == Shading::flat) {
         call.reject("crease", "it is for smooth shading");
     }
-    const bool has_lines = call.boolean("boundaries") || call.has("paths") || call.has("points") ||
-                           call.has("handles");
+    if (call.has("style_marks") && !call.has("style")) {
+        call.reject("style_marks", "it needs 'style'");
+    }
+    for (const char* option : {"style_marks.point", "style_marks.normal", "style_marks.spacing"}) {
+        if (call.has("style_marks") && call.has(option) && !call.boolean("style_marks.field")) {
+            call.reject(option, "it needs 'field = true'");
+        }
+    }
+    const bool has_lines = call.has("style") || call.boolean("boundaries") || call.has("paths") ||
+                           call.has("points") || call.has("handles");
     if (call.has("line_width") && !has_lines) {
-        call.reject("line_width", "it needs 'boundaries', 'paths', 'points' or 'handles'");
+        call.reject("line_width", "it needs 'boundaries', 'paths', 'points', 'handles' or 'style'");
     }
 }
 
@@ -329,6 +384,7 @@ int render(Call& call) {
     RendererSlot& renderer = renderer_slot(call);
     const bool done = call.attempt([&] {
         require_picture_path(file_path(file));
+        require_folder_of(file_path(file));
         const Picture picture = compose(call, view, size);
         if (!renderer) renderer = std::make_unique<Renderer>();
         const Image image = draw_picture(*renderer, picture, call.context());
@@ -443,6 +499,30 @@ std::vector<Parameter> content_options() {
                "Hair to draw, in metres. It hides paths and points.")
             .optional(),
         options("hair", hair_options(), "How the strands are drawn.").optional(),
+        object("style", "lissom.Hairstyle",
+               "A hairstyle whose curves to draw: streams cyan, dividing curves red, ponytails "
+               "purple. Without a mesh or strands on its head.")
+            .optional(),
+        options(
+            "style_marks",
+            {boolean("curves", "Draws the curves.").defaults(true),
+             boolean("constraints",
+                     "Draws style:constraints() as arrows: along streams, spines and partings "
+                     "blue, where hair ends or parts red, around tails purple, into ties green, "
+                     "those of avoid_scalp grey.")
+                 .defaults(false),
+             boolean("field", "Draws the field as arrows on a plane through the volume.")
+                 .defaults(false),
+             vector("point", "A point of the plane.")
+                 .in("mesh units")
+                 .optional("the center of the head"),
+             vector("normal", "Of the plane.").optional("the head's left"),
+             number("spacing", "Between neighbouring arrows.")
+                 .in("metres")
+                 .above(0.0)
+                 .optional("a step of the grid")},
+            "What of the style is drawn.")
+            .optional(),
         either("region",
                {object("region", "lissom.Region", "A region of a mesh."),
                 string("name", "A region by its name, on every mesh that has it.")},

@@ -7,6 +7,7 @@
 
 #include "bindings/cli/json.h"
 #include "kernel/io/mesh_file.h"
+#include "kernel/io/stream/file.h"
 #include "viewer/lua/paint.h"
 #include "viewer/lua/png_file.h"
 
@@ -177,6 +178,7 @@ int render(Program& program, const std::vector<std::string>& words) {
     int status = kSuccess;
     if (!program.parse(app, words, status)) return status;
     require_picture_path(request.out);
+    make_folder(std::filesystem::path(request.out).parent_path());
     options_of(request);
     const std::vector<Mesh> meshes = load_meshes(request, program.context());
     add_loaded(request, meshes);

@@ -1,4 +1,4 @@
----@meta lissom
+---@meta _
 -- Made from the registration table; do not edit.
 
 ---How a world is seen in a picture. It does not change. Pixels count from the top left corner of the picture.
@@ -110,6 +110,14 @@ function lissom.frame(mesh, options) end
 ---@field shadow? number How much strands shade each other and the meshes; 0: none. Default: 1.
 ---@field scalp_tint? number How far the scalp takes the hair's colour where roots are dense. Default: 0.7.
 
+---@class lissom.RenderOptions.Style_marks
+---@field curves? boolean Draws the curves. Default: true.
+---@field constraints? boolean Draws style:constraints() as arrows: along streams, spines and partings blue, where hair ends or parts red, around tails purple, into ties green, those of avoid_scalp grey. Default: false.
+---@field field? boolean Draws the field as arrows on a plane through the volume. Default: false.
+---@field point? lissom.Vector A point of the plane. In mesh units. Default: the center of the head.
+---@field normal? lissom.Vector Of the plane. Default: the head's left.
+---@field spacing? number Between neighbouring arrows. In metres. Default: a step of the grid.
+
 ---@class lissom.RenderOptions
 ---@field mesh? lissom.Mesh The mesh to draw; may be left out where strands are drawn.
 ---@field meshes? lissom.Mesh[] Several meshes to draw, instead of `mesh`.
@@ -125,6 +133,8 @@ function lissom.frame(mesh, options) end
 ---@field wire_width? number Their width. In pixels. Default: 1.
 ---@field strands? lissom.Strands|lissom.Strands[] Hair to draw, in metres. It hides paths and points.
 ---@field hair? lissom.RenderOptions.Hair How the strands are drawn.
+---@field style? lissom.Hairstyle A hairstyle whose curves to draw: streams cyan, dividing curves red, ponytails purple. Without a mesh or strands on its head.
+---@field style_marks? lissom.RenderOptions.Style_marks What of the style is drawn.
 ---@field region? lissom.Region|string The region of interest, drawn in blue.
 ---@field handles? string[]|lissom.Region[] Handles, drawn in purple; single vertices as balls.
 ---@field boundaries? boolean Draws the open boundaries, each in a colour of its own. Default: false.

@@ -428,8 +428,10 @@ void draw_batch(const ViewStrands& drawn, std::span<const Index> batch, std::uin
 // Draws all strands, so many at a time that what the first ones hide need not be drawn.
 void draw_all(const ViewStrands& drawn, std::span<const Index> order, std::uint32_t base,
               const Screen& screen, Tiles& tiles, const Context& context) {
+    Progress progress(context, "render: hair");
     std::size_t first = 0;
     while (first < order.size()) {
+        progress.update(static_cast<double>(first) / static_cast<double>(order.size()));
         std::size_t last = first;
         Index points = 0;
         while (last < order.size() && points < kBatchPoints) {
@@ -662,7 +664,10 @@ StrandLayer draw_strands(const StrandScene& scene, const StrandShadow& shadow,
     };
     std::vector<std::vector<Index>> orders;
     for (const ViewStrands& drawn : scene.strands) orders.push_back(nearest_first(drawn));
+    Progress progress(context, "render: hair");
+    const double of_all = static_cast<double>(band) / height;
     for (int top = 0; top < height; top += band) {
+        progress.step(0.6 * of_all);
         Tiles tiles(width, top, std::min(band, height - top));
         draw_meshes(scene.triangles, screen, tiles, context);
         for_each_pixel(tiles, context, [&](const SampleTile& tile, int x, int y) {
@@ -671,6 +676,7 @@ StrandLayer draw_strands(const StrandScene& scene, const StrandShadow& shadow,
         for (std::size_t i = 0; i < scene.strands.size(); ++i) {
             draw_all(scene.strands[i], orders[i], numbers.base(i), screen, tiles, context);
         }
+        progress.step(0.4 * of_all);
         for_each_pixel(tiles, context, [&](const SampleTile& tile, int x, int y) {
             add(pixel_at(x, y), pixel_of(tile, x, y, shader), weight);
         });

@@ -367,10 +367,13 @@ StrandShadow::StrandShadow(std::span<const ViewStrands> strands,
     const std::size_t bytes_a_point = (6 + kChunks * 3) * sizeof(float);
     const MemoryCharge working = context.charge(grid_.size() * bytes_a_point, "shadows of strands");
     charge_ = context.charge(grid_.size() * (sizeof(Corner) + 4), "shadows of strands");
+    Progress progress(context, "render: shadows of hair");
+    progress.step(0.2);
     const std::vector<float> hair = extinction_of(grid_, strands, context);
     std::vector<float> everything = hair;
     for (const ViewTriangle& triangle : triangles) splat_triangle(grid_, everything, triangle);
     scalp_color_ = mean_color(strands);
+    progress.step(0.8);
     compute(hair, everything, scalp_tint(grid_, strands), context);
 }
 
@@ -381,22 +384,26 @@ void StrandShadow::compute(const std::vector<float>& hair, const std::vector<flo
     const Index grain = directions / kChunks;
     std::vector<std::array<std::vector<float>, 2>> ambient(kChunks);
     std::array<std::vector<float>, 3> lights;
-    context.parallel_for(0, kChunks + 3, 1, [&](Index chunk, Index) {
-        if (chunk == 0) lights[0] = light_through(grid_, everything, kKeyLight.direction);
-        if (chunk == 1) lights[1] = light_through(grid_, everything, kRimLight.direction);
-        if (chunk == 2) lights[2] = light_through(grid_, hair, kKeyLight.direction);
-        if (chunk < 3) return;
-        for (Index i = (chunk - 3) * grain; i < (chunk - 2) * grain; ++i) {
-            const AmbientDirection& from = around[static_cast<std::size_t>(i)];
+    Progress progress(context, "render: shadows of hair");
+    context.parallel_for(0, 3, 1, [&](Index which, Index) {
+        lights[static_cast<std::size_t>(which)] =
+            light_through(grid_, which == 2 ? hair : everything,
+                          which == 1 ? kRimLight.direction : kKeyLight.direction);
+    });
+    // Each chunk adds one direction at a time, so that progress can be told in between.
+    for (Index round = 0; round < grain; ++round) {
+        progress.update(static_cast<double>(round + 1) / static_cast<double>(grain + 1));
+        context.parallel_for(0, kChunks, 1, [&](Index chunk, Index) {
+            const AmbientDirection& from = around[static_cast<std::size_t>(chunk * grain + round)];
             for (std::size_t which = 0; which < 2; ++which) {
-                std::vector<float>& sum = ambient[static_cast<std::size_t>(chunk - 3)][which];
+                std::vector<float>& sum = ambient[static_cast<std::size_t>(chunk)][which];
                 sum.resize(grid_.size(), 0.0f);
                 const auto light =
                     light_through(grid_, which == 0 ? everything : hair, from.direction);
                 for (std::size_t p = 0; p < light.size(); ++p) sum[p] += from.weight * light[p];
             }
-        }
-    });
+        });
+    }
     light_.resize(grid_.size());
     on_meshes_.resize(4 * grid_.size());
     for (std::size_t i = 0; i < grid_.size(); ++i) {

@@ -9,7 +9,7 @@ namespace {
 // A signal handler takes no argument, so what it needs is the process's.
 std::atomic<const Context*> listening_context{nullptr};
 std::atomic<lua_State*> running_thread{nullptr};
-volatile std::sig_atomic_t pressed_flag = 0;
+volatile std::sig_atomic_t pressed_flag = 0, prompt_flag = 0;
 
 // Stays armed until the host's call returns: pcall cannot swallow it for good.
 void stop_script(lua_State* L, lua_Debug*) {
@@ -22,7 +22,7 @@ void arm(lua_State* L) {
 
 // Only lock-free stores, and lua_sethook, which Lua's own interpreter calls here too.
 extern "C" void on_interrupt(int signal) {
-    if (pressed_flag) {
+    if (pressed_flag && !prompt_flag) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
         return;
@@ -97,6 +97,10 @@ void Interrupt::watch(lua_State* L) {
 
 void Interrupt::forget() {
     running_thread.store(nullptr);
+}
+
+void Interrupt::wait_at_prompt(bool waits) {
+    prompt_flag = waits ? 1 : 0;
 }
 
 bool Interrupt::pressed() const {

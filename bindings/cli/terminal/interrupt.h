@@ -21,6 +21,9 @@ class Interrupt {
     /// The Lua state is about to be closed.
     static void forget();
 
+    /// While nothing runs a second Ctrl-C does not end the program.
+    static void wait_at_prompt(bool waits);
+
     /// Whether Ctrl-C was pressed.
     bool pressed() const;
     /// Goes on as if it had not been pressed.

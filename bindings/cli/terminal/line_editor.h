@@ -1,25 +1,56 @@
-/// Reads lines from a person, with editing and history where the build has readline, or from a
-/// file.
+/// Reads lines from a person, with editing, completion and a history that is kept in a file where
+/// the build has readline, or from a file.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
+#include "bindings/cli/repl/completion.h"
+
 namespace lissom::cli {
+
+/// What a line editor asks its owner; both may be empty.
+struct LineEditorOptions {
+    /// How the line up to the cursor may go on.
+    std::function<Completions(const std::string& line)> complete = {};
+    /// Whether Ctrl-C was pressed since the last line; asked while a line is typed.
+    std::function<bool()> interrupted = {};
+    /// Where lines are kept from one run to the next; empty for nowhere.
+    std::filesystem::path history = {};
+};
 
 class LineEditor {
   public:
-    LineEditor();
+    explicit LineEditor(LineEditorOptions options = {});
+    ~LineEditor();
+    LineEditor(const LineEditor&) = delete;
+    LineEditor& operator=(const LineEditor&) = delete;
 
-    /// The next line; nothing at the end of the input. The prompt is shown on a terminal only.
-    std::optional<std::string> read(const char* prompt);
-    /// Keeps a line for the arrow keys.
-    void remember(const std::string& line);
+    /// What was typed, the end of the input, or Ctrl-C, which gives up the line.
+    enum class Outcome { line, end, interrupted };
+    struct Read {
+        Outcome outcome = Outcome::end;
+        std::string line = {};
+    };
+
+    /// The next line. The prompt is shown on a terminal only.
+    Read read(const char* prompt);
+    /// Keeps a chunk for the arrow keys and for the next run.
+    void remember(const std::string& chunk);
 
     bool interactive() const { return interactive_; }
 
   private:
+    Read read_plainly(const char* prompt) const;
+
+    LineEditorOptions options_;
     bool interactive_;
 };
+
+/// The file of the history: $LISSOM_HISTORY, which may be empty for none; else lissom/history in
+/// $XDG_STATE_HOME, by default ~/.local/state; empty where there is no home.
+std::filesystem::path history_file();
 
 }  // namespace lissom::cli

@@ -12,6 +12,14 @@ namespace {
 // Native bytes between two steps of the collector.
 constexpr std::size_t kChargeStep = std::size_t{64} << 10;
 
+// What stands before a held value.
+struct HeldHead {
+    void (*destroy)(void*);
+    const void* mark;
+};
+static_assert(sizeof(HeldHead) <= Call::kHeldOffset);
+const char kHeldMark = 0;
+
 int push_kind(lua_State* L, ElementKind kind) {
     const std::string_view name = kind_name(kind);
     lua_pushlstring(L, name.data(), name.size());
@@ -136,7 +144,7 @@ void Call::reject(const char* path, const char* text) const {
 
 Holder* Call::push_holder(const char* type_name) const {
     auto* holder = static_cast<Holder*>(new_userdata(L_, sizeof(Holder)));
-    new (holder) Holder();
+    new (holder) Holder(type_name);
     luaL_getmetatable(L_, type_name);
     lua_setmetatable(L_, -2);
     return holder;
@@ -144,7 +152,7 @@ Holder* Call::push_holder(const char* type_name) const {
 
 void* Call::push_held(std::size_t bytes, void (*destroy)(void*)) const {
     auto* memory = static_cast<char*>(new_userdata(L_, kHeldOffset + bytes));
-    std::memcpy(memory, &destroy, sizeof destroy);
+    new (memory) HeldHead{destroy, &kHeldMark};
     raw_get_pointer(L_, LUA_REGISTRYINDEX, State::held_metatable_key());
     lua_setmetatable(L_, -2);
     return memory + kHeldOffset;
@@ -152,10 +160,23 @@ void* Call::push_held(std::size_t bytes, void (*destroy)(void*)) const {
 
 int collect_held(lua_State* L) {
     auto* memory = static_cast<char*>(lua_touserdata(L, 1));
-    void (*destroy)(void*) = nullptr;
-    std::memcpy(&destroy, memory, sizeof destroy);
-    destroy(memory + Call::kHeldOffset);
+    if (!memory || raw_length(L, 1) < Call::kHeldOffset) return 0;
+    auto* head = reinterpret_cast<HeldHead*>(memory);
+    if (head->mark != &kHeldMark) return 0;
+    head->mark = nullptr;
+    head->destroy(memory + Call::kHeldOffset);
     return 0;
+}
+
+const char Holder::kMark = 0;
+
+Holder* find_holder(lua_State* L, int index, const char* type_name) {
+    if (lua_type(L, index) != LUA_TUSERDATA || raw_length(L, index) != sizeof(Holder)) {
+        return nullptr;
+    }
+    auto* holder = static_cast<Holder*>(lua_touserdata(L, index));
+    if (holder->mark != &Holder::kMark) return nullptr;
+    return !type_name || std::strcmp(holder->type_name, type_name) == 0 ? holder : nullptr;
 }
 
 void Call::begin_work() {
@@ -184,6 +205,7 @@ int Call::answer_failure() {
     std::snprintf(state_->last_failure_place, sizeof state_->last_failure_place, "%s",
                   lua_tostring(L_, -1));
     lua_pop(L_, 1);
+    state_->tell_if_dropped(L_);
     lua_pushnil(L_);
     lua_pushstring(L_, failure_.message);
     push(code_name(failure_.code));
@@ -311,7 +333,7 @@ bool Call::push_remembered(const void* object) const {
     raw_get_pointer(L_, LUA_REGISTRYINDEX, State::object_table_key());
     raw_get_pointer(L_, -1, object);
     lua_remove(L_, -2);
-    const auto* holder = static_cast<const Holder*>(lua_touserdata(L_, -1));
+    const Holder* holder = find_holder(L_, -1, nullptr);
     if (holder && holder->object.get() == object) return true;
     lua_pop(L_, 1);
     return false;

@@ -53,7 +53,7 @@ struct Value {
 
 class Call {
   public:
-    /// Bytes before a held value: they say how to destroy it.
+    /// Bytes before a held value: how to destroy it, and the mark that it is one.
     static constexpr std::size_t kHeldOffset = 16;
 
     /// A call of `entry`, whose arguments are on the stack of `L`. Checks them: raises a Lua error.
@@ -249,6 +249,10 @@ void push_place(lua_State* L);
 
 /// __gc of held values.
 int collect_held(lua_State* L);
+
+/// The Holder in the userdata at `index`, or null where that is none of this binding, or of another
+/// type than `type_name` (null: any). A metatable proves nothing: scripts can set any on any.
+Holder* find_holder(lua_State* L, int index, const char* type_name);
 
 static_assert(std::is_trivially_destructible_v<Call>);
 static_assert(std::is_trivially_destructible_v<Affine>);

@@ -1,15 +1,11 @@
 #include "bindings/lua/core/library.h"
 
-#include "kernel/mesh/report.h"
-
 #include <iterator>
 #include <utility>
 
 #include "bindings/lua/core/listeners.h"
-
-#ifndef LISSOM_VERSION
-#error "the build defines LISSOM_VERSION"
-#endif
+#include "kernel/core/version.h"
+#include "kernel/mesh/report.h"
 
 namespace lissom::lua {
 namespace {
@@ -56,6 +52,7 @@ Library kernel_library() {
     add(library.functions, strand_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
+    library.functions.push_back(failures_function());
     library.types = {whole_mesh_type(),  region_type(),    whole_path_type(), buffer_type(),
                      deformation_type(), handle_type(),    merging_type(),    provenance_type(),
                      scalp_type(),       hairstyle_type(), curve_type(),      strands_type(),
@@ -100,6 +97,15 @@ std::vector<Record> kernel_records() {
           {"number[]", "bary", "Its barycentric coordinates in that triangle."},
           {"lissom.Vector", "normal", "Unit normal of the triangle; zero where it has no area."},
           {"number", "distance", "Distance from the query point, or along the ray."}}},
+        {"lissom.Distortion",
+         "How a surface differs from its rest, at every vertex.",
+         {{"lissom.Buffer", "stretch",
+           "Length of the edge that changed most, over its length at rest: 1 as at rest."},
+          {"lissom.Buffer", "area", "Area of the faces around it, over their area at rest."},
+          {"lissom.Buffer", "angle", "Greatest change of a corner's angle, in degrees."},
+          {"lissom.Buffer", "flips", "Number of flipped faces around it."},
+          {"integer[]", "flipped",
+           "Faces that look against the faces around them, and did not at rest."}}},
         {"lissom.PathPoint",
          "A point of a path.",
          {{"lissom.Vector", "position", "The point."},
@@ -174,10 +180,15 @@ std::vector<Record> kernel_records() {
           {"lissom.Handle[]", "handles", "The handles, in the order of `weights`."},
           {"lissom.Buffer[]", "weights", "For each handle four numbers a vertex."},
           {"lissom.Buffer", "fixed", "What no handle moves: three numbers a vertex."}}},
+        {"lissom.DroppedFailure",
+         "A failure that nobody looked at.",
+         {{"string", "place", "File and line of the call, as in messages: \"file:3: \"."},
+          {"string", "message", "What went wrong."},
+          {"string", "code", "Its code."}}},
         {"lissom.ParamSchema",
          "The declaration of a parameter.",
          {{"string", "name", "Its name."},
-          {"string", "type", "number, integer, boolean, string, choice or file."},
+          {"string", "type", "number, integer, boolean, string, choice, file or folder."},
           {"any", "default", "Its default; nil where it must be given."},
           {"any", "value", "Its present value."},
           {"number?", "min", "Smallest value."},

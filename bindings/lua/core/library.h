@@ -53,6 +53,9 @@ std::vector<Record> strand_records();
 Type parameters_type();
 std::vector<Function> parameter_functions();
 
+/// lissom.failures
+Function failures_function();
+
 /// The tables that functions return.
 std::vector<Record> kernel_records();
 

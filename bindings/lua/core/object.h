@@ -7,9 +7,19 @@
 
 namespace lissom::lua {
 
-/// Content of every userdata of this binding. Null once it was closed.
+/// Content of every userdata of this binding that scripts hold.
 struct Holder {
+    explicit Holder(const char* name) : type_name(name) {}
+
+    /// What tells it from a foreign userdata, whatever metatable a script has set: the address of
+    /// the binding's own byte.
+    const void* mark = &kMark;
+    /// Name of the type that `object` is of; a constant of the program.
+    const char* type_name;
+    /// Null once it was closed.
     std::shared_ptr<void> object;
+
+    static const char kMark;
 };
 
 /// The object in a userdata on the stack of the present call. Plain data: it may be left by

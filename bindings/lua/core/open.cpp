@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bindings/lua/core/call.h"
-#include "bindings/lua/core/nearest.h"
+#include "kernel/core/nearest.h"
 
 namespace lissom::lua {
 namespace {
@@ -12,19 +12,30 @@ namespace {
 // Keys of Lua's registry: their addresses.
 const char kStateKey = 0, kModuleKey = 0;
 
+const char kBoxMark = 0;
+
 struct StateBox {
+    const void* mark;
     State* state;
 };
 
+// Null where the userdata is another.
+StateBox* find_box(lua_State* L, int index) {
+    if (lua_type(L, index) != LUA_TUSERDATA || raw_length(L, index) != sizeof(StateBox)) {
+        return nullptr;
+    }
+    auto* box = static_cast<StateBox*>(lua_touserdata(L, index));
+    return box->mark == &kBoxMark ? box : nullptr;
+}
+
 State& state_upvalue(lua_State* L, int i) {
-    auto* box = static_cast<StateBox*>(lua_touserdata(L, lua_upvalueindex(i)));
+    const StateBox* box = find_box(L, lua_upvalueindex(i));
     if (!box || !box->state) luaL_error(L, "lissom is closed in this state");
     return *box->state;
 }
 
 int collect_state(lua_State* L) {
-    auto* box = static_cast<StateBox*>(lua_touserdata(L, 1));
-    if (box) {
+    if (StateBox* box = find_box(L, 1)) {
         delete box->state;
         box->state = nullptr;
     }
@@ -35,7 +46,11 @@ int collect_state(lua_State* L) {
 
 int dispatch(lua_State* L) {
     const auto* entry = static_cast<const Entry*>(lua_touserdata(L, lua_upvalueindex(1)));
-    Call call(L, state_upvalue(L, 2), *entry);
+    State& state = state_upvalue(L, 2);
+    if (state.only_help && (entry->type || entry->function->name != "params")) {
+        return end_for_help(L, state);
+    }
+    Call call(L, state, *entry);
     return entry->function->body(call);
 }
 
@@ -44,7 +59,7 @@ const Type& type_upvalue(lua_State* L) {
 }
 
 Holder* open_holder(lua_State* L, int index, const Type& type) {
-    auto* holder = static_cast<Holder*>(luaL_testudata(L, index, type.name.c_str()));
+    Holder* holder = find_holder(L, index, type.name.c_str());
     return holder && holder->object ? holder : nullptr;
 }
 
@@ -55,7 +70,7 @@ int dispatch_operator(lua_State* L) {
     if (!open_holder(L, 1, type)) {
         return luaL_error(
             L, "bad operand of '%s' (%s expected, got %s)", op->name.c_str(), type.name.c_str(),
-            luaL_testudata(L, 1, type.name.c_str()) ? "a closed one" : luaL_typename(L, 1));
+            find_holder(L, 1, type.name.c_str()) ? "a closed one" : luaL_typename(L, 1));
     }
     Call call(L, state, *op);
     return op->body(call);
@@ -70,11 +85,12 @@ int equal_objects(lua_State* L) {
 
 int object_to_string(lua_State* L) {
     const Type& type = type_upvalue(L);
-    if (luaL_testudata(L, 1, type.name.c_str()) && !open_holder(L, 1, type)) {
+    const Holder* holder = find_holder(L, 1, type.name.c_str());
+    if (holder && !holder->object) {
         lua_pushfstring(L, "%s (closed)", type.name.c_str());
         return 1;
     }
-    if (lua_touserdata(L, lua_upvalueindex(1))) return dispatch_operator(L);
+    if (holder && lua_touserdata(L, lua_upvalueindex(1))) return dispatch_operator(L);
     lua_pushstring(L, type.name.c_str());
     return 1;
 }
@@ -138,14 +154,13 @@ int missing_function(lua_State* L) {
 // ---- Life of objects.
 
 int collect_object(lua_State* L) {
-    auto* holder = static_cast<Holder*>(luaL_testudata(L, 1, type_upvalue(L).name.c_str()));
-    if (holder) holder->object.reset();
+    if (Holder* holder = find_holder(L, 1, nullptr)) holder->object.reset();
     return 0;
 }
 
 int close_object(lua_State* L) {
     const Type& type = type_upvalue(L);
-    auto* holder = static_cast<Holder*>(luaL_testudata(L, 1, type.name.c_str()));
+    Holder* holder = find_holder(L, 1, type.name.c_str());
     if (!holder) {
         return luaL_error(L, "bad argument #1 to 'close' (%s expected, got %s)", type.name.c_str(),
                           luaL_typename(L, 1));
@@ -287,7 +302,7 @@ void push_module(lua_State* L, const Registry& registry, int box) {
 // Pushes the StateBox with a new State.
 State& push_state(lua_State* L, const HostOptions& options) {
     auto* box = static_cast<StateBox*>(new_userdata(L, sizeof(StateBox)));
-    box->state = nullptr;
+    *box = {&kBoxMark, nullptr};
     lua_createtable(L, 0, 1);
     lua_pushcfunction(L, collect_state);
     lua_setfield(L, -2, "__gc");
@@ -338,9 +353,27 @@ void open(lua_State* L, const HostOptions& options) {
     lua_remove(L, box);
 }
 
+const Entry* find_entry(lua_State* L, int index) {
+    if (lua_tocfunction(L, index) != dispatch || !lua_getupvalue(L, index, 1)) return nullptr;
+    const auto* entry = static_cast<const Entry*>(lua_touserdata(L, -1));
+    lua_pop(L, 1);
+    return entry;
+}
+
+const Type* find_type(lua_State* L, int index) {
+    const State* state = find_state(L);
+    if (!state || lua_type(L, index) != LUA_TUSERDATA) return nullptr;
+    for (const auto& library : state->registry->libraries()) {
+        for (const Type& type : library->types) {
+            if (luaL_testudata(L, index, type.name.c_str())) return &type;
+        }
+    }
+    return nullptr;
+}
+
 State* find_state(lua_State* L) {
     raw_get_pointer(L, LUA_REGISTRYINDEX, &kStateKey);
-    const auto* box = static_cast<const StateBox*>(lua_touserdata(L, -1));
+    const StateBox* box = find_box(L, -1);
     lua_pop(L, 1);
     return box ? box->state : nullptr;
 }

@@ -67,6 +67,12 @@ Parameter Parameter::or_infinite() const {
     return copy;
 }
 
+Parameter Parameter::or_true() const {
+    Parameter copy = *this;
+    copy.flag = true;
+    return copy;
+}
+
 Parameter Parameter::in(std::string name_of_unit) const {
     Parameter copy = *this;
     copy.unit = std::move(name_of_unit);
@@ -93,6 +99,10 @@ Parameter choice(std::string name, std::vector<std::string> choices, std::string
 Parameter id(std::string name, std::string help) {
     return make(std::move(name), Kind::id, std::move(help));
 }
+Parameter open_vector(std::string name, std::string help) {
+    return make(std::move(name), Kind::open_vector, std::move(help));
+}
+
 Parameter vector(std::string name, std::string help) {
     return make(std::move(name), Kind::vector, std::move(help));
 }

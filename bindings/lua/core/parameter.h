@@ -27,7 +27,7 @@ enum class Kind {
     vector,
     /// One number for all axes or {x, y, z}.
     factors,
-    /// "x", "y", "z" or a vector with a length.
+    /// "x", "-y", ... or a vector with a length.
     axis,
     /// Rows {{...}, ...} of a 4 x 4 matrix whose last row is {0, 0, 0, 1}.
     affine,
@@ -60,6 +60,8 @@ enum class Kind {
     table,
     /// One of `alternatives`, told apart by the Lua type of the value.
     either,
+    /// {x, y, z} of which some, but not all, may be nil or infinite; nil is read as NaN.
+    open_vector,
 };
 
 /// One argument or option. Make one with a function below and refine it with the methods, which
@@ -83,6 +85,7 @@ struct Parameter {
     double max = std::numeric_limits<double>::infinity();
     bool above_min = false;
     bool infinite = false;
+    bool flag = false;
     std::string unit;
     std::vector<std::string> choices;
     std::string type_name;
@@ -103,6 +106,9 @@ struct Parameter {
     Parameter above(double low) const;
     /// Infinite numbers are allowed too (never NaN).
     Parameter or_infinite() const;
+    /// A table of options may also be `true`, with the defaults of all fields, or `false`, which
+    /// counts as left out. Read with `kind`: Kind::boolean then.
+    Parameter or_true() const;
     /// Unit, for the reference: "degrees", "mesh units", ...
     Parameter in(std::string name_of_unit) const;
 };
@@ -114,6 +120,7 @@ Parameter string(std::string name, std::string help);
 Parameter choice(std::string name, std::vector<std::string> choices, std::string help);
 Parameter id(std::string name, std::string help);
 Parameter vector(std::string name, std::string help);
+Parameter open_vector(std::string name, std::string help);
 Parameter factors(std::string name, std::string help);
 Parameter axis(std::string name, std::string help);
 Parameter affine(std::string name, std::string help);

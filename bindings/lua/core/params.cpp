@@ -5,8 +5,8 @@
 
 #include "bindings/lua/core/call.h"
 #include "bindings/lua/core/library.h"
-#include "bindings/lua/core/nearest.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "kernel/core/nearest.h"
 
 namespace lissom::lua {
 namespace {
@@ -112,16 +112,20 @@ ScriptParameter declared(const Call& call, const char* name) {
 // Takes values from the command line. A mistake there, or --help, ends the script (see ScriptEnd).
 void take_arguments(State& state, ParameterSet& set, std::vector<std::string>& rest) {
     const ScriptArguments& arguments = state.host.arguments;
-    if (arguments.script.empty()) return set.require_values();
+    if (arguments.script.empty()) {
+        set.require_values();
+        for (const ScriptParameter& p : set.list) p.make_folder();
+        return;
+    }
     const auto& words = arguments.words;
-    const auto flags_end = std::find(words.begin(), words.end(), "--");
-    if (std::find(words.begin(), flags_end, "--help") != flags_end) {
+    if (state.only_help) {
         state.script_end = ScriptEnd::help;
         throw ParameterError(set.help_text(arguments.script));
     }
     state.script_end = ScriptEnd::usage;
     rest = set.take(words);
     set.require_values();
+    for (const ScriptParameter& p : set.list) p.make_folder();
     state.script_end = ScriptEnd::none;
 }
 
@@ -208,7 +212,11 @@ int set_value(Call& call) {
     if (type != LUA_TBOOLEAN && type != LUA_TNUMBER && type != LUA_TSTRING) {
         call.raise(lua_pushfstring(L, "parameter '%s' cannot be %s", name, luaL_typename(L, 3)));
     }
-    const char* text = type == LUA_TSTRING ? lua_tostring(L, 3) : "";
+    std::size_t size = 0;
+    const char* text = type == LUA_TSTRING ? lua_tolstring(L, 3, &size) : "";
+    if (type == LUA_TSTRING && std::strlen(text) < size) {
+        call.raise(lua_pushfstring(L, "parameter '%s' cannot be a string with zero bytes", name));
+    }
     const bool flag = lua_toboolean(L, 3) != 0;
     const double number = type == LUA_TNUMBER ? lua_tonumber(L, 3) : 0.0;
     const bool done = call.attempt_quick([&] {
@@ -222,10 +230,13 @@ int set_value(Call& call) {
                                      name_hint(name, self->names()));
             }
             p->check(value);
+            ScriptParameter changed = *p;
+            changed.value = value;
+            changed.make_folder();
+            *p = std::move(changed);
         } catch (const ParameterError& error) {
             throw Error(ErrorCode::invalid_argument, error.message);
         }
-        p->value = value;
     });
     return done ? 0 : call.fail();
 }
@@ -273,11 +284,12 @@ int parameters_text(Call& call) {
 }
 
 std::vector<Parameter> declaration_fields() {
-    return {choice("type", {"number", "integer", "boolean", "string", "choice", "file"},
-                   "What its values are."),
+    return {choice("type", {"number", "integer", "boolean", "string", "choice", "file", "folder"},
+                   "What its values are. A folder is one to write to: it is made, where it is "
+                   "missing, when the parameters are declared or it is set."),
             either("default",
                    {boolean("flag", "For a boolean."), number("number", "For a number or integer."),
-                    string("text", "For a string, choice or file.")},
+                    string("text", "For a string, choice, file or folder.")},
                    "Its value where none is given; without one it must be given.")
                 .optional("required"),
             number("min", "Smallest value of a number or integer.").optional("no limit"),

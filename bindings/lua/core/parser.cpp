@@ -7,7 +7,8 @@
 #include <limits>
 #include <variant>
 
-#include "bindings/lua/core/nearest.h"
+#include "bindings/lua/core/registry.h"
+#include "kernel/core/nearest.h"
 
 namespace lissom::lua {
 namespace {
@@ -74,12 +75,17 @@ const char* push_description(lua_State* L, int index, const char* expected_type)
         return lua_tostring(L, -1);
     }
     if (type == LUA_TSTRING) return lua_pushfstring(L, "\"%s\"", lua_tostring(L, index));
+    if (const Holder* holder = find_holder(L, index, nullptr)) {
+        const bool is_expected = std::strcmp(holder->type_name, expected_type) == 0;
+        return is_expected ? lua_pushfstring(L, "a closed %s", expected_type) : holder->type_name;
+    }
     if (type != LUA_TUSERDATA || !luaL_getmetafield(L, index, "__name")) {
         return type == LUA_TNONE ? "no value" : lua_typename(L, type);
     }
     const char* name = lua_tostring(L, -1);
-    if (!name) return lua_typename(L, type);
-    return std::strcmp(name, expected_type) == 0 ? lua_pushfstring(L, "a closed %s", name) : name;
+    // A name that was set on what is no object of ours is no name of it.
+    const bool is_own = name && std::strcmp(name, expected_type) != 0;
+    return is_own ? name : lua_typename(L, type);
 }
 
 std::vector<std::string_view> slot_names(const Entry& entry, int first, int last) {
@@ -88,10 +94,19 @@ std::vector<std::string_view> slot_names(const Entry& entry, int first, int last
     return names;
 }
 
-// The unit vector of the axis called "x", "y" or "z".
-void set_axis(const char* name, Value& value) noexcept {
-    for (int k = 0; k < 3; ++k) value.xyz[k] = name[0] - 'x' == k ? 1.0 : 0.0;
+bool is_axis_name(const char* name) {
+    if (name[0] == '-' || name[0] == '+') ++name;
+    return name[0] >= 'x' && name[0] <= 'z' && name[1] == '\0';
 }
+
+// The unit vector of the axis called "x", "y" or "z", perhaps with a sign.
+void set_axis(const char* name, Value& value) noexcept {
+    const double sign = name[0] == '-' ? -1.0 : 1.0;
+    if (name[0] == '-' || name[0] == '+') ++name;
+    for (int k = 0; k < 3; ++k) value.xyz[k] = name[0] - 'x' == k ? sign : 0.0;
+}
+
+constexpr const char* kNormalTypeName = "lissom.Normal";
 
 }  // namespace
 
@@ -99,6 +114,19 @@ std::string plain_number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.14g", value);
     return text;
+}
+
+void mark_normal(lua_State* L) {
+    luaL_newmetatable(L, kNormalTypeName);
+    lua_setmetatable(L, -2);
+}
+
+bool is_normal(lua_State* L, int index) {
+    if (!lua_istable(L, index) || !lua_getmetatable(L, index)) return false;
+    luaL_getmetatable(L, kNormalTypeName);
+    const bool same = lua_rawequal(L, -1, -2) != 0;
+    lua_pop(L, 2);
+    return same;
 }
 
 std::string expectation(const Parameter& p) {
@@ -117,10 +145,12 @@ std::string expectation(const Parameter& p) {
             return "id from 1";
         case Kind::vector:
             return "{x, y, z}";
+        case Kind::open_vector:
+            return "{x, y, z} with nil or math.huge for an open side";
         case Kind::factors:
             return "number or {x, y, z}";
         case Kind::axis:
-            return "\"x\", \"y\", \"z\" or {x, y, z} with a length";
+            return "\"x\", \"-y\", ... or {x, y, z} with a length";
         case Kind::affine:
             return "4 rows of 4 numbers, the last 0, 0, 0, 1";
         case Kind::matrix3:
@@ -144,7 +174,7 @@ std::string expectation(const Parameter& p) {
         case Kind::function:
             return "function";
         case Kind::options:
-            return "table of options";
+            return p.flag ? "table of options or true" : "table of options";
         case Kind::option_map:
             return "table of tables of options";
         case Kind::table:
@@ -171,9 +201,18 @@ void Parser::run() {
 
 void Parser::check_self() {
     const char* name = entry_.type->name.c_str();
-    const void* holder = luaL_testudata(L_, 1, name);
-    if (holder && static_cast<const Holder*>(holder)->object) return;
-    refuse({1, "", 0}, name, push_description(L_, 1, name));
+    const Holder* holder = find_holder(L_, 1, name);
+    if (holder && holder->object) return;
+    const char* got = push_description(L_, 1, name);
+    const int type = lua_type(L_, 1);
+    if (type == LUA_TUSERDATA || type == LUA_TNIL) refuse({1, "", 0}, name, got);
+    char hinted[kTextSize];
+    compose_text(hinted, [&] {
+        const std::string object = variable_name(*entry_.type);
+        return std::string(got) + "; write " + object + ":" + call_.name_ + ", not " + object +
+               "." + call_.name_;
+    });
+    refuse({1, "", 0}, name, hinted);
 }
 
 // Returns the index of the argument after this one.
@@ -245,6 +284,14 @@ void Parser::read_table(int index, int first, int last) {
             lua_pop(L_, 1);
             if (p.required) refuse_missing(p, place);
             fill_default(p, value);
+        } else if (p.flag && lua_isboolean(L_, -1)) {
+            value.present = lua_toboolean(L_, -1) != 0;
+            value.kind = Kind::boolean;
+            value.number = lua_toboolean(L_, -1);
+            lua_pop(L_, 1);
+            if (value.present) {
+                fill_defaults(entry_.slots[slot].first, entry_.slots[slot].last);
+            }
         } else if (p.kind == Kind::options) {
             if (lua_type(L_, -1) != LUA_TTABLE) mismatch(p, lua_gettop(L_), place);
             value.present = true;
@@ -357,13 +404,14 @@ void Parser::read(const Parameter& p, int index, Value& value, const Place& plac
             value.number = read_number(p, index, place);
             return;
         case Kind::string:
-            if (lua_type(L_, index) != LUA_TSTRING) mismatch(p, index, place);
-            value.data = lua_tolstring(L_, index, &value.size);
+            value.data = read_string(p, index, value.size, place);
             return;
         case Kind::choice:
             return read_choice(p, index, value, place);
         case Kind::vector:
             return read_vector(p, index, value.xyz, place);
+        case Kind::open_vector:
+            return read_open_vector(p, index, value.xyz, place);
         case Kind::factors:
             return read_factors(p, index, value, place);
         case Kind::axis:
@@ -415,9 +463,17 @@ int Parser::read_whole(const Parameter& p, int index, const Place& place) {
     return static_cast<int>(number);
 }
 
-void Parser::read_choice(const Parameter& p, int index, Value& value, const Place& place) {
+// A string that ends at its first zero byte: what follows one would be lost without a word.
+const char* Parser::read_string(const Parameter& p, int index, std::size_t& size,
+                                const Place& place) {
     if (lua_type(L_, index) != LUA_TSTRING) mismatch(p, index, place);
-    const char* given = lua_tolstring(L_, index, &value.size);
+    const char* text = lua_tolstring(L_, index, &size);
+    if (std::strlen(text) < size) refuse(place, "string without zero bytes", "one with them");
+    return text;
+}
+
+void Parser::read_choice(const Parameter& p, int index, Value& value, const Place& place) {
+    const char* given = read_string(p, index, value.size, place);
     const auto found = std::find(p.choices.begin(), p.choices.end(), given);
     if (found == p.choices.end()) mismatch(p, index, place);
     value.data = given;
@@ -425,7 +481,7 @@ void Parser::read_choice(const Parameter& p, int index, Value& value, const Plac
 }
 
 Holder* Parser::read_object(const Parameter& p, int index, const Place& place) {
-    auto* holder = static_cast<Holder*>(luaL_testudata(L_, index, p.type_name.c_str()));
+    Holder* holder = find_holder(L_, index, p.type_name.c_str());
     if (!holder || !holder->object) mismatch(p, index, place);
     return holder;
 }
@@ -435,6 +491,21 @@ double Parser::read_coordinate(const Parameter& p, int index, const Place& place
     const bool usable = p.infinite ? !std::isnan(number) : std::isfinite(number);
     if (lua_type(L_, index) != LUA_TNUMBER || !usable) mismatch(p, index, place);
     return number;
+}
+
+void Parser::read_open_vector(const Parameter& p, int index, double* xyz, const Place& place) {
+    if (lua_type(L_, index) != LUA_TTABLE) mismatch(p, index, place);
+    int keys = 0, given = 0;
+    for (lua_pushnil(L_); lua_next(L_, index) != 0; lua_pop(L_, 1)) ++keys;
+    for (int k = 0; k < 3; ++k) {
+        lua_rawgeti(L_, index, k + 1);
+        const bool is_number = lua_type(L_, -1) == LUA_TNUMBER;
+        xyz[k] = is_number ? lua_tonumber(L_, -1) : std::numeric_limits<double>::quiet_NaN();
+        given += is_number && !std::isnan(xyz[k]) ? 1 : 0;
+        lua_pop(L_, 1);
+    }
+    // Of the wrong type, at the wrong place, or NaN.
+    if (given == 0 || given != keys) mismatch(p, index, place);
 }
 
 void Parser::read_vector(const Parameter& p, int index, double* xyz, const Place& place) {
@@ -458,9 +529,9 @@ void Parser::read_axis(const Parameter& p, int index, Value& value, const Place&
         if (Vec3(value.xyz[0], value.xyz[1], value.xyz[2]).norm() == 0.0) mismatch(p, index, place);
         return;
     }
-    const char* name = lua_tostring(L_, index);
-    const bool is_name = name[0] >= 'x' && name[0] <= 'z' && name[1] == '\0';
-    if (!is_name) mismatch(p, index, place);
+    std::size_t size = 0;
+    const char* name = lua_tolstring(L_, index, &size);
+    if (!is_axis_name(name) || std::strlen(name) != size) mismatch(p, index, place);
     set_axis(name, value);
 }
 
@@ -502,6 +573,7 @@ void Parser::read_list(const Parameter& p, int index, Value& value, const Place&
         case Kind::points: {
             auto* xyz = call_.scratch<double>(3 * size);
             for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
+                if (is_normal(L_, at)) refuse(item, "point", kNormalAmongPoints);
                 read_vector(p, at, xyz + 3 * i, item);
             });
             value.data = xyz;
@@ -519,8 +591,8 @@ void Parser::read_list(const Parameter& p, int index, Value& value, const Place&
             // The strings stay in the script's table, which stays on the stack.
             auto** list = call_.scratch<const char*>(size);
             for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
-                if (lua_type(L_, at) != LUA_TSTRING) mismatch(p, at, item);
-                list[i] = lua_tostring(L_, at);
+                std::size_t length = 0;
+                list[i] = read_string(p, at, length, item);
             });
             value.data = list;
             return;
@@ -607,7 +679,7 @@ bool Parser::fits(const Parameter& p, int index) const {
         case Kind::axis:
             return type == LUA_TSTRING || type == LUA_TTABLE;
         case Kind::object:
-            return luaL_testudata(L_, index, p.type_name.c_str()) != nullptr;
+            return find_holder(L_, index, p.type_name.c_str()) != nullptr;
         case Kind::function:
             return type == LUA_TFUNCTION;
         case Kind::strings:

@@ -9,6 +9,15 @@ namespace lissom::lua {
 /// z}".
 std::string expectation(const Parameter& parameter);
 
+/// Marks the table on top of the stack as a normal that came beside a point: lists of points refuse
+/// it, for `{ style:at{...} }` holds both.
+void mark_normal(lua_State* L);
+bool is_normal(lua_State* L, int index);
+
+/// What lists of points say of it.
+inline constexpr const char* kNormalAmongPoints =
+    "the normal that comes second from at{...}; write (style:at{...}) for the point alone";
+
 class Parser {
   public:
     explicit Parser(Call& call) : call_(call), L_(call.L_), entry_(*call.entry_) {}
@@ -42,8 +51,10 @@ class Parser {
     int read_whole(const Parameter& p, int index, const Place& place);
     double read_coordinate(const Parameter& p, int index, const Place& place);
     Holder* read_object(const Parameter& p, int index, const Place& place);
+    const char* read_string(const Parameter& p, int index, std::size_t& size, const Place& place);
     void read_choice(const Parameter& p, int index, Value& value, const Place& place);
     void read_vector(const Parameter& p, int index, double* xyz, const Place& place);
+    void read_open_vector(const Parameter& p, int index, double* xyz, const Place& place);
     void read_factors(const Parameter& p, int index, Value& value, const Place& place);
     void read_axis(const Parameter& p, int index, Value& value, const Place& place);
     void read_matrix(const Parameter& p, int index, Value& value, const Place& place);

@@ -1,6 +1,7 @@
 #include "bindings/lua/core/registry.h"
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -121,6 +122,12 @@ Registry kernel_registry() {
     Registry registry;
     registry.add(kernel_library());
     return registry;
+}
+
+std::string variable_name(const Type& type) {
+    std::string name = type.name.substr(type.name.rfind('.') + 1);
+    name[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[0])));
+    return name;
 }
 
 }  // namespace lissom::lua

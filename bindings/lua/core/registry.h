@@ -1,5 +1,5 @@
 /// The registration table: one description of everything that scripts can call. The binding, its
-/// argument checks, the editor annotations (meta/lissom.lua), the reference page (reference.md) and
+/// argument checks, the editor annotations (meta/lissom.lua), the reference (docs/lua) and
 /// the tests of all examples are made from it.
 ///
 /// A library describes what it exposes as one `Library` and is added to the `Registry` of a state:
@@ -164,5 +164,8 @@ Library kernel_library();
 
 /// A registry with the kernel's library.
 Registry kernel_registry();
+
+/// What examples call an object of a type: "mesh" for lissom.Mesh.
+std::string variable_name(const Type& type);
 
 }  // namespace lissom::lua

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <tuple>
 
-#include "bindings/lua/core/nearest.h"
 #include "bindings/lua/core/parser.h"
+#include "kernel/core/error.h"
+#include "kernel/core/nearest.h"
+#include "kernel/io/stream/file.h"
 
 namespace lissom::lua {
 namespace {
@@ -43,13 +47,23 @@ std::optional<bool> truth(const std::string& text) {
     return std::nullopt;
 }
 
+// Beyond, a double does not tell an integer from the next, nor is each a long long.
+constexpr double kLargestInteger = 9007199254740992.0;
+
+bool is_exact_integer(double value) {
+    return value == std::floor(value) && std::abs(value) <= kLargestInteger;
+}
+
 [[noreturn]] void refuse(const ScriptParameter& p, const std::string& given) {
     std::string hint;
+    const bool is_too_long = p.type == ParameterType::integer &&
+                             std::abs(std::strtod(given.c_str(), nullptr)) > kLargestInteger;
+    const std::string limit = is_too_long ? " of at most 16 digits" : "";
     const std::vector<std::string_view> choices(p.choices.begin(), p.choices.end());
     const std::string_view nearest = nearest_name(given, choices);
     if (!nearest.empty()) hint = ", did you mean '" + std::string(nearest) + "'?";
-    throw ParameterError("parameter '" + p.name + "': " + p.accepted() + " expected, got '" +
-                         given + "'" + hint);
+    throw ParameterError("parameter '" + p.name + "': " + p.accepted() + limit +
+                         " expected, got '" + given + "'" + hint);
 }
 
 // A flag of a command line: --name, --name=value.
@@ -59,7 +73,8 @@ struct Flag {
 
     explicit Flag(const std::string& word) {
         const std::size_t equals = word.find('=');
-        name = with_underscores(word.substr(2, equals == std::string::npos ? equals : equals - 2));
+        const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
+        name = with_underscores(word.substr(0, equals).substr(dashes));
         if (equals != std::string::npos) value = word.substr(equals + 1);
     }
 };
@@ -67,8 +82,8 @@ struct Flag {
 }  // namespace
 
 std::string_view type_name(ParameterType type) {
-    constexpr std::array<std::string_view, 6> names{"number", "integer", "boolean",
-                                                    "string", "choice",  "file"};
+    constexpr std::array<std::string_view, 7> names{"number", "integer", "boolean", "string",
+                                                    "choice", "file",    "folder"};
     return names[static_cast<std::size_t>(type)];
 }
 
@@ -115,12 +130,61 @@ void ScriptParameter::check(const ParameterValue& given) const {
     } else if (is_numeric(type)) {
         const auto* number = std::get_if<double>(&given);
         fits = number && std::isfinite(*number) && *number >= min && *number <= max &&
-               (type == ParameterType::number || *number == std::floor(*number));
+               (type == ParameterType::number || is_exact_integer(*number));
     } else if (type == ParameterType::choice && fits) {
         fits = std::find(choices.begin(), choices.end(), std::get<std::string>(given)) !=
                choices.end();
     }
     if (!fits) refuse(*this, value_text(given));
+}
+
+void ScriptParameter::make_folder() const {
+    if (type != ParameterType::folder || !value) return;
+    const std::string& name_of_folder = std::get<std::string>(*value);
+    try {
+        lissom::make_folder(
+            std::filesystem::path(std::u8string(name_of_folder.begin(), name_of_folder.end())));
+    } catch (const Error& error) {
+        throw ParameterError("parameter '" + name + "': " + error.message());
+    }
+}
+
+bool is_flag(const std::string& word) {
+    const std::size_t dashes = word.starts_with("--") ? 2 : 1;
+    return word.size() > dashes && word[0] == '-' &&
+           (dashes == 2 || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
+}
+
+std::string first_flag(const std::vector<std::string>& words) {
+    for (const std::string& word : words) {
+        if (word == "--") break;
+        if (is_flag(word)) return word;
+    }
+    return "";
+}
+
+bool asks_for_help(const std::vector<std::string>& words) {
+    const auto end = std::find(words.begin(), words.end(), "--");
+    return std::any_of(words.begin(), end,
+                       [](const std::string& word) { return word == "--help" || word == "-h"; });
+}
+
+std::string unknown_flag_text(const std::string& flag, const std::vector<std::string_view>& names) {
+    const std::string name = Flag(flag).name, shown = flag.substr(0, flag.find('='));
+    std::string text = "no parameter '" + shown + "'";
+    for (const char* option : {"debug", "json", "threads"}) {
+        if (name == option) return text + "; " + shown + " belongs before the script's name";
+    }
+    if (names.empty()) return text + ": the script declares none";
+    const std::string_view nearest = nearest_name(name, names);
+    if (!nearest.empty()) {
+        return text + ", did you mean '--" + with_dashes(std::string(nearest)) + "'?";
+    }
+    text += "; there is: ";
+    for (const std::string_view& one : names) {
+        text += (&one == names.data() ? "--" : ", --") + with_dashes(std::string(one));
+    }
+    return text;
 }
 
 ScriptParameter* ParameterSet::find(std::string_view name) {
@@ -145,26 +209,22 @@ void ParameterSet::sort() {
 std::vector<std::string> ParameterSet::take(const std::vector<std::string>& words) {
     std::vector<std::string> rest;
     for (std::size_t i = 0; i < words.size(); ++i) {
-        const bool is_flag = words[i].size() > 2 && words[i].compare(0, 2, "--") == 0;
         if (words[i] == "--") {
             rest.insert(rest.end(), words.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                         words.end());
             break;
         }
-        if (!is_flag) {
+        if (!is_flag(words[i])) {
             rest.push_back(words[i]);
             continue;
         }
         Flag flag(words[i]);
-        ScriptParameter* p = find(flag.name);
+        ScriptParameter* p = words[i].starts_with("--") ? find(flag.name) : nullptr;
         if (!p && flag.name.compare(0, 3, "no_") == 0 && !flag.value) {
             p = find(flag.name.substr(3));
             if (p && p->type == ParameterType::boolean) flag.value = "false";
         }
-        if (!p) {
-            throw ParameterError("no parameter '--" + with_dashes(flag.name) + "'" +
-                                 name_hint(flag.name, names()));
-        }
+        if (!p) throw ParameterError(unknown_flag_text(words[i], names()));
         if (!flag.value && p->type == ParameterType::boolean) flag.value = "true";
         if (!flag.value) {
             if (i + 1 == words.size()) throw ParameterError("a value must follow " + words[i]);

@@ -12,7 +12,7 @@
 namespace lissom::lua {
 
 /// The order of the choices of `type` in the registration.
-enum class ParameterType { number, integer, boolean, string, choice, file };
+enum class ParameterType { number, integer, boolean, string, choice, file, folder };
 
 using ParameterValue = std::variant<bool, double, std::string>;
 
@@ -35,6 +35,9 @@ struct ScriptParameter {
     ParameterValue from_text(const std::string& text) const;
     /// Checks a value. Throws ParameterError.
     void check(const ParameterValue& value) const;
+    /// Makes the folder that the value names, where this is a folder to write to. Throws
+    /// ParameterError.
+    void make_folder() const;
     /// What values there are: "number from 0 to 1", "small, medium or large".
     std::string accepted() const;
 };
@@ -45,6 +48,19 @@ struct ParameterError : std::exception {
     const char* what() const noexcept override { return message.c_str(); }
     std::string message;
 };
+
+/// Whether a word of a command line is meant as a flag: "--name" or "-n", but not "-", "-1" or
+/// "--".
+bool is_flag(const std::string& word);
+
+/// The first flag among the words before "--", or "".
+std::string first_flag(const std::vector<std::string>& words);
+
+/// Whether these words ask for help: --help or -h before "--".
+bool asks_for_help(const std::vector<std::string>& words);
+
+/// "no parameter '--tun', did you mean '--turn'?" for a flag that none of `names` has.
+std::string unknown_flag_text(const std::string& flag, const std::vector<std::string_view>& names);
 
 /// All parameters of one script, ordered by group and name.
 struct ParameterSet {
@@ -58,7 +74,8 @@ struct ParameterSet {
 
     /// Takes values from the words of a command line and returns the words that are no flags. A
     /// flag is --name VALUE or --name=VALUE, for a boolean also --name and --no-name; "-" and "_"
-    /// are the same in names; "--" ends the flags. Throws ParameterError.
+    /// are the same in names; "--" ends the flags. Throws ParameterError for flags that no
+    /// parameter has, naming the nearest.
     std::vector<std::string> take(const std::vector<std::string>& words);
     /// Throws ParameterError where a parameter has neither value nor default.
     void require_values() const;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "bindings/lua/core/script_parameters.h"
+
 namespace lissom::lua {
 namespace {
 
@@ -27,6 +29,7 @@ State::State(const HostOptions& options)
     : registry(options.registry), context(observed(options.context, listeners)), host(options) {
     if (!registry) registry = std::make_shared<const Registry>(kernel_registry());
     listeners->context = &context;
+    only_help = !host.arguments.script.empty() && asks_for_help(host.arguments.words);
 }
 
 State::~State() {
@@ -43,6 +46,18 @@ const void* State::object_table_key() {
 }
 const void* State::held_metatable_key() {
     return &kHeldMetatable;
+}
+
+int end_for_help(lua_State* L, State& state) {
+    Failure failure;
+    failure.guard([&] {
+        if (state.script_end != ScriptEnd::none) return;
+        state.script_end_text = "Usage: lissom run " + state.host.arguments.script +
+                                "\n\nThe script works before it declares parameters: its help is "
+                                "shown where lissom.params comes first.\n";
+        state.script_end = ScriptEnd::help;
+    });
+    return luaL_error(L, "only the help of the script was asked for");
 }
 
 }  // namespace lissom::lua

@@ -3,9 +3,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bindings/lua/core/call_site.h"
 #include "bindings/lua/core/compat.h"
 #include "bindings/lua/core/failure.h"
 #include "bindings/lua/core/listeners.h"
@@ -34,8 +36,16 @@ struct HostOptions {
 
 struct ParameterSet;
 
-/// Why lissom.params ended the script: its help was asked for, or its command line is wrong. The
-/// text is the message of the Lua error that was raised.
+/// A failure whose results the script dropped: it called a function as a statement, and what came
+/// back was nil, message, code.
+struct DroppedFailure {
+    /// "file:line: " of the call.
+    std::string place;
+    std::string message, code;
+};
+
+/// Why a script was ended: its help was asked for, or its command line is wrong. The text is the
+/// message of the Lua error that was raised.
 enum class ScriptEnd { none, help, usage };
 
 struct State {
@@ -47,6 +57,9 @@ struct State {
     /// After an operation, with no C++ object alive: tells the host, delivers log messages, and
     /// raises the error of a listener as a Lua error.
     void end_operation(lua_State* L);
+    /// After a call that failed, with no C++ object alive: tells by a warning in the log, and in
+    /// Lua 5.4 without a log by Lua's own, where the script drops the failure.
+    void tell_if_dropped(lua_State* L);
     /// Where Lua's registry keeps the weak table from objects to their userdata.
     static const void* object_table_key();
     /// Where it keeps the metatable of values held by a call.
@@ -58,6 +71,9 @@ struct State {
     HostOptions host;
     /// What lissom.params declared last; null before.
     std::shared_ptr<ParameterSet> parameters;
+    /// The command line asks for the script's help: it runs up to lissom.params, and every other
+    /// call ends it.
+    bool only_help = false;
     ScriptEnd script_end = ScriptEnd::none;
     std::string script_end_text;
 
@@ -66,6 +82,10 @@ struct State {
     Failure last_failure;
     char last_failure_place[256] = {};
     bool has_failed = false;
+    /// Failures that nobody can have looked at: the first of them, and how many there were.
+    std::vector<DroppedFailure> dropped;
+    std::size_t dropped_count = 0;
+    std::optional<CallCodes> call_codes;
 
     /// Native bytes that the collector has not been told of yet.
     std::size_t uncharged_bytes = 0;
@@ -74,6 +94,16 @@ struct State {
 /// Opens the binding in `L`, or finds it opened, and pushes the table of the module. May raise a
 /// Lua error; `options` must outlive the call.
 void open(lua_State* L, const HostOptions& options);
+
+/// Raises a Lua error that ends the script, which has begun to work although only its help was
+/// asked for (State::only_help).
+int end_for_help(lua_State* L, State& state);
+
+/// The function of the registration table that the value at `index` is, or null.
+const Entry* find_entry(lua_State* L, int index);
+
+/// The type of the object at `index`, or null.
+const Type* find_type(lua_State* L, int index);
 
 /// The binding's state, or null where it was not opened in `L`.
 State* find_state(lua_State* L);

@@ -100,7 +100,7 @@ MirrorPlane mirror_plane(const Call& call) {
 int add_handle(Call& call) {
     const auto edit = call.self<DeformObject>();
     const bool has_weight = call.has("weight"), has_points = call.kind("where") == Kind::table;
-    const bool on_path = luaL_testudata(call.lua(), 2, PathObject::kTypeName) != nullptr;
+    const bool on_path = find_holder(call.lua(), 2, PathObject::kTypeName) != nullptr;
     const auto region = call.object<RegionObject>("where");
     const auto path = call.object<PathObject>("where");
     const HandleOptions options{
@@ -168,6 +168,7 @@ int write_result(Call& call, const Solve& solve) {
     const auto edit = call.self<DeformObject>();
     const bool done = call.attempt([&] {
         Deformer& deformer = edit->deformer();
+        deformer.require_surroundings(edit->mesh->mesh);
         solve(deformer);
         deformer.apply_to(edit->mesh->mesh);
         edit->mesh->changed();
@@ -360,7 +361,9 @@ std::vector<Function> solving_methods() {
          .body = solve,
          .summary =
              "Solves both systems and writes the result into the mesh. Handles that are where "
-             "they began give the rest shape, to the bit.",
+             "they began give the rest shape, to the bit. What else has moved the region's "
+             "vertices is overwritten; where the mesh around the region was moved, so that the "
+             "result would tear, it is an error.",
          .options = {boolean("draft",
                              "For the frames of a drag: about five digits in half the time. Solve "
                              "once more when the drag ends.")
@@ -448,7 +451,10 @@ std::vector<Parameter> deform_parameters() {
         choice(
             "second", {"blend", "laplacian", "poisson"},
             "The system that makes the shape from the rotations: blend is smooth at handles with "
-            "little distortion, laplacian is the thesis's, poisson has the least distortion.")
+            "little distortion, laplacian is the thesis's, poisson has the least distortion. Keep "
+            "blend unless something asks for another: laplacian where the surface has to be as "
+            "smooth as can be and may stretch, poisson where it may crease at handles, as along an "
+            "edge of the part. Compared in examples/deform/second.png.")
             .optional("\"blend\""),
         integer("coherence", "Rings of neighbours that turn alike.")
             .between(1, 2)
@@ -457,7 +463,10 @@ std::vector<Parameter> deform_parameters() {
             .optional("\"cotangent\""),
         integer("refine",
                 "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
-                "less distortion for half a frame each.")
+                "less distortion for half a frame each. For bars and limbs that bend and twist. "
+                "Leave it at 0 where the surface runs through itself or nearly does, since "
+                "refined parts get thinner and cross more; beside handles that change their size "
+                "it fades to nothing. Compared in examples/deform/refine.png.")
             .at_least(0)
             .optional(std::to_string(defaults.refine)),
         boolean("refine_borders",
@@ -468,7 +477,9 @@ std::vector<Parameter> deform_parameters() {
             .above(0)
             .in("mean lengths of their edges")
             .optional(shown(defaults.displacement)),
-        number("degenerate_threshold", "Condition number from which a vertex counts as degenerate.")
+        number("degenerate_threshold",
+               "Condition number from which a vertex counts as degenerate and is displaced. Below "
+               "about 100 that is nearly every vertex.")
             .above(1)
             .optional(shown(defaults.degenerate_threshold)),
         number("transition",

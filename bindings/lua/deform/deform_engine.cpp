@@ -64,11 +64,13 @@ class Standing {
     explicit Standing(DeformObject& edit)
         : mesh_(edit.mesh->mesh),
           revision_(edit.mesh->mesh.revision()),
-          poses_(edit.deformer().poses()) {}
+          poses_(edit.deformer().poses()),
+          result_(edit.deformer().result()) {}
 
     const Mesh& mesh() const { return mesh_; }
 
     void restore_handles(Deformer& deformer) const { deformer.restore(*poses_); }
+    void restore_result(Deformer& deformer) const { deformer.show(*result_); }
 
     void restore_mesh(MeshObject& object) const {
         Mesh& mesh = object.mesh;
@@ -86,6 +88,7 @@ class Standing {
     Mesh mesh_;
     std::uint64_t revision_;
     std::shared_ptr<const HandlePoses> poses_;
+    std::shared_ptr<const ShownResult> result_;
 };
 
 // Everything that lives as long as one call of bake.
@@ -110,7 +113,10 @@ struct Baking {
 
     // Whatever the script did to the deformation in the meantime.
     void restore() const {
-        if (edit->content) standing.restore_handles(*edit->content);
+        if (edit->content) {
+            standing.restore_handles(*edit->content);
+            standing.restore_result(*edit->content);
+        }
         standing.restore_mesh(*edit->mesh);
     }
 
@@ -240,8 +246,8 @@ os.remove(path))"},
              "Makes an animation of a sequence of poses: a new mesh with a morph target for each "
              "different shape, which mesh:save writes as .glb or .gltf and any viewer of such "
              "files plays. For each frame the handles stand where they stand now, the function "
-             "moves them, and the deformation is solved. Handles and mesh are afterwards as they "
-             "were, also where the function fails.",
+             "moves them, and the deformation is solved. Handles, mesh and last result are "
+             "afterwards as they were, also where the function fails.",
          .options =
              {function("pose", "fun(time: number, frame: integer)",
                        "Moves handles; called for each frame with its time and its number from "

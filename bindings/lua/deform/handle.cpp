@@ -63,11 +63,34 @@ int set_handle(Call& call) {
     return done ? call.push_argument() : call.fail();
 }
 
+constexpr double kDegreesOfTurn = 180.0 / kPi;
+
+// The field `turn` of the matrix, in radians; false where there is none.
+bool read_turn(const Call& call, double (&turn)[3]) {
+    lua_State* L = call.lua();
+    lua_pushstring(L, "turn");
+    lua_rawget(L, call.stack_index("matrix"));
+    if (lua_isnil(L, -1)) return false;
+    if (lua_type(L, -1) != LUA_TTABLE) call.reject("matrix", "turn: {x, y, z} expected");
+    for (int k = 0; k < 3; ++k) {
+        lua_rawgeti(L, -1, k + 1);
+        if (lua_type(L, -1) != LUA_TNUMBER) call.reject("matrix", "turn: {x, y, z} expected");
+        turn[k] = lua_tonumber(L, -1) / kDegreesOfTurn;
+        lua_pop(L, 1);
+    }
+    return true;
+}
+
 int set_handle_matrix(Call& call) {
     const Affine map = call.affine("matrix");
+    double turn[3] = {};
+    const bool has_turn = read_turn(call, turn);
     const auto handle = call.self<HandleObject>();
-    const bool done =
-        call.attempt_quick([&] { handle->edit->deformer().set_transform(handle->id, map); });
+    const bool done = call.attempt_quick([&] {
+        Deformer& deformer = handle->edit->deformer();
+        const Vec3 near = has_turn ? Vec3(turn[0], turn[1], turn[2]) : deformer.turn(handle->id);
+        deformer.set_transform(handle->id, map, Vec3::Zero(), near);
+    });
     return done ? call.push_argument() : call.fail();
 }
 
@@ -82,9 +105,16 @@ int reset_handle(Call& call) {
 int handle_matrix(Call& call) {
     const auto handle = call.self<HandleObject>();
     Affine map;
-    const bool done =
-        call.attempt_quick([&] { map = handle->edit->deformer().transform(handle->id); });
-    return done ? call.push_affine(map) : call.fail();
+    Vec3 turn = Vec3::Zero();
+    const bool done = call.attempt_quick([&] {
+        const Deformer& deformer = handle->edit->deformer();
+        map = deformer.transform(handle->id);
+        turn = deformer.turn(handle->id);
+    });
+    if (!done) return call.fail();
+    call.push_affine(map);
+    call.set_field("turn", call.push_vector(kDegreesOfTurn * turn));
+    return 1;
 }
 
 int handle_center(Call& call) {
@@ -193,7 +223,10 @@ std::vector<Function> handle_moves() {
                  kBar + "top:set{ translate = { 1, 0, 0 }, rotate = { axis = 'y', angle = 90 } }"},
             {.name = "set_matrix",
              .body = set_handle_matrix,
-             .summary = "Sets the whole transform as a matrix.",
+             .summary =
+                 "Sets the whole transform as a matrix. A matrix does not say how often the handle "
+                 "has turned round: the field `turn` that Handle:matrix gives does; without it, "
+                 "the turn nearest to the present one is taken.",
              .arguments = {affine("matrix",
                                   "Rows of a 4 x 4 matrix; takes rest positions to where they "
                                   "go.")},
@@ -220,7 +253,9 @@ Type handle_type() {
         {.name = "matrix",
          .body = handle_matrix,
          .summary = "The transform so far.",
-         .results = {{"number[][]", "matrix", "Rows of a 4 x 4 matrix."}},
+         .results = {{"number[][]", "matrix",
+                      "Rows of a 4 x 4 matrix; its field `turn` is the rotation as {x, y, z}, axis "
+                      "times angle in degrees, counting full turns."}},
          .errors = kEditErrors,
          .example = kBar + "assert(top:matrix()[1][1] == 1)"},
         {.name = "center",

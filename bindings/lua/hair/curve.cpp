@@ -118,33 +118,45 @@ int remove_curve(Call& call) {
     return done ? 0 : call.fail();
 }
 
-// Replaces the drawn points by edit(curve, hint), where the curve is as smooth as it is seen.
+// Replaces the drawn points by edit(curve, hint, options), where the curve is as smooth as it is
+// seen.
 template <typename Edit>
-int edit_by_hint(Call& call, const Edit& edit) {
+int edit_by_hint(Call& call, bool joins, const Edit& edit) {
     return change_curve(call, [&](Hairstyle& style, CurveId id) {
+        HintOptions options;
+        options.reach = call.number("reach");
+        if (joins) options.join = call.number("join");
         const std::vector<Vec3> hint = points_in_metres(call, "hint", style);
         const std::vector<Vec3> smooth =
             smooth_curve(drawn_points(style.curve(id)), style.layout().step);
-        style.set_points(id, edit(smooth, hint));
+        style.set_points(id, edit(smooth, hint, options));
     });
 }
 
 int cut_by_hint(Call& call) {
-    return edit_by_hint(call, [](const std::vector<Vec3>& curve, const std::vector<Vec3>& hint) {
-        return cut_curve(curve, hint);
-    });
+    return edit_by_hint(call, false, cut_curve);
 }
-
 int concatenate_hint(Call& call) {
-    return edit_by_hint(call, [](const std::vector<Vec3>& curve, const std::vector<Vec3>& hint) {
-        return concatenated_curve(curve, hint);
-    });
+    return edit_by_hint(call, true, concatenated_curve);
+}
+int insert_hint(Call& call) {
+    return edit_by_hint(call, true, inserted_curve);
 }
 
-int insert_hint(Call& call) {
-    return edit_by_hint(call, [](const std::vector<Vec3>& curve, const std::vector<Vec3>& hint) {
-        return inserted_curve(curve, hint);
+int tell_operation(Call& call) {
+    constexpr std::string_view kNames[] = {"cut", "concatenate", "insert"};
+    const auto curve = call.self<CurveObject>();
+    HintReading reading;
+    const bool done = call.attempt([&] {
+        const Hairstyle& style = curve->owner->style();
+        const std::vector<Vec3> smooth =
+            smooth_curve(drawn_points(style.curve(curve->id)), style.layout().step);
+        reading = hint_reading(smooth, points_in_metres(call, "hint", style), call.number("near"));
     });
+    if (!done) return call.fail();
+    call.push(kNames[static_cast<std::size_t>(reading.operation)]);
+    call.push(reading.sure);
+    return 2;
 }
 
 int curve_style(Call& call) {
@@ -223,6 +235,23 @@ std::vector<Parameter> hint_argument(const std::string& help) {
     return {points("hint", help).in("mesh units")};
 }
 
+std::vector<Parameter> reach_option() {
+    return {number("reach", "A hint that is farther from the curve has nothing to do with it.")
+                .in("metres")
+                .at_least(0)
+                .defaults(HintOptions{}.reach)};
+}
+
+std::vector<Parameter> joining_options() {
+    std::vector<Parameter> options = reach_option();
+    options.push_back(
+        number("join", "Length of the curve and of the hint that a smooth join replaces.")
+            .in("metres")
+            .at_least(0)
+            .defaults(HintOptions{}.join));
+    return options;
+}
+
 std::vector<Function> changing_methods() {
     return {
         {.name = "set_points",
@@ -263,22 +292,44 @@ std::vector<Function> changing_methods() {
 }
 
 std::vector<Function> hint_methods() {
-    return {{.name = "cut",
+    return {{.name = "hint_operation",
+             .body = tell_operation,
+             .summary = "What a hint stroke means, by where it starts and ends and by its general "
+                        "direction. Call the method of that name with it.",
+             .arguments = hint_argument("A polyline that begins, ends or passes near the curve."),
+             .options = {number("near",
+                                "What is nearer than this to the curve is at it: about 20 "
+                                "pixels of the picture that the stroke was drawn in.")
+                             .in("metres")
+                             .above(0)
+                             .defaults(0.007)},
+             .results = {{"string", "operation", "\"cut\", \"concatenate\" or \"insert\"."},
+                         {"boolean", "sure",
+                          "False where a stroke drawn a little otherwise means something else."}},
+             .errors = kChangeErrors,
+             .example = kStyle + R"(local tip = curve:points()[2]
+local hint = { tip, { tip[1], tip[2] - 0.05, tip[3] } }
+local operation = curve:hint_operation(hint)
+assert(operation == 'concatenate')
+curve[operation](curve, hint))"},
+            {.name = "cut",
              .body = cut_by_hint,
              .summary = "Ends the curve where a hint stroke crosses it.",
              .arguments = hint_argument("A polyline that passes near the curve."),
+             .options = reach_option(),
              .results = kSelfCurve,
              .errors = kChangeErrors,
              .example = kStyle + R"(local points = curve:points()
 local middle = {}
 for k = 1, 3 do middle[k] = (points[1][k] + points[2][k]) / 2 end
 local above = { middle[1], middle[2] + 0.02, middle[3] }
-curve:cut{ above, middle })"},
+curve:cut({ above, middle }, { reach = 0.02 }))"},
             {.name = "concatenate",
              .body = concatenate_hint,
              .summary = "Goes on along a hint stroke that begins near the curve: from there to the "
                         "end the curve is replaced.",
              .arguments = hint_argument("A polyline that begins near the curve."),
+             .options = joining_options(),
              .results = kSelfCurve,
              .errors = kChangeErrors,
              .example = kStyle + R"(local tip = curve:points()[2]
@@ -288,6 +339,7 @@ curve:concatenate{ tip, { tip[1], tip[2] - 0.05, tip[3] } })"},
              .summary = "Replaces the part of the curve between the ends of a hint stroke that "
                         "begins and ends near it.",
              .arguments = hint_argument("A polyline whose ends are near the curve."),
+             .options = joining_options(),
              .results = kSelfCurve,
              .errors = kChangeErrors,
              .example = kStyle + R"(local from, to = curve:points()[1], curve:points()[2]

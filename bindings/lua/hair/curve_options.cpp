@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "bindings/lua/core/parser.h"
 #include "bindings/lua/hair/hair_object.h"
 
 namespace lissom::lua {
@@ -223,6 +224,9 @@ void CurveReader::read_profiles() {
         auto* list = call_.scratch<Vec3>(static_cast<std::size_t>(count));
         lua_insert(L, -2);
         for (int i = 0; i < count; ++i) {
+            lua_rawgeti(L, -1, i + 1);
+            if (is_normal(L, -1)) call_.reject("profiles", kNormalAmongPoints);
+            lua_pop(L, 1);
             if (!read_point(L, i + 1, list[i])) {
                 call_.reject("profiles", "two lists of {x, y, z} expected");
             }

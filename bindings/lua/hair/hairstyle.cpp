@@ -1,4 +1,6 @@
 // lissom.Hairstyle: style curves, the field that they determine, and growth.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -140,6 +142,35 @@ int style_curves(Call& call) {
     return 1;
 }
 
+// Places of curves among all of a style, from 0.
+Index place_of(std::span<const CurveId> order, CurveId id) {
+    return static_cast<Index>(std::find(order.begin(), order.end(), id) - order.begin());
+}
+
+int style_constraints(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    auto& list = call.hold<std::vector<StyleConstraint>>();
+    const Hairstyle* own = nullptr;
+    const bool done = call.attempt_quick([&] {
+        own = &style->style();
+        list = own->constraints();
+    });
+    if (!done) return call.fail();
+    const Scalp& scalp = own->scalp();
+    lua_createtable(call.lua(), static_cast<int>(list.size()), 0);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const StyleConstraint& one = list[i];
+        lua_createtable(call.lua(), 0, 5);
+        call.set_field("point", call.push_vector(scalp.from_metres(one.point)));
+        call.set_field("vector", call.push_vector(scalp.frame().axes * one.vector));
+        call.set_field("kind", call.push(kind_name(one.kind)));
+        call.set_field("weight", call.push(one.weight));
+        if (one.curve) call.set_field("curve", call.push_id(place_of(own->curves(), *one.curve)));
+        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+    }
+    return 1;
+}
+
 // ---- The field
 
 // Runs work(Hairstyle&) and returns the style.
@@ -219,6 +250,21 @@ std::vector<double> vertex_factors(const Call& call, const char* path, const Mes
     return attribute_factors(head, call.string(path));
 }
 
+// Lengths in metres, one for all hair or by the script's function, and factors of them.
+void set_lengths(const Call& call, std::span<const double> lengths, std::vector<double> factors,
+                 GrowthOptions& growth) {
+    growth.length_map = std::move(factors);
+    if (call.kind("length") != Kind::function) {
+        growth.length = call.number("length");
+        return;
+    }
+    growth.length = lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
+    growth.length_map.resize(lengths.size(), 1.0);
+    for (std::size_t v = 0; v < lengths.size() && growth.length > 0.0; ++v) {
+        growth.length_map[v] *= lengths[v] / growth.length;
+    }
+}
+
 // What the script's function says of every vertex; runs before any C++ object is alive.
 std::span<const double> ask_factors(Call& call, const char* path) {
     if (!call.has(path) || call.kind(path) != Kind::function) return {};
@@ -244,7 +290,6 @@ std::span<const double> ask_factors(Call& call, const char* path) {
 
 void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
     growth.seed = static_cast<std::uint64_t>(call.integer("seed"));
-    growth.length = call.number("length");
     growth.variation = call.number("variation");
     growth.segment = call.number("segment");
     growth.least_speed = call.number("least_speed");
@@ -253,6 +298,7 @@ void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
     growth.clearance = call.number("clearance");
     growth.layer = call.number("layer");
     growth.ramp = call.number("ramp");
+    growth.greatest_turn = call.number("greatest_turn") * kPi / 180.0;
     growth.most_segments = call.integer("most_segments");
     if (call.has("cut")) {
         HairCut cut;
@@ -268,7 +314,8 @@ void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
 int grow_hair(Call& call) {
     const auto style = call.self<HairstyleObject>();
     const auto density = ask_factors(call, "density");
-    const auto lengths = ask_factors(call, "lengths");
+    const auto factors = ask_factors(call, "lengths");
+    const auto lengths = ask_factors(call, "length");
     const bool reuse = call.has("into");
     const auto result = reuse ? call.object<StrandsObject>("into") : call.create<StrandsObject>();
     const bool done = call.attempt([&] {
@@ -279,7 +326,8 @@ int grow_hair(Call& call) {
         options.roots.pattern = call.choice<RootPattern>("roots");
         options.roots.density = vertex_factors(call, "density", style->head->mesh, density);
         read_growth(call, own.scalp(), options.growth);
-        options.growth.length_map = vertex_factors(call, "lengths", style->head->mesh, lengths);
+        set_lengths(call, lengths, vertex_factors(call, "lengths", style->head->mesh, factors),
+                    options.growth);
         if (!reuse) result.set(std::make_shared<StrandsObject>(Strands()));
         own.grow(options, result->strands, call.context());
     });
@@ -433,13 +481,16 @@ std::vector<Function> field_methods() {
          .example = kStyle + "style:avoid_scalp():forget_scalp()"}};
 }
 
+constexpr const char* kOfVertex = "fun(vertex: integer, x: number, y: number, z: number): number";
+
 Parameter factors_option(const std::string& name, const std::string& help) {
     return either(
                name,
                {numbers("list", "One for each vertex of the head."),
                 string("attribute", "Name of an attribute of vertices."),
-                function("factor", "fun(vertex: integer, x: number, y: number, z: number): number",
-                         "Asked for each vertex.")},
+                function("factor", kOfVertex,
+                         "Asked for each vertex of the head with its number and its place in mesh "
+                         "units.")},
                help)
         .optional("1 everywhere");
 }
@@ -455,7 +506,15 @@ std::vector<Parameter> growth_fields() {
             .defaults(100000)
             .between(0, kMaximumRoots),
         integer("seed", "Another seed gives other roots and other chance.").defaults(1).at_least(0),
-        metres("length", defaults.length, "Of a strand."),
+        either("length",
+               {number("metres", "Of every strand.").in("metres").at_least(0),
+                function("metres", kOfVertex,
+                         "Asked for each vertex of the head with its number and its place in mesh "
+                         "units; gives metres.")},
+               "Of a strand, at most twice the diagonal of the volume. By a function, for instance "
+               "for a fringe that is shorter than the rest.")
+            .in("metres")
+            .defaults(defaults.length),
         number("variation", "Share by which strands are longer or shorter at most.")
             .defaults(defaults.variation)
             .between(0, 1),
@@ -479,10 +538,17 @@ std::vector<Parameter> growth_fields() {
             .at_least(0),
         number("segment", "Length of a segment, in steps of the grid.")
             .defaults(defaults.segment)
-            .above(0),
+            .between(kLeastSegment, kGreatestSegment),
         number("least_speed", "A strand ends where the field is shorter than this.")
             .defaults(defaults.least_speed)
             .between(0, 0.99),
+        number(
+            "greatest_turn",
+            "A strand ends before a segment that turns by more than this, as about a sink of the "
+            "field; 180 lets strands turn as they like.")
+            .in("degrees")
+            .defaults(std::round(defaults.greatest_turn * 180.0 / kPi))
+            .between(0, 180),
         integer("most_segments", "A strand has no more segments.")
             .defaults(static_cast<int>(defaults.most_segments))
             .at_least(1),
@@ -499,9 +565,9 @@ std::vector<Function> growth_methods() {
                  "a ponytail are in the group of its name.",
              .options = growth_fields(),
              .results = {{"lissom.Strands", "hair", "The strands."}},
-             .errors = {ErrorCode::unconstrained, ErrorCode::invalid_argument,
-                        ErrorCode::region_empty, ErrorCode::not_positive_definite,
-                        ErrorCode::memory_limit, ErrorCode::handle_removed, ErrorCode::cancelled},
+             .errors = {ErrorCode::invalid_argument, ErrorCode::region_empty,
+                        ErrorCode::not_positive_definite, ErrorCode::memory_limit,
+                        ErrorCode::handle_removed, ErrorCode::cancelled},
              .example = kStyle + "local hair = style:grow{ count = 1000, length = 0.2 }\n"
                                  "assert(#hair == 1000)"}};
 }
@@ -512,7 +578,8 @@ std::vector<Function> plain_methods() {
          .body = style_at,
          .summary =
              "A point over the head, in a direction from the center of its frame. At the end "
-             "of a list of points write (style:at{...}), which is the point alone.",
+             "of a list of points write (style:at{...}), which is the point alone; lists of points "
+             "refuse the normal.",
          .options = direction_fields(),
          .results = direction_results(),
          .errors = {ErrorCode::out_of_range, ErrorCode::handle_removed},
@@ -523,6 +590,14 @@ std::vector<Function> plain_methods() {
          .results = {{"lissom.Curve[]", "curves", "A list."}},
          .errors = {ErrorCode::handle_removed},
          .example = kStyle + "assert(style:curves()[1] == curve)"},
+        {.name = "constraints",
+         .body = style_constraints,
+         .summary = "What the curves that are enabled and avoid_scalp give the field: one vector a "
+                    "grid point that is constrained. `lissom.render{ style = }` draws them.",
+         .results = {{"lissom.StyleConstraint[]", "constraints", "A list."}},
+         .errors = {ErrorCode::handle_removed},
+         .example = kStyle + R"(local first = style:constraints()[1]
+assert(first.curve == 1 and (first.kind == 'stream' or first.kind == 'stop')))"},
         {.name = "scalp",
          .body = style_scalp,
          .summary = "The scalp that it was made for.",
@@ -596,14 +671,27 @@ Type hairstyle_type() {
 }
 
 std::vector<Record> hairstyle_records() {
-    return {{"lissom.HairstyleStats",
-             "Sizes of a hairstyle.",
-             {{"integer", "curves", "Number of curves."},
-              {"integer", "constraints", "Constrained grid points of the last solve."},
-              {"integer", "grid_points", "Points of the grid."},
-              {"number", "step",
-               "Distance of neighbouring grid points, in metres of an average "
-               "head."}}}};
+    return {
+        {"lissom.StyleConstraint",
+         "A vector that a hairstyle gives its field at a grid point.",
+         {{"number[]", "point", "{x, y, z}, in mesh units."},
+          {"number[]", "vector", "{x, y, z}: the field there, of length 1 at most."},
+          {"string", "kind",
+           "What it stands for: \"stream\", along a stream curve; \"stop\", vanishing beyond "
+           "its end; \"parting\", along the Gaussian beside a dividing curve, and "
+           "\"separation\" above it; \"section\", \"spine\" and \"gather\" of a ponytail: near "
+           "its cross sections, along the rest of its spine, into its tie; \"scalp\", of "
+           "avoid_scalp."},
+          {"integer?", "curve", "Place of the curve among style:curves(); nil for the scalp's."},
+          {"number", "weight", "How strictly it is kept."}}},
+        {"lissom.HairstyleStats",
+         "Sizes of a hairstyle.",
+         {{"integer", "curves", "Number of curves."},
+          {"integer", "constraints", "Constrained grid points of the last solve."},
+          {"integer", "grid_points", "Points of the grid."},
+          {"number", "step",
+           "Distance of neighbouring grid points, in metres of an average "
+           "head."}}}};
 }
 
 std::vector<Function> hairstyle_functions() {

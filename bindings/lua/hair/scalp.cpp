@@ -1,5 +1,6 @@
 // lissom.Scalp: where hair grows on a head, and its frame.
 #include "bindings/lua/core/library.h"
+#include "bindings/lua/core/parser.h"
 #include "bindings/lua/hair/hair_object.h"
 
 namespace lissom::lua {
@@ -56,6 +57,15 @@ int scalp_left(Call& call) {
 int scalp_unit(Call& call) {
     return call.push(scalp_of(call).unit());
 }
+int scalp_knows_unit(Call& call) {
+    return call.push(scalp_of(call).knows_unit());
+}
+int scalp_confidence(Call& call) {
+    return call.push(scalp_of(call).confidence());
+}
+int scalp_doubt(Call& call) {
+    return call.push(scalp_of(call).frame().doubt);
+}
 int scalp_scale(Call& call) {
     return call.push(scalp_of(call).scale());
 }
@@ -88,7 +98,8 @@ std::vector<Function> scalp_methods() {
          .body = scalp_at,
          .summary =
              "A point over the head, in a direction from the center of its frame. At the end "
-             "of a list of points write (scalp:at{...}), which is the point alone.",
+             "of a list of points write (scalp:at{...}), which is the point alone; lists of points "
+             "refuse the normal.",
          .options = direction_fields(),
          .results = direction_results(),
          .errors = {ErrorCode::out_of_range},
@@ -109,6 +120,21 @@ std::vector<Function> scalp_methods() {
          .summary = "Whether the region was guessed from an average hairline.",
          .results = {{"boolean", "guessed", "False where a region was given or named."}},
          .example = kScalp + "assert(not scalp:guessed())"},
+        {.name = "confidence",
+         .body = scalp_confidence,
+         .summary = "How sure it is where the head is and which way it looks. Making a scalp whose "
+                    "confidence is below 0.5 gives a warning: look at `up` and `front`, or give "
+                    "them, and the region.",
+         .results =
+             {{"number", "confidence",
+               "Near 1 for a whole bald head, near 0 for masks, halves of heads, and what is "
+               "none."}},
+         .example = kScalp + "assert(scalp:confidence() > 0.5)"},
+        {.name = "doubt",
+         .body = scalp_doubt,
+         .summary = "What makes the confidence less than it could be.",
+         .results = {{"string", "doubt", "Empty where nothing does."}},
+         .example = kScalp + "print(scalp:doubt())"},
         {.name = "center",
          .body = scalp_center,
          .summary = "The center of the frame, about the middle between the ears.",
@@ -134,6 +160,13 @@ std::vector<Function> scalp_methods() {
          .summary = "How long a unit of the mesh is.",
          .results = {{"number", "unit", "Metres in one unit of the mesh."}},
          .example = kScalp + "assert(scalp:unit() == 1)"},
+        {.name = "knows_unit",
+         .body = scalp_knows_unit,
+         .summary = "Whether the unit was given, or a usual one makes this the width of a head. "
+                    "Where neither is so, `unit` is that of an average head, and making the scalp "
+                    "gives a warning.",
+         .results = {{"boolean", "known", "False for models of some other size."}},
+         .example = kScalp + "assert(scalp:knows_unit())"},
         {.name = "scale",
          .body = scalp_scale,
          .summary = "How large the head is: styles are made in metres of an average head.",
@@ -176,6 +209,7 @@ int push_point_at(Call& call, const Scalp& scalp) {
     }
     call.push_vector(found->position);
     call.push_vector(found->normal);
+    mark_normal(call.lua());
     return 2;
 }
 
@@ -189,30 +223,32 @@ Type scalp_type() {
 }
 
 std::vector<Function> scalp_functions() {
-    return {{.name = "scalp",
-             .body = make_scalp,
-             .summary = "Finds the scalp of a bald head, bust or body, and which way it looks.",
-             .arguments = {object("head", "lissom.Mesh", "The head.")},
-             .options = {object("region", "lissom.Region", "Where hair grows.")
-                             .optional("the region \"scalp\", or what is above an average "
-                                       "hairline"),
-                         axis("up", "Which way is up.").optional("guessed"),
-                         axis("front", "Which way the head looks.").optional("guessed"),
-                         number("unit", "How long a unit of the mesh is.")
-                             .above(0)
-                             .in("metres")
-                             .optional("the usual unit that makes this the width of a head"),
-                         number("softness",
-                                "Width of the band over which hair thins out at the "
-                                "hairline.")
-                             .in("metres")
-                             .defaults(ScalpOptions{}.softness)
-                             .between(0, 0.1)},
-             .results = {{"lissom.Scalp", "scalp", "The scalp."}},
-             .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument,
-                        ErrorCode::topology_mismatch, ErrorCode::region_empty,
-                        ErrorCode::memory_limit, ErrorCode::cancelled},
-             .example = kScalp + "print(scalp:region())"}};
+    return {
+        {.name = "scalp",
+         .body = make_scalp,
+         .summary = "Finds the scalp of a bald head, bust or body, and which way it looks.",
+         .arguments = {object("head", "lissom.Mesh", "The head.")},
+         .options = {object("region", "lissom.Region", "Where hair grows.")
+                         .optional("the region \"scalp\", or what is above an average "
+                                   "hairline"),
+                     axis("up", "Which way is up.").optional("guessed"),
+                     axis("front", "Which way the head looks.").optional("guessed"),
+                     number("unit", "How long a unit of the mesh is.")
+                         .above(0)
+                         .in("metres")
+                         .optional("m, cm, mm, dm or inch, if one makes this the width of a head; "
+                                   "else that of an average head"),
+                     number("softness",
+                            "Width of the band over which hair thins out at the "
+                            "hairline.")
+                         .in("metres")
+                         .defaults(ScalpOptions{}.softness)
+                         .between(0, 0.1)},
+         .results = {{"lissom.Scalp", "scalp", "The scalp."}},
+         .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument,
+                    ErrorCode::topology_mismatch, ErrorCode::region_empty, ErrorCode::memory_limit,
+                    ErrorCode::cancelled},
+         .example = kScalp + "print(scalp:region())"}};
 }
 
 }  // namespace lissom::lua

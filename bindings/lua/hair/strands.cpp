@@ -21,6 +21,10 @@
 namespace lissom::lua {
 namespace {
 
+// Depth in metres of an average head from which strands count as inside: chords between points on
+// the skin lie so deep.
+constexpr double kSkin = 0.0005;
+
 const Strands& strands_of(const Call& call) {
     return call.self<StrandsObject>()->strands;
 }
@@ -90,6 +94,26 @@ void push_findings(const Call& call, const StrandReport& report) {
     }
 }
 
+bool has_rib_scene(const Call& call) {
+    return call.has("head") || call.has("camera") || call.boolean("archive");
+}
+
+// Inside Call::attempt only.
+RibScene rib_scene(const Call& call) {
+    RibScene scene;
+    scene.archive = call.boolean("archive");
+    if (call.has("head")) scene.head = &call.object<MeshObject>("head")->mesh;
+    if (call.has("camera")) {
+        CameraOptions camera;
+        camera.eye = call.vector("camera.eye");
+        camera.target = call.vector("camera.target");
+        camera.up = call.vector("camera.up");
+        camera.fov = call.number("camera.fov") * kDegree;
+        scene.camera = camera;
+    }
+    return scene;
+}
+
 int save(Call& call) {
     const auto strands = call.self<StrandsObject>();
     const char* path = call.string("path");
@@ -99,7 +123,10 @@ int save(Call& call) {
         options.up = up_axis(call);
         options.unit = call.number("unit");
         options.mend = call.boolean("mend");
-        report = save_strands(strands->strands, file_path(path), options, call.context());
+        report = has_rib_scene(call)
+                     ? save_rib(strands->strands, file_path(path), rib_scene(call), options,
+                                call.context())
+                     : save_strands(strands->strands, file_path(path), options, call.context());
     });
     if (!done) return call.fail();
     call.push_argument();
@@ -210,7 +237,7 @@ std::function<double(const Vec3&)> distance_to_head(const Hairstyle& style) {
     const Scalp& scalp = style.scalp();
     const double metre = scalp.scale() * scalp.unit();
     return [&style, &scalp, metre](const Vec3& point) {
-        return metre * style.field().distances().value(scalp.to_metres(point / scalp.unit()));
+        return metre * style.surface_distance(scalp.to_metres(point / scalp.unit()));
     };
 }
 
@@ -224,9 +251,7 @@ int stats(Call& call) {
         if (on_head) {
             const Hairstyle& style = call.object<HairstyleObject>("style")->style();
             options.distance = distance_to_head(style);
-            // Half a step of the grid, in metres of the head.
-            options.depth =
-                0.5 * style.layout().step * style.scalp().scale() * style.scalp().unit();
+            options.depth = kSkin * style.scalp().scale() * style.scalp().unit();
         }
         if (has_depth) options.depth = call.number("depth");
         found = strand_statistics(strands_of(call), options, call.context());
@@ -462,12 +487,12 @@ int taper_strands(Call& call) {
 }
 
 int trim_strands(Call& call) {
-    TrimOptions options;
+    StrandTrimOptions options;
     if (call.has("length")) options.length = call.number("length");
     options.factor = call.number("factor");
     options.variation = call.number("variation");
     if (call.has("plane")) {
-        options.plane = TrimPlane{call.vector("plane.point"), call.vector("plane.normal")};
+        options.plane = StrandTrimPlane{call.vector("plane.point"), call.vector("plane.normal")};
     }
     options.jitter = call.number("jitter");
     options.least = call.number("least");
@@ -560,17 +585,18 @@ std::vector<Function> content_methods() {
         {.name = "stats",
          .body = stats,
          .summary = "Counts, lengths and turns, and how many strands are damaged.",
-         .options = {number("sharp_turn", "A turn between two segments above this is sharp.")
-                         .defaults(90.0)
-                         .between(0, 180)
-                         .in("degrees"),
-                     object(
-                         "style", "lissom.Hairstyle",
-                         "Measures too how many strands are inside its head, on which they grew.")
-                         .optional("not measured"),
-                     number("depth", "How deep they must be to count.")
-                         .in("metres")
-                         .optional("half a step of the style's grid")},
+         .options =
+             {number("sharp_turn", "A turn between two segments above this is sharp.")
+                  .defaults(90.0)
+                  .between(0, 180)
+                  .in("degrees"),
+              object("style", "lissom.Hairstyle",
+                     "Measures too how many strands are inside its head, on which they grew, by "
+                     "the distance to its surface.")
+                  .optional("not measured"),
+              number("depth", "How deep they must be to count.")
+                  .in("metres")
+                  .optional("0.0005, as the head is larger than an average one")},
          .results = {{"lissom.StrandStats", "stats", "What was measured."}},
          .errors = {ErrorCode::cancelled},
          .example = kPair + "assert(math.abs(hair:stats().most_length - 0.2) < 1e-6)"},
@@ -590,7 +616,26 @@ std::vector<Function> content_methods() {
                      boolean("mend",
                              "false makes what would be changed or left out an error that names "
                              "the strands.")
-                         .defaults(true)},
+                         .defaults(true),
+                     object("head", "lissom.Mesh", "For .rib: the head that the picture shows.")
+                         .optional("none"),
+                     options("camera",
+                             {vector("eye", "Where it stands, in units of the head."),
+                              vector("target", "The middle of the picture."),
+                              axis("up", "Which way is up.").defaults("y"),
+                              number("fov", "Vertical opening angle.")
+                                  .above(0)
+                                  .between(0, 179)
+                                  .in("degrees")
+                                  .defaults(30.0)},
+                             "For .rib: what the picture shows.")
+                         .optional("hair and head whole, from the front, a little aside"),
+                     boolean(
+                         "archive",
+                         "For .rib: the curves alone, for other RIB files to read; else a scene "
+                         "with camera, lights and shaders, of which a RenderMan renderer makes "
+                         "the picture.")
+                         .defaults(false)},
          .results = {kSelfStrands.front(),
                      {"lissom.StrandFinding[]", "report", "What was found, changed or left out."}},
          .errors = {ErrorCode::unknown_format, ErrorCode::file_write_failed,
@@ -753,7 +798,7 @@ Function noise_method() {
 }
 
 Function trim_method() {
-    const TrimOptions d;
+    const StrandTrimOptions d;
     return {
         .name = "trim",
         .body = trim_strands,

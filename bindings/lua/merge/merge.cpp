@@ -13,13 +13,37 @@ Merge& MergingObject::merge() {
 
 namespace {
 
+constexpr std::pair<const char*, const char*> kDirections[] = {{"source_up", "target_up"},
+                                                               {"source_front", "target_front"}};
+
+// A direction of one model says nothing without one of the other.
+void check_directions(const Call& call) {
+    for (const auto& [source, target] : kDirections) {
+        if (call.has(source) == call.has(target)) continue;
+        call.reject(call.has(source) ? source : target,
+                    "directions come in pairs: source_up with target_up, source_front with "
+                    "target_front");
+    }
+}
+
+std::vector<DirectionPair> given_directions(const Call& call) {
+    std::vector<DirectionPair> pairs;
+    for (const auto& [source, target] : kDirections) {
+        if (call.has(source)) pairs.push_back({call.vector(source), call.vector(target)});
+    }
+    return pairs;
+}
+
 MergeOptions merge_options(const Call& call) {
     MergeOptions options;
     options.configuration = call.choice<Configuration>("configuration");
     options.turn_frames = call.integer("frames") == 0;
     options.seam = call.choice<SeamKind>("seam");
     options.smooth = call.integer("smooth");
-    if (call.has("transition")) {
+    options.collar = call.boolean("collar");
+    if (call.has("transition") && call.kind("transition") == Kind::boolean) {
+        options.suit_transition = true;
+    } else if (call.has("transition")) {
         options.source_transition = call.number("transition.source");
         options.target_transition = call.number("transition.target");
         options.transition_weight = call.number("transition.weight");
@@ -95,6 +119,7 @@ struct MergeCall {
 };
 
 MergeCall read_merge(const Call& call) {
+    check_directions(call);
     MergeCall asked{read_joins(call, "joins"), nullptr, nullptr, 0, nullptr, 0};
     if (call.has("source")) asked.source = call.object<MeshObject>("source").get();
     if (call.has("target")) {
@@ -120,6 +145,7 @@ MergeCall read_merge(const Call& call) {
 
 std::shared_ptr<MergingObject> make_merging(const Call& call, const MergeCall& asked) {
     MergeOptions options = merge_options(call);
+    options.directions = given_directions(call);
     if (call.has("reach")) options.reach = call.number("reach");
     const MeshesOfJoins meshes = meshes_of(asked.joins);
     require_named(asked.source, {meshes.source}, "source");
@@ -194,7 +220,9 @@ std::vector<Parameter> merge_parameters(bool intersections) {
               "List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which "
               "boundaries meet, and points that do: vertices of the boundaries, or points {x, y, "
               "z} on them, the source's first. Between keys arc length decides. Without keys the "
-              "best fit is taken, and the report says how certain it is. All sources lie on one "
+              "best fit is taken, with the directions below and, where all these leave a choice, "
+              "with the planes of symmetry of the parts; the report says how "
+              "certain it is. All sources lie on one "
               "mesh; targets may lie on several, and each boundary is in one join."),
         object("source", "lissom.Mesh", "The mesh that is deformed.")
             .optional("the mesh of the joins' sources"),
@@ -202,6 +230,14 @@ std::vector<Parameter> merge_parameters(bool intersections) {
                {object("target", "lissom.Mesh", ""), objects("target", "lissom.Mesh", "")},
                "The mesh, or the meshes, that stay.")
             .optional("the meshes of the joins' targets"),
+        axis("source_up",
+             "A direction of the source that is to lie the way `target_up` does, for joins without "
+             "keys. It counts as far as it lies in the plane of the boundary: that of a neck's "
+             "axis says little.")
+            .optional(),
+        axis("target_up", "The direction of the targets that belongs to it.").optional(),
+        axis("source_front", "Another direction of the source: where a face looks.").optional(),
+        axis("target_front", "The direction of the targets that belongs to it.").optional(),
         choice("configuration", {"free", "fixed"},
                "free: the source comes from wherever it lies, turned and scaled as fits (thesis "
                "3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2).")
@@ -226,9 +262,16 @@ std::vector<Parameter> merge_parameters(bool intersections) {
             "that. band: a band of the "
             "target's faces is replaced, as in the thesis.")
             .defaults("conform"),
-        integer("smooth", "Umbrella steps at the seam; with 0 no vertex of the target moves.")
+        integer(
+            "smooth",
+            "Umbrella steps at the seam, at most: the first that would fold it is the last. With "
+            "0 and without a collar no vertex of the target moves.")
             .between(0, 1000)
             .defaults(3),
+        boolean("collar",
+                "Where the edges of one side are more than 1.5 times as long as the seam's, its "
+                "faces there are made anew, from small to large; sharp edges keep their shape.")
+            .defaults(true),
         options("transition",
                 {number("source", "Width on the source.")
                      .at_least(0)
@@ -242,7 +285,11 @@ std::vector<Parameter> merge_parameters(bool intersections) {
                         "w_T of thesis 3.3.3, for fidelity = \"thesis\", which needs both widths.")
                      .above(0)
                      .defaults(0.1)},
-                "Bands on either side of the seam in which details of both fade into each other.")
+                "Bands on either side of the seam in which details of both fade into each other; "
+                "`true` chooses widths that suit each seam: .9 of its radius, at least three "
+                "edges, at most half of the side. Where the surface has no room for a width, the "
+                "band is narrower and a warning says so.")
+            .or_true()
             .optional("none"),
         boolean("trim",
                 "Boundaries with teeth are cut to smooth lines first, and the report says "
@@ -292,11 +339,14 @@ Type merging_type() {
             "moved: what a tool keeps while the user drags a key.",
         .methods = {{.name = "set_keys",
                      .body = set_merging_keys,
-                     .summary = "Replaces the keys of one join, and returns the merge.",
+                     .summary =
+                         "Replaces the keys of one join, and returns the merge. Keys that do "
+                         "not fit are an error at once, and those of before stay.",
                      .arguments = {id("join", "Number of the join, from 1."),
                                    table("keys", "List of { s, t }, as in lissom.merge.")},
                      .results = {{"lissom.Merging", "merging", "The same merge."}},
-                     .errors = {ErrorCode::out_of_range, ErrorCode::handle_removed},
+                     .errors = {ErrorCode::out_of_range, ErrorCode::key_conflict,
+                                ErrorCode::handle_removed},
                      .example = made + R"(local s, t = half:boundaries()[1], bowl:boundaries()[1]
 merging:set_keys(1, { { s:vertices()[1], t:vertices()[5] } })
 assert(merging:solve():is_closed()))"},
@@ -332,7 +382,8 @@ std::vector<Function> merge_functions() {
     joins = { { source = half:boundaries()[1], target = bowl:boundaries()[1] } },
 }
 assert(mesh:is_closed() and mesh:genus() == 0)
-assert(math.abs(report.joins[1].scale - 3) < 1e-6))"},
+assert(math.abs(report.joins[1].scale - 3) < 1e-6)
+if not report.ok then print(report.verdict) end)"},
         {.name = "merging",
          .body = new_merging,
          .summary = "As lissom.merge, but returns an object that keeps what was prepared, so that "

@@ -59,7 +59,7 @@ std::pair<const KeySpec*, std::size_t> top_keys(const Call& call, const char* pa
 Holder* boundary_field(const Call& call, const char* path, int table, const char* name) {
     lua_State* L = call.lua();
     lua_getfield(L, table, name);
-    auto* holder = static_cast<Holder*>(luaL_testudata(L, -1, PathObject::kTypeName));
+    Holder* holder = find_holder(L, -1, PathObject::kTypeName);
     if (!holder || !holder->object) call.reject(path, kJoins);
     return holder;
 }

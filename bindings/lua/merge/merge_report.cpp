@@ -25,7 +25,7 @@ void push_quality(const Call& call, const SeamQuality& quality) {
 }
 
 void push_seam(const Call& call, const SewReport& seam) {
-    lua_createtable(call.lua(), 0, 8);
+    lua_createtable(call.lua(), 0, 12);
     call.set_field("inserted_into_target", call.push(seam.inserted_into_target));
     call.set_field("inserted_into_source", call.push(seam.inserted_into_source));
     call.set_field("snapped", call.push(seam.snapped));
@@ -33,6 +33,9 @@ void push_seam(const Call& call, const SewReport& seam) {
     call.set_field("flipped", call.push(seam.flipped));
     call.set_field("band_removed", call.push(seam.band_removed));
     call.set_field("band_added", call.push(seam.band_added));
+    call.set_field("smoothed", call.push(seam.smoothed));
+    call.set_field("collar_removed", call.push(seam.collar_removed));
+    call.set_field("collar_added", call.push(seam.collar_added));
     push_quality(call, seam.before);
     call.set_field("before");
     push_quality(call, seam.after);
@@ -213,9 +216,12 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     call.charge(provenance);
     lua_pushvalue(call.lua(), first);
     call.remember(owner.get());
-    lua_createtable(call.lua(), 0, 16);
+    lua_createtable(call.lua(), 0, 19);
     push_joins(call, result.report.joins);
     call.set_field("joins");
+    call.set_field("ok", call.push(result.report.ok));
+    call.set_field("verdict", call.push(result.report.verdict));
+    call.set_field("loose_parts", call.push(result.report.loose_parts));
     push_texts(call, result.report.warnings);
     call.set_field("warnings");
     push_flips(call, result.report);
@@ -293,7 +299,10 @@ std::vector<Record> merge_records() {
           {"integer", "flipped", "Edges flipped to avoid slivers."},
           {"integer", "band_removed", "Faces of the target that the band replaced."},
           {"integer", "band_added", "Faces that the band added."},
-          {"lissom.SeamQuality", "before", "Before smoothing."},
+          {"integer", "smoothed", "Umbrella steps that were made."},
+          {"integer", "collar_removed", "Faces that collars took the place of."},
+          {"integer", "collar_added", "Triangles of the collars."},
+          {"lissom.SeamQuality", "before", "Before collars and smoothing."},
           {"lissom.SeamQuality", "after", "As it is."}}},
         {"lissom.JoinReport",
          "What was found at one join; angles in degrees.",
@@ -310,8 +319,16 @@ std::vector<Record> merge_records() {
           {"boolean", "refined", "Faces of the source were split there."}}},
         {"lissom.MergeReport",
          "What a merge found and did.",
-         {{"lissom.JoinReport[]", "joins", "One a join."},
+         {{"boolean", "ok",
+           "Whether the seams are good: they turn by no more than 30 degrees, or than the surfaces "
+           "did beside the boundaries; no triangle at them has less than 2 degrees, or than there "
+           "were; no faces run through one another that did not before; and no place is a toss."},
+          {"string", "verdict", "The same in one line: what holds, or what does not."},
+          {"lissom.JoinReport[]", "joins", "One a join."},
           {"string[]", "warnings", "What to look at, in plain words."},
+          {"integer", "loose_parts",
+           "Parts of the source without a joined boundary: in the free configuration they move "
+           "along with what is nearest."},
           {"table", "flipped", "source and targets: what was inside out and has been turned over."},
           {"lissom.SeamReport", "seam", "What was done to sew, and how well."},
           {"table[]", "transition",

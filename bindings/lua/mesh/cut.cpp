@@ -11,7 +11,8 @@ namespace lissom::lua {
 namespace {
 
 // In the order of CutConcern.
-constexpr std::array kConcerns = {"touches_boundary", "folded_line", "lines_nearby"};
+constexpr std::array kConcerns = {"touches_boundary", "folded_line", "lines_nearby", "keeps_most",
+                                  "not_separating"};
 
 // ---- mesh:cut
 
@@ -49,20 +50,20 @@ Path given_path(const Call& call) {
     return {{points.begin(), points.end()}, true};
 }
 
-Cut perform_cut(const Call& call, const Mesh& mesh) {
+// What `work` makes of the plane, path or region that was given, and of the options.
+template <typename Work>
+auto with_cut(const Call& call, const Work& work) {
     CutOptions options;
     options.slide = call.number("slide");
     if (call.has("plane")) {
         options.loops = call.choice<CutLoops>("plane.loops");
-        return cut(mesh, given_plane(call), options, call.context());
+        return work(given_plane(call), options);
     }
     const double smoothing = call.has("smoothing") ? call.number("smoothing") : 0.04;
     if (call.has("path")) {
-        const CutPath along{given_path(call), given_vector(call, "seed"), smoothing};
-        return cut(mesh, along, options, call.context());
+        return work(CutPath{given_path(call), given_vector(call, "seed"), smoothing}, options);
     }
-    const CutRegion region{call.object<RegionObject>("region")->current(), smoothing};
-    return cut(mesh, region, options, call.context());
+    return work(CutRegion{call.object<RegionObject>("region")->current(), smoothing}, options);
 }
 
 void push_warnings(Call& call, const std::vector<CutWarning>& warnings) {
@@ -78,23 +79,46 @@ void push_warnings(Call& call, const std::vector<CutWarning>& warnings) {
 }
 
 void push_report(Call& call, const CutReport& report) {
-    lua_createtable(call.lua(), 0, 6);
+    lua_createtable(call.lua(), 0, 7);
     push_warnings(call, report.warnings);
     call.set_field("warnings");
     call.set_field("touched_boundaries", call.push_ids(report.touched_boundaries));
     call.set_field("lines_left", call.push(static_cast<int>(report.lines_left)));
     call.set_field("whole_components", call.push(static_cast<int>(report.whole_components)));
+    call.set_field("kept_fraction", call.push(report.kept_fraction));
     call.set_field("slid_vertices", call.push_ids(report.slid_vertices));
     call.set_field("divided_faces", call.push(static_cast<int>(report.divided_faces)));
 }
 
+int show_cut(Call& call) {
+    const auto mesh = call.self<MeshObject>();
+    auto& owner = call.hold<std::shared_ptr<MeshObject>>();
+    auto& preview = call.hold<CutPreview>();
+    const bool done = call.attempt([&] {
+        owner = mesh.share();
+        preview = with_cut(call, [&](const auto& by, const CutOptions& options) {
+            return preview_cut(mesh->mesh, by, options, call.context());
+        });
+    });
+    if (!done) return call.fail();
+    if (push_paths(call, owner, preview.lines) != 1) return 4;
+    if (push_paths(call, owner, preview.others) != 1) return 4;
+    call.set_field("others");
+    push_report(call, preview.report);
+    call.set_field("report");
+    return 1;
+}
+
 int cut_mesh(Call& call) {
     check_options(call);
+    if (call.boolean("preview")) return show_cut(call);
     const auto mesh = call.self<MeshObject>();
     auto& result = call.hold<CutResult>();
     const auto a = call.create<MeshObject>();
     const bool done = call.attempt([&] {
-        Cut parts = perform_cut(call, mesh->mesh);
+        Cut parts = with_cut(call, [&](const auto& by, const CutOptions& options) {
+            return cut(mesh->mesh, by, options, call.context());
+        });
         result.a = std::make_shared<MeshObject>(std::move(parts.kept.mesh));
         result.b = std::make_shared<MeshObject>(std::move(parts.rest.mesh));
         for (CutLine& line : parts.lines) {
@@ -193,30 +217,39 @@ std::vector<Parameter> cut_options() {
             .between(0, 0.1)
             .above(0)
             .optional("0.04"),
-        slide_option()};
+        slide_option(),
+        boolean("preview",
+                "Cuts nothing and returns the lines alone: those that would be cut, as free paths "
+                "with the kept part on their left, and in their fields `others`, lines in which "
+                "the plane crosses too, and `report`.")
+            .defaults(false)};
 }
 
 }  // namespace
 
 std::vector<Function> cut_methods_of_mesh() {
-    return {{.name = "cut",
-             .body = cut_mesh,
-             .summary =
-                 "Cuts the mesh in two along a smooth line through its faces: by exactly one of "
-                 "plane, path and region. Attributes are interpolated; vertices and faces off the "
-                 "line stay as they are. The mesh itself is not changed.",
-             .options = cut_options(),
-             .results = {{"lissom.Mesh", "a", "The part that is kept."},
-                         {"lissom.Mesh", "b", "The rest."},
-                         {"lissom.CutLines", "loops", "The lines on both parts, and a report."}},
-             .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument,
-                        ErrorCode::topology_mismatch, ErrorCode::region_empty,
-                        ErrorCode::boundary_conflict, ErrorCode::nonmanifold_edge,
-                        ErrorCode::cancelled},
-             .example = R"(local cactus = lissom.shapes.cactus{ vertices = 3000 }
+    return {
+        {.name = "cut",
+         .body = cut_mesh,
+         .summary =
+             "Cuts the mesh in two along a smooth line through its faces: by exactly one of "
+             "plane, path and region. Attributes are interpolated; vertices and faces off the "
+             "line stay as they are. The mesh itself is not changed.",
+         .options = cut_options(),
+         .results = {{"lissom.Mesh", "a", "The part that is kept; with `preview` the lines alone."},
+                     {"lissom.Mesh", "b", "The rest."},
+                     {"lissom.CutLines", "loops", "The lines on both parts, and a report."}},
+         .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument,
+                    ErrorCode::topology_mismatch, ErrorCode::region_empty,
+                    ErrorCode::boundary_conflict, ErrorCode::nonmanifold_edge,
+                    ErrorCode::cancelled},
+         .example = R"(local cactus = lissom.shapes.cactus{ vertices = 3000 }
 local tip, foot, loops = cactus:cut{ plane = { point = { 0, 1.7, 0 }, normal = { 0, 1, 0.2 } } }
 assert(#loops == 1 and loops[1]:is_boundary() and #loops[1] == #loops.b[1])
-assert(tip:bounds().min[2] > foot:bounds().min[2]))"}};
+assert(tip:bounds().min[2] > foot:bounds().min[2])
+-- Where would it be cut?
+local lines = cactus:cut{ plane = { point = { 0, 1.7, 0 }, normal = { 0, 1, 0 } }, preview = true }
+print(#lines .. " cut, " .. #lines.others .. " left, keeps " .. lines.report.kept_fraction))"}};
 }
 
 std::vector<Function> trim_methods_of_path() {
@@ -266,6 +299,8 @@ std::vector<Record> cut_records() {
                "With the surface on its left; closed unless it ends at open boundaries."},
               {"lissom.Path[]", "b",
                "The same lines on the rest: from the same points, the other way."},
+              {"lissom.Path[]|nil", "others",
+               "Of a preview: lines in which the plane crosses too and which would not be cut."},
               {"lissom.CutReport", "report", "What was found and done."}}},
             {"lissom.CutReport",
              "What a cut found and did.",
@@ -274,13 +309,17 @@ std::vector<Record> cut_records() {
                "Open boundaries that lines end at: places in mesh:boundaries() of before."},
               {"integer", "lines_left", "Lines in which the plane crosses too, not cut."},
               {"integer", "whole_components", "Components that went to one part as a whole."},
+              {"number", "kept_fraction",
+               "Part of the mesh's area, 0 to 1, on the side of the lines that is kept."},
               {"integer[]", "slid_vertices", "Vertices of before that slid onto a line."},
               {"integer", "divided_faces", "Faces that were divided."}}},
             {"lissom.CutWarning",
              "Why the result of a cut may not be what was wanted.",
              {{"string", "kind",
                "touches_boundary: a line ends at an open boundary; folded_line: a line seems to "
-               "run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too."},
+               "run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too; "
+               "keeps_most: a plane or path keeps more than 80 % of the area, perhaps the wrong "
+               "part; not_separating, of a preview: the cut would fail, its sides are connected."},
               {"string", "message", "What was found and what to do about it."},
               {"integer[]", "vertices", "Vertices of before where it was found, at most 100."}}},
             {"lissom.TrimReport",

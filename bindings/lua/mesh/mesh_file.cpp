@@ -38,9 +38,13 @@ int save(Call& call) {
     options.unit = call.number("unit");
     options.binary = call.boolean("binary");
     options.endianness = call.choice<Endianness>("endianness");
-    const bool done =
-        call.attempt([&] { save_mesh(mesh->mesh, file_path(path), options, call.context()); });
-    return done ? call.push_argument() : call.fail();
+    options.origin = call.choice<FileOrigin>("origin");
+    SavedFile saved;
+    const bool done = call.attempt(
+        [&] { saved = save_mesh(mesh->mesh, file_path(path), options, call.context()); });
+    if (!done) return call.fail();
+    call.push_argument();
+    return 1 + (options.origin == FileOrigin::keep ? 0 : call.push_vector(saved.origin));
 }
 
 Parameter up_option(const std::string& help) {
@@ -100,23 +104,33 @@ assert(mesh == nil and code == "file_not_found"))"}};
 
 std::vector<Function> mesh_file_methods() {
     const SaveOptions defaults;
-    return {{.name = "save",
-             .body = save,
-             .summary = "Writes the mesh to a file, whole or not at all.",
-             .arguments = {string("path", "The file; its extension names the format.")},
-             .options =
-                 {up_option("The up axis that the file shall have."),
-                  unit_option("Length of the file's unit in the unit of the mesh: positions are "
-                              "divided by it."),
-                  boolean("binary", "Binary or text, for .ply and .stl.").defaults(defaults.binary),
-                  choice("endianness", {"little", "big"}, "Byte order of a binary .ply.")
-                      .defaults("little")},
-             .results = {{"lissom.Mesh", "mesh",
-                          "The mesh itself; nil, message, code where the file "
-                          "could not be written."}},
-             .errors = {ErrorCode::unknown_format, ErrorCode::file_write_failed,
-                        ErrorCode::file_is_directory, ErrorCode::not_finite, ErrorCode::cancelled},
-             .example = R"(local path = os.tmpname() .. ".obj"
+    return {
+        {.name = "save",
+         .body = save,
+         .summary = "Writes the mesh to a file, whole or not at all.",
+         .arguments = {string("path", "The file; its extension names the format.")},
+         .options =
+             {up_option("The up axis that the file shall have."),
+              unit_option("Length of the file's unit in the unit of the mesh: positions are "
+                          "divided by it."),
+              boolean("binary", "Binary or text, for .ply and .stl.").defaults(defaults.binary),
+              choice("endianness", {"little", "big"}, "Byte order of a binary .ply.")
+                  .defaults("little"),
+              choice("origin", {"keep", "auto"},
+                     "\"auto\" moves the file's origin into a mesh that is farther from it than "
+                     "it is large, so that 32-bit numbers (.glb, .gltf, binary .stl) can hold its "
+                     "detail. glTF keeps the place in its nodes; for other formats it is returned.")
+                  .defaults("keep")},
+         .results = {{"lissom.Mesh", "mesh",
+                      "The mesh itself; nil, message, code where the file "
+                      "could not be written."},
+                     {"lissom.Vector?", "origin",
+                      "With origin = \"auto\": the point of the mesh that is the origin of the "
+                      "file, zero where it stayed or glTF keeps it."}},
+         .errors = {ErrorCode::unknown_format, ErrorCode::file_write_failed,
+                    ErrorCode::file_is_directory, ErrorCode::not_finite, ErrorCode::unsupported,
+                    ErrorCode::cancelled},
+         .example = R"(local path = os.tmpname() .. ".obj"
 local mesh = lissom.shapes.box()
 assert(mesh:save(path))
 assert(assert(lissom.load(path)) == mesh)

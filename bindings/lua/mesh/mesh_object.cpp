@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "bindings/lua/core/nearest.h"
+#include "kernel/core/nearest.h"
 #include "kernel/mesh/measure/measures.h"
 
 namespace lissom::lua {

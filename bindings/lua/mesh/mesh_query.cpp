@@ -2,6 +2,8 @@
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/mesh_object.h"
+#include "bindings/lua/mesh/sources.h"
+#include "kernel/mesh/measure/distortion.h"
 
 namespace lissom::lua {
 namespace {
@@ -45,35 +47,75 @@ int pick(Call& call) {
     return 1;
 }
 
-// The vertices that distances start at.
-std::vector<Index> sources(const Call& call) {
-    switch (call.kind("from")) {
-        case Kind::id:
-            return {call.id("from")};
-        case Kind::object:
-            return call.object<RegionObject>("from")->current().vertices();
-        default: {
-            const auto ids = call.ids("from");
-            return {ids.begin(), ids.end()};
-        }
-    }
+std::vector<double> from_vertices(const Call& call, MeshObject& mesh, const SourceSpec& sources,
+                                  bool along_edges) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    if (along_edges) return edge_distances(mesh.mesh, sources.vertices, kFar, call.context());
+    return mesh.heat(call.context()).from(sources.vertices, call.context());
+}
+
+std::vector<double> from_point(const Call& call, MeshObject& mesh, const SourceSpec& sources,
+                               bool along_edges) {
+    const SurfacePoint point = sources.nearest(mesh, call.context());
+    if (along_edges) return edge_distances(mesh.mesh, point, call.context());
+    return mesh.heat(call.context()).from_point(point, call.context());
 }
 
 int distances(Call& call) {
     const auto mesh = call.self<MeshObject>();
     const bool along_edges = call.integer("method") == 1;
+    const SourceSpec sources = read_sources(call, "from");
     const auto result = call.create<BufferObject>();
     const bool done = call.attempt([&] {
         auto buffer = std::make_shared<BufferObject>();
-        const std::vector<Index> from = sources(call);
-        buffer->values =
-            along_edges ? edge_distances(mesh->mesh, from, std::numeric_limits<double>::infinity(),
-                                         call.context())
-                        : mesh->heat(call.context()).from(from, call.context());
+        buffer->values = sources.is_point ? from_point(call, *mesh, sources, along_edges)
+                                          : from_vertices(call, *mesh, sources, along_edges);
         result.set(std::move(buffer));
     });
     if (!done) return call.fail();
     call.charge(result);
+    return 1;
+}
+
+// ---- mesh:distortion
+
+// A field that is a buffer with one number a vertex.
+struct DistortionField {
+    const char* name;
+    std::vector<double> Distortion::*values;
+};
+
+constexpr DistortionField kDistortionFields[] = {{"stretch", &Distortion::stretch},
+                                                 {"area", &Distortion::area},
+                                                 {"angle", &Distortion::angle},
+                                                 {"flips", &Distortion::flips}};
+
+int mesh_distortion(Call& call) {
+    const auto mesh = call.self<MeshObject>(), rest = call.object<MeshObject>("rest");
+    lua_State* L = call.lua();
+    lua_createtable(L, 0, 5);
+    const int table = lua_gettop(L);
+    const Ref<BufferObject> buffers[] = {call.create<BufferObject>(), call.create<BufferObject>(),
+                                         call.create<BufferObject>(), call.create<BufferObject>()};
+    auto& flipped = call.hold<std::vector<Index>>();
+    const bool done = call.attempt([&] {
+        Distortion found = distortion(mesh->mesh, rest->mesh, call.context());
+        for (double& angle : found.angle) angle *= 180.0 / kPi;
+        for (int i = 0; i < 4; ++i) {
+            auto buffer = std::make_shared<BufferObject>();
+            buffer->values = std::move(found.*kDistortionFields[i].values);
+            buffers[i].set(std::move(buffer));
+        }
+        flipped = std::move(found.flipped);
+    });
+    if (!done) return call.fail();
+    for (int i = 0; i < 4; ++i) {
+        call.charge(buffers[i]);
+        lua_pushvalue(L, table + 1 + i);
+        lua_setfield(L, table, kDistortionFields[i].name);
+    }
+    lua_pushvalue(L, table);
+    call.set_field("flipped", call.push_ids(flipped));
     return 1;
 }
 
@@ -99,22 +141,31 @@ assert(math.abs(hit.position[3] - 0.5) < 1e-12))"},
             {.name = "distances",
              .body = distances,
              .summary =
-                 "Distance of every vertex over the surface to the nearest of the given vertices; "
-                 "infinite where there is no way.",
-             .options = {either("from",
-                                {id("vertex", "One vertex."),
-                                 object("region", "lissom.Region", "The vertices of a region."),
-                                 ids("list", "A list of vertices.")},
-                                "Where distances start."),
-                         choice("method", {"heat", "edges"},
-                                "Geodesic by the heat method, or along edges.")
-                             .defaults("heat")},
+                 "Distance of every vertex over the surface to the nearest of the given vertices, "
+                 "or to a point; infinite where there is no way.",
+             .options = {source_option(), choice("method", {"heat", "edges"},
+                                                 "Geodesic by the heat method, or along edges.")
+                                              .defaults("heat")},
              .results = {{"lissom.Buffer", "distances", "One number a vertex."}},
              .errors = {ErrorCode::out_of_range, ErrorCode::invalid_argument, ErrorCode::mesh_empty,
                         ErrorCode::memory_limit, ErrorCode::cancelled},
              .example = R"(local grid = lissom.shapes.grid()
 local d = grid:distances{ from = 1, method = "edges" }
-assert(d[1] == 0 and #d == #grid))"}};
+assert(d[1] == 0 and #d == #grid))"},
+            {.name = "distortion",
+             .body = mesh_distortion,
+             .summary = "How far this mesh is stretched, sheared and folded beside another shape "
+                        "of it, as numbers of the vertices that lissom.render draws in colours: "
+                        "lissom.render{ mesh = mesh, scalars = mesh:distortion(rest).area, ... }.",
+             .arguments = {object("rest", "lissom.Mesh",
+                                  "A mesh with the same faces, such as a copy from before.")},
+             .results = {{"lissom.Distortion", "found", "Numbers of the vertices."}},
+             .errors = {ErrorCode::topology_mismatch, ErrorCode::cancelled},
+             .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
+local rest = bar:copy()
+bar:transform{ scale = { 1, 2, 1 } }
+local found = bar:distortion(rest)
+assert(math.abs(found.stretch[1] - 2) < 1e-12 and #found.flipped == 0))"}};
 }
 
 }  // namespace lissom::lua

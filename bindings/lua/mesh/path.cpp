@@ -2,6 +2,7 @@
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "kernel/mesh/fill/fill.h"
+#include "kernel/mesh/query/path_smooth.h"
 
 namespace lissom::lua {
 
@@ -137,7 +138,7 @@ int smooth_vertices(Call& call) {
     const Index iterations = call.integer("iterations");
     const double strength = call.number("strength");
     const bool done = call.attempt([&] {
-        smooth_path(self->mesh->mesh, self->current(), iterations, strength);
+        smooth_path(self->mesh->mesh, self->current(), iterations, strength, call.context());
         self->mesh->changed();
     });
     return done ? call.push_argument() : call.fail();
@@ -167,6 +168,10 @@ int path_region(Call& call) {
     const auto result = call.create<RegionObject>();
     const bool done = call.attempt([&] {
         const Path& path = self->current();
+        if (!path.on_mesh()) {
+            throw Error(ErrorCode::invalid_argument,
+                        "the path runs through points of its own and no vertices of the mesh");
+        }
         result.set(
             std::make_shared<RegionObject>(self->mesh, Region(path.topology(), path.vertices())));
     });
@@ -200,7 +205,8 @@ Type path_type() {
     Type type{.name = "lissom.Path",
               .summary =
                   "A line through vertices of one version of a mesh's topology, open or closed. A "
-                  "boundary is a closed path around a hole, with the surface on its left."};
+                  "boundary is a closed path around a hole, with the surface on its left. The "
+                  "preview of a cut returns lines through points of their own, without vertices."};
     type.operators = {{"__len", path_size, "#path", "number of vertices"},
                       {"__tostring", path_text, "tostring(path)", "its size"}};
     type.methods = {
@@ -241,7 +247,7 @@ Type path_type() {
                          .defaults(0.5)
                          .between(0, 1)},
          .results = {{"lissom.Path", "path", "The path itself."}},
-         .errors = errors,
+         .errors = {ErrorCode::topology_mismatch, ErrorCode::cancelled},
          .example = border + "border:smooth{ iterations = 3 }"},
         {.name = "is_closed",
          .body = path_closed,

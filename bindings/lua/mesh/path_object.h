@@ -20,7 +20,10 @@ struct PathObject {
     Path path;
     std::size_t charged_bytes = 0;
 
-    std::size_t memory_bytes() const { return path.vertices().size() * sizeof(Index); }
+    std::size_t memory_bytes() const {
+        const std::size_t points = path.on_mesh() ? 0 : path.points().size();
+        return path.vertices().size() * sizeof(Index) + points * sizeof(Vec3);
+    }
     /// The path. Throws topology_mismatch where the mesh has another topology by now or was closed.
     const Path& current() const;
 };

@@ -4,6 +4,7 @@
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/path_object.h"
+#include "bindings/lua/mesh/sources.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/region_select.h"
 
@@ -68,41 +69,49 @@ struct AttributeRange {
     }
 };
 
-Box given_box(const Call& call) {
+// Coordinates that the script left open are NaN.
+Box given_box(const Call& call, const char* min, const char* max) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Box box{Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
-    if (call.has("box.min")) box.min = call.vector("box.min");
-    if (call.has("box.max")) box.max = call.vector("box.max");
+    const Vec3 low = call.has(min) ? call.vector(min) : box.min;
+    const Vec3 high = call.has(max) ? call.vector(max) : box.max;
+    for (int k = 0; k < 3; ++k) {
+        if (!std::isnan(low[k])) box.min[k] = low[k];
+        if (!std::isnan(high[k])) box.max[k] = high[k];
+    }
     return box;
 }
 
-std::vector<Index> geodesic_sources(const Call& call) {
-    switch (call.kind("geodesic.from")) {
-        case Kind::id:
-            return {call.id("geodesic.from")};
-        case Kind::object:
-            return call.object<RegionObject>("geodesic.from")->current().vertices();
-        default: {
-            const auto ids = call.ids("geodesic.from");
-            return {ids.begin(), ids.end()};
-        }
+// What the script's values say beside numbers, strings and objects of the call.
+struct Asked {
+    std::span<const Index> vertices;
+    AttributeRange range;
+    SourceSpec sources;
+};
+
+Region select_by_distance(const Call& call, MeshObject& object, const SourceSpec& sources) {
+    const double radius = call.number("geodesic.radius");
+    if (!sources.is_point) {
+        return select_geodesic(object.mesh, sources.vertices, radius, call.context());
     }
+    return select_around(object.mesh, sources.nearest(object, call.context()), radius,
+                         call.context());
 }
 
 // The option that the call has; the registration allows exactly one.
-Region select(const Call& call, const Mesh& mesh, std::span<const Index> asked,
-              const AttributeRange& range) {
+Region select(const Call& call, MeshObject& object, const Asked& asked) {
+    const Mesh& mesh = object.mesh;
     if (call.has("sphere")) {
         return select_sphere(mesh, call.vector("sphere.center"), call.number("sphere.radius"));
     }
-    if (call.has("box")) return select_box(mesh, given_box(call));
+    if (call.has("box")) return select_box(mesh, given_box(call, "box.min", "box.max"));
+    if (call.has("fraction")) {
+        return select_fraction(mesh, given_box(call, "fraction.min", "fraction.max"));
+    }
     if (call.has("plane")) {
         return select_plane(mesh, call.vector("plane.point"), call.vector("plane.normal"));
     }
-    if (call.has("geodesic")) {
-        return select_geodesic(mesh, geodesic_sources(call), call.number("geodesic.radius"),
-                               call.context());
-    }
+    if (call.has("geodesic")) return select_by_distance(call, object, asked.sources);
     if (call.has("vertices")) {
         const auto ids = call.ids("vertices");
         return {mesh.shared_topology(), {ids.begin(), ids.end()}};
@@ -110,20 +119,24 @@ Region select(const Call& call, const Mesh& mesh, std::span<const Index> asked,
     if (call.has("group")) return select_group(mesh, call.string("group"));
     if (call.has("material")) return select_material(mesh, call.string("material"));
     if (call.has("component")) return select_component(mesh, call.id("component"));
-    if (call.has("attribute")) return select_attribute(mesh, range.name, range.min, range.max);
-    if (call.has("where")) return {mesh.shared_topology(), {asked.begin(), asked.end()}};
+    if (call.has("attribute")) {
+        return select_attribute(mesh, asked.range.name, asked.range.min, asked.range.max);
+    }
+    if (call.has("where")) {
+        return {mesh.shared_topology(), {asked.vertices.begin(), asked.vertices.end()}};
+    }
     return Region::all(mesh.shared_topology());
 }
 
 int make_region(Call& call) {
     if (call.has("name")) return named_region(call);
     if (call.has("all") && !call.boolean("all")) call.reject("all", "true expected, got false");
-    std::span<const Index> asked;
-    if (call.has("where")) asked = ask_function(call);
-    AttributeRange range{};
-    if (call.has("attribute")) range = AttributeRange::read(call);
+    Asked asked{};
+    if (call.has("where")) asked.vertices = ask_function(call);
+    if (call.has("attribute")) asked.range = AttributeRange::read(call);
+    if (call.has("geodesic")) asked.sources = read_sources(call, "geodesic.from");
     const auto mesh = call.self<MeshObject>();
-    return new_region(call, mesh, [&] { return select(call, mesh->mesh, asked, range); });
+    return new_region(call, mesh, [&] { return select(call, *mesh, asked); });
 }
 
 int set_region(Call& call) {
@@ -151,6 +164,27 @@ int region_names(Call& call) {
         lua_rawseti(call.lua(), -2, ++i);
     }
     return 1;
+}
+
+// The names that faces of the mesh may carry.
+int push_labels(Call& call, const char* kind) {
+    const auto& all = call.self<MeshObject>()->mesh.attributes().labels();
+    const auto found = all.find(kind);
+    lua_newtable(call.lua());
+    if (found == all.end()) return 1;
+    int i = 0;
+    for (const std::string& name : found->second.names) {
+        call.push(std::string_view(name));
+        lua_rawseti(call.lua(), -2, ++i);
+    }
+    return 1;
+}
+
+int group_names(Call& call) {
+    return push_labels(call, "group");
+}
+int material_names(Call& call) {
+    return push_labels(call, "material");
 }
 
 // ---- Methods of a region
@@ -199,6 +233,16 @@ int shrink(Call& call) {
 int smooth_outline(Call& call) {
     const Index iterations = call.integer("iterations");
     return derive_region(call, [&](const Region& r) { return r.smoothed(iterations); });
+}
+
+int connected(Call& call) {
+    const auto self = call.self<RegionObject>();
+    const bool by_vertex = call.kind("at") == Kind::id;
+    const Index vertex = by_vertex ? call.id("at") : kNoIndex;
+    const Vec3 point = by_vertex ? Vec3(Vec3::Zero()) : call.vector("at");
+    return derive_region(call, [&](const Region& r) {
+        return by_vertex ? connected_part(r, vertex) : connected_part(self->mesh->mesh, r, point);
+    });
 }
 
 int contains(Call& call) {
@@ -322,6 +366,20 @@ local a, b = mesh:region("top"), mesh:region("left")
          .results = kRegion,
          .errors = errors,
          .example = two + "assert(#a:shrink() == 0)"},
+        {.name = "connected",
+         .body = connected,
+         .summary = "The part of this region that is connected with a point: what edges between "
+                    "the region's vertices join.",
+         .options = {either("at",
+                            {id("vertex", "A vertex of the region."),
+                             vector("point", "A point; the region's vertex nearest to it counts.")},
+                            "A vertex of the region, or a point, of which the region's nearest "
+                            "vertex counts.")},
+         .results = kRegion,
+         .errors = {ErrorCode::topology_mismatch, ErrorCode::region_empty, ErrorCode::out_of_range},
+         .example = R"(local bar = lissom.shapes.bar()
+local ends = bar:region("top"):union(bar:region("bottom"))
+assert(ends:connected{ at = { 0, 9, 0 } } == bar:region("top")))"},
         {.name = "smooth",
          .body = smooth_outline,
          .summary = "A smoother outline by majority vote over one-rings; specks and pinholes go.",
@@ -380,20 +438,22 @@ std::vector<Function> region_queries() {
 }
 
 std::vector<Parameter> region_options() {
-    const auto sources = either("from",
-                                {id("vertex", "One vertex."),
-                                 object("region", "lissom.Region", "The vertices of a region."),
-                                 ids("list", "A list of vertices.")},
-                                "Where distances start.");
+    const std::string open = " nil or math.huge where a side is open.";
     return {options("sphere",
                     {vector("center", "Its center."),
                      number("radius", "Its radius.").at_least(0).in("mesh units")},
                     "Vertices within a sphere.")
                 .optional(),
             options("box",
-                    {vector("min", "Smallest coordinates.").or_infinite().optional("no limit"),
-                     vector("max", "Greatest coordinates.").or_infinite().optional("no limit")},
+                    {open_vector("min", "Smallest coordinates;" + open).optional("no limit"),
+                     open_vector("max", "Greatest coordinates;" + open).optional("no limit")},
                     "Vertices within an axis-aligned box, its sides included.")
+                .optional(),
+            options("fraction",
+                    {open_vector("min", "Smallest fractions;" + open).optional("no limit"),
+                     open_vector("max", "Greatest fractions;" + open).optional("no limit")},
+                    "Vertices within a box in fractions of the mesh's bounds: 0 is the least "
+                    "coordinate of an axis, 1 the greatest.")
                 .optional(),
             options("plane",
                     {vector("point", "A point of the plane."),
@@ -401,7 +461,7 @@ std::vector<Parameter> region_options() {
                     "Vertices on one side of a plane, the plane included.")
                 .optional(),
             options("geodesic",
-                    {sources,
+                    {source_option(),
                      number("radius", "Distance over the surface.").at_least(0).in("mesh units")},
                     "Vertices within a distance over the surface.")
                 .optional(),
@@ -450,7 +510,9 @@ std::vector<Function> region_methods_of_mesh() {
 local arm = mesh:region("left_arm")
 local high = mesh:region{ where = function(i, x, y, z) return y > 1 end }
 local near = mesh:region{ sphere = { center = { 0, 2, 0 }, radius = 0.3 } }
-assert(#arm > 0 and #high > 0 and #near > 0))"},
+local upper_third = mesh:region{ fraction = { min = { nil, 2 / 3, nil } } }
+local around = mesh:region{ geodesic = { from = { 0, 2.5, 0 }, radius = 0.3 } }
+assert(#arm > 0 and #high > 0 and #near > 0 and #upper_third > 0 and #around > 0))"},
         {.name = "set_region",
          .body = set_region,
          .summary =
@@ -469,6 +531,17 @@ assert(#mesh:region("all") == 8))"},
          .arguments = {string("name", "Its name.")},
          .results = {{"boolean", "removed", "False where there was none."}},
          .example = "assert(lissom.shapes.box():remove_region('top'))"},
+        {.name = "groups",
+         .body = group_names,
+         .summary = "The names of the groups of faces that the mesh has: what region{ group = } "
+                    "takes.",
+         .results = {{"string[]", "names", "In the order of the file."}},
+         .example = "assert(#lissom.shapes.box():groups() == 0)"},
+        {.name = "materials",
+         .body = material_names,
+         .summary = "The names of its materials: what region{ material = } takes.",
+         .results = {{"string[]", "names", "In the order of the file."}},
+         .example = "assert(#lissom.shapes.box():materials() == 0)"},
         {.name = "regions",
          .body = region_names,
          .summary = "The names of the regions that are kept with the mesh.",

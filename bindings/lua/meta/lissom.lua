@@ -27,6 +27,14 @@
 ---@field normal lissom.Vector Unit normal of the triangle; zero where it has no area.
 ---@field distance number Distance from the query point, or along the ray.
 
+---How a surface differs from its rest, at every vertex.
+---@class lissom.Distortion
+---@field stretch lissom.Buffer Length of the edge that changed most, over its length at rest: 1 as at rest.
+---@field area lissom.Buffer Area of the faces around it, over their area at rest.
+---@field angle lissom.Buffer Greatest change of a corner's angle, in degrees.
+---@field flips lissom.Buffer Number of flipped faces around it.
+---@field flipped integer[] Faces that look against the faces around them, and did not at rest.
+
 ---A point of a path.
 ---@class lissom.PathPoint
 ---@field position lissom.Vector The point.
@@ -128,10 +136,16 @@
 ---@field weights lissom.Buffer[] For each handle four numbers a vertex.
 ---@field fixed lissom.Buffer What no handle moves: three numbers a vertex.
 
+---A failure that nobody looked at.
+---@class lissom.DroppedFailure
+---@field place string File and line of the call, as in messages: "file:3: ".
+---@field message string What went wrong.
+---@field code string Its code.
+
 ---The declaration of a parameter.
 ---@class lissom.ParamSchema
 ---@field name string Its name.
----@field type string number, integer, boolean, string, choice or file.
+---@field type string number, integer, boolean, string, choice, file or folder.
 ---@field default any Its default; nil where it must be given.
 ---@field value any Its present value.
 ---@field min number? Smallest value.
@@ -146,6 +160,7 @@
 ---@class lissom.CutLines
 ---@field [integer] lissom.Path With the surface on its left; closed unless it ends at open boundaries.
 ---@field b lissom.Path[] The same lines on the rest: from the same points, the other way.
+---@field others lissom.Path[]|nil Of a preview: lines in which the plane crosses too and which would not be cut.
 ---@field report lissom.CutReport What was found and done.
 
 ---What a cut found and did.
@@ -154,12 +169,13 @@
 ---@field touched_boundaries integer[] Open boundaries that lines end at: places in mesh:boundaries() of before.
 ---@field lines_left integer Lines in which the plane crosses too, not cut.
 ---@field whole_components integer Components that went to one part as a whole.
+---@field kept_fraction number Part of the mesh's area, 0 to 1, on the side of the lines that is kept.
 ---@field slid_vertices integer[] Vertices of before that slid onto a line.
 ---@field divided_faces integer Faces that were divided.
 
 ---Why the result of a cut may not be what was wanted.
 ---@class lissom.CutWarning
----@field kind string touches_boundary: a line ends at an open boundary; folded_line: a line seems to run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too.
+---@field kind string touches_boundary: a line ends at an open boundary; folded_line: a line seems to run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too; keeps_most: a plane or path keeps more than 80 % of the area, perhaps the wrong part; not_separating, of a preview: the cut would fail, its sides are connected.
 ---@field message string What was found and what to do about it.
 ---@field vertices integer[] Vertices of before where it was found, at most 100.
 
@@ -196,7 +212,10 @@
 ---@field flipped integer Edges flipped to avoid slivers.
 ---@field band_removed integer Faces of the target that the band replaced.
 ---@field band_added integer Faces that the band added.
----@field before lissom.SeamQuality Before smoothing.
+---@field smoothed integer Umbrella steps that were made.
+---@field collar_removed integer Faces that collars took the place of.
+---@field collar_added integer Triangles of the collars.
+---@field before lissom.SeamQuality Before collars and smoothing.
 ---@field after lissom.SeamQuality As it is.
 
 ---What was found at one join; angles in degrees.
@@ -214,8 +233,11 @@
 
 ---What a merge found and did.
 ---@class lissom.MergeReport
+---@field ok boolean Whether the seams are good: they turn by no more than 30 degrees, or than the surfaces did beside the boundaries; no triangle at them has less than 2 degrees, or than there were; no faces run through one another that did not before; and no place is a toss.
+---@field verdict string The same in one line: what holds, or what does not.
 ---@field joins lissom.JoinReport[] One a join.
 ---@field warnings string[] What to look at, in plain words.
+---@field loose_parts integer Parts of the source without a joined boundary: in the free configuration they move along with what is nearest.
 ---@field flipped table source and targets: what was inside out and has been turned over.
 ---@field seam lissom.SeamReport What was done to sew, and how well.
 ---@field transition table[] For each seam source and target: width, vertices, and flipped and unmapped ones, of its bands.
@@ -230,6 +252,14 @@
 ---@field second_factor_seconds number Time to factor the second.
 ---@field prepare_seconds number Time to check, trim and factor.
 ---@field solve_seconds number Time to deform and sew.
+
+---A vector that a hairstyle gives its field at a grid point.
+---@class lissom.StyleConstraint
+---@field point number[] {x, y, z}, in mesh units.
+---@field vector number[] {x, y, z}: the field there, of length 1 at most.
+---@field kind string What it stands for: "stream", along a stream curve; "stop", vanishing beyond its end; "parting", along the Gaussian beside a dividing curve, and "separation" above it; "section", "spine" and "gather" of a ponytail: near its cross sections, along the rest of its spine, into its tie; "scalp", of avoid_scalp.
+---@field curve integer? Place of the curve among style:curves(); nil for the scalp's.
+---@field weight number How strictly it is kept.
 
 ---Sizes of a hairstyle.
 ---@class lissom.HairstyleStats
@@ -438,6 +468,7 @@ function Mesh:copy() end
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
+---@overload fun(self: lissom.Mesh, options: lissom.Mesh.SubdivideOptions): lissom.Mesh
 function Mesh:subdivide(levels, options) end
 
 ---The faces of a region with their vertices as a mesh of their own.
@@ -468,14 +499,14 @@ function Mesh:nearest(point) end
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
----@overload fun(self: lissom.Mesh, x: number, y: number, z: number, x: number, y: number, z: number): lissom.SurfacePoint?
+---@overload fun(self: lissom.Mesh, origin_x: number, origin_y: number, origin_z: number, direction_x: number, direction_y: number, direction_z: number): lissom.SurfacePoint?
 function Mesh:pick(origin, direction) end
 
 ---@class lissom.Mesh.DistancesOptions
----@field from integer|lissom.Region|integer[] Where distances start.
+---@field from integer|lissom.Region|table Where distances start: a vertex, a region, a list of vertices, or a point {x, y, z}, of which the nearest on the surface counts, also as Mesh:nearest and Mesh:pick return it. Three whole numbers above 0 may be vertices or a point: write { vertices = {a, b, c} } or { point = {x, y, z} }.
 ---@field method? "heat"|"edges" Geodesic by the heat method, or along edges. Default: "heat".
 
----Distance of every vertex over the surface to the nearest of the given vertices; infinite where there is no way.
+---Distance of every vertex over the surface to the nearest of the given vertices, or to a point; infinite where there is no way.
 ---@param options lissom.Mesh.DistancesOptions
 ---@return lissom.Buffer distances # One number a vertex.
 ---@return string? message # What is wrong, where the first result is nil.
@@ -483,19 +514,26 @@ function Mesh:pick(origin, direction) end
 ---@return lissom.Elements? elements # The elements concerned.
 function Mesh:distances(options) end
 
+---How far this mesh is stretched, sheared and folded beside another shape of it, as numbers of the vertices that lissom.render draws in colours: lissom.render{ mesh = mesh, scalars = mesh:distortion(rest).area, ... }.
+---@param rest lissom.Mesh A mesh with the same faces, such as a copy from before.
+---@return lissom.Distortion found # Numbers of the vertices.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Mesh:distortion(rest) end
+
 ---@class lissom.Mesh.SaveOptions
 ---@field up? "y"|"z" The up axis that the file shall have. Default: as it is.
 ---@field unit? number Length of the file's unit in the unit of the mesh: positions are divided by it. In mesh units. Default: 1.
 ---@field binary? boolean Binary or text, for .ply and .stl. Default: true.
 ---@field endianness? "little"|"big" Byte order of a binary .ply. Default: "little".
+---@field origin? "keep"|"auto" "auto" moves the file's origin into a mesh that is farther from it than it is large, so that 32-bit numbers (.glb, .gltf, binary .stl) can hold its detail. glTF keeps the place in its nodes; for other formats it is returned. Default: "keep".
 
 ---Writes the mesh to a file, whole or not at all.
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.Mesh.SaveOptions
 ---@return lissom.Mesh mesh # The mesh itself; nil, message, code where the file could not be written.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Vector? origin # With origin = "auto": the point of the mesh that is the origin of the file, zero where it stayed or glTF keeps it.
 function Mesh:save(path, options) end
 
 ---What was welded, split, dropped, flagged or left out when the mesh was loaded: a list of findings, each also under the name of its kind. Empty for a mesh that was made otherwise.
@@ -537,20 +575,25 @@ function Mesh:remove_attribute(name) end
 ---@field radius number Its radius. In mesh units.
 
 ---@class lissom.Mesh.RegionOptions.Box
----@field min? lissom.Vector Smallest coordinates. Default: no limit.
----@field max? lissom.Vector Greatest coordinates. Default: no limit.
+---@field min? lissom.Vector Smallest coordinates; nil or math.huge where a side is open. Default: no limit.
+---@field max? lissom.Vector Greatest coordinates; nil or math.huge where a side is open. Default: no limit.
+
+---@class lissom.Mesh.RegionOptions.Fraction
+---@field min? lissom.Vector Smallest fractions; nil or math.huge where a side is open. Default: no limit.
+---@field max? lissom.Vector Greatest fractions; nil or math.huge where a side is open. Default: no limit.
 
 ---@class lissom.Mesh.RegionOptions.Plane
 ---@field point lissom.Vector A point of the plane.
 ---@field normal lissom.Vector Points to the side that is selected.
 
 ---@class lissom.Mesh.RegionOptions.Geodesic
----@field from integer|lissom.Region|integer[] Where distances start.
+---@field from integer|lissom.Region|table Where distances start: a vertex, a region, a list of vertices, or a point {x, y, z}, of which the nearest on the surface counts, also as Mesh:nearest and Mesh:pick return it. Three whole numbers above 0 may be vertices or a point: write { vertices = {a, b, c} } or { point = {x, y, z} }.
 ---@field radius number Distance over the surface. In mesh units.
 
 ---@class lissom.Mesh.RegionOptions
 ---@field sphere? lissom.Mesh.RegionOptions.Sphere Vertices within a sphere.
 ---@field box? lissom.Mesh.RegionOptions.Box Vertices within an axis-aligned box, its sides included.
+---@field fraction? lissom.Mesh.RegionOptions.Fraction Vertices within a box in fractions of the mesh's bounds: 0 is the least coordinate of an axis, 1 the greatest.
 ---@field plane? lissom.Mesh.RegionOptions.Plane Vertices on one side of a plane, the plane included.
 ---@field geodesic? lissom.Mesh.RegionOptions.Geodesic Vertices within a distance over the surface.
 ---@field vertices? integer[] These vertices.
@@ -568,6 +611,7 @@ function Mesh:remove_attribute(name) end
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
+---@overload fun(self: lissom.Mesh, options: lissom.Mesh.RegionOptions): lissom.Region
 function Mesh:region(name, options) end
 
 ---Keeps a region under a name, in place of one before, and returns the mesh. Named regions are saved where the format can.
@@ -580,6 +624,14 @@ function Mesh:set_region(name, region) end
 ---@param name string Its name.
 ---@return boolean removed # False where there was none.
 function Mesh:remove_region(name) end
+
+---The names of the groups of faces that the mesh has: what region{ group = } takes.
+---@return string[] names # In the order of the file.
+function Mesh:groups() end
+
+---The names of its materials: what region{ material = } takes.
+---@return string[] names # In the order of the file.
+function Mesh:materials() end
 
 ---The names of the regions that are kept with the mesh.
 ---@return string[] names # In alphabetical order.
@@ -627,10 +679,11 @@ function Mesh:fill(boundary, options) end
 ---@field seed? lissom.Vector A point on or near the part to keep, for a plane or path.
 ---@field smoothing? number The line along a path or outline is smoothed over two edges around, but no more than this fraction of its length. Default: 0.04.
 ---@field slide? number A vertex slides onto the line where that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.25.
+---@field preview? boolean Cuts nothing and returns the lines alone: those that would be cut, as free paths with the kept part on their left, and in their fields `others`, lines in which the plane crosses too, and `report`. Default: false.
 
 ---Cuts the mesh in two along a smooth line through its faces: by exactly one of plane, path and region. Attributes are interpolated; vertices and faces off the line stay as they are. The mesh itself is not changed.
 ---@param options? lissom.Mesh.CutOptions
----@return lissom.Mesh a # The part that is kept.
+---@return lissom.Mesh a # The part that is kept; with `preview` the lines alone.
 ---@return lissom.Mesh b # The rest.
 ---@return lissom.CutLines loops # The lines on both parts, and a report.
 function Mesh:cut(options) end
@@ -672,6 +725,14 @@ function Region:grow(rings) end
 ---@return lissom.Region region # A new region.
 function Region:shrink(rings) end
 
+---@class lissom.Region.ConnectedOptions
+---@field at integer|lissom.Vector A vertex of the region, or a point, of which the region's nearest vertex counts.
+
+---The part of this region that is connected with a point: what edges between the region's vertices join.
+---@param options lissom.Region.ConnectedOptions
+---@return lissom.Region region # A new region.
+function Region:connected(options) end
+
 ---A smoother outline by majority vote over one-rings; specks and pinholes go.
 ---@param iterations? integer Number of votes. Default: 3.
 ---@return lissom.Region region # A new region.
@@ -709,7 +770,7 @@ function Region:mesh() end
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Region:close() end
 
----A line through vertices of one version of a mesh's topology, open or closed. A boundary is a closed path around a hole, with the surface on its left.
+---A line through vertices of one version of a mesh's topology, open or closed. A boundary is a closed path around a hole, with the surface on its left. The preview of a cut returns lines through points of their own, without vertices.
 ---@class lissom.Path
 ---@operator len: integer
 local Path = {}
@@ -739,6 +800,9 @@ function Path:nearest(point) end
 ---Smooths the line by moving the mesh's vertices under it, and returns the path. Ends of open paths stay.
 ---@param options? lissom.Path.SmoothOptions
 ---@return lissom.Path path # The path itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
 function Path:smooth(options) end
 
 ---Whether its end is joined to its start.
@@ -891,7 +955,7 @@ function Deformation:preview() end
 ---@class lissom.Deformation.SolveOptions
 ---@field draft? boolean For the frames of a drag: about five digits in half the time. Solve once more when the drag ends. Default: false.
 
----Solves both systems and writes the result into the mesh. Handles that are where they began give the rest shape, to the bit.
+---Solves both systems and writes the result into the mesh. Handles that are where they began give the rest shape, to the bit. What else has moved the region's vertices is overwritten; where the mesh around the region was moved, so that the result would tear, it is an error.
 ---@param options? lissom.Deformation.SolveOptions
 ---@return lissom.Mesh mesh # The mesh; nil, message, code where there is no solution.
 ---@return string? message # What is wrong, where the first result is nil.
@@ -944,7 +1008,7 @@ function Deformation:save_basis(path, options) end
 ---@field normals? boolean Gives a mesh without normals those of its surface, so that light follows the motion. Default: true.
 ---@field name? string Name of the animation. Default: "deformation".
 
----Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles stand where they stand now, the function moves them, and the deformation is solved. Handles and mesh are afterwards as they were, also where the function fails.
+---Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles stand where they stand now, the function moves them, and the deformation is solved. Handles, mesh and last result are afterwards as they were, also where the function fails.
 ---@param options lissom.Deformation.BakeOptions
 ---@return lissom.Mesh mesh # The rest shape with its targets and the animation; nil, message, code where a pose has no solution.
 ---@return string? message # What is wrong, where the first result is nil.
@@ -1000,7 +1064,7 @@ function Handle:scale(factor, options) end
 ---@return lissom.Handle handle # The handle itself.
 function Handle:set(options) end
 
----Sets the whole transform as a matrix.
+---Sets the whole transform as a matrix. A matrix does not say how often the handle has turned round: the field `turn` that Handle:matrix gives does; without it, the turn nearest to the present one is taken.
 ---@param matrix number[][] Rows of a 4 x 4 matrix; takes rest positions to where they go.
 ---@return lissom.Handle handle # The handle itself.
 function Handle:set_matrix(matrix) end
@@ -1010,7 +1074,7 @@ function Handle:set_matrix(matrix) end
 function Handle:reset() end
 
 ---The transform so far.
----@return number[][] matrix # Rows of a 4 x 4 matrix.
+---@return number[][] matrix # Rows of a 4 x 4 matrix; its field `turn` is the rotation as {x, y, z}, axis times angle in degrees, counting full turns.
 function Handle:matrix() end
 
 ---The handle's center where it is now.
@@ -1040,10 +1104,13 @@ function Handle:close() end
 ---@class lissom.Merging
 local Merging = {}
 
----Replaces the keys of one join, and returns the merge.
+---Replaces the keys of one join, and returns the merge. Keys that do not fit are an error at once, and those of before stay.
 ---@param join integer Number of the join, from 1.
 ---@param keys table List of { s, t }, as in lissom.merge.
 ---@return lissom.Merging merging # The same merge.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
 function Merging:set_keys(join, keys) end
 
 ---Merges, and returns a new mesh and what was done.
@@ -1080,7 +1147,7 @@ local Scalp = {}
 ---@field elevation number 0 is level, 90 up. In degrees.
 ---@field lift? number How far above the head. In metres. Default: 0.
 
----A point over the head, in a direction from the center of its frame. At the end of a list of points write (scalp:at{...}), which is the point alone.
+---A point over the head, in a direction from the center of its frame. At the end of a list of points write (scalp:at{...}), which is the point alone; lists of points refuse the normal.
 ---@param options lissom.Scalp.AtOptions
 ---@return number[] point # {x, y, z}, in mesh units.
 ---@return number[] normal # Of the head, outward, of length 1.
@@ -1097,6 +1164,14 @@ function Scalp:head() end
 ---Whether the region was guessed from an average hairline.
 ---@return boolean guessed # False where a region was given or named.
 function Scalp:guessed() end
+
+---How sure it is where the head is and which way it looks. Making a scalp whose confidence is below 0.5 gives a warning: look at `up` and `front`, or give them, and the region.
+---@return number confidence # Near 1 for a whole bald head, near 0 for masks, halves of heads, and what is none.
+function Scalp:confidence() end
+
+---What makes the confidence less than it could be.
+---@return string doubt # Empty where nothing does.
+function Scalp:doubt() end
 
 ---The center of the frame, about the middle between the ears.
 ---@return number[] center # {x, y, z}, in mesh units.
@@ -1117,6 +1192,10 @@ function Scalp:left() end
 ---How long a unit of the mesh is.
 ---@return number unit # Metres in one unit of the mesh.
 function Scalp:unit() end
+
+---Whether the unit was given, or a usual one makes this the width of a head. Where neither is so, `unit` is that of an average head, and making the scalp gives a warning.
+---@return boolean known # False for models of some other size.
+function Scalp:knows_unit() end
 
 ---How large the head is: styles are made in metres of an average head.
 ---@return number scale # Mesh units in one metre of a style.
@@ -1146,7 +1225,7 @@ local Hairstyle = {}
 ---@field elevation number 0 is level, 90 up. In degrees.
 ---@field lift? number How far above the head. In metres. Default: 0.
 
----A point over the head, in a direction from the center of its frame. At the end of a list of points write (style:at{...}), which is the point alone.
+---A point over the head, in a direction from the center of its frame. At the end of a list of points write (style:at{...}), which is the point alone; lists of points refuse the normal.
 ---@param options lissom.Hairstyle.AtOptions
 ---@return number[] point # {x, y, z}, in mesh units.
 ---@return number[] normal # Of the head, outward, of length 1.
@@ -1155,6 +1234,10 @@ function Hairstyle:at(options) end
 ---Its curves in their order.
 ---@return lissom.Curve[] curves # A list.
 function Hairstyle:curves() end
+
+---What the curves that are enabled and avoid_scalp give the field: one vector a grid point that is constrained. `lissom.render{ style = }` draws them.
+---@return lissom.StyleConstraint[] constraints # A list.
+function Hairstyle:constraints() end
 
 ---The scalp that it was made for.
 ---@return lissom.Scalp scalp # The scalp.
@@ -1290,11 +1373,11 @@ function Hairstyle:forget_scalp() end
 ---@class lissom.Hairstyle.GrowOptions
 ---@field count? integer How many strands; the first n of more are the same. Default: 100000.
 ---@field seed? integer Another seed gives other roots and other chance. Default: 1.
----@field length? number Of a strand. In metres. Default: 0.25.
+---@field length? number|(fun(vertex: integer, x: number, y: number, z: number): number) Of a strand, at most twice the diagonal of the volume. By a function, for instance for a fringe that is shorter than the rest. In metres. Default: 0.25.
 ---@field variation? number Share by which strands are longer or shorter at most. Default: 0.1.
 ---@field roots? "poisson"|"angles" Evenly spread, or on the thesis's grid of polar angles. Default: "poisson".
----@field density? number[]|string|fun(vertex: integer, x: number, y: number, z: number): number Relative density of hair. Default: 1 everywhere.
----@field lengths? number[]|string|fun(vertex: integer, x: number, y: number, z: number): number Factors of the length. Default: 1 everywhere.
+---@field density? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Relative density of hair. Default: 1 everywhere.
+---@field lengths? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Factors of the length. Default: 1 everywhere.
 ---@field cut? lissom.Hairstyle.GrowOptions.Cut Cuts hair off along a plane, but for tails.
 ---@field avoid? boolean Keeps strands outside the head while they grow. Default: true.
 ---@field clearance? number The lowest strands lie this high. In metres. Default: 0.002.
@@ -1303,6 +1386,7 @@ function Hairstyle:forget_scalp() end
 ---@field lift? number Share of the normal of the head in the first segment. Default: 0.15.
 ---@field segment? number Length of a segment, in steps of the grid. Default: 0.5.
 ---@field least_speed? number A strand ends where the field is shorter than this. Default: 0.05.
+---@field greatest_turn? number A strand ends before a segment that turns by more than this, as about a sink of the field; 180 lets strands turn as they like. In degrees. Default: 88.
 ---@field most_segments? integer A strand has no more segments. Default: 400.
 ---@field into? lissom.Strands Strands whose place the new ones take. Default: new strands.
 
@@ -1410,29 +1494,53 @@ function Curve:reorder(place) end
 ---Takes it out of the style.
 function Curve:remove() end
 
+---@class lissom.Curve.Hint_operationOptions
+---@field near? number What is nearer than this to the curve is at it: about 20 pixels of the picture that the stroke was drawn in. In metres. Default: 0.007.
+
+---What a hint stroke means, by where it starts and ends and by its general direction. Call the method of that name with it.
+---@param hint lissom.Vector[] A polyline that begins, ends or passes near the curve. In mesh units.
+---@param options? lissom.Curve.Hint_operationOptions
+---@return string operation # "cut", "concatenate" or "insert".
+---@return boolean sure # False where a stroke drawn a little otherwise means something else.
+function Curve:hint_operation(hint, options) end
+
+---@class lissom.Curve.CutOptions
+---@field reach? number A hint that is farther from the curve has nothing to do with it. In metres. Default: 0.03.
+
 ---Ends the curve where a hint stroke crosses it.
 ---@param hint lissom.Vector[] A polyline that passes near the curve. In mesh units.
+---@param options? lissom.Curve.CutOptions
 ---@return lissom.Curve curve # The curve itself.
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
-function Curve:cut(hint) end
+function Curve:cut(hint, options) end
+
+---@class lissom.Curve.ConcatenateOptions
+---@field reach? number A hint that is farther from the curve has nothing to do with it. In metres. Default: 0.03.
+---@field join? number Length of the curve and of the hint that a smooth join replaces. In metres. Default: 0.015.
 
 ---Goes on along a hint stroke that begins near the curve: from there to the end the curve is replaced.
 ---@param hint lissom.Vector[] A polyline that begins near the curve. In mesh units.
+---@param options? lissom.Curve.ConcatenateOptions
 ---@return lissom.Curve curve # The curve itself.
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
-function Curve:concatenate(hint) end
+function Curve:concatenate(hint, options) end
+
+---@class lissom.Curve.InsertOptions
+---@field reach? number A hint that is farther from the curve has nothing to do with it. In metres. Default: 0.03.
+---@field join? number Length of the curve and of the hint that a smooth join replaces. In metres. Default: 0.015.
 
 ---Replaces the part of the curve between the ends of a hint stroke that begins and ends near it.
 ---@param hint lissom.Vector[] A polyline whose ends are near the curve. In mesh units.
+---@param options? lissom.Curve.InsertOptions
 ---@return lissom.Curve curve # The curve itself.
 ---@return string? message # What is wrong, where the first result is nil.
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
-function Curve:insert(hint) end
+function Curve:insert(hint, options) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Curve:close() end
@@ -1474,8 +1582,8 @@ function Strands:hash() end
 
 ---@class lissom.Strands.StatsOptions
 ---@field sharp_turn? number A turn between two segments above this is sharp. In degrees. Default: 90.
----@field style? lissom.Hairstyle Measures too how many strands are inside its head, on which they grew. Default: not measured.
----@field depth? number How deep they must be to count. In metres. Default: half a step of the style's grid.
+---@field style? lissom.Hairstyle Measures too how many strands are inside its head, on which they grew, by the distance to its surface. Default: not measured.
+---@field depth? number How deep they must be to count. In metres. Default: 0.0005, as the head is larger than an average one.
 
 ---Counts, lengths and turns, and how many strands are damaged.
 ---@param options? lissom.Strands.StatsOptions
@@ -1485,10 +1593,19 @@ function Strands:hash() end
 ---@return lissom.Elements? elements # The elements concerned.
 function Strands:stats(options) end
 
+---@class lissom.Strands.SaveOptions.Camera
+---@field eye lissom.Vector Where it stands, in units of the head.
+---@field target lissom.Vector The middle of the picture.
+---@field up? "x"|"y"|"z"|lissom.Vector Which way is up. Default: "y".
+---@field fov? number Vertical opening angle. In degrees. Default: 30.
+
 ---@class lissom.Strands.SaveOptions
 ---@field up? "y"|"z" The up axis that the file shall have. Default: y.
 ---@field unit? number Length of the file's unit in metres: points and widths are divided by it. In metres. Default: 1.
 ---@field mend? boolean false makes what would be changed or left out an error that names the strands. Default: true.
+---@field head? lissom.Mesh For .rib: the head that the picture shows. Default: none.
+---@field camera? lissom.Strands.SaveOptions.Camera For .rib: what the picture shows. Default: hair and head whole, from the front, a little aside.
+---@field archive? boolean For .rib: the curves alone, for other RIB files to read; else a scene with camera, lights and shaders, of which a RenderMan renderer makes the picture. Default: false.
 
 ---Writes the strands to a .hair, .data, .usda, .rib, .glb, .gltf or .obj file, whole or not at all. They are checked before, and changed where they would break in other programs; the strands themselves stay as they are.
 ---@param path string The file; its extension names the format.
@@ -1800,13 +1917,13 @@ function lissom.shapes.head(options) end
 ---@field region? lissom.Region What may move. Outside nothing does. Default: all.
 ---@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview is as solve. Default: "implicit".
 ---@field local_size? "keep"|"scale" Whether details keep their size or scale with the surface around them. Default: "keep".
----@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Default: "blend".
+---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian where the surface has to be as smooth as can be and may stretch, poisson where it may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend".
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1.
 ---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
----@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. Default: 0.
+---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Leave it at 0 where the surface runs through itself or nearly does, since refined parts get thinner and cross more; beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
 ---@field refine_borders? boolean Works on a surface that is refined where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
 ---@field displacement? number How far degenerate vertices are displaced. In mean lengths of their edges. Default: 0.2.
----@field degenerate_threshold? number Condition number from which a vertex counts as degenerate. Default: 20000.
+---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000.
 ---@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.
 ---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise. Default: "default".
 
@@ -1825,16 +1942,21 @@ function lissom.deform(mesh, options) end
 ---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergeOptions
----@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, and the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
+---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, with the directions below and, where all these leave a choice, with the planes of symmetry of the parts; the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
+---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
+---@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: where a face looks.
+---@field target_front? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field configuration? "free"|"fixed" free: the source comes from wherever it lies, turned and scaled as fits (thesis 3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2). Default: "free".
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
----@field smooth? integer Umbrella steps at the seam; with 0 no vertex of the target moves. Default: 3.
----@field transition? lissom.MergeOptions.Transition Bands on either side of the seam in which details of both fade into each other. Default: none.
+---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
+---@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true.
+---@field transition? lissom.MergeOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
@@ -1853,16 +1975,21 @@ function lissom.merge(options) end
 ---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergingOptions
----@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, and the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
+---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, with the directions below and, where all these leave a choice, with the planes of symmetry of the parts; the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
+---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
+---@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: where a face looks.
+---@field target_front? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field configuration? "free"|"fixed" free: the source comes from wherever it lies, turned and scaled as fits (thesis 3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2). Default: "free".
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
----@field smooth? integer Umbrella steps at the seam; with 0 no vertex of the target moves. Default: 3.
----@field transition? lissom.MergingOptions.Transition Bands on either side of the seam in which details of both fade into each other. Default: none.
+---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
+---@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true.
+---@field transition? lissom.MergingOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
@@ -1881,7 +2008,7 @@ function lissom.merging(options) end
 ---@field region? lissom.Region Where hair grows. Default: the region "scalp", or what is above an average hairline.
 ---@field up? "x"|"y"|"z"|lissom.Vector Which way is up. Default: guessed.
 ---@field front? "x"|"y"|"z"|lissom.Vector Which way the head looks. Default: guessed.
----@field unit? number How long a unit of the mesh is. In metres. Default: the usual unit that makes this the width of a head.
+---@field unit? number How long a unit of the mesh is. In metres. Default: m, cm, mm, dm or inch, if one makes this the width of a head; else that of an average head.
 ---@field softness? number Width of the band over which hair thins out at the hairline. In metres. Default: 0.011.
 
 ---Finds the scalp of a bald head, bust or body, and which way it looks.
@@ -1950,7 +2077,7 @@ function lissom.load_strands(path, options) end
 function lissom.strands(options) end
 
 ---@class lissom.ParamsOptions.Declarations
----@field type "number"|"integer"|"boolean"|"string"|"choice"|"file" What its values are.
+---@field type "number"|"integer"|"boolean"|"string"|"choice"|"file"|"folder" What its values are. A folder is one to write to: it is made, where it is missing, when the parameters are declared or it is set.
 ---@field default? boolean|number|string Its value where none is given; without one it must be given. Default: required.
 ---@field min? number Smallest value of a number or integer. Default: no limit.
 ---@field max? number Greatest value. Default: no limit.
@@ -1973,5 +2100,9 @@ function lissom.params(declarations) end
 ---Sets the functions that hear of long operations, in place of those before. They cannot call lissom themselves.
 ---@param options? lissom.ListenOptions
 function lissom.listen(options) end
+
+---The failures that nobody can have looked at: a function was called as a statement, and what it returned was nil, message, code. Each was told when it came: `lissom run` writes it and ends with status 1; elsewhere it is a warning for the log function of lissom.listen, or without one for Lua 5.4's own warnings (lua -W).
+---@return lissom.DroppedFailure[] failures # The first hundred, in order.
+function lissom.failures() end
 
 return lissom

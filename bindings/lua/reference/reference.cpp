@@ -1,8 +1,10 @@
 #include "bindings/lua/reference/reference.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "bindings/lua/core/failure.h"
 #include "bindings/lua/core/parser.h"
@@ -65,7 +67,9 @@ void add_option_class(std::string& text, const std::vector<Parameter>& fields,
 }
 
 std::string field_type(const Parameter& p, const std::string& owner) {
-    if (p.kind == Kind::options) return owner + "." + capitalized(p.name);
+    if (p.kind == Kind::options) {
+        return owner + "." + capitalized(p.name) + (p.flag ? "|boolean" : "");
+    }
     if (p.kind == Kind::option_map) {
         return "table<string, " + owner + "." + capitalized(p.name) + ">";
     }
@@ -85,18 +89,34 @@ std::string options_class(const std::string& owner, const Function& function) {
     return owner + "." + capitalized(name) + "Options";
 }
 
+// A type that may stand beside others: a function's result would take in what follows it.
+std::string single_type(const std::string& type) {
+    return type.compare(0, 4, "fun(") == 0 ? "(" + type + ")" : type;
+}
+
 // "x: number, y: number, z: number" in place of a vector: the other way to call the function.
 std::string spread_parameters(const Function& function, const std::string& class_name) {
     std::vector<std::string> words;
+    const auto vectors = std::count_if(function.arguments.begin(), function.arguments.end(),
+                                       [](const Parameter& p) { return p.kind == Kind::vector; });
     for (const Parameter& p : function.arguments) {
         if (p.kind == Kind::vector) {
-            words.insert(words.end(), {"x: number", "y: number", "z: number"});
+            const std::string prefix = vectors > 1 ? p.name + "_" : "";
+            for (const char* axis : {"x", "y", "z"}) {
+                words.push_back(prefix + axis + (p.required ? ": number" : "?: number"));
+            }
         } else {
             words.push_back(p.name + (p.required ? ": " : "?: ") + field_type(p, class_name));
         }
     }
     if (!function.options.empty()) words.push_back("options?: " + class_name);
     return joined(words, ", ");
+}
+
+// Whether the table of options may stand in the place of the first argument.
+bool takes_options_instead(const Function& function) {
+    return !function.options.empty() && !function.arguments.empty() &&
+           !function.arguments.front().required;
 }
 
 // Adds ---@param lines and returns the names.
@@ -130,13 +150,20 @@ void add_results(std::string& text, const Function& function) {
         "---@return lissom.Elements? elements # The elements concerned.\n";
 }
 
-void add_overload(std::string& text, const Function& function, const std::string& owner,
-                  const std::string& class_name, bool is_method) {
+void add_overloads(std::string& text, const Function& function, const std::string& owner,
+                   const std::string& class_name, bool is_method) {
+    const std::string self = is_method ? "self: " + owner + ", " : "";
+    const std::string result =
+        function.results.empty() ? "" : ": " + single_type(function.results[0].type);
     const bool has_vector = std::any_of(function.arguments.begin(), function.arguments.end(),
                                         [](const Parameter& p) { return p.kind == Kind::vector; });
-    if (!has_vector || function.results.empty()) return;
-    text += "---@overload fun(" + (is_method ? "self: " + owner + ", " : "") +
-            spread_parameters(function, class_name) + "): " + function.results[0].type + "\n";
+    if (has_vector) {
+        text += "---@overload fun(" + self + spread_parameters(function, class_name) + ")" +
+                result + "\n";
+    }
+    if (takes_options_instead(function)) {
+        text += "---@overload fun(" + self + "options: " + class_name + ")" + result + "\n";
+    }
 }
 
 // `call` is how it is defined: "lissom.load" or "Mesh:smooth".
@@ -151,7 +178,7 @@ void add_function(std::string& text, const Function& function, const std::string
     text += "---" + function.summary + "\n";
     const std::vector<std::string> names = add_parameters(text, function, class_name);
     add_results(text, function);
-    add_overload(text, function, owner, class_name, call.find(':') != std::string::npos);
+    add_overloads(text, function, owner, class_name, call.find(':') != std::string::npos);
     text += "function " + call + "(" + joined(names, ", ") + ") end\n\n";
 }
 
@@ -207,23 +234,38 @@ void add_rows(std::string& text, const std::vector<Parameter>& parameters,
     }
 }
 
-std::string signature(const Function& function, const std::string& call) {
-    std::vector<std::string> words;
-    for (const Parameter& p : function.arguments) {
-        const std::string shown = p.kind == Kind::vector && function.arguments.size() <= 2 &&
-                                          (&p == &function.arguments.back())
-                                      ? "x, y, z"
-                                      : p.name;
-        words.push_back(p.required ? shown : "[" + shown + "]");
+std::string anchor(const Function& function) {
+    return function.name.substr(function.name.rfind('.') + 1);
+}
+
+std::string record_anchor(const Record& record) {
+    return record.name.substr(record.name.rfind('.') + 1);
+}
+
+// "shapes" of shapes.box, "" of load.
+std::string table_of(const Function& function) {
+    const std::size_t dot = function.name.find('.');
+    return dot == std::string::npos ? "" : function.name.substr(0, dot);
+}
+
+// The first sentence of a summary, for lists.
+std::string first_sentence(const std::string& text) {
+    for (std::size_t at = 0; (at = text.find(". ", at)) != std::string::npos; ++at) {
+        const bool abbreviated = at >= 3 && text[at - 2] == '.';
+        if (!abbreviated) return text.substr(0, at + 1);
     }
-    if (function.options.empty()) return call + "(" + joined(words, ", ") + ")";
-    if (words.empty()) return call + "{...}";
-    words.push_back(has_required(function.options) ? "{...}" : "[{...}]");
-    return call + "(" + joined(words, ", ") + ")";
+    return text;
+}
+
+// An entry of a list of contents.
+std::string content_line(const std::string& name, const std::string& place,
+                         const std::string& summary) {
+    return "- [`" + name + "`](" + place + "): " + first_sentence(summary) + "\n";
 }
 
 void add_function_section(std::string& text, const Function& function, const std::string& call) {
-    text += "### `" + signature(function, call) + "`\n\n" + function.summary + "\n\n";
+    text += "<a id=\"" + anchor(function) + "\"></a>\n\n### `" + signature(function, call) +
+            "`\n\n" + function.summary + "\n\n";
     if (!function.arguments.empty() || !function.options.empty()) {
         text += "| argument | accepts | default | meaning |\n|---|---|---|---|\n";
         add_rows(text, function.arguments, "");
@@ -245,11 +287,16 @@ void add_function_section(std::string& text, const Function& function, const std
         "\n```lua\n" + function.example + (function.example.back() == '\n' ? "" : "\n") + "```\n\n";
 }
 
-void add_type_section(std::string& text, const Type& type) {
-    const std::string local = type.name.substr(type.name.rfind('.') + 1);
-    std::string variable = local;
-    variable[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(variable[0])));
-    text += "## " + type.name + "\n\n" + type.summary + "\n\n";
+constexpr const char* kPageHead = "<!-- Made from the registration table; do not edit. -->\n\n";
+
+std::string type_page(const Type& type) {
+    const std::string variable = variable_name(type);
+    std::string text =
+        kPageHead + ("# " + type.name + "\n\n") + type.summary + "\n\n[All pages](README.md)\n\n";
+    for (const Function& method : type.methods) {
+        text += content_line(variable + ":" + method.name, "#" + anchor(method), method.summary);
+    }
+    text += "\n";
     for (const Operator& op : type.operators) {
         text += "- `" + op.usage + "`: " + op.help + "\n";
     }
@@ -257,6 +304,22 @@ void add_type_section(std::string& text, const Type& type) {
     for (const Function& method : type.methods) {
         add_function_section(text, method, variable + ":" + method.name);
     }
+    return text;
+}
+
+// The functions of the table `prefix` ("" or "shapes.") of the module.
+std::string functions_page(const std::vector<const Function*>& functions,
+                           const std::string& title) {
+    std::string text = kPageHead + ("# " + title + "\n\n[All pages](README.md)\n\n");
+    for (const Function* function : functions) {
+        text +=
+            content_line("lissom." + function->name, "#" + anchor(*function), function->summary);
+    }
+    text += "\n";
+    for (const Function* function : functions) {
+        add_function_section(text, *function, "lissom." + function->name);
+    }
+    return text;
 }
 
 void add_conventions(std::string& text) {
@@ -276,28 +339,46 @@ void add_conventions(std::string& text) {
         "- Verbs that change an object return it; those that make something return a new object.\n"
         "- Objects are freed by the collector; `close()` or `local mesh <close> =` frees them "
         "earlier.\n"
+        "- A call as a statement drops what it returns. Where that is `nil, message, code`, nobody "
+        "can "
+        "have looked at it: it is told with file and line, and `lissom run` ends with status 1. "
+        "Write "
+        "`assert(mesh:save(path))`, test the result, or ignore it on purpose with `local _ = `; "
+        "see "
+        "[lissom.failures](lissom.md#failures).\n"
         "- A name that the module does not have is an error: test for one with `rawget(lissom, "
         "name)`.\n\n";
 }
 
-void add_codes(std::string& text) {
-    text += "## Error codes\n\n| code | how | meaning |\n|---|---|---|\n";
+std::string codes_page() {
+    std::string text =
+        kPageHead + std::string("# Error codes\n\n[All pages](README.md)\n\n") +
+        "An error is a mistake of the script and is raised; nil comes as `nil, message, "
+        "code`.\n\n| code | how | meaning |\n|---|---|---|\n";
     for (const ErrorCode code : all_codes()) {
         text += "| " + std::string(code_name(code)) + " | " + (is_misuse(code) ? "error" : "nil") +
                 " | " + table_cell(std::string(code_explanation(code))) + " |\n";
     }
+    return text;
 }
 
-void add_records(std::string& text, const std::vector<Record>& records) {
-    if (records.empty()) return;
-    text += "## Tables\n\n";
-    for (const Record& record : records) {
-        text += "### " + record.name + "\n\n" + record.summary + "\n\n";
-        for (const Result& field : record.fields) {
-            text += "- `" + field.name + "` (" + table_cell(field.type) + "): " + field.help + "\n";
+std::string records_page(const std::vector<const Record*>& records) {
+    std::string text = kPageHead + std::string(
+                                       "# Tables\n\nPlain tables that functions return.\n\n"
+                                       "[All pages](README.md)\n\n");
+    for (const Record* record : records) {
+        text += content_line(record->name, "#" + record_anchor(*record), record->summary);
+    }
+    text += "\n";
+    for (const Record* record : records) {
+        text += "<a id=\"" + record_anchor(*record) + "\"></a>\n\n### " + record->name + "\n\n" +
+                record->summary + "\n\n";
+        for (const Result& field : record->fields) {
+            text += "- `" + field.name + "` (" + field.type + "): " + field.help + "\n";
         }
         text += "\n";
     }
+    return text;
 }
 
 // Names of the tables below the module: "shapes".
@@ -333,6 +414,7 @@ std::string annotation_type(const Parameter& p) {
             return joined(words, "|");
         }
         case Kind::vector:
+        case Kind::open_vector:
             return "lissom.Vector";
         case Kind::factors:
             return "number|lissom.Vector";
@@ -365,7 +447,7 @@ std::string annotation_type(const Parameter& p) {
         case Kind::either: {
             std::vector<std::string> words;
             for (const Parameter& alternative : p.alternatives) {
-                words.push_back(annotation_type(alternative));
+                words.push_back(single_type(annotation_type(alternative)));
             }
             return joined(words, "|");
         }
@@ -373,9 +455,27 @@ std::string annotation_type(const Parameter& p) {
     return "any";
 }
 
+std::string signature(const Function& function, const std::string& call) {
+    std::vector<std::string> words;
+    for (const Parameter& p : function.arguments) {
+        const std::string shown = p.kind == Kind::vector && function.arguments.size() <= 2 &&
+                                          (&p == &function.arguments.back())
+                                      ? "x, y, z"
+                                      : p.name;
+        words.push_back(p.required ? shown : "[" + shown + "]");
+    }
+    if (function.options.empty()) return call + "(" + joined(words, ", ") + ")";
+    if (words.empty()) return call + "{...}";
+    words.push_back(has_required(function.options) ? "{...}" : "[{...}]");
+    return call + "(" + joined(words, ", ") + ")";
+}
+
 std::string annotations(const Library& library) {
-    std::string text = "---@meta lissom\n-- Made from the registration table; do not edit.\n\n";
-    if (library.name == kKernelLibrary) add_common_types(text);
+    const bool is_kernel = library.name == kKernelLibrary;
+    // A script that requires "lissom" finds the kernel's file; others add to its class.
+    std::string text = "---@meta " + std::string(is_kernel ? "lissom" : "_") +
+                       "\n-- Made from the registration table; do not edit.\n\n";
+    if (is_kernel) add_common_types(text);
     for (const Record& record : library.records) {
         text += "---" + record.summary + "\n---@class " + record.name + "\n";
         for (const Result& field : record.fields) {
@@ -396,23 +496,45 @@ std::string annotations(const Library& library) {
     return text + "return lissom\n";
 }
 
-std::string reference_page(const Library& library) {
-    const bool is_kernel = library.name == kKernelLibrary;
-    std::string text = "# Lua reference" + (is_kernel ? "" : ": " + library.name) + "\n\n" +
-                       library.summary + "\n\nThis page is made from the registration table.\n\n";
-    if (is_kernel) add_conventions(text);
-    text += "## lissom\n\n";
-    for (const Constant& constant : library.constants) {
-        text += "- `lissom." + constant.name + "`: " + constant.help + "\n";
+std::vector<Page> reference_pages(const Registry& registry) {
+    std::map<std::string, std::vector<const Function*>> functions;
+    std::vector<const Type*> types;
+    std::vector<const Record*> records;
+    for (const auto& library : registry.libraries()) {
+        for (const Function& f : library->functions) functions[table_of(f)].push_back(&f);
+        for (const Type& type : library->types) types.push_back(&type);
+        for (const Record& record : library->records) records.push_back(&record);
     }
-    if (!library.constants.empty()) text += "\n";
-    for (const Function& function : library.functions) {
-        add_function_section(text, function, "lissom." + function.name);
+    std::string index = kPageHead + std::string("# Lua reference\n\n");
+    add_conventions(index);
+    index += "## The module\n\n";
+    for (const auto& library : registry.libraries()) {
+        for (const Constant& constant : library->constants) {
+            index += "- `lissom." + constant.name + "`: " + constant.help + "\n";
+        }
     }
-    for (const Type& type : library.types) add_type_section(text, type);
-    add_records(text, library.records);
-    if (is_kernel) add_codes(text);
-    return text;
+    std::vector<Page> pages;
+    for (const auto& [table, list] : functions) {
+        const std::string name = table.empty() ? "lissom" : table;
+        const std::string title = table.empty() ? "lissom" : "lissom." + table;
+        pages.push_back({name + ".md", functions_page(list, title)});
+        for (const Function* f : list) {
+            index += content_line("lissom." + f->name, name + ".md#" + anchor(*f), f->summary);
+        }
+    }
+    index += "\n## Objects\n\n";
+    for (const Type* type : types) {
+        const std::string file = variable_name(*type) + ".md";
+        pages.push_back({file, type_page(*type)});
+        index += "- [" + type->name + "](" + file + "): " + type->summary + "\n";
+    }
+    index +=
+        "\n## Tables and codes\n\n- [Tables](tables.md) that functions return\n"
+        "- [Error codes](codes.md)\n";
+    pages.push_back({"tables.md", records_page(records)});
+    pages.push_back({"codes.md", codes_page()});
+    pages.push_back({"README.md", index});
+    return pages;
 }
 
 }  // namespace lissom::lua

@@ -1,7 +1,10 @@
-/// Documents made from the registration table: editor annotations and the reference page.
+/// Documents made from the registration table: editor annotations, the reference pages, and the
+/// help of single functions.
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "bindings/lua/core/registry.h"
 
@@ -10,11 +13,36 @@ namespace lissom::lua {
 /// LuaCATS annotations (a ---@meta file) of what one library exposes.
 std::string annotations(const Library& library);
 
-/// The reference of one library as a Markdown page, with the table of all error codes where the
-/// library is the kernel's.
-std::string reference_page(const Library& library);
+/// A file of the reference.
+struct Page {
+    std::string file;
+    std::string text;
+};
+
+/// The reference of all libraries as Markdown pages: README.md with conventions and contents, one
+/// for the module and for each of its tables, one a type, tables.md and codes.md.
+std::vector<Page> reference_pages(const Registry& registry);
 
 /// The LuaCATS type of a parameter: "number", "\"a\"|\"b\"", "lissom.Mesh", ...
 std::string annotation_type(const Parameter& parameter);
+
+/// How a function is called: "mesh:save(path, [{...}])" for `call` "mesh:save".
+std::string signature(const Function& function, const std::string& call);
+
+/// How an entry is called: "lissom.load", "mesh:save".
+std::string call_of(const Entry& entry);
+
+/// What a function does, for a terminal: its call, summary, arguments, results, errors, example.
+std::string help_text(const Entry& entry);
+/// The same of a type: its summary, operators, and a line for each method.
+std::string help_text(const Type& type);
+/// A line for each function of the module and each type.
+std::string help_overview(const Registry& registry);
+
+/// The help of all that `name` may mean: "save", "mesh.save", "Mesh:save", "lissom.load",
+/// "shapes.box", "Mesh". Empty where nothing has the name.
+std::string help_for(const Registry& registry, std::string_view name);
+/// All names that help_for knows.
+std::vector<std::string> help_names(const Registry& registry);
 
 }  // namespace lissom::lua

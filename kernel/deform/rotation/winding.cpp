@@ -16,6 +16,24 @@ constexpr double kNoAngle = 1e-9;
 constexpr double kStep = kPi / 8.0;
 constexpr double kMostSteps = 4096.0;
 
+// From this angle on a rotation is turned further by less and less.
+constexpr double kSureAngle = 150.0 * kPi / 180.0;
+
+// A screw takes shifts across its axis along from this angle on, and up to the angles between which
+// that fades.
+constexpr double kScrewAngle = kPi / 2.0;
+constexpr double kWideScrew = 200.0 * kPi / 180.0, kWidestScrew = 280.0 * kPi / 180.0;
+
+// The mean of the rotations from none to all of `turn`.
+Mat3 mean_rotation(const Vec3& turn) {
+    const double half = 0.5 * turn.norm();
+    if (half < kNoAngle) return Mat3::Identity();
+    const Vec3 axis = turn / (2.0 * half);
+    const Mat3 along = axis * axis.transpose();
+    return along +
+           std::sin(half) / half * rotation_of_turn(0.5 * turn) * (Mat3::Identity() - along);
+}
+
 bool are_parallel(const Vec3& a, const Vec3& b) {
     return a.cross(b).norm() <= kNoAngle * a.norm() * b.norm();
 }
@@ -40,6 +58,41 @@ Vec3 turn_near(const Mat3& rotation, const Vec3& before) {
     }
     const double along = axis.dot(before);
     return (angle + kFullTurn * std::round((along - angle) / kFullTurn)) * axis;
+}
+
+double smooth_step(double t) {
+    t = std::clamp(t, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+Mat3 rotation_between(const Mat3& from, const Mat3& to, double share) {
+    const Eigen::AngleAxisd way(Mat3(to * from.transpose()));
+    return rotation_of_turn(share * way.angle() * way.axis()) * from;
+}
+
+Mat3 turned_further(const Mat3& rotation, double part) {
+    const Eigen::AngleAxisd least(rotation);
+    const double sure = 1.0 - smooth_step((least.angle() - kSureAngle) / (kPi - kSureAngle));
+    return rotation_of_turn(part * sure * least.angle() * least.axis());
+}
+
+Vec3 Screw::shift(double part) const {
+    return part * (mean_rotation(part * turn) * velocity);
+}
+
+Screw screw_of(const Vec3& turn, const Vec3& shift) {
+    const double angle = turn.norm();
+    if (angle < kNoAngle) return {turn, Vec3::Zero(), shift};
+    const Vec3 axis = turn / angle, along = axis.dot(shift) * axis;
+    const double begun = smooth_step(angle / kScrewAngle);
+    const double bent = 1.0 - smooth_step((angle - kWideScrew) / (kWidestScrew - kWideScrew));
+    Screw screw{turn, begun * along, Vec3::Zero()};
+    if (bent > 0.0) {
+        const double wider = 0.5 * angle / std::sin(0.5 * angle);
+        screw.velocity += begun * bent * wider * (rotation_of_turn(-0.5 * turn) * (shift - along));
+    }
+    screw.remainder = shift - screw.shift(1.0);
+    return screw;
 }
 
 Vec3 turned(const Vec3& before, const Vec3& further) {

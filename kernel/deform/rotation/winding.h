@@ -13,6 +13,31 @@ Mat3 rotation_of_turn(const Vec3& turn);
 /// `before`.
 Vec3 turn_near(const Mat3& rotation, const Vec3& before);
 
+/// The rotation at `share` of the shortest way from one to another.
+Mat3 rotation_between(const Mat3& from, const Mat3& to, double share);
+
+/// What turns a rotation by `part` of its least rotation vector further. Near half a turn, where
+/// that vector may point either way, it fades to nothing.
+Mat3 turned_further(const Mat3& rotation, double part);
+
+/// A rigid motion as a screw and a shift: while everything turns evenly about and by `turn`, a
+/// centre moves along `velocity`, which turns with it; what the centre is then off by is the
+/// `remainder`.
+struct Screw {
+    Vec3 turn = Vec3::Zero(), velocity = Vec3::Zero(), remainder = Vec3::Zero();
+
+    /// How far the centre has moved when `part` of the screw is done.
+    Vec3 shift(double part) const;
+};
+
+/// The screw of a motion that turns by `turn` and moves its centre by `shift`. The smaller the
+/// turn, or the nearer to a full one, whose axis would lie at infinity, the more of the shift is
+/// left as remainder.
+Screw screw_of(const Vec3& turn, const Vec3& shift);
+
+/// 0 up to t = 0, 1 from t = 1 on, smooth between.
+double smooth_step(double t);
+
 /// The rotation vector after turning on from `before` about and by `further`: what a drag along
 /// that path ends with.
 Vec3 turned(const Vec3& before, const Vec3& further);

@@ -13,6 +13,10 @@ namespace {
 // Distances that differ by less than this fraction of the greatest are the same.
 constexpr double kSameDistance = 1e-9;
 
+// A gradient exists up to this condition number at least: a lower threshold asks for displacements,
+// but may be one that none of them reaches.
+constexpr double kGoodCondition = 2e4;
+
 class Displacer {
   public:
     Displacer(const Patch& patch, const Rings& rings, const RingGeometry& geometry,
@@ -22,7 +26,8 @@ class Displacer {
           geometry_(geometry),
           known_(known),
           start_(start),
-          options_(options) {
+          options_(options),
+          greatest_(std::max(options.degenerate_threshold, kGoodCondition)) {
         result_.displaced_rest = patch.rest;
         moved_.assign(patch.rest.size(), 0);
     }
@@ -35,6 +40,7 @@ class Displacer {
             for (const Index i : still) repair(i);
         }
         // What moved in unison, or was flattened by a neighbour that moved, is taken one by one.
+        threshold_ = greatest_;
         std::fill(moved_.begin(), moved_.end(), char{0});
         for (const Index i : degenerate_vertices()) {
             if (is_degenerate(i)) repair(i);
@@ -97,12 +103,12 @@ class Displacer {
     bool is_degenerate(Index i) const {
         if (rings_.count(i) == 0) return true;
         const Eigen::Vector3d values = eigenvalues(stencil_covariance(i, ring_center(i)));
-        return !(values[0] * options_.degenerate_threshold > values[2]);
+        return !(values[0] * threshold_ > values[2]);
     }
 
     bool has_collinear_ring(Index i) const {
         const Eigen::Vector3d values = eigenvalues(ring_covariance(i, ring_center(i)));
-        return !(values[1] * options_.degenerate_threshold > values[2]);
+        return !(values[1] * greatest_ > values[2]);
     }
 
     static Eigen::Vector3d eigenvalues(const Mat3& covariance) {
@@ -181,6 +187,9 @@ class Displacer {
     const KnownMask& known_;
     const Vec3& start_;
     const DeformOptions& options_;
+    /// Condition number above which a gradient does not exist, and above which a vertex counts as
+    /// degenerate: at first as the options say, then for what has no gradient yet.
+    double greatest_, threshold_ = options_.degenerate_threshold;
     GradientStencils result_;
     std::vector<char> moved_;
 };

@@ -155,12 +155,17 @@ void LinearSolution::solve_fixed(const LinearProblem& problem,
         problem, [&](Index k) -> Vec3 { return row[k] != kNoIndex ? fixed_[row[k]] : shift(k); });
 }
 
-void LinearSolution::deviations(std::span<const Mat4> differences, Vec4* x, Index begin,
-                                Index end) const {
+void LinearSolution::handle_part(std::span<const Mat4> differences, Vec4* x, Index begin,
+                                 Index end) const {
     std::vector<const Vec4*> weights;
     for (const std::vector<Vec4>& weight : weight_) weights.push_back(weight.data());
     const BasisLoop loop{differences.data(), weights.data(), weights.size()};
     loop.evaluate(x, begin, end);
+}
+
+void LinearSolution::deviations(std::span<const Mat4> differences, Vec4* x, Index begin,
+                                Index end) const {
+    handle_part(differences, x, begin, end);
     if (fixed_.empty()) return;
     for (Index row = begin; row < end; ++row) x[row - begin].head<3>() += fixed_[row];
 }

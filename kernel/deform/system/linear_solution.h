@@ -53,6 +53,8 @@ class LinearSolution {
     /// Handles with weights of their own.
     const std::vector<Index>& handles() const { return handles_; }
 
+    /// sum over h of D_h weight_h of the free vertices [begin, end): what the handles add.
+    void handle_part(std::span<const Mat4> differences, Vec4* x, Index begin, Index end) const;
     /// x' - T v' of the free vertices [begin, end): how far they deviate from the base transform.
     void deviations(std::span<const Mat4> differences, Vec4* x, Index begin, Index end) const;
     /// Positions of the free vertices [begin, end), for a base whose transform differs from the

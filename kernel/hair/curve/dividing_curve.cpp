@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kernel/core/error.h"
+#include "kernel/hair/curve/constraint_kind.h"
 #include "kernel/hair/curve/curve.h"
 #include "kernel/hair/curve/curve_foot.h"
 #include "kernel/hair/curve/grid_range.h"
@@ -90,8 +91,13 @@ class Divider {
             const Rule& rule)
         : distances_(distances), line_(line), options_(options), rule_(rule) {}
 
-    /// The vector of a grid point, or nothing.
-    std::optional<Vec3> vector_at(const Cell& cell) const {
+    struct Said {
+        Vec3 vector;
+        ConstraintKind kind;
+    };
+
+    /// What is said of a grid point, if anything.
+    std::optional<Said> at(const Cell& cell) const {
         const double v = distances_.at(cell[0], cell[1], cell[2]);
         if (v < rule_.lowest() || v > rule_.highest()) return std::nullopt;
         const DividingPlace place =
@@ -109,8 +115,11 @@ class Divider {
         if (normal.dot(place.normal) < 0.5) normal = place.normal;
         const double tilt = tilt_at(place);
         const Vec3 level = flow(place, tilt, normal);
-        if (!along) return faded(options_.separation * level, place);
-        return faded((level + rule_.slope(u) * std::cos(tilt) * normal).normalized(), place);
+        if (!along) {
+            return Said{faded(options_.separation * level, place), ConstraintKind::separation};
+        }
+        const Vec3 up = rule_.slope(u) * std::cos(tilt) * normal;
+        return Said{faded((level + up).normalized(), place), ConstraintKind::parting};
     }
 
   private:
@@ -207,9 +216,10 @@ std::vector<GridConstraint> dividing_constraints(const DistanceGrid& distances,
     const Vec3 margin = Vec3::Constant(rule.width() + rule.highest() - rule.lowest());
     std::vector<GridConstraint> result;
     for_grid_points_in(layout, {box.min - margin, box.max + margin}, [&](const Cell& cell) {
-        const std::optional<Vec3> vector = divider.vector_at(cell);
-        if (!vector) return;
-        result.push_back({layout.index(cell[0], cell[1], cell[2]), *vector, options.weight});
+        const auto said = divider.at(cell);
+        if (!said) return;
+        result.push_back({layout.index(cell[0], cell[1], cell[2]), said->vector, options.weight,
+                          static_cast<int>(said->kind)});
     });
     if (result.empty()) {
         throw Error(ErrorCode::out_of_range,

@@ -3,16 +3,22 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "kernel/core/error.h"
 #include "kernel/hair/curve/curve.h"
 #include "kernel/hair/curve/curve_foot.h"
+#include "kernel/hair/curve/length_text.h"
 
 namespace lissom {
 namespace {
 
+// Steps of a hint that is read, in what is near.
+constexpr double kHintSteps = 0.1;
 // Segments of a join.
 constexpr int kJoinSegments = 8;
 // Lengths that are a smaller part of a curve than this are none.
@@ -73,11 +79,10 @@ Meeting crossing(const Path& curve, const Path& hint) {
 
 void require_near(const Meeting& meeting, const HintOptions& options, const char* what) {
     if (meeting.distance <= options.reach) return;
-    std::ostringstream message;
-    message.precision(3);
-    message << what << " " << meeting.distance << " away from the curve, and " << options.reach
-            << " is the most; draw it nearer, or set reach";
-    throw Error(ErrorCode::out_of_range, message.str());
+    throw Error(ErrorCode::out_of_range, std::string(what) + " " + length_text(meeting.distance) +
+                                             " m away from the curve, and " +
+                                             length_text(options.reach) +
+                                             " m is the most; draw it nearer, or set reach");
 }
 
 // A cubic from one point to another that leaves and arrives along unit tangents; without its first
@@ -108,17 +113,106 @@ void append_join(const Path& first, double leave, const Path& second, double arr
                 points);
 }
 
+// A hint as seen from a curve.
+struct HintShape {
+    Meeting start, end;
+    double length = 0.0, curve_length = 0.0;
+    // Between the general direction and the curve's tangent towards the tip where the hint starts,
+    // degrees.
+    double angle = 0.0;
+    // The nearest that the hint comes.
+    double least = 0.0;
+    // Where it changes sides: arc length along the hint, and how far it is from the curve there.
+    std::vector<Meeting> sides;
+};
+
+std::vector<Meeting> changes_of_side(const Path& curve, std::span<const Vec3> hint) {
+    std::vector<Meeting> sides;
+    const std::vector<double> lengths = arc_lengths(hint);
+    for (std::size_t i = 1; i < hint.size(); ++i) {
+        const CurveFoot foot = foot_on_curve(curve.points, hint[i]);
+        if (foot.beyond != 0.0) continue;
+        const Vec3 tangent = curve.tangent(arc_length_at(curve.lengths, foot));
+        const Vec3 way = hint[i] - hint[i - 1];
+        const Vec3 across = way - way.dot(tangent) * tangent;
+        const double before = (hint[i - 1] - foot.point).dot(across),
+                     after = (hint[i] - foot.point).dot(across);
+        if (before < 0.0 && after >= 0.0) sides.push_back({lengths[i], foot.distance});
+    }
+    return sides;
+}
+
+HintShape shape_of(const Path& curve, const Path& hint, double near) {
+    HintShape shape;
+    shape.start = meeting_at(curve, hint.points.front());
+    shape.end = meeting_at(curve, hint.points.back());
+    shape.length = hint.length();
+    shape.curve_length = curve.length();
+    const Vec3 direction = hint.points.back() - hint.points.front();
+    const Vec3 tangent = curve.tangent(shape.start.place);
+    shape.angle = std::atan2(direction.cross(tangent).norm(), direction.dot(tangent)) * 180.0 / kPi;
+    shape.least = crossing(curve, hint).distance;
+    shape.sides = changes_of_side(curve, resampled_curve(hint.points, kHintSteps * near));
+    return shape;
+}
+
+// How far along the hint it first crosses the curve.
+std::optional<double> first_crossing(const HintShape& shape, double near) {
+    for (const Meeting& side : shape.sides) {
+        if (side.distance <= near) return side.place;
+    }
+    return std::nullopt;
+}
+
+// What a hint means where `near` is near, if it were turned by `turn` degrees.
+HintOperation operation_of(const HintShape& shape, double near, double turn = 0.0) {
+    const std::optional<double> cross = first_crossing(shape, near);
+    if (shape.start.distance <= near && shape.end.distance <= near) {
+        const double apart = std::abs(shape.end.place - shape.start.place);
+        if (apart >= std::max(1.2 * near, 0.15 * shape.length)) return HintOperation::insert;
+        return cross || shape.length <= 3.0 * near ? HintOperation::cut
+                                                   : HintOperation::concatenate;
+    }
+    if (shape.start.distance > near) return HintOperation::cut;
+    const bool at_tip = shape.curve_length - shape.start.place <= near;
+    if (at_tip || !cross || *cross > 1.2 * near) return HintOperation::concatenate;
+    // Fitted to drawn hints, in pixels, of which `near` has 20.
+    const double pixel = near / 20.0;
+    const double across = (shape.angle + turn - 74.0) / 12.0 + (*cross / pixel - 10.0) / 8.0 -
+                          (shape.length / pixel - 150.0) / 60.0;
+    return across > 0.0 ? HintOperation::cut : HintOperation::concatenate;
+}
+
+// How else a hint may have been meant: factors of what is near, and turns in degrees.
+constexpr std::pair<double, double> kOtherReadings[] = {
+    {0.75, 0.0}, {1.3, 0.0}, {1.0, -12.0}, {1.0, 12.0}};
+
 }  // namespace
 
-HintOperation hint_operation(std::span<const Vec3> curve, std::span<const Vec3> hint,
-                             const HintOptions& options) {
-    require_hint(options);
-    const Path path(curve), stroke(hint);
-    const bool starts = meeting_at(path, stroke.points.front()).distance <= options.reach;
-    const bool ends = meeting_at(path, stroke.points.back()).distance <= options.reach;
-    if (starts) return ends ? HintOperation::insert : HintOperation::concatenate;
-    require_near(crossing(path, stroke), options, "the hint passes");
-    return HintOperation::cut;
+HintReading hint_reading(std::span<const Vec3> curve, std::span<const Vec3> hint, double near) {
+    if (!(near > 0.0 && std::isfinite(near))) {
+        throw Error(ErrorCode::invalid_argument, "`near` of a hint must be a length above 0");
+    }
+    const HintShape shape = shape_of(Path(curve), Path(hint), near);
+    if (shape.least > near) {
+        std::ostringstream message;
+        message.precision(3);
+        message << "the hint passes " << shape.least << " away from the curve, and " << near
+                << " is near; draw it nearer, or set near";
+        throw Error(ErrorCode::out_of_range, message.str());
+    }
+    HintReading reading{operation_of(shape, near), true};
+    for (const auto& [factor, turn] : kOtherReadings) {
+        if (shape.least > factor * near ||
+            operation_of(shape, factor * near, turn) != reading.operation) {
+            reading.sure = false;
+        }
+    }
+    return reading;
+}
+
+HintOperation hint_operation(std::span<const Vec3> curve, std::span<const Vec3> hint, double near) {
+    return hint_reading(curve, hint, near).operation;
 }
 
 std::vector<Vec3> cut_curve(std::span<const Vec3> curve, std::span<const Vec3> hint,

@@ -11,7 +11,7 @@ namespace lissom {
 
 enum class HintOperation { cut, concatenate, insert };
 
-/// Lengths are in the unit of the curves.
+/// Lengths in metres, as the curves of a style.
 struct HintOptions {
     /// A hint that is farther than this from the curve has nothing to do with it.
     double reach = 0.03;
@@ -20,10 +20,31 @@ struct HintOptions {
     double join = 0.015;
 };
 
-/// What a hint means: one that starts and ends near the curve inserts, one that only starts near it
-/// concatenates, one that only passes near it cuts. Errors: as the operations.
+/// What a hint means.
+struct HintReading {
+    HintOperation operation = HintOperation::cut;
+    /// False where a hint that is drawn a little nearer or farther, or turned by 12 degrees, means
+    /// something else: tell the artist what it was taken for.
+    bool sure = true;
+};
+
+/// Reads a hint by its ends and its general direction, that from its start to its end. With r for
+/// `near`: one that starts and ends within r of the curve, at places 1.2 r and 0.15 of its length
+/// apart, inserts; where these are nearer, it cuts if it crosses the curve or is at most 3 r long,
+/// else it concatenates. One that only starts within r concatenates where that is within r of
+/// the tip, or it does not cross the curve in its first 1.2 r; else it cuts if it is short, begins
+/// well before the curve and runs across it, and concatenates if it goes on along the curve. Any
+/// other one cuts where it crosses the curve or passes within r. It crosses where it changes sides
+/// within r of the curve.
+/// `near` is about 20 pixels of the picture that the hint was drawn in.
+/// Errors: as require_curve for both; invalid_argument for `near`; out_of_range where the hint is
+/// nowhere near the curve.
+HintReading hint_reading(std::span<const Vec3> curve, std::span<const Vec3> hint,
+                         double near = 0.007);
+
+/// The operation of hint_reading.
 HintOperation hint_operation(std::span<const Vec3> curve, std::span<const Vec3> hint,
-                             const HintOptions& options = {});
+                             double near = 0.007);
 
 /// The curve up to where the hint crosses it, or comes nearest to it.
 /// Errors: as require_curve for both; invalid_argument for options out of range, or where nothing

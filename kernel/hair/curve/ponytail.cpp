@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/hair/curve/constraint_kind.h"
 #include "kernel/hair/curve/curve.h"
 #include "kernel/hair/curve/curve_foot.h"
 #include "kernel/hair/curve/grid_range.h"
+#include "kernel/hair/curve/length_text.h"
 #include "kernel/hair/curve/stream_curve.h"
 
 namespace lissom {
@@ -202,6 +204,26 @@ Outline outline_of(const Spine& spine, double step, const PonytailOptions& optio
     return outline;
 }
 
+// A tie that is wider than the volume, or in the head, gathers nothing.
+void require_place(const DistanceGrid& distances, const PonytailSection& tie) {
+    const Box box = distances.layout().box();
+    const double most = 0.5 * (box.max - box.min).minCoeff();
+    if (tie.radius > most) {
+        throw Error(ErrorCode::invalid_argument,
+                    "the radius of the ponytail's tie is " + length_text(tie.radius) +
+                        " m, but can be " + length_text(most) +
+                        " m at most, half of the least extent of the hairstyle's volume");
+    }
+    const double height = distances.value(tie.center);
+    if (height < 0.0) {
+        throw Error(
+            ErrorCode::invalid_argument,
+            "the tie of the ponytail lies " + length_text(-height) +
+                " m inside the head; begin its spine outside, best at least the radius of " +
+                length_text(tie.radius) + " m above the scalp");
+    }
+}
+
 // What a ponytail says at the points of a grid.
 class Tail {
   public:
@@ -273,7 +295,8 @@ class Tail {
             const Vec3 middle = 0.5 * (spine[i] + spine[i + 1]);
             at += (spine[i + 1] - spine[i]).norm();
             if (catches_hair(middle, at)) continue;
-            inside = splat.add(middle, (spine[i + 1] - spine[i]).normalized()) || inside;
+            const Vec3 way = (spine[i + 1] - spine[i]).normalized();
+            inside = splat.add(middle, way, ConstraintKind::spine) || inside;
         }
         const Vec3 tangent = (spine.back() - spine[spine.size() - 2]).normalized();
         const double extra = std::ceil(options_.stop_length / layout_.step);
@@ -281,7 +304,7 @@ class Tail {
         for (double k = 1.0; k <= last; k += 1.0) {
             const Vec3 middle = spine.back() + (k - 0.5) * layout_.step * tangent;
             if (catches_hair(middle, at)) continue;
-            splat.add(middle, (1.0 - k / extra) * tangent);
+            splat.add(middle, (1.0 - k / extra) * tangent, ConstraintKind::stop);
         }
         return inside;
     }
@@ -348,17 +371,20 @@ std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
     require_ponytail(options);
     require(!shape.sections.empty() && shape.spine.size() > 1 && shape.last() < shape.spine.size(),
             "the shape of a ponytail needs a spine with cross sections");
+    require_place(distances, shape.tie());
     const GridLayout& layout = distances.layout();
     const Tail tail(distances, shape, options);
     // The first kind that names a point counts.
-    std::map<Index, Vec3> vectors;
-    const auto at_points = [&](const auto& rule) {
+    std::map<Index, GridConstraint> vectors;
+    const auto at_points = [&](ConstraintKind kind, const auto& rule) {
         for_grid_points_in(layout, tail.box(), [&](const std::array<Index, 3>& at) {
             const std::optional<Vec3> vector = rule(layout.point(at[0], at[1], at[2]));
-            if (vector) vectors.emplace(layout.index(at[0], at[1], at[2]), *vector);
+            const Index point = layout.index(at[0], at[1], at[2]);
+            if (!vector) return;
+            vectors.insert({point, {point, *vector, options.weight, static_cast<int>(kind)}});
         });
     };
-    at_points([&](const Vec3& point) { return tail.longitudinal(point); });
+    at_points(ConstraintKind::section, [&](const Vec3& point) { return tail.longitudinal(point); });
     VectorSplat spine(layout);
     if (!tail.splat_spine(spine) && vectors.empty()) {
         throw Error(ErrorCode::out_of_range,
@@ -366,12 +392,12 @@ std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
                     "draw its spine nearer to the head");
     }
     for (const GridConstraint& c : spine.constraints(options.weight)) {
-        vectors.emplace(c.point, c.value);
+        vectors.emplace(c.point, c);
     }
-    at_points([&](const Vec3& point) { return tail.centripetal(point); });
+    at_points(ConstraintKind::gather, [&](const Vec3& point) { return tail.centripetal(point); });
 
     std::vector<GridConstraint> result;
-    for (const auto& [point, vector] : vectors) result.push_back({point, vector, options.weight});
+    for (const auto& [point, constraint] : vectors) result.push_back(constraint);
     return result;
 }
 

@@ -82,8 +82,8 @@ PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
 /// surface of revolution, between its spine and its outline (purple in the figure); along the rest
 /// of the spine those of a stream curve (blue); around C1, outside the head, vectors of length
 /// `tightness` to its center (green). Where kinds meet at a point the first of these counts.
-/// Errors: invalid_argument for options out of range; out_of_range where the whole spine lies
-/// outside the grid.
+/// Errors: invalid_argument for options out of range, for a tie that is wider than the grid or has
+/// its center inside the head; out_of_range where the whole spine lies outside the grid.
 std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
                                                  const PonytailShape& shape,
                                                  const PonytailOptions& options = {});

@@ -18,7 +18,7 @@ double steps_across(const GridLayout& layout) {
     return static_cast<double>(layout.counts[0]) + layout.counts[1] + layout.counts[2];
 }
 
-bool VectorSplat::add(const Vec3& point, const Vec3& vector) {
+bool VectorSplat::add(const Vec3& point, const Vec3& vector, ConstraintKind kind) {
     const Vec3 at = (point - layout_.origin) / layout_.step;
     const Vec3 floor = at.array().floor();
     // Far outside, before the numbers of cells do not fit an Index any more.
@@ -39,14 +39,14 @@ bool VectorSplat::add(const Vec3& point, const Vec3& vector) {
             weight *= up ? t : 1.0 - t;
         }
         if (!inside || weight < kLeastWeight) continue;
-        add_at(layout_.index(index[0], index[1], index[2]), vector, weight);
+        add_at(layout_.index(index[0], index[1], index[2]), vector, weight, kind);
         found = true;
     }
     return found;
 }
 
-void VectorSplat::add_at(Index point, const Vec3& vector, double weight) {
-    given_.push_back({point, weight, weight * vector});
+void VectorSplat::add_at(Index point, const Vec3& vector, double weight, ConstraintKind kind) {
+    given_.push_back({point, weight, weight * vector, kind});
 }
 
 std::vector<GridConstraint> VectorSplat::constraints(double weight) const {
@@ -56,12 +56,12 @@ std::vector<GridConstraint> VectorSplat::constraints(double weight) const {
                      [](const Given& a, const Given& b) { return a.point < b.point; });
     std::vector<GridConstraint> result;
     for (std::size_t i = 0; i < sorted.size();) {
-        Given sum{sorted[i].point};
+        Given sum{sorted[i].point, 0.0, Vec3::Zero(), sorted[i].kind};
         for (; i < sorted.size() && sorted[i].point == sum.point; ++i) {
             sum.weight += sorted[i].weight;
             sum.sum += sorted[i].sum;
         }
-        result.push_back({sum.point, sum.sum / sum.weight, weight});
+        result.push_back({sum.point, sum.sum / sum.weight, weight, static_cast<int>(sum.kind)});
     }
     return result;
 }
@@ -79,7 +79,8 @@ std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
     for (std::size_t i = 1; i < points.size(); ++i) {
         if (points[i] == points[i - 1]) continue;
         tangent = (points[i] - points[i - 1]).normalized();
-        inside = splat.add(0.5 * (points[i - 1] + points[i]), tangent) || inside;
+        inside =
+            splat.add(0.5 * (points[i - 1] + points[i]), tangent, ConstraintKind::stream) || inside;
     }
     if (!inside) {
         throw Error(ErrorCode::out_of_range,
@@ -91,7 +92,7 @@ std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
     const double last = std::min(extra, steps_across(layout));
     for (double k = 1.0; k <= last; k += 1.0) {
         const Vec3 at = points.back() + (k - 0.5) * layout.step * tangent;
-        splat.add(at, (1.0 - k / extra) * tangent);
+        splat.add(at, (1.0 - k / extra) * tangent, ConstraintKind::stop);
     }
     return splat.constraints(options.weight);
 }

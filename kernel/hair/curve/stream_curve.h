@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/hair/curve/constraint_kind.h"
 #include "kernel/hair/field/grid_layout.h"
 #include "kernel/solve/grid/grid_constraints.h"
 
@@ -39,11 +40,11 @@ class VectorSplat {
 
     /// Gives `vector` to the corners of the cell that `point` lies in, by trilinear weights. False
     /// where all of them are outside the grid.
-    bool add(const Vec3& point, const Vec3& vector);
+    bool add(const Vec3& point, const Vec3& vector, ConstraintKind kind);
     /// Gives `vector` to one grid point.
-    void add_at(Index point, const Vec3& vector, double weight);
+    void add_at(Index point, const Vec3& vector, double weight, ConstraintKind kind);
 
-    /// Ascending by point.
+    /// Ascending by point; of the kind that a point was given first.
     std::vector<GridConstraint> constraints(double weight) const;
 
   private:
@@ -51,6 +52,7 @@ class VectorSplat {
         Index point = 0;
         double weight = 0.0;
         Vec3 sum = Vec3::Zero();
+        ConstraintKind kind = ConstraintKind::stream;
     };
 
     GridLayout layout_;

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "kernel/hair/curve/constraint_kind.h"
+
 namespace lissom {
 namespace {
 
@@ -16,6 +18,12 @@ struct DrawnPoints {
 std::string_view kind_name(const StyleCurve& curve) {
     constexpr std::array<std::string_view, 3> kNames = {"stream", "dividing", "ponytail"};
     return kNames[curve.shape.index()];
+}
+
+std::string_view kind_name(ConstraintKind kind) {
+    constexpr std::array<std::string_view, 8> kNames = {"stream",  "stop",  "parting", "separation",
+                                                        "section", "spine", "gather",  "scalp"};
+    return kNames[static_cast<std::size_t>(kind)];
 }
 
 const std::vector<Vec3>& drawn_points(const StyleCurve& curve) {

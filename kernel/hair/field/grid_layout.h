@@ -21,6 +21,10 @@ struct GridLayout {
     /// Number of point (i, j, k); x runs fastest.
     Index index(Index i, Index j, Index k) const { return i + counts[0] * (j + counts[1] * k); }
     Vec3 point(Index i, Index j, Index k) const { return origin + step * Vec3(i, j, k); }
+    Vec3 point(Index number) const {
+        return point(number % counts[0], number / counts[0] % counts[1],
+                     number / (counts[0] * counts[1]));
+    }
     /// From the first to the last point.
     Box box() const;
 };

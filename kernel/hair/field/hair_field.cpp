@@ -14,6 +14,31 @@ GridSize size_of(const GridLayout& layout) {
     return {layout.counts[0], layout.counts[1], layout.counts[2]};
 }
 
+std::vector<float> gradients_of(const DistanceGrid& distances, const Context& context) {
+    const auto [nx, ny, nz] = distances.layout().counts;
+    const std::array<Index, 3> counts{nx, ny, nz}, strides{1, nx, nx * ny};
+    const std::span<const float> values = distances.values();
+    std::vector<float> gradients(4 * values.size(), 0.0f);
+    context.parallel_for(0, ny * nz, 64, [&](Index begin, Index end) {
+        for (Index row = begin; row < end; ++row) {
+            for (Index x = 0; x < counts[0]; ++x) {
+                const std::array<Index, 3> at{x, row % counts[1], row / counts[1]};
+                const Index here = row * counts[0] + x;
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const Index low = at[axis] > 0 ? 1 : 0,
+                                high = at[axis] + 1 < counts[axis] ? 1 : 0;
+                    const auto from = static_cast<std::size_t>(here - low * strides[axis]),
+                               to = static_cast<std::size_t>(here + high * strides[axis]);
+                    gradients[4 * static_cast<std::size_t>(here) + axis] =
+                        (values[to] - values[from]) /
+                        static_cast<float>((low + high) * distances.layout().step);
+                }
+            }
+        }
+    });
+    return gradients;
+}
+
 }  // namespace
 
 GridFieldOptions HairField::default_options() {
@@ -26,7 +51,8 @@ HairField::HairField(DistanceGrid distances, const GridFieldOptions& options,
                      const Context& context)
     : distances_(std::move(distances)), field_(size_of(layout()), options, context) {
     const std::size_t count = distances_.values().size();
-    charge_ = context.charge(4 * count * sizeof(float), "the direction field of a hairstyle");
+    charge_ = context.charge(8 * count * sizeof(float), "the direction field of a hairstyle");
+    gradients_ = gradients_of(distances_, context);
     values_.assign(4 * count, 0.0f);
     for (std::size_t i = 0; i < count; ++i) values_[4 * i + 3] = distances_.values()[i];
 }

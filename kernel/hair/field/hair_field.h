@@ -35,6 +35,10 @@ class HairField {
     /// For each grid point, x fastest: the vector of the last solve, and the signed distance.
     std::span<const float> values() const { return values_; }
 
+    /// For each grid point the gradient of the signed distance, by differences between neighbours,
+    /// and 0 as a fourth number.
+    std::span<const float> gradients() const { return gradients_; }
+
     struct Sample {
         Vec3 direction = Vec3::Zero();
         /// Signed distance to the head, negative inside, and its derivative.
@@ -48,7 +52,7 @@ class HairField {
   private:
     DistanceGrid distances_;
     GridField field_;
-    std::vector<float> values_;
+    std::vector<float> values_, gradients_;
     MemoryCharge charge_;
 };
 

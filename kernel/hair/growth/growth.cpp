@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/hair/curve/length_text.h"
 #include "kernel/hair/growth/growth_loops.h"
 #include "kernel/hair/growth/growth_roots.h"
 
@@ -23,9 +24,12 @@ constexpr Index kCopied = 256;
 
 constexpr std::size_t kMostPoints = std::numeric_limits<Index>::max();
 
-// The least segment, as a share of the usual one, and in roundings of the greatest coordinate: so
-// its ends are different points.
-constexpr double kLeastSegment = 1e-3, kLeastRoundings = 8.0;
+// The least move, as a fraction of the usual segment, and in roundings of the greatest coordinate:
+// so the ends of segments are different points.
+constexpr double kLeastMove = 1e-3, kLeastRoundings = 8.0;
+
+// Of the diagonal of the grid's box: hair that is longer winds about itself, or left the box.
+constexpr double kLongestInDiagonals = 2.0;
 
 // More room for points than the strands so far let expect.
 constexpr double kSlack = 1.02;
@@ -48,6 +52,9 @@ void require_tie(const HairTie& tie) {
     require(is_length(tie.radius) && is_length(tie.tail_length),
             "the radius and the tail of a tie must be lengths of 0 or more");
     require(is_share(tie.ragged), "how ragged a tail is must be from 0 to 1");
+    require(std::all_of(tie.spine.begin(), tie.spine.end(),
+                        [](const Vec3& p) { return p.allFinite(); }),
+            "the spine of a tail must be finite");
 }
 
 void require_cut(const HairCut& cut) {
@@ -59,8 +66,11 @@ void require_cut(const HairCut& cut) {
 void require_lengths(const GrowthOptions& o) {
     require(is_length(o.length), "the length of hair must be 0 or more");
     require(is_share(o.variation), "variation must be from 0 to 1");
-    require(o.segment > 0.0 && o.segment <= 10.0, "segment must be above 0 and at most 10 steps");
+    require(o.segment >= kLeastSegment && o.segment <= kGreatestSegment,
+            "segment must be 0.01 to 10 steps of the grid");
     require(o.least_speed >= 0.0 && o.least_speed < 1.0, "least_speed must be from 0 to below 1");
+    require(o.greatest_turn >= 0.0 && o.greatest_turn <= kPi,
+            "greatest_turn must be from 0 to 180 degrees");
     require(o.most_segments >= 1, "most_segments must be at least 1");
     require(is_length(o.lift), "lift must be 0 or more");
     require(is_length(o.clearance) && is_length(o.layer) && is_length(o.ramp),
@@ -77,6 +87,24 @@ void require_options(const GrowthOptions& o, Index head_vertices) {
             "factors of a length map must be finite and not negative");
     for (const HairTie& tie : o.ties) require_tie(tie);
     for (const HairCut& cut : o.cuts) require_cut(cut);
+}
+
+// Lengths that no hair in this grid can have.
+void require_fitting_lengths(const GrowthOptions& o, const GridLayout& layout) {
+    const double most = longest_hair(layout);
+    const auto require_fitting = [&](double length, const std::string& what) {
+        if (length <= most) return;
+        throw Error(ErrorCode::invalid_argument,
+                    what + " is " + length_text(length) + " long, but hair can be " +
+                        length_text(most) +
+                        " at most, twice the diagonal of the volume of the hairstyle; make it "
+                        "shorter, or enlarge the volume");
+    };
+    const double factor =
+        o.length_map.empty() ? 1.0 : *std::max_element(o.length_map.begin(), o.length_map.end());
+    require_fitting(o.length * factor,
+                    factor == 1.0 ? "hair" : "hair where its factor is greatest");
+    for (const HairTie& tie : o.ties) require_fitting(tie.tail_length, "the tail of a tie");
 }
 
 // The grid's cells to the coordinates of strands.
@@ -98,14 +126,32 @@ double least_move(const GridLayout& layout, const GrowthOptions& options) {
     // At most how many cells one unit of the strands' coordinates is.
     const double cells = placed.linear.inverse().norm();
     const double rounding = farthest * std::numeric_limits<float>::epsilon() * cells;
-    return std::max(kLeastSegment * options.segment, kLeastRoundings * rounding);
+    return std::max(kLeastMove * options.segment, kLeastRoundings * rounding);
+}
+
+// Planes across a tail at the points of its spine.
+std::vector<TailPlane> planes_of(const std::vector<Vec3>& spine, const GridLayout& layout) {
+    std::vector<TailPlane> planes;
+    double behind = 0.0;
+    for (std::size_t i = 1; i < spine.size(); ++i) {
+        behind += (spine[i] - spine[i - 1]).norm();
+        const Vec3 along = spine[std::min(i + 1, spine.size() - 1)] - spine[i - 1];
+        if (!(along.norm() > 0.0)) continue;
+        planes.push_back({((spine[i] - layout.origin) / layout.step).cast<float>(),
+                          along.normalized().cast<float>(),
+                          static_cast<float>(behind / layout.step)});
+    }
+    return planes;
 }
 
 TieRule tie_rule(const HairTie& tie, const GridLayout& layout) {
     const double radius = tie.radius / layout.step;
     return {((tie.center - layout.origin) / layout.step).cast<float>(),
-            tie.direction.normalized().cast<float>(), static_cast<float>(radius * radius),
-            static_cast<float>(tie.tail_length / layout.step), static_cast<float>(tie.ragged)};
+            tie.direction.normalized().cast<float>(),
+            static_cast<float>(radius * radius),
+            static_cast<float>(tie.tail_length / layout.step),
+            static_cast<float>(tie.ragged),
+            planes_of(tie.spine, layout)};
 }
 
 CutRule cut_rule(const HairCut& cut, const GridLayout& layout) {
@@ -120,6 +166,9 @@ GrowthRules rules_of(const GridLayout& layout, const GrowthOptions& options) {
     rules.segment = static_cast<float>(options.segment);
     rules.least_speed = static_cast<float>(options.least_speed);
     rules.least_move = static_cast<float>(least_move(layout, options));
+    // Cosines of rounded vectors may lie below -1.
+    rules.least_cosine =
+        options.greatest_turn < kPi ? static_cast<float>(std::cos(options.greatest_turn)) : -2.0f;
     rules.lift = static_cast<float>(options.lift);
     rules.inverse_ramp = static_cast<float>(1.0 / std::max(options.ramp / layout.step, 1e-6));
     rules.inverse_step = static_cast<float>(1.0 / layout.step);
@@ -136,7 +185,8 @@ GrowthRules rules_of(const GridLayout& layout, const GrowthOptions& options) {
 
 QuadGrid grid_of(const HairField& field) {
     const std::array<Index, 3>& counts = field.layout().counts;
-    QuadGrid grid{field.values().data(), counts[0], counts[0] * counts[1], {}};
+    QuadGrid grid{
+        field.values().data(), field.gradients().data(), counts[0], counts[0] * counts[1], {}};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         grid.last[axis] = static_cast<float>(counts[axis] - 1);
     }
@@ -267,6 +317,10 @@ void Harvest::finish(const StrandRoots& roots) {
 
 }  // namespace
 
+double longest_hair(const GridLayout& layout) {
+    return kLongestInDiagonals * layout.box().diagonal();
+}
+
 StrandGrower::StrandGrower(const Mesh& head, std::span<const Root> roots, const Context& context)
     : state_(std::make_unique<State>(head, roots, context)) {}
 StrandGrower::~StrandGrower() = default;
@@ -280,8 +334,9 @@ Index StrandGrower::size() const {
 GrowthReport StrandGrower::grow(const HairField& field, const GrowthOptions& options,
                                 Strands& strands, const Context& context) {
     GrowthRoots& roots = state_->roots;
-    Harvest harvest(size(), strands, context);
     require_options(options, roots.head_vertices());
+    require_fitting_lengths(options, field.layout());
+    Harvest harvest(size(), strands, context);
     roots.set_seed(options.seed, context);
     roots.set_length_map(options.length_map, context);
     if (!options.ties.empty()) harvest.report.ties.resize(static_cast<std::size_t>(size()));

@@ -21,10 +21,14 @@ struct HairTie {
     /// length but 0.
     Vec3 direction = Vec3::UnitY();
     double radius = 0.0;
-    /// How much longer a strand grows once it is caught, by at most this share less: most tails are
-    /// nearly as long as this, few are much shorter, so that the end of a tail is not cut flat.
+    /// How much longer a strand grows once it is caught, by at most this share less, evenly by
+    /// chance: so a tail thins out towards its end, and is not cut flat.
     double tail_length = 0.25;
     double ragged = 0.45;
+    /// The way of the tail from the center on. As far as it goes the length is measured along it,
+    /// so that hair at the outside of a bend ends where that at its inside does; beyond, or where
+    /// it is empty, along each strand.
+    std::vector<Vec3> spine = {};
 };
 
 /// Cuts hair along a plane.
@@ -38,19 +42,29 @@ struct HairCut {
     double ragged = 0.0;
 };
 
+inline constexpr double kLeastSegment = 0.01, kGreatestSegment = 10.0;
+
+/// The greatest length that hair in a grid can be asked for: twice the diagonal of its box.
+double longest_hair(const GridLayout& layout);
+
 /// Lengths and points are those of the field's grid.
 struct GrowthOptions {
-    /// Length of a strand, and by which share of it at most each is longer or shorter.
+    /// Length of a strand, and by which share of it at most each is longer or shorter. At most
+    /// longest_hair of the grid, as are the lengths of tails.
     double length = 0.25;
     double variation = 0.1;
     /// Factors of the length for every vertex of the head, interpolated at roots; finite and not
     /// negative. Empty for none.
     std::vector<double> length_map = {};
-    /// l of section 4.6, in steps of the grid: a segment is l v(p) long, where the length of v
-    /// counts as 1 at most.
+    /// l of section 4.6, in steps of the grid, kLeastSegment to kGreatestSegment: a segment is
+    /// l v(p) long, where the length of v counts as 1 at most.
     double segment = 0.5;
     /// A strand ends where the field is shorter than this.
     double least_speed = 0.05;
+    /// A strand ends before a segment that turns by more than this, radians from 0 to pi, as about
+    /// a sink of the field. At 88 degrees rounding of the points makes no right angle of it; pi
+    /// lets strands turn as they like, until they are long enough or have `most_segments`.
+    double greatest_turn = 88.0 * kPi / 180.0;
     /// Segments at most: flow lines around a ponytail may be closed.
     Index most_segments = 400;
     /// Share of the normal in the first segment, which never points inward.
@@ -77,7 +91,7 @@ enum class StrandEnd {
     cut,        ///< a cut
     slow,       ///< the field is shorter than least_speed
     left_grid,  ///< it left the grid; its last point lies outside
-    turned,     ///< the next segment would have turned by more than 88 degrees, as about a sink
+    turned,     ///< the next segment would have turned by more than greatest_turn
     stuck,      ///< it was pushed back to where it came from
     segments,   ///< it has as many segments as allowed
 };
@@ -117,7 +131,7 @@ class StrandGrower {
     /// thousandth of `segment`.
     /// Errors: invalid_argument for options out of range, or a length map of the wrong size, or
     /// more points than can be numbered; memory_limit; cancelled. After an error there are no
-    /// strands.
+    /// strands, but for options out of range, which are refused first.
     GrowthReport grow(const HairField& field, const GrowthOptions& options, Strands& strands,
                       const Context& context = {});
 

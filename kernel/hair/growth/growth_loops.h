@@ -15,6 +15,9 @@ namespace lissom {
 /// Three fields and the distance at the points of a grid.
 struct QuadGrid {
     const float* values = nullptr;
+    /// Gradient of the distance at each point, with a fourth number that is not used: continuous
+    /// from cell to cell, as that of the interpolated distance is not.
+    const float* gradients = nullptr;
     Index nx = 0, nxy = 0;
     /// The greatest coordinates.
     std::array<float, 3> last{};
@@ -28,9 +31,16 @@ struct Seedling {
     float cut, tail;
 };
 
+/// A plane across a tail, and how far behind its tie it is along the spine.
+struct TailPlane {
+    Eigen::Vector3f center, direction;
+    float behind;
+};
+
 struct TieRule {
     Eigen::Vector3f center, direction;
     float square_radius, tail_length, ragged;
+    std::vector<TailPlane> planes = {};
 };
 
 /// Hair is left where normal . p <= offset + ragged x chance.
@@ -41,6 +51,8 @@ struct CutRule {
 
 struct GrowthRules {
     float segment, least_speed, least_move, lift, inverse_ramp;
+    /// Of the greatest turn.
+    float least_cosine;
     /// Steps in a unit of the distances.
     float inverse_step;
     bool avoid, spare_tied;

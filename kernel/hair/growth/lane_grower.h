@@ -25,12 +25,6 @@ inline constexpr std::int32_t kPushes = 3;
 // A strand so little below its floor, in steps, is not pushed: it would have to look again.
 inline constexpr float kLeastPush = 0.02f;
 
-// Of the sharpest turn, 88 degrees: rounding of the points makes no right angle of it.
-inline constexpr float kLeastCosine = 0.035f;
-
-// Most tails are about as long as they may be.
-inline constexpr double kTailPower = 1.4;
-
 inline constexpr std::size_t kFirstBuffer = 64;
 
 // None of these has a constructor: the compiler would make it outside of LISSOM_LANES_BEGIN.
@@ -126,10 +120,11 @@ class LaneGrower {
             const Floats missing = missing_height(here.distance, grown_);
             const Ints low =
                 growing_ & inside_ & (missing > all(kLeastPush)) & (pushes_ < all(kPushes));
-            if (any(low)) push(low, missing, here.slope);
+            if (any(low)) push(low, missing, read_gradients());
             pushes_ = pushes_ - low;
             Segments next = segments_of(growing_ & no(low));
             for (std::size_t i = 0; i < rules_.ties.size(); ++i) meet_tie(rules_.ties[i], i, next);
+            if (!rules_.ties.empty()) measure_tails(next);
             const Ints too_long = next.length > length_ - grown_;
             if (any(too_long)) shorten(next, too_long, (length_ - grown_) / next.length);
             for (const CutRule& cut : rules_.cuts) meet_cut(cut, next);
@@ -187,6 +182,31 @@ class LaneGrower {
              between(low_slopes[3], high_slopes[3], x)}};
     }
 
+    // The way out of the head, of any length.
+    LISSOM_INLINE Floats3 read_gradients() const {
+        std::int32_t cells[kLanes];
+        float ty[kLanes], tz[kLanes];
+        std::memcpy(cells, &cell_, sizeof(cells));
+        std::memcpy(ty, &place_.y, sizeof(ty));
+        std::memcpy(tz, &place_.z, sizeof(tz));
+        const std::size_t nx = 4 * static_cast<std::size_t>(grid_.nx),
+                          nxy = 4 * static_cast<std::size_t>(grid_.nxy);
+        EightFloats gradients[kLanes];
+        for (int k = 0; k < kLanes; ++k) {
+            const float* from = grid_.gradients + 4 * static_cast<std::size_t>(cells[k]);
+            const EightFloats a = load(from), b = load(from + nx);
+            const EightFloats low = a + tz[k] * (load(from + nxy) - a),
+                              high = b + tz[k] * (load(from + nxy + nx) - b);
+            gradients[k] = low + ty[k] * (high - low);
+        }
+        Floats low[4], high[4];
+        transpose(gradients, 0, low);
+        transpose(gradients, 4, high);
+        const Floats& x = place_.x;
+        return {between(low[0], high[0], x), between(low[1], high[1], x),
+                between(low[2], high[2], x)};
+    }
+
     // How far a point at this distance from the head is below the floor of its strand.
     LISSOM_INLINE Floats missing_height(const Floats& distance, const Floats& grown) const {
         if (!rules_.avoid) return all(-1.0f);
@@ -233,10 +253,32 @@ class LaneGrower {
             const Eigen::Vector3f off = at(at_, k) + share[k] * at(next.way, k) - tie.center;
             if (off.squaredNorm() > tie.square_radius) continue;
             tie_[k] = static_cast<std::int32_t>(number);
-            const double part =
-                1.0 - tie.ragged * std::pow(static_cast<double>(tail_[k]), kTailPower);
-            length_[k] =
-                grown_[k] + share[k] * next.length[k] + tie.tail_length * static_cast<float>(part);
+            tail_length_[k] = tie.tail_length * (1.0f - tie.ragged * tail_[k]);
+            length_[k] = grown_[k] + share[k] * next.length[k] + tail_length_[k];
+            plane_[k] = 0;
+        }
+    }
+
+    // How much longer strands in tails grow, by where they are along its spine: in the bend of a
+    // tail the way is longer outside.
+    LISSOM_INLINE void measure_tails(const Segments& next) {
+        const Ints tied = next.go & no(tie_ < all(0));
+        if (!any(tied)) return;
+        for (int k = 0; k < kLanes; ++k) {
+            if (tied[k]) pass_planes(rules_.ties[static_cast<std::size_t>(tie_[k])], next, k);
+        }
+    }
+
+    void pass_planes(const TieRule& tie, const Segments& next, int k) {
+        for (auto i = static_cast<std::size_t>(plane_[k]); i < tie.planes.size(); ++i) {
+            const TailPlane& plane = tie.planes[i];
+            if (plane.behind >= tail_length_[k]) return;
+            const float after = plane.direction.dot(at(to_, k) - plane.center);
+            if (after < 0.0f) return;
+            const float before = plane.direction.dot(at(at_, k) - plane.center);
+            const float share = before < 0.0f ? before / (before - after) : 0.0f;
+            length_[k] = grown_[k] + share * next.length[k] + (tail_length_[k] - plane.behind);
+            plane_[k] = static_cast<std::int32_t>(i) + 1;
         }
     }
 
@@ -256,8 +298,9 @@ class LaneGrower {
         const Floats speed = root(dot(here.vector, here.vector));
         const Floats grown = grown_ + next.length, left = length_ - grown;
         const Ints moves = next.length > all(rules_.least_move);
-        const Ints turns = (dot(next.way, way_) < all(kLeastCosine) * next.length * way_length_) &
-                           (segments_ > all(0));
+        const Ints turns =
+            (dot(next.way, way_) < all(rules_.least_cosine) * next.length * way_length_) &
+            (segments_ > all(0));
         const Ints take = next.go & moves & no(turns);
         const Ints end = next.go & ends_of(next, moves, turns, left, speed);
 
@@ -271,7 +314,7 @@ class LaneGrower {
         const Floats distance = here.distance + scale * dot(here.slope, here.vector);
         const Floats missing = missing_height(distance, grown);
         const Ints low = take & inside_ & (missing > all(0.0f));
-        if (any(low)) push(low, missing, here.slope);
+        if (any(low)) push(low, missing, read_gradients());
         grown_ = choose(take, grown, grown_);
         pushes_ = choose(take, all(0), pushes_);
         if (any(end)) end_lanes(end);
@@ -434,6 +477,9 @@ class LaneGrower {
     Floats3 at_{}, to_{}, way_{};
     Floats way_length_{}, grown_{}, length_{}, floor_{}, cut_{}, tail_{};
     Ints growing_{}, segments_{}, pushes_{}, tie_{};
+    // Of strands in a tail: how long they become along its spine, and the next of its planes.
+    Floats tail_length_{};
+    Ints plane_{};
     // Of the next points: their cells, places in them, and whether they are in the grid.
     Ints cell_{}, inside_{};
     Floats3 place_{};

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
+#include "kernel/hair/scalp/head_landmarks.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/spatial_tree.h"
 
@@ -22,6 +25,7 @@ struct Part {
     std::vector<Vec3> points;
     std::vector<std::pair<Vec3, Vec3>> edges;
     double least_width = 0.0;
+    double area = 0.0;
 };
 
 Part part_of(const Mesh& mesh, const std::vector<Index>& vertices) {
@@ -36,6 +40,10 @@ Part part_of(const Mesh& mesh, const std::vector<Index>& vertices) {
         if (in[a]) part.edges.emplace_back(mesh.position(a), mesh.position(b));
     }
     part.least_width = kLeastWidth * std::sqrt(area(mesh));
+    const std::vector<double> areas = face_areas(mesh);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (in[mesh.topology().face(f)[0]]) part.area += areas[f];
+    }
     return part;
 }
 
@@ -156,13 +164,38 @@ double flatness_of(const Part& part, const Mat3& axes, double top, double depth,
     return slice_at(part, axes, top - 0.1 * depth).width() / width;
 }
 
+// ---- Which way it looks
+
 struct Candidate {
     HeadFrame frame;
     double score = 0.0;
+    bool has_eyes = false;
 };
 
+// By how much the length of the slice over its width is out of the range of heads.
+double unusual_aspect(const HeadFrame& frame) {
+    const double aspect = frame.length / frame.width;
+    return std::max({0.0, 1.05 - aspect, aspect - 1.6});
+}
+
+// An opening this long is the rim of a mask.
+constexpr double kMask = 2.2;
+
+double score_of(const HeadFrame& frame, double flatness, bool has_eyes,
+                const Landmarks& landmarks) {
+    double score = std::clamp(frame.forwardness, -0.2, 0.2) - 4.0 * frame.asymmetry -
+                   4.0 * frame.roughness - 2.0 * std::max(0.0, flatness - 0.65) +
+                   0.05 * frame.axes(1, 1) + 0.02 * frame.axes(2, 2) + (has_eyes ? 0.3 : 0.0);
+    const double up = frame.up().dot(landmarks.from_opening),
+                 front = frame.front().dot(landmarks.from_opening);
+    // Neither the crown nor the face is open.
+    score -= 0.3 * std::max(0.0, -up) + 0.3 * std::max(0.0, -front);
+    if (landmarks.opening > kMask && front > 0.8) return score + 0.5;
+    return score - 2.0 * unusual_aspect(frame);
+}
+
 std::optional<Candidate> candidate_for(const Part& part, const SpatialTree& tree,
-                                       const Mat3& axes) {
+                                       const Landmarks& landmarks, const Mat3& axes) {
     double top = 0.0;
     const double rough = rough_depth(part, axes, top);
     if (!(rough > 0.0)) return std::nullopt;
@@ -179,13 +212,57 @@ std::optional<Candidate> candidate_for(const Part& part, const SpatialTree& tree
     frame.roughness = roughness_of(slice);
     frame.asymmetry = asymmetry_of(part, tree, frame);
     frame.forwardness = forwardness_of(part, frame);
-    const double flat = flatness_of(part, axes, top, depth, frame.width);
-    const double aspect = frame.length / frame.width;
-    result.score = std::clamp(frame.forwardness, -0.2, 0.2) - 4.0 * frame.asymmetry -
-                   4.0 * frame.roughness - 2.0 * std::max(0.0, flat - 0.65) -
-                   2.0 * std::max({0.0, 1.05 - aspect, aspect - 1.6}) + 0.05 * axes(1, 1) +
-                   0.02 * axes(2, 2);
+    const double flatness = flatness_of(part, axes, top, depth, frame.width);
+    result.has_eyes = std::any_of(landmarks.pairs.begin(), landmarks.pairs.end(),
+                                  [&](const EyePair& pair) { return are_eyes(pair, frame); });
+    result.score = score_of(frame, flatness, result.has_eyes, landmarks);
     return result;
+}
+
+// ---- How sure that is
+
+double rising(double from, double to, double x) {
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+// Share of directions from the center, above it, that the surface lies in.
+double coverage_of(const SpatialTree& tree, const HeadFrame& frame) {
+    constexpr int kRows = 6, kColumns = 24;
+    int hits = 0;
+    for (int row = 0; row < kRows; ++row) {
+        for (int column = 0; column < kColumns; ++column) {
+            const double up = (row + 0.5) / kRows, flat = std::sqrt(1.0 - up * up);
+            const double azimuth = 2.0 * kPi * (column + 0.5) / kColumns;
+            const Vec3 ray(flat * std::sin(azimuth), up, flat * std::cos(azimuth));
+            hits += tree.pick(frame.center, frame.axes * ray).has_value();
+        }
+    }
+    return static_cast<double>(hits) / (kRows * kColumns);
+}
+
+struct Reason {
+    double sure;
+    const char* doubt;
+};
+
+// `lead`: of its score before that of the second best directions.
+void set_confidence(Candidate& best, double lead, const HeadHints& hints) {
+    HeadFrame& frame = best.frame;
+    const bool has_front = hints.front || best.has_eyes, has_all = hints.front && hints.up;
+    const Reason reasons[] = {
+        {rising(0.70, 0.95, frame.coverage), "a part of the head is missing"},
+        {1.0 - rising(0.0, 0.15, unusual_aspect(frame)), "it is too long or too short for a head"},
+        {1.0 - rising(0.05, 0.10, frame.asymmetry), "its two sides differ"},
+        {1.0 - rising(0.035, 0.07, frame.roughness), "it is not round above the ears"},
+        {has_front ? 1.0 : rising(0.0, 0.04, frame.forwardness), "front and back are alike"},
+        {has_all ? 1.0 : rising(0.0, 0.08, lead), "other directions fit nearly as well"}};
+    frame.confidence = 1.0;
+    for (const Reason& reason : reasons) frame.confidence *= reason.sure;
+    const Reason& worst =
+        *std::min_element(std::begin(reasons), std::end(reasons),
+                          [](const Reason& a, const Reason& b) { return a.sure < b.sure; });
+    if (worst.sure < 1.0) frame.doubt = worst.doubt;
 }
 
 Vec3 unit_hint(const Vec3& hint, const char* name) {
@@ -233,6 +310,56 @@ std::vector<Mat3> possible_axes(const HeadHints& hints) {
     return result;
 }
 
+// How much better the first candidate is than the best that stands otherwise.
+double lead_of(const std::vector<Candidate>& found) {
+    const Mat3& axes = found.front().frame.axes;
+    for (const Candidate& other : found) {
+        const Mat3 turn = axes.transpose() * other.frame.axes;
+        if (turn.trace() < 1.0 + 2.0 * std::cos(kPi / 6.0)) {
+            return found.front().score - other.score;
+        }
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
+// Directions along no axis of the mesh, by the line through the eyes and the greatest opening: of
+// heads that stand aslant.
+std::vector<Mat3> slanted_axes(const Landmarks& landmarks) {
+    constexpr double kAslant = 5.0 * kPi / 180.0, kOpeningAslant = 20.0 * kPi / 180.0;
+    constexpr std::size_t kMostPairs = 4;
+    const auto slant = [](const Vec3& v) {
+        return std::acos(std::min(1.0, v.cwiseAbs().maxCoeff()));
+    };
+    std::vector<Mat3> result;
+    const auto add = [&](const Vec3& up, const Vec3& rough_front) {
+        const Vec3 front = rough_front - rough_front.dot(up) * up;
+        if (front.norm() > 0.5) result.push_back(axes_of(up, front.normalized()));
+    };
+    const Vec3& opening = landmarks.from_opening;
+    std::vector<Vec3> rough_ups = directions(std::nullopt, "up");
+    if (opening.norm() > 0.5) rough_ups.push_back(opening);
+    std::vector<EyePair> pairs = landmarks.pairs;
+    std::stable_sort(pairs.begin(), pairs.end(), [](const EyePair& a, const EyePair& b) {
+        return a.one.radius + a.other.radius > b.one.radius + b.other.radius;
+    });
+    std::size_t taken = 0;
+    for (const EyePair& pair : pairs) {
+        const Vec3 left = (pair.one.center - pair.other.center).normalized();
+        if (slant(left) < kAslant || ++taken > kMostPairs) continue;
+        for (const Vec3& rough : rough_ups) {
+            const Vec3 level = rough - rough.dot(left) * left;
+            if (level.norm() < 0.7) continue;
+            const Vec3 up = level.normalized();
+            add(up, left.cross(up));
+            add(up, -left.cross(up));
+        }
+    }
+    if (opening.norm() > 0.5 && slant(opening) > kOpeningAslant) {
+        for (const Vec3& front : directions(std::nullopt, "front")) add(opening, front);
+    }
+    return result;
+}
+
 }  // namespace
 
 std::vector<Index> largest_component(const Mesh& mesh) {
@@ -251,19 +378,38 @@ std::vector<Index> largest_component(const Mesh& mesh) {
 }
 
 HeadFrame guess_head_frame(const Mesh& mesh, const HeadHints& hints, const Context& context) {
-    const std::vector<Mat3> choices = possible_axes(hints);
+    // What speaks for the mesh's own axes.
+    constexpr double kAxisBonus = 0.15;
+    std::vector<Mat3> choices = possible_axes(hints);
+    const std::size_t along_axes = choices.size();
     const SpatialTree tree(mesh, context);
-    const Part part = part_of(mesh, largest_component(mesh));
-    std::optional<Candidate> best;
-    for (const Mat3& axes : choices) {
-        context.checkpoint();
-        const std::optional<Candidate> candidate = candidate_for(part, tree, axes);
-        if (candidate && (!best || candidate->score > best->score)) best = candidate;
+    const std::vector<Index> vertices = largest_component(mesh);
+    const Part part = part_of(mesh, vertices);
+    const Landmarks landmarks = landmarks_of(mesh, vertices, part.area);
+    if (!hints.up && !hints.front) {
+        const std::vector<Mat3> slanted = slanted_axes(landmarks);
+        choices.insert(choices.end(), slanted.begin(), slanted.end());
     }
-    if (best) return best->frame;
-    throw Error(ErrorCode::invalid_argument,
-                "the mesh is not like a head: nowhere is it as wide as twice the depth below its "
-                "top; give a head, or its up direction");
+    std::vector<Candidate> found;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+        context.checkpoint();
+        std::optional<Candidate> one = candidate_for(part, tree, landmarks, choices[i]);
+        if (!one) continue;
+        if (i < along_axes) one->score += kAxisBonus;
+        found.push_back(std::move(*one));
+    }
+    if (found.empty()) {
+        throw Error(ErrorCode::invalid_argument,
+                    "the mesh is not like a head: nowhere is it as wide as twice the depth below "
+                    "its top; give a head, or its up direction");
+    }
+    // Of equally good ones the first.
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+    Candidate& best = found.front();
+    best.frame.coverage = coverage_of(tree, best.frame);
+    set_confidence(best, lead_of(found), hints);
+    return best.frame;
 }
 
 }  // namespace lissom

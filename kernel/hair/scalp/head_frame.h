@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -24,6 +25,14 @@ struct HeadFrame {
     /// How much farther the face reaches forward than the neck backward, as a fraction of the
     /// length: positive for heads, about 0 where front and back are alike.
     double forwardness = 0.0;
+    /// Share of the directions above the center that the surface lies in: 1 for a whole head.
+    double coverage = 0.0;
+    /// How sure the guess is, 0 to 1: near 1 where the shape is that of a whole head and no other
+    /// direction fits nearly as well, 0 for masks, halves of heads and what is none. Directions
+    /// that were given are not doubted.
+    double confidence = 0.0;
+    /// What makes it least sure, as words that follow "because"; empty where nothing does.
+    std::string doubt = {};
 
     Vec3 left() const { return axes.col(0); }
     Vec3 up() const { return axes.col(1); }
@@ -41,7 +50,9 @@ struct HeadHints {
 /// Guesses the frame of a bald head, bust or body. Of the directions along the mesh's axes those
 /// are chosen that make the top of the head round, its halves alike and the face look forward; of
 /// equally good ones those nearest to up = +y, front = +z. Only the component with the largest area
-/// counts.
+/// counts. Where the head has them, these count as well: its eyes, two openings or further
+/// components that are alike and lie as eyes do, also where the line through them is along no axis;
+/// its greatest opening, which is the neck or, around a mask, looks away from the face.
 /// Errors: mesh_empty without faces; invalid_argument for hints without length or parallel, and
 /// where no direction has a slice as wide as twice its depth; not_finite for hints; cancelled.
 HeadFrame guess_head_frame(const Mesh& mesh, const HeadHints& hints = {},

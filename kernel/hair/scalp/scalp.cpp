@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "kernel/hair/scalp/hairline.h"
@@ -14,12 +15,37 @@ namespace {
 
 constexpr double kAverageWidth = 0.155;
 
-double guessed_unit(double width) {
-    // Metre, centimetre, millimetre, decimetre, inch, foot.
-    for (const double unit : {1.0, 0.01, 0.001, 0.1, 0.0254, 0.3048}) {
+// Metres in the usual unit that makes this the width of a person's head.
+std::optional<double> usual_unit(double width) {
+    // Metre, centimetre, millimetre, decimetre, inch. With the foot a model of a head that is 1
+    // high would be one.
+    for (const double unit : {1.0, 0.01, 0.001, 0.1, 0.0254}) {
         if (width * unit > 0.12 && width * unit < 0.2) return unit;
     }
-    return kAverageWidth / width;
+    return std::nullopt;
+}
+
+// Below this confidence a guess is told.
+constexpr double kDoubtful = 0.5;
+
+void tell_doubts(const Scalp& scalp, const ScalpOptions& options, const Context& context) {
+    const HeadFrame& frame = scalp.frame();
+    const bool all_given = options.hints.up && options.hints.front && options.region;
+    if (scalp.confidence() < kDoubtful && !all_given) {
+        std::ostringstream message;
+        message.precision(2);
+        message << "where the head is, and which way it looks, is a guess (confidence "
+                << scalp.confidence() << "), because " << frame.doubt
+                << "; look at up and front of the scalp, or give up, front and region";
+        context.log(LogLevel::warning, message.str());
+    }
+    if (!scalp.knows_unit()) {
+        std::ostringstream message;
+        message.precision(3);
+        message << "the unit of the head is not known: it is " << frame.width
+                << " wide, and hair is made as for an average head of 0.155 m; give the unit";
+        context.log(LogLevel::warning, message.str());
+    }
 }
 
 void require_options(const Mesh& head, const ScalpOptions& options) {
@@ -45,18 +71,21 @@ HeadFrame checked_frame(const Mesh& head, const ScalpOptions& options, const Con
 Scalp::Scalp(const Mesh& head, const ScalpOptions& options, const Context& context)
     : frame_(checked_frame(head, options, context)),
       scale_(frame_.width / kAverageWidth),
-      unit_(options.unit.value_or(guessed_unit(frame_.width))),
+      unit_(options.unit.value_or(usual_unit(frame_.width).value_or(kAverageWidth / frame_.width))),
       region_(Region::none(head.shared_topology())),
       normals_(vertex_normals(head)),
       tree_(head, context) {
     charge_ = context.charge(
         static_cast<std::size_t>(head.vertex_count()) * (sizeof(Vec3) + sizeof(double)),
         "the scalp");
+    knows_unit_ = options.unit || usual_unit(frame_.width);
     choose_region(head, options);
-    if (!region_.empty() && !root_faces_.empty()) return;
-    throw Error(ErrorCode::region_empty,
-                guessed_ ? "no face of the head lies above the hairline; give a region"
-                         : "the scalp's region holds no face of the head");
+    if (region_.empty() || root_faces_.empty()) {
+        throw Error(ErrorCode::region_empty,
+                    guessed_ ? "no face of the head lies above the hairline; give a region"
+                             : "the scalp's region holds no face of the head");
+    }
+    tell_doubts(*this, options, context);
 }
 
 void Scalp::choose_region(const Mesh& head, const ScalpOptions& options) {

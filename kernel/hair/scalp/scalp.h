@@ -57,9 +57,15 @@ class Scalp {
     /// Mesh units in one metre of the scalp's frame: the head's width over that of an average head
     /// (0.155 m). Styles made in metres fit every head.
     double scale() const { return scale_; }
-    /// Metres in one unit of the mesh: as given, or the usual unit that makes this the width of a
-    /// person's head, or 1 / scale() where none does.
+    /// Metres in one unit of the mesh: as given, or the usual unit (metre, centimetre, millimetre,
+    /// decimetre or inch) that makes this the width of a person's head, or, where none does,
+    /// 1 / scale(), with which it is an average head.
     double unit() const { return unit_; }
+    /// False where no usual unit makes this a person's head, as for a model scaled to some size.
+    bool knows_unit() const { return knows_unit_; }
+    /// How sure the frame is, 0 to 1: as HeadFrame::confidence. Where it is below 0.5 and something
+    /// was guessed, making the scalp logs a warning.
+    double confidence() const { return frame_.confidence; }
     /// Whether the region was guessed from the hairline.
     bool guessed() const { return guessed_; }
     const Region& region() const { return region_; }
@@ -106,7 +112,7 @@ class Scalp {
 
     HeadFrame frame_;
     double scale_ = 1.0, unit_ = 1.0;
-    bool guessed_ = false;
+    bool guessed_ = false, knows_unit_ = true;
     Region region_;
     std::vector<Index> root_faces_;
     std::vector<double> margins_;

@@ -140,7 +140,8 @@ class Hasher {
     template <typename Value>
     void add_values(const StrandValues<Value>& values) {
         add(static_cast<Index>(values.domain));
-        add(values.common);
+        // Where there are others it is not used.
+        if (values.domain == StrandDomain::all) add(values.common);
         add_list(values.values);
     }
     std::uint64_t value() const { return state_; }

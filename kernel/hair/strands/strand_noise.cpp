@@ -16,6 +16,11 @@ namespace {
 // Noise of gradients rarely leaves two thirds of its bound of 1; this spreads it over [-1, 1].
 constexpr double kSpread = 1.5;
 
+// How much the deviation may change along a segment, as a fraction of its length: so much turns it
+// by 27 degrees. Of segments shorter than usual it is less still: where hair turns sharply, as at
+// tips that run out in a weak field, it has short segments.
+constexpr double kSteepest = 0.5;
+
 double faded(double x) {
     return x * x * x * (x * (x * 6.0 - 15.0) + 10.0);
 }
@@ -67,12 +72,13 @@ class Deviations {
     Deviations(const StrandView& strand, const NoiseOptions& options)
         : strand_(strand), options_(options), length_(length(strand)) {
         arc_fractions(strand, t_);
+        usual_ = 1.0 / static_cast<double>(t_.size() - 1);
         root_ = strand.col(0).cast<double>() / options.across;
         at_root_ = sample(0.0);
     }
 
     void add_to(StrandEdit& made) const {
-        Vec3 sum = Vec3::Zero();
+        Vec3 sum = Vec3::Zero(), deviation = Vec3::Zero();
         for (Index k = 1; k < strand_.cols(); ++k) {
             const auto i = static_cast<std::size_t>(k);
             const Vec3 wanted =
@@ -80,11 +86,19 @@ class Deviations {
             sum = options_.cumulative ? Vec3(sum + (t_[i] - t_[i - 1]) * wanted) : wanted;
             const Vec3 along = direction_at(strand_, k);
             const Vec3 across = sum - along.dot(sum) * along;
-            made.col(k) += (options_.amplitude * across).cast<float>();
+            deviation += limited(options_.amplitude * across - deviation, t_[i] - t_[i - 1]);
+            made.col(k) += deviation.cast<float>();
         }
     }
 
   private:
+    // A change of the deviation along a segment of this fraction of the strand.
+    Vec3 limited(const Vec3& change, double segment) const {
+        const double most = kSteepest * length_ * segment * std::min(1.0, segment / usual_);
+        const double size = change.norm();
+        return size > most ? Vec3(most / size * change) : change;
+    }
+
     // The diagonal has no direction in common with the lattice, whose planes would show.
     Vec3 sample(double arc) const {
         const double shift = arc / options_.along;
@@ -95,6 +109,8 @@ class Deviations {
     const NoiseOptions& options_;
     double length_;
     std::vector<double> t_;
+    // Fraction of the length that a segment has on average.
+    double usual_ = 1.0;
     Vec3 root_, at_root_;
 };
 

@@ -67,7 +67,10 @@ void smooth(Strands& strands, const StrandSmoothOptions& options, const Context&
     const auto move = [&](Index, const StrandView& old, StrandEdit& made) {
         std::vector<Vec3> points;
         for (Index k = 0; k < old.cols(); ++k) points.push_back(old.col(k).cast<double>());
-        for (Index i = 0; i < options.iterations; ++i) smooth_once(options.strength, points);
+        for (Index i = 0; i < options.iterations; ++i) {
+            context.checkpoint();
+            smooth_once(options.strength, points);
+        }
         for (Index k = 0; k < old.cols(); ++k) made.col(k) = points[at(k)].cast<float>();
     };
     move_points(strands, move, context);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kLengthStream = 1, kPlaneStream = 2;
 
-void require_trim(const TrimOptions& options) {
+void require_trim(const StrandTrimOptions& options) {
     require(options.length > 0.0, "the length to trim to must be positive");
     require(options.factor >= 0.0 && options.factor <= 1.0,
             "the factor of a trim must be from 0 to 1");
@@ -33,7 +33,7 @@ void require_trim(const TrimOptions& options) {
 // The part of a strand before it first passes the plane at a distance of `shift`; 1 where it does
 // not.
 double part_before_plane(const StrandView& strand, const std::vector<double>& fractions,
-                         const TrimPlane& plane, double shift) {
+                         const StrandTrimPlane& plane, double shift) {
     const Vec3 normal = plane.normal.normalized();
     double before = 0.0;
     for (Index k = 0; k < strand.cols(); ++k) {
@@ -51,7 +51,7 @@ double part_before_plane(const StrandView& strand, const std::vector<double>& fr
 
 // The part of a strand that is left, 0 to 1.
 double kept_part(const StrandView& strand, std::uint32_t id, const std::vector<double>& fractions,
-                 const TrimOptions& options) {
+                 const StrandTrimOptions& options) {
     const double whole = length(strand);
     if (!(whole > 0.0) || !std::isfinite(whole)) return 1.0;
     double part = std::min(options.factor, options.length / whole);
@@ -66,7 +66,7 @@ double kept_part(const StrandView& strand, std::uint32_t id, const std::vector<d
 
 }  // namespace
 
-void trim(Strands& strands, const TrimOptions& options, const Context& context) {
+void trim(Strands& strands, const StrandTrimOptions& options, const Context& context) {
     require_trim(options);
     Progress progress(context, "trim strands");
     const auto find = [&](Index s, std::vector<StrandPlace>& places) {

@@ -11,14 +11,14 @@
 namespace lissom {
 
 /// What lies on the side that `normal` points to is cut off.
-struct TrimPlane {
+struct StrandTrimPlane {
     Vec3 point = Vec3::Zero();
     /// Any length but zero.
     Vec3 normal = -Vec3::UnitY();
 };
 
 /// A strand is cut where the first of these says so.
-struct TrimOptions {
+struct StrandTrimOptions {
     /// Longest length that is left, in metres; infinite for no limit.
     double length = std::numeric_limits<double>::infinity();
     /// Part of its length that each strand keeps, 0 to 1.
@@ -26,7 +26,7 @@ struct TrimOptions {
     /// Each strand keeps this much less at most, at random, as a fraction of what it would keep;
     /// 0 to 1. Applies to `length` and `factor`.
     double variation = 0.0;
-    std::optional<TrimPlane> plane;
+    std::optional<StrandTrimPlane> plane;
     /// Each strand meets the plane moved by at most this along its normal, either way, at random,
     /// in metres.
     double jitter = 0.0;
@@ -38,6 +38,6 @@ struct TrimOptions {
 /// Cuts strands off at the tip; a new last point lies on the old strand. Roots stay, strands with
 /// nothing to cut stay to the bit, and what happens to a strand depends on it, its id and the seed
 /// alone. Errors: invalid_argument for options out of range; memory_limit, cancelled.
-void trim(Strands& strands, const TrimOptions& options, const Context& context = {});
+void trim(Strands& strands, const StrandTrimOptions& options, const Context& context = {});
 
 }  // namespace lissom

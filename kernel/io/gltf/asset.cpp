@@ -148,12 +148,37 @@ void reduce_meshes(Json& json) {
     }
 }
 
+struct MediaType {
+    std::string_view begin, type;
+};
+
+// Those that glTF and its extensions know, and others that textures are found in.
+constexpr MediaType kMediaTypes[] = {
+    {"\x89PNG", "image/png"},
+    {"\xff\xd8\xff", "image/jpeg"},
+    {"\xabKTX 20", "image/ktx2"},
+    {"\xabKTX 11", "image/ktx"},
+    {"DDS ", "image/vnd-ms.dds"},
+    {"GIF8", "image/gif"},
+    {"BM", "image/bmp"},
+    {"II*", "image/tiff"},
+    {"MM", "image/tiff"},
+    {"#?RADIANCE", "image/vnd.radiance"},
+    {"\x76\x2f\x31\x01", "image/x-exr"},
+};
+
+constexpr const char* kUnknownMediaType = "application/octet-stream";
+
+// The type of an image by its first bytes, or "".
 std::string sniffed_media_type(std::string_view bytes) {
-    if (bytes.starts_with("\x89PNG")) return "image/png";
-    if (bytes.starts_with("\xff\xd8\xff")) return "image/jpeg";
-    if (bytes.starts_with("\xabKTX 20")) return "image/ktx2";
-    if (bytes.starts_with("RIFF") && bytes.substr(8).starts_with("WEBP")) return "image/webp";
-    return "";
+    for (const MediaType& known : kMediaTypes) {
+        if (bytes.starts_with(known.begin)) return std::string(known.type);
+    }
+    if (bytes.starts_with("RIFF") &&
+        bytes.substr(std::min<std::size_t>(8, bytes.size())).starts_with("WEBP"))
+        return "image/webp";
+    const bool is_avif = bytes.size() > 8 && bytes.substr(4).starts_with("ftypavif");
+    return is_avif ? "image/avif" : "";
 }
 
 void describe_images(Json& json, const std::vector<SharedBytes>& images) {
@@ -167,6 +192,8 @@ void describe_images(Json& json, const std::vector<SharedBytes>& images) {
         image.erase("uri");
         const std::string type = sniffed_media_type(*images[i]);
         if (!type.empty()) image["mimeType"] = type;
+        // Images inside a file must have a type; readers find out by themselves what this one is.
+        if (text_member(image, "mimeType").empty()) image["mimeType"] = kUnknownMediaType;
     }
 }
 

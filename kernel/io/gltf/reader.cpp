@@ -17,6 +17,7 @@
 #include "kernel/io/gltf/nodes.h"
 #include "kernel/io/record/skipped_content.h"
 #include "kernel/io/stream/read_error.h"
+#include "kernel/mesh/label_adder.h"
 
 namespace lissom {
 namespace {
@@ -238,7 +239,9 @@ class SurfaceReader {
     // Gives faces of a mesh that was several objects the labels that they had.
     void relabel_objects(const FaceLabels& labels, Index first_face) {
         std::vector<Index> renumbered;
-        for (const std::string& name : labels.names) renumbered.push_back(object_labels_.add(name));
+        for (const std::string& name : labels.names) {
+            renumbered.push_back(object_adder_.add(name));
+        }
         for (std::size_t i = 0; i < labels.of_face.size(); ++i) {
             const Index label = labels.of_face[i];
             object_labels_.of_face[static_cast<std::size_t>(first_face) + i] =
@@ -272,7 +275,8 @@ class SurfaceReader {
         FaceLabels& all = mesh_.attributes.labels()[kind];
         all.of_face.resize(static_cast<std::size_t>(first_face), kNoIndex);
         std::vector<Index> renumbered;
-        for (const std::string& name : labels.names) renumbered.push_back(all.add(name));
+        LabelAdder& adder = adders_.try_emplace(kind, all).first->second;
+        for (const std::string& name : labels.names) renumbered.push_back(adder.add(name));
         for (const Index label : labels.of_face) {
             all.of_face.push_back(label == kNoIndex ? kNoIndex : renumbered[label]);
         }
@@ -304,6 +308,9 @@ class SurfaceReader {
     const Context& context_;
     MeshData mesh_;
     FaceLabels object_labels_, material_labels_;
+    LabelAdder object_adder_{object_labels_};
+    // By kind, of the other labels.
+    std::map<std::string, LabelAdder> adders_;
     SkippedContent skipped_;
     VertexReader vertices_;
     std::set<std::string> corner_attributes_;

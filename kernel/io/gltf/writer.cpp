@@ -43,8 +43,9 @@ Index uv_count(const Json& material) {
 // Puts a document together of what a mesh and its asset hold.
 class DocumentWriter {
   public:
-    DocumentWriter(SavedParts& parts, const Context& context)
+    DocumentWriter(SavedParts& parts, const SaveOptions& options, const Context& context)
         : parts_(parts),
+          moves_origin_(options.origin == FileOrigin::automatic),
           context_(context),
           asset_(dynamic_cast<const GltfAsset*>(parts.take_asset().get())),
           attributes_(take_attributes(parts)) {
@@ -106,6 +107,7 @@ class DocumentWriter {
             progress.update(double(o) / double(count));
             write_object(objects[o], pools, o, writer);
         }
+        writer.float_loss().require_small("glTF", !moves_origin_, context_);
         log_changes(writer);
     }
 
@@ -177,16 +179,60 @@ class DocumentWriter {
         const std::optional<std::size_t> old_node = node_of(label);
         ObjectPlace place = old_node ? place_at(*old_node) : ObjectPlace();
         if (!old_node && !label.empty()) place.mesh["name"] = label;
+        const std::size_t node =
+            moved_node(old_node, label, pools.pool(number).vertices, place.to_node);
         std::vector<PlacedMaterial> materials;
         for (const SurfacePrimitive& primitive : object.primitives) {
             materials.push_back(placed_material(primitive.material));
         }
-        put_mesh(old_node ? *old_node : add_node(label),
-                 writer.write(object, pools, number, place, materials));
+        put_mesh(node, writer.write(object, pools, number, place, materials));
     }
 
     void write_points(MeshWriter& writer) {
-        put_mesh(add_node(""), writer.write_points(ObjectPlace()));
+        ObjectPlace place;
+        const std::vector<Index> all = pool_of_points(parts_.mesh()).vertices;
+        const std::size_t node = moved_node(std::nullopt, "", all, place.to_node);
+        put_mesh(node, writer.write_points(place));
+    }
+
+    // The node of an object: the old one, or a new one. Where the origin is to be moved and is far,
+    // it is a new one in the middle of `vertices`, below the old one, and `to_node` leads there.
+    std::size_t moved_node(std::optional<std::size_t> old_node, const std::string& label,
+                           const std::vector<Index>& vertices, NodeTransform& to_node) {
+        Vec3 origin = Vec3::Zero();
+        if (moves_origin_ && !(old_node && is_bound(*old_node))) {
+            Box box;
+            for (const Index v : vertices) box.extend(to_node.position(parts_.mesh().position(v)));
+            origin = near_origin(box);
+        }
+        if (origin.isZero(0.0)) return old_node ? *old_node : add_node(label);
+        to_node = to_node.moved(-origin);
+        const std::size_t node = old_node ? add_child(*old_node, label) : add_node(label);
+        json_["nodes"][node]["translation"] = {origin.x(), origin.y(), origin.z()};
+        return node;
+    }
+
+    // Whether the mesh has to stay at its node: its skin or its weights are there.
+    bool is_bound(std::size_t node) const {
+        const Json& json = json_["nodes"][node];
+        if (is_skinned(node) || json.contains("weights")) return true;
+        bool is_animated = false;
+        const Json* animations = member(json_, "animations");
+        if (!animations) return false;
+        for_each_object(*animations, [&](const Json& object) {
+            is_animated = is_animated ||
+                          (text_member(object, "path") == "weights" &&
+                           index_member(object, "node", "an animation") == static_cast<int>(node));
+        });
+        return is_animated;
+    }
+
+    std::size_t add_child(std::size_t parent, const std::string& name) {
+        Json& nodes = json_["nodes"];
+        const std::size_t number = nodes.size();
+        nodes.push_back({{"name", name}});
+        list_in(nodes[parent], "children").push_back(number);
+        return number;
     }
 
     void put_mesh(std::size_t node, Json mesh) {
@@ -322,6 +368,7 @@ class DocumentWriter {
     }
 
     SavedParts& parts_;
+    bool moves_origin_;
     const Context& context_;
     const GltfAsset* asset_;
     WrittenAttributes attributes_;
@@ -347,15 +394,17 @@ Json document_of(DocumentWriter& writer) {
 
 }  // namespace
 
-void write_gltf(SavedParts& parts, const SaveOptions&, std::string& bytes, const Context& context) {
-    DocumentWriter writer(parts, context);
+void write_gltf(SavedParts& parts, const SaveOptions& options, std::string& bytes,
+                const Context& context) {
+    DocumentWriter writer(parts, options, context);
     Json json = document_of(writer);
     if (!writer.binary().empty()) json["buffers"][0]["uri"] = make_data_uri(writer.binary());
     bytes = to_text(json);
 }
 
-void write_glb(SavedParts& parts, const SaveOptions&, std::string& bytes, const Context& context) {
-    DocumentWriter writer(parts, context);
+void write_glb(SavedParts& parts, const SaveOptions& options, std::string& bytes,
+               const Context& context) {
+    DocumentWriter writer(parts, options, context);
     const std::string json = to_text(document_of(writer));
     bytes = make_glb(json, writer.binary());
 }

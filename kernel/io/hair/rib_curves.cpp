@@ -12,15 +12,6 @@ namespace {
 
 constexpr int kValuesInLine = 24;
 
-std::string quoted(std::string_view name) {
-    std::string text = "\"";
-    for (const char c : one_line(name)) {
-        if (c == '"' || c == '\\') text += '\\';
-        text += c;
-    }
-    return text + '"';
-}
-
 class RibWriter {
   public:
     RibWriter(const Strands& strands, std::string& text, const Context& context)
@@ -28,7 +19,6 @@ class RibWriter {
 
     void write() {
         Progress progress(context_, "write strands");
-        text_ += "##RenderMan RIB-Structure 1.1\nversion 3.04\n";
         std::vector<std::vector<Index>> blocks(strands_.group_names().size() + 1);
         for (Index s = 0; s < strands_.size(); ++s) {
             const Index group = strands_.group(s);
@@ -44,7 +34,7 @@ class RibWriter {
   private:
     void write_block(const std::vector<Index>& list, std::string_view name) {
         text_ +=
-            "AttributeBegin\nAttribute \"identifier\" \"string name\" [" + quoted(name) + "]\n";
+            "AttributeBegin\nAttribute \"identifier\" \"string name\" [" + rib_text(name) + "]\n";
         const StrandValues<Eigen::Vector3f>* const colors = strands_.colors();
         if (colors && colors->domain == StrandDomain::all) {
             text_ += "Color [";
@@ -117,8 +107,17 @@ class RibWriter {
 
 }  // namespace
 
-void write_rib(const Strands& strands, std::string& bytes, const Context& context) {
-    bytes.reserve(40 * static_cast<std::size_t>(strands.point_count()) + 1000);
+std::string rib_text(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : one_line(text)) {
+        if (c == '"' || c == '\\') result += '\\';
+        result += c;
+    }
+    return result + '"';
+}
+
+void write_rib_curves(const Strands& strands, std::string& bytes, const Context& context) {
+    bytes.reserve(bytes.size() + 40 * static_cast<std::size_t>(strands.point_count()) + 1000);
     RibWriter(strands, bytes, context).write();
 }
 

@@ -17,6 +17,12 @@ enum class UpAxis {
     z,     ///< turned about x, so that the file's z is the kernel's y and its y the kernel's -z
 };
 
+/// Where the origin of a file lies.
+enum class FileOrigin {
+    keep,       ///< where that of the mesh is
+    automatic,  ///< in the middle of a mesh that is farther from its origin than it is large
+};
+
 /// How the coordinates of a file become those of the mesh. Normals are turned but not scaled.
 struct LoadOptions {
     /// Which vertices at the same place become one; where absent, Weld::all for STL, which stores
@@ -42,6 +48,10 @@ struct SaveOptions {
     bool binary = true;
     /// Byte order of binary PLY.
     Endianness endianness = Endianness::little;
+    /// The file's origin: 32-bit numbers resolve more near it. glTF keeps the place of each object
+    /// in its node, but for nodes that a skin or an animation of weights uses; other formats cannot
+    /// hold it, so that SavedFile and a warning of the log tell it.
+    FileOrigin origin = FileOrigin::keep;
 };
 
 /// How the coordinates of a file become those of the strands.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "kernel/io/record/float_loss.h"
 #include "kernel/io/record/label_reader.h"
 #include "kernel/io/stream/byte_reader.h"
 #include "kernel/io/stream/text_reader.h"
@@ -192,6 +193,20 @@ void require_float_range(const Mesh& mesh) {
         std::move(beyond));
 }
 
+// STL joins vertices by their places.
+void require_float_precision(const Mesh& mesh, bool origin_moves, const Context& context) {
+    require_distinct_floats(mesh.positions(), mesh.topology().faces().vertices, "binary STL",
+                            origin_moves);
+    FloatLoss loss;
+    std::vector<Vec3> points;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        points.clear();
+        for (const Index v : mesh.topology().face(f)) points.push_back(mesh.position(v));
+        loss.look_at(f, points);
+    }
+    loss.require_small("binary STL", origin_moves, context);
+}
+
 void write_binary(const Mesh& mesh, const Triangulation& triangulation, std::string& bytes,
                   const Context& context) {
     require_float_range(mesh);
@@ -213,6 +228,21 @@ void write_binary(const Mesh& mesh, const Triangulation& triangulation, std::str
         for (const Vec3& corner : flat.corners) append_floats(bytes, corner);
         bytes.append(2, '\0');
     }
+}
+
+// STL has no other elements.
+void require_triangles(const Mesh& mesh, const Context& context) {
+    if (mesh.face_count() == 0 && mesh.vertex_count() > 0) {
+        throw Error(ErrorCode::unsupported, "STL holds triangles, and the mesh has only " +
+                                                std::to_string(mesh.vertex_count()) +
+                                                " points; save it as .ply");
+    }
+    std::size_t alone = 0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) alone += mesh.topology().is_isolated(v);
+    if (alone == 0) return;
+    context.log(
+        LogLevel::warning,
+        std::to_string(alone) + " vertices without faces were not saved: STL holds triangles");
 }
 
 void append_facet(std::string& text, const FlatTriangle& flat) {
@@ -267,8 +297,12 @@ MeshData read_stl(std::string_view bytes, const Context& context) {
 void write_stl(SavedParts& parts, const SaveOptions& options, std::string& bytes,
                const Context& context) {
     const Mesh& mesh = parts.mesh();
+    require_triangles(mesh, context);
     const Triangulation triangulation = triangulate_faces(mesh.topology(), mesh.positions());
-    if (options.binary) return write_binary(mesh, triangulation, bytes, context);
+    if (options.binary) {
+        require_float_precision(mesh, options.origin == FileOrigin::keep, context);
+        return write_binary(mesh, triangulation, bytes, context);
+    }
     write_text(mesh, triangulation, parts.take_labels("object"), bytes, context);
 }
 

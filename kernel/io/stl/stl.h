@@ -20,8 +20,10 @@ MeshData read_stl(std::string_view bytes, const Context& context);
 bool is_binary_stl(std::string_view bytes);
 
 /// Writes triangles (polygons are triangulated) with their normals; text has one solid for each run
-/// of faces of one object. Binary has 32-bit numbers. Errors: not_finite naming the vertices that
-/// are beyond the range of 32-bit numbers.
+/// of faces of one object. Binary has 32-bit numbers. A warning of the log counts the vertices
+/// without faces, which are not written. Errors: unsupported where there are only vertices;
+/// not_finite naming the vertices that are beyond the range of 32-bit numbers; unsupported
+/// where these numbers would join vertices or flatten faces.
 void write_stl(SavedParts& parts, const SaveOptions& options, std::string& bytes,
                const Context& context);
 

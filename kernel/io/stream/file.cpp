@@ -7,13 +7,17 @@
 #include <random>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/core/nearest.h"
 
 #ifdef _WIN32
 #include <io.h>
 #else
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -55,6 +59,13 @@ bool flush_to_disk(std::FILE* file) {
 #endif
 }
 
+// A path with a zero byte would name another file: the system reads it up to there.
+void require_no_zero(ErrorCode code, const fs::path& path) {
+    if (path.native().find(fs::path::value_type{}) == fs::path::string_type::npos) return;
+    throw Error(code, "the path has a zero byte after '" + std::string(display_name(path).c_str()) +
+                          "'; remove it");
+}
+
 // Makes a rename in `folder` durable. Not every file system can; the new content is in place
 // anyway.
 void flush_folder([[maybe_unused]] const fs::path& folder) {
@@ -70,19 +81,92 @@ fs::path folder_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+constexpr std::string_view kTemporaryBegin = ".lissom-", kTemporaryEnd = ".tmp";
+
+bool is_temporary_name(const std::string& name) {
+    if (!name.starts_with(kTemporaryBegin) || !name.ends_with(kTemporaryEnd)) return false;
+    const std::size_t begin = kTemporaryBegin.size(), end = name.size() - kTemporaryEnd.size();
+    return begin < end && name.find_first_not_of("0123456789", begin) == end;
+}
+
+#ifndef _WIN32
+
+// Marks the file as one that is being written: the lock goes with the process, however it ends.
+// False where the file was taken for a left over one before. Not every file system has locks.
+bool lock_new(std::FILE* file) {
+    if (flock(fileno(file), LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
+    struct stat status {};
+    return fstat(fileno(file), &status) == 0 && status.st_nlink > 0;
+}
+
+// Holds the lock of a file on, when the file is closed.
+class HeldLock {
+  public:
+    explicit HeldLock(std::FILE* file) : descriptor_(fcntl(fileno(file), F_DUPFD_CLOEXEC, 0)) {}
+    HeldLock(const HeldLock&) = delete;
+    HeldLock& operator=(const HeldLock&) = delete;
+    ~HeldLock() {
+        if (descriptor_ >= 0) close(descriptor_);
+    }
+
+  private:
+    int descriptor_;
+};
+
+// Whether the file is ours and nobody writes it: what is left of a process that was killed.
+bool is_left_over(int descriptor) {
+    struct stat status {};
+    return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+           status.st_uid == geteuid() && flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+}
+
+void remove_left_over(const fs::path& path) {
+    const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor < 0) return;
+    std::error_code ignored;
+    if (is_left_over(descriptor)) fs::remove(path, ignored);
+    close(descriptor);
+}
+
+#else
+
+bool lock_new(std::FILE*) {
+    return true;
+}
+
+struct HeldLock {
+    explicit HeldLock(std::FILE*) {}
+    ~HeldLock() {}
+};
+
+// An open file cannot be removed there.
+void remove_left_over(const fs::path& path) {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+}
+
+#endif
+
+// Removes the temporary files that killed processes have left in a folder.
+void remove_left_overs(const fs::path& folder) {
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const fs::path& path = entry->path();
+        if (is_temporary_name(display_name(path.filename()))) remove_left_over(path);
+    }
+}
+
 // A new file next to the one it shall replace. Unless it has replaced it, it is removed in the end.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const fs::path& target) : target_(target) {
-        std::random_device random;
         constexpr int kAttempts = 16;
+        std::error_code reason;
         for (int i = 0; i < kAttempts && !file_; ++i) {
-            const std::string name = ".lissom-" + std::to_string(random()) + ".tmp";
-            path_ = folder_of(target) / name;
-            file_ = open_new(path_);
-            if (!file_ && errno != EEXIST) break;
+            if (!open_file(reason)) refuse_write(target_, reason);
         }
-        if (!file_) refuse_write(target_, last_error());
+        if (!file_) refuse_write(target_, reason);
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -104,6 +188,8 @@ class TemporaryFile {
 
     void replace_target() {
         if (!flush_to_disk(file_)) fail(last_error());
+        // Until it has its name, it must not look as if it were left over.
+        const HeldLock lock(file_);
         if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(last_error());
         std::error_code error;
         fs::rename(path_, target_, error);
@@ -113,6 +199,18 @@ class TemporaryFile {
     }
 
   private:
+    // Tries one name; false where no other can do better.
+    bool open_file(std::error_code& reason) {
+        std::random_device random;
+        path_ = folder_of(target_) / (std::string(kTemporaryBegin) + std::to_string(random()) +
+                                      std::string(kTemporaryEnd));
+        file_ = open_new(path_);
+        reason = last_error();
+        if (!file_) return reason == std::errc::file_exists;
+        if (!lock_new(file_)) std::fclose(std::exchange(file_, nullptr));
+        return true;
+    }
+
     [[noreturn]] void fail(const std::error_code& reason) const { refuse_write(target_, reason); }
 
     fs::path target_, path_;
@@ -154,7 +252,41 @@ void require_replaceable(const fs::path& path, const fs::file_status& status) {
     }
 }
 
+// Of files, or of folders only; at most the first of a very large folder.
+std::vector<std::string> names_in(const fs::path& folder, bool folders) {
+    constexpr std::size_t kMostNames = 20000;
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+        std::error_code unknown;
+        if (at->is_directory(unknown) != folders) continue;
+        names.push_back(display_name(at->path().filename()));
+        if (names.size() == kMostNames) break;
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string nearest_in(const fs::path& path, bool folders) {
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const std::vector<std::string> names = names_in(folder, folders);
+    const std::string_view nearest = nearest_name(
+        display_name(path.filename()), std::vector<std::string_view>(names.begin(), names.end()));
+    if (nearest.empty()) return "";
+    return ", did you mean '" +
+           display_name(path.parent_path() / std::u8string(nearest.begin(), nearest.end())) + "'?";
+}
+
 }  // namespace
+
+std::string missing_file_text(const fs::path& path) {
+    std::error_code error;
+    const fs::path folder = path.parent_path();
+    if (folder.empty() || fs::exists(folder, error)) {
+        return "there is no such file" + nearest_in(path, false);
+    }
+    return "there is no folder '" + display_name(folder) + "'" + nearest_in(folder, true);
+}
 
 std::string display_name(const fs::path& path) {
     const auto utf8 = path.u8string();
@@ -162,10 +294,11 @@ std::string display_name(const fs::path& path) {
 }
 
 void require_file(const fs::path& path) {
+    require_no_zero(ErrorCode::file_not_found, path);
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) {
-        refuse(ErrorCode::file_not_found, path, "there is no such file");
+        refuse(ErrorCode::file_not_found, path, missing_file_text(path));
     }
     if (fs::is_directory(status)) {
         refuse(ErrorCode::file_is_directory, path, "is a folder; add the file's name");
@@ -175,6 +308,28 @@ void require_file(const fs::path& path) {
         refuse(ErrorCode::file_unreadable, path, "is not a regular file");
     }
     if (size_of_file(path) == 0) refuse(ErrorCode::file_empty, path, "the file is empty");
+}
+
+void require_folder_of(const fs::path& path) {
+    require_no_zero(ErrorCode::file_write_failed, path);
+    std::error_code error;
+    const fs::path folder = folder_of(path);
+    if (fs::is_directory(folder, error)) return;
+    const bool is_file = fs::exists(folder, error);
+    refuse(ErrorCode::file_write_failed, path,
+           "could not be written: " + std::string(is_file ? "'" : "there is no folder '") +
+               display_name(folder) + (is_file ? "' is not a folder" : "'; make it first"));
+}
+
+void make_folder(const fs::path& path) {
+    require_no_zero(ErrorCode::file_write_failed, path);
+    std::error_code error;
+    if (path.empty() || fs::is_directory(path, error)) return;
+    fs::create_directories(path, error);
+    if (!error && fs::is_directory(path, error)) return;
+    refuse(ErrorCode::file_write_failed, path,
+           "the folder cannot be made: " +
+               (error ? error : std::make_error_code(std::errc::file_exists)).message());
 }
 
 FileContent read_file(const fs::path& path, const Context& context) {
@@ -200,7 +355,9 @@ FileContent read_file(const fs::path& path, const Context& context) {
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes, const Context& context) {
+    require_no_zero(ErrorCode::file_write_failed, path);
     const fs::path target = follow_links(path);
+    require_folder_of(target);
     std::error_code ignored;
     const fs::file_status status = fs::status(target, ignored);
     const bool exists = fs::exists(status);
@@ -209,12 +366,14 @@ void write_file_atomically(const fs::path& path, std::string_view bytes, const C
     // Permissions come first: what is private shall not be open to others while it is written.
     TemporaryFile file(target);
     if (exists) file.take_permissions(status.permissions());
+    Progress progress(context, "write file");
     for (std::size_t done = 0; done < bytes.size(); done += kPieceBytes) {
-        context.checkpoint();
+        progress.update(static_cast<double>(done) / static_cast<double>(bytes.size()));
         file.write(bytes.substr(done, kPieceBytes));
     }
-    context.checkpoint();
+    progress.update(1.0);
     file.replace_target();
+    remove_left_overs(folder_of(target));
 }
 
 }  // namespace lissom

@@ -18,6 +18,10 @@ struct FileContent {
 /// The path as it appears in messages, in UTF-8.
 std::string display_name(const std::filesystem::path& path);
 
+/// "there is no such file, did you mean 'scan.obj'?": what a message says of a path that does not
+/// exist, with the nearest name in its folder, or of a folder that does not exist.
+std::string missing_file_text(const std::filesystem::path& path);
+
 /// Throws where `path` is not a regular file with content.
 /// Errors: file_not_found, file_is_directory, file_empty, file_unreadable.
 void require_file(const std::filesystem::path& path);
@@ -26,10 +30,18 @@ void require_file(const std::filesystem::path& path);
 /// Errors: as `require_file`; memory_limit; cancelled.
 FileContent read_file(const std::filesystem::path& path, const Context& context = {});
 
+/// Throws where no file can be made at `path` because its folder is missing: before long work whose
+/// result is to be saved there. Errors: file_write_failed.
+void require_folder_of(const std::filesystem::path& path);
+
+/// Makes the folder `path`, and those above it, where they are missing. Errors: file_write_failed.
+void make_folder(const std::filesystem::path& path);
+
 /// Replaces the content of the file at `path`, or creates it. The bytes go to a temporary file in
 /// the same folder, are flushed to the disk and then renamed, so that a reader sees the old content
 /// or the new one, and no error leaves a trace. A file that exists keeps its permissions; where
-/// `path` is a symbolic link, the file it points to is replaced. Errors: file_is_directory;
+/// `path` is a symbolic link, the file it points to is replaced. Temporary files of processes that
+/// were killed while they wrote into the folder are removed. Errors: file_is_directory;
 /// file_write_failed, also for a file that is read-only or not a regular one; cancelled.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
                            const Context& context = {});

@@ -157,6 +157,7 @@ void make_linear(CurvesPrim& prim) {
     convert(prim.widths, 1, "widths");
     convert(prim.uvs, 2, "st");
     convert(prim.colors, 3, "displayColor");
+    convert(prim.opacities, 1, "displayOpacity");
     prim.points = sampled(prim.points, 3, counts, basis);
     prim.counts = std::move(new_counts);
     prim.type = "linear";

@@ -164,6 +164,17 @@ class LayerReader {
         if (name.is("primvars:displayColor")) {
             return read_values(prim.colors, CurveInterpolation::constant);
         }
+        if (name.is("primvars:displayOpacity")) {
+            return read_values(prim.opacities, CurveInterpolation::constant);
+        }
+        if (name.is("primvars:lissom:width")) {
+            return read_values(prim.base_widths, CurveInterpolation::constant);
+        }
+        if (name.is("primvars:lissom:transparency")) {
+            return read_values(prim.transparencies, CurveInterpolation::constant);
+        }
+        if (name.is("lissom:widthProfile")) return read_list(prim.width_profile);
+        if (name.is("lissom:comment")) return read_word(prim.comment);
         if (name.is("primvars:group")) return read_texts(prim.group_names);
         if (name.is("primvars:group:indices")) return read_list(prim.groups);
         if (name.is("primvars:strandId")) return read_list(prim.ids);

@@ -1,8 +1,10 @@
 /// Hair as BasisCurves of a USD layer in text form (.usda); private to kernel/io.
 ///
-/// Widths are diameters. Root uvs are primvars:st, colours primvars:displayColor; groups are the
-/// indexed primvar "group", ids, root faces and their weights the primvars "strandId", "rootFace"
-/// and "rootBarycentrics", for which USD has no names of its own.
+/// Widths are diameters. Root uvs are primvars:st, colours primvars:displayColor, transparency is
+/// primvars:displayOpacity; groups are the indexed primvar "group", ids, root faces and their
+/// weights the primvars "strandId", "rootFace" and "rootBarycentrics", for which USD has no names
+/// of its own. What strands hold beside that - the profile of the widths, the comment - is in
+/// attributes of the namespace "lissom", so that they come back as they were.
 #pragma once
 
 #include <optional>
@@ -31,7 +33,8 @@ struct UsdaHair {
 /// curves that change over time or stand under a transform; cancelled, memory_limit.
 UsdaHair read_usda(std::string_view bytes, const Context& context);
 
-/// Writes one BasisCurves "Hair", linear, with a width for each point where they differ.
+/// Writes one BasisCurves "Hair", linear, with a width for each point where they differ. What is
+/// read back has the same hash in the same unit.
 void write_usda(const Strands& strands, double meters_per_unit, UpAxis up, std::string& bytes,
                 const Context& context);
 

@@ -1,8 +1,11 @@
 #include "kernel/io/usda/prim.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "kernel/hair/strands/strand_measures.h"
 
 namespace lissom {
 namespace {
@@ -54,16 +57,59 @@ StrandDomain domain_of(const CurvesPrim& prim, const CurveValues& values, std::s
                           "' where their interpolation needs " + std::to_string(expected));
 }
 
+// Numbers, one a value, in their domain.
+template <typename Values>
+void take_values(const CurvesPrim& prim, const CurveValues& from, const Counts& counts,
+                 const char* what, Values& to) {
+    to.domain = domain_of(prim, from, 1, counts, what);
+    if (to.domain == StrandDomain::all) {
+        to.common = from.numbers.front();
+    } else {
+        to.values = from.numbers;
+    }
+}
+
+// Whether widths at all points are what the file says.
+bool are_widths(const Strands& strands, const std::vector<float>& numbers) {
+    if (numbers.size() != static_cast<std::size_t>(strands.point_count())) return false;
+    std::vector<float> widths;
+    auto at = numbers.begin();
+    for (Index s = 0; s < strands.size(); ++s) {
+        widths_of(strands, s, widths);
+        if (!std::equal(widths.begin(), widths.end(), at)) return false;
+        at += strands.point_count(s);
+    }
+    return true;
+}
+
 void set_widths(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
     if (!prim.widths.found) return;
-    StrandWidths widths;
-    widths.domain = domain_of(prim, prim.widths, 1, counts, "widths");
-    if (widths.domain == StrandDomain::all) {
-        widths.common = prim.widths.numbers.front();
-    } else {
-        widths.values = prim.widths.numbers;
+    if (prim.base_widths.found && !prim.width_profile.empty()) {
+        StrandWidths widths;
+        take_values(prim, prim.base_widths, counts, "lissom:width", widths);
+        widths.profile = prim.width_profile;
+        strands.set_widths(std::move(widths));
+        if (are_widths(strands, prim.widths.numbers)) return;
     }
+    StrandWidths widths;
+    take_values(prim, prim.widths, counts, "widths", widths);
     strands.set_widths(std::move(widths));
+}
+
+void set_transparency(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
+    if (!prim.opacities.found) return;
+    StrandValues<float> values{0.0f};
+    CurveValues transparencies = prim.opacities;
+    for (float& x : transparencies.numbers) x = 1.0f - x;
+    const std::vector<float>& known = prim.transparencies.numbers;
+    const bool follows = known.size() == transparencies.numbers.size() &&
+                         std::equal(known.begin(), known.end(), prim.opacities.numbers.begin(),
+                                    [](float transparency, float opacity) {
+                                        return 1.0f - transparency == opacity;
+                                    });
+    if (follows) transparencies.numbers = known;
+    take_values(prim, transparencies, counts, "displayOpacity", values);
+    strands.set_transparency(std::move(values));
 }
 
 void set_colors(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
@@ -152,9 +198,11 @@ Strands strands_of(CurvesPrim prim) {
     Strands strands(std::move(prim.points), std::move(offsets));
     set_widths(prim, counts, strands);
     set_colors(prim, counts, strands);
+    set_transparency(prim, counts, strands);
     set_roots(prim, counts, strands);
     set_groups(prim, counts, strands);
     strands.set_ids(whole_numbers<std::uint32_t>(prim, prim.ids, counts.strands, 0, "strandId"));
+    strands.set_comment(std::move(prim.comment));
     return strands;
 }
 

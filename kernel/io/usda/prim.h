@@ -28,10 +28,15 @@ struct CurvesPrim {
     std::string type = "cubic", basis = "bezier", wrap = "nonperiodic";
     std::vector<double> counts;
     std::vector<float> points;
-    CurveValues widths, uvs, colors;
+    CurveValues widths, uvs, colors, opacities;
     std::vector<std::string> group_names;
     std::vector<double> groups, ids, faces;
     std::vector<float> barycentrics;
+    /// What this program knows besides: widths before their profile, and what opacities were made
+    /// of. They count where widths and opacities are still those that follow from them.
+    CurveValues base_widths, transparencies;
+    std::vector<float> width_profile;
+    std::string comment;
 };
 
 /// The strands of a prim. Errors: file_syntax at the prim where its numbers contradict each other;

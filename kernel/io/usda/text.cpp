@@ -29,6 +29,34 @@ bool closes(std::string_view token) {
     return token == ")" || token == "]" || token == "}";
 }
 
+int hex_digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+// The character that stands behind a backslash at `at`, which moves over it.
+char escaped_character(std::string_view text, std::size_t& at) {
+    const char c = text[at++];
+    if (c == 'n') return '\n';
+    if (c == 'r') return '\r';
+    if (c == 't') return '\t';
+    if (c != 'x' || at + 1 >= text.size()) return c;
+    const int high = hex_digit(text[at]), low = hex_digit(text[at + 1]);
+    if (high < 0 || low < 0) return c;
+    at += 2;
+    return static_cast<char>(16 * high + low);
+}
+
+std::string without_escapes(std::string_view text) {
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        const char c = text[at++];
+        result += c == '\\' && at < text.size() ? escaped_character(text, at) : c;
+    }
+    return result;
+}
+
 double number_of(const UsdaText::Token& token) {
     std::string_view text = token.value;
     if (text.starts_with('+')) text.remove_prefix(1);
@@ -206,7 +234,10 @@ std::vector<float> UsdaText::floats() {
 
 std::vector<std::string> UsdaText::texts() {
     std::vector<std::string> values;
-    visit_value([&](const Token& token) { values.emplace_back(token.value); });
+    visit_value([&](const Token& token) {
+        values.push_back(token.kind == Kind::text ? without_escapes(token.value)
+                                                  : std::string(token.value));
+    });
     return values;
 }
 

@@ -43,7 +43,8 @@ class UsdaText {
     /// As `numbers`, into 32 bits, where a value can be large. Errors: also not_finite naming the
     /// line.
     std::vector<float> floats();
-    /// Reads a list of texts, or one. Errors: as `numbers`.
+    /// Reads a list of texts, or one, what is escaped by backslashes as what it stands for. Errors:
+    /// as `numbers`.
     std::vector<std::string> texts();
 
     Place place() const { return {ElementKind::line, next_.line}; }

@@ -30,8 +30,10 @@ class LayerWriter {
         write_widths();
         progress.update(0.8);
         write_colors();
+        write_transparency();
         write_roots();
         write_groups();
+        write_comment();
         text_ += "}\n";
     }
 
@@ -83,20 +85,37 @@ class LayerWriter {
         list("float3[] extent", 2, [&](Index i) { tuple(corners[i].data(), 3); });
     }
 
-    void write_widths() {
-        const StrandWidths& widths = strands_.widths();
-        if (!widths.profile.empty()) return write_point_widths();
-        const auto count = static_cast<Index>(widths.values.size());
-        if (widths.domain == StrandDomain::all) {
-            list(
-                "float[] widths", 1, [&](Index) { append_number(text_, widths.common); },
-                "constant");
-            return;
-        }
+    // One number for all, for each strand or for each point.
+    template <typename Change>
+    void write_values(const std::string& name, const StrandValues<float>& values,
+                      const Change& change) {
+        const bool one = values.domain == StrandDomain::all;
         list(
-            "float[] widths", count,
-            [&](Index i) { append_number(text_, widths.values[static_cast<std::size_t>(i)]); },
-            interpolation(widths.domain));
+            name, one ? 1 : static_cast<Index>(values.values.size()),
+            [&](Index i) {
+                append_number(text_, change(one ? values.common
+                                                : values.values[static_cast<std::size_t>(i)]));
+            },
+            one ? "constant" : interpolation(values.domain));
+    }
+
+    void write_widths() {
+        const auto same = [](float width) { return width; };
+        const StrandWidths& widths = strands_.widths();
+        if (widths.profile.empty()) return write_values("float[] widths", widths, same);
+        write_point_widths();
+        write_values("float[] primvars:lissom:width", widths, same);
+        list("custom float[] lissom:widthProfile", static_cast<Index>(widths.profile.size()),
+             [&](Index i) { append_number(text_, widths.profile[static_cast<std::size_t>(i)]); });
+    }
+
+    void write_transparency() {
+        const StrandValues<float>& values = strands_.transparency();
+        if (values.domain == StrandDomain::all && values.common == 0.0f) return;
+        write_values("float[] primvars:displayOpacity", values,
+                     [](float transparency) { return 1.0f - transparency; });
+        write_values("float[] primvars:lissom:transparency", values,
+                     [](float transparency) { return transparency; });
     }
 
     void write_point_widths() {
@@ -158,13 +177,26 @@ class LayerWriter {
              [&](Index s) { append_number(text_, strands_.group(s)); });
     }
 
-    // Quotes and backslashes are not escaped, for they would have to be read back.
+    void write_comment() {
+        if (strands_.comment().empty()) return;
+        text_ += "    custom string lissom:comment = ";
+        append_text(strands_.comment());
+        text_ += '\n';
+    }
+
     void append_text(const std::string& name) {
-        std::string plain = one_line(name);
-        for (char& c : plain) {
-            if (c == '"' || c == '\\') c = '_';
+        constexpr const char* kHex = "0123456789abcdef";
+        text_ += '"';
+        for (const char c : name) {
+            const auto code = static_cast<unsigned char>(c);
+            if (code < 0x20) {
+                text_ += {'\\', 'x', kHex[code >> 4], kHex[code & 15]};
+                continue;
+            }
+            if (c == '"' || c == '\\') text_ += '\\';
+            text_ += c;
         }
-        text_ += '"' + plain + '"';
+        text_ += '"';
     }
 
     static const char* interpolation(StrandDomain domain) {

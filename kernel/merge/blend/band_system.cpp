@@ -1,8 +1,10 @@
 #include "kernel/merge/blend/band_system.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "kernel/deform/patch/row_accumulator.h"
+#include "kernel/merge/sew/seam_guard.h"
 #include "kernel/mesh/measure/directions.h"
 
 namespace lissom {
@@ -106,6 +108,28 @@ void BandSystem::write(Mesh& mesh) const {
     }
     mesh.set_positions(std::move(positions));
     directions.follow(mesh);
+}
+
+double BandSystem::write_guarded(Mesh& mesh, std::span<const std::vector<Index>> seams,
+                                 const Context& context) const {
+    std::vector<std::pair<Index, Vec3>> wanted;
+    for (Index i = 0; i < vertex_count(); ++i) {
+        if (moves(i)) wanted.emplace_back(mesh_vertex(i), x_[i] + patch_.origin);
+    }
+    std::sort(wanted.begin(), wanted.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Index> moving;
+    std::vector<Vec3> to;
+    for (const auto& [v, place] : wanted) {
+        moving.push_back(v);
+        to.push_back(place);
+    }
+    SeamGuard guard(mesh, seams, std::move(moving), context);
+    const double kept = guard.move(to);
+    const DirectionCarrier directions(mesh);
+    mesh.set_positions({guard.positions().begin(), guard.positions().end()});
+    directions.follow(mesh);
+    return kept;
 }
 
 }  // namespace lissom

@@ -17,7 +17,8 @@ struct SeamFairing {
     /// rings beside the seam have faces that sewing has changed, and show neither side's shape.
     Index core = 3;
     /// Umbrella steps within the tangent planes of the core, which spread its vertices before the
-    /// surface is bent; 0 or more.
+    /// surface is bent; 0 or more. Vertices that would move by a quarter of their shortest edge or
+    /// more stay.
     Index umbrella = 1;
     /// Times that the surface is bent, each from the shape before; at least 1.
     Index passes = 2;
@@ -28,10 +29,13 @@ struct SeamFairing {
 /// weighted by area, nearest to those it had; in the core to a mean curvature and normals that
 /// continue those around it. Seams whose bands meet are solved together. Vertices on open
 /// boundaries stay, and where a component has nothing else outside the band, those farthest from
-/// its seams. Every other vertex stays to the bit; "normal" attributes turn with the surface.
+/// its seams. Every other vertex stays to the bit; "normal" attributes turn with the surface. The
+/// way there is gone only as far as it does no harm: no dihedral angle at the seams may become
+/// greater than the greatest before, and no face may run through another that it did not.
 /// Returns the vertices of the band, ascending.
-/// Errors: invalid_argument for options out of range; out_of_range naming the vertices;
-/// not_positive_definite; memory_limit; cancelled. The mesh is then unchanged.
+/// Errors: invalid_argument for options out of range, or where two consecutive vertices of a seam
+/// share no edge; out_of_range naming the vertices; not_positive_definite; memory_limit; cancelled.
+/// The mesh is then unchanged.
 std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> seams,
                              const SeamFairing& options = {}, const Context& context = {});
 

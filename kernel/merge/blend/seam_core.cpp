@@ -1,11 +1,14 @@
 #include "kernel/merge/blend/seam_core.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace lissom {
 namespace {
 
 constexpr double kUmbrellaStrength = 0.5;
+// The most that an umbrella step moves a vertex, in its shortest edge.
+constexpr double kLongestStep = 0.25;
 
 // Cotangents count as at least this when the core is filled, which keeps its values between those
 // around it.
@@ -81,10 +84,16 @@ void SeamCore::umbrella(BandSystem& band) const {
     for (std::size_t k = 0; k < vertices_.size(); ++k) {
         const Index i = vertices_[k];
         Vec3 mean = Vec3::Zero();
-        for (const Index j : band.ring(i)) mean += band.position(j);
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const Index j : band.ring(i)) {
+            mean += band.position(j);
+            shortest = std::min(shortest, (band.position(j) - band.position(i)).norm());
+        }
         mean /= static_cast<double>(band.ring(i).size());
         const Vec3 way = mean - band.position(i), along = band.normal(i).dot(way) * band.normal(i);
-        next.push_back(band.position(i) + strength_[k] * (way - along));
+        Vec3 step = strength_[k] * (way - along);
+        if (step.norm() > kLongestStep * shortest) step.setZero();
+        next.push_back(band.position(i) + step);
     }
     for (std::size_t k = 0; k < vertices_.size(); ++k) {
         if (band.moves(vertices_[k])) band.set_position(vertices_[k], next[k]);

@@ -32,7 +32,8 @@ class SeamCore {
     /// One umbrella step within the tangent planes of the shape last measured: the core moves
     /// towards the mean of its neighbours, all at once, half the way on the seam and less in each
     /// ring away from it. Along the normal it would sink, and take with it the curvature that is
-    /// to be kept around it.
+    /// to be kept around it. Where the way is more than a quarter of a vertex's shortest edge, as
+    /// in the fans between loops of unlike density, triangles would turn over: that vertex stays.
     void umbrella(BandSystem& band) const;
 
     /// Laplacian coordinates for `band` to bend to, one for each local vertex: those of the shape

@@ -20,6 +20,10 @@ namespace {
 constexpr double kShareBetweenSeams = 0.5;
 constexpr double kShareOfSide = 0.9;
 
+// What suits a seam: this many of its radii, at least so many edges of the side, and at most this
+// share of the side, whose end is to stay recognisable.
+constexpr double kSuitableRadii = 0.9, kSuitableEdges = 3.0, kSuitableShare = 0.5;
+
 void check_transition(const Sewn& sewn, std::span<const TransitionWidths> widths,
                       const TransitionOptions& options) {
     if (widths.size() != sewn.seams.size()) {
@@ -78,6 +82,51 @@ double room_on(const BandChart& chart, Index seam, std::span<const Index> seam_a
         room = std::min(room, kShareBetweenSeams * chart.distance[i]);
     }
     return room;
+}
+
+// Median length of the edges that leave the seam's neighbours on one side; 0 without any.
+double edge_beside(const Sewn& sewn, std::span<const Index> seam, SeamSide side) {
+    const Topology& topology = sewn.mesh.topology();
+    std::vector<char> on_seam(static_cast<std::size_t>(topology.vertex_count()), 0);
+    for (const Index v : seam) on_seam[v] = 1;
+    std::vector<Index> ring;
+    for (const Index v : seam) {
+        for (const Index f : topology.faces_around(v)) {
+            if (sewn.side_of_face[f] != side) continue;
+            for (const Index w : topology.face(f)) {
+                if (!on_seam[w]) ring.push_back(w);
+            }
+        }
+    }
+    std::sort(ring.begin(), ring.end());
+    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+    std::vector<double> lengths;
+    for (const Index v : ring) {
+        for (const Index w : topology.neighbors(v)) {
+            if (!on_seam[w]) {
+                lengths.push_back((sewn.mesh.position(v) - sewn.mesh.position(w)).norm());
+            }
+        }
+    }
+    if (lengths.empty()) return 0.0;
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
+}
+
+double suitable_width(const Sewn& sewn, Index seam, SeamSide side, std::span<const Index> seam_at,
+                      const Context& context) {
+    const std::vector<Index>& loop = sewn.seams[seam];
+    double length = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        length +=
+            (sewn.mesh.position(loop[(k + 1) % loop.size()]) - sewn.mesh.position(loop[k])).norm();
+    }
+    const double width = std::max(kSuitableRadii * length / (2.0 * kPi),
+                                  kSuitableEdges * edge_beside(sewn, loop, side));
+    // A chart of twice the width knows whether half of the side is less than the width.
+    const BandChart chart = make_band_chart(sewn, loop, side, 2.0 * width, context);
+    return std::min({width, kSuitableShare * chart.farthest, room_on(chart, seam, seam_at)});
 }
 
 Transition make_transition(const Sewn& sewn, Index seam, const TransitionWidths& widths,
@@ -185,6 +234,16 @@ std::vector<Index> local_numbers(const BandSystem& band, Index vertex_count) {
 
 }  // namespace
 
+std::vector<TransitionWidths> suitable_widths(const Sewn& sewn, const Context& context) {
+    const std::vector<Index> seam_at = seams_at(sewn);
+    std::vector<TransitionWidths> widths;
+    for (Index k = 0; k < static_cast<Index>(sewn.seams.size()); ++k) {
+        widths.push_back({suitable_width(sewn, k, SeamSide::target, seam_at, context),
+                          suitable_width(sewn, k, SeamSide::source, seam_at, context)});
+    }
+    return widths;
+}
+
 TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> widths,
                                   const TransitionOptions& options, const Context& context) {
     check_transition(sewn, widths, options);
@@ -225,7 +284,7 @@ TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> 
     for (Index pass = 0; pass < options.passes; ++pass) {
         band.bend(core.relaxed(band, blended, context), context);
     }
-    band.write(sewn.mesh);
+    report.kept = band.write_guarded(sewn.mesh, sewn.seams, context);
     return report;
 }
 

@@ -18,6 +18,11 @@ struct TransitionWidths {
     double target = 0.0, source = 0.0;
 };
 
+/// Widths that suit each seam of `sewn`: .9 of its radius (length over 2 pi), at least three edges
+/// of the side beside it, at most half of the greatest distance there is on the side, and never
+/// more than there is room for. Errors: memory_limit; cancelled.
+std::vector<TransitionWidths> suitable_widths(const Sewn& sewn, const Context& context = {});
+
 struct TransitionOptions {
     /// The core of the seam, as SeamFairing: rings whose curvature continues what is around them,
     /// at least 1, umbrella steps within it, 0 or more, and times that the bands are bent, at
@@ -47,6 +52,9 @@ struct TransitionReport {
     std::vector<TransitionBand> target, source;
     /// Vertices that were free to move, ascending.
     std::vector<Index> moved;
+    /// The part of the way that the bands went: less than 1 where all of it would have folded the
+    /// surface.
+    double kept = 1.0;
 };
 
 /// Blends the two sides of every seam of `sewn` within bands beside it, in place. A vertex of one
@@ -55,7 +63,9 @@ struct TransitionReport {
 /// counterpart's, half of either at the seam and all its own at the end of the band (smoothstep);
 /// in the core of the seam what continues that around it. The bands take the shape with these
 /// curvatures in the least squares, weighted by area; everything else stays to the bit, open
-/// boundaries included. "normal" attributes turn with the surface.
+/// boundaries included. "normal" attributes turn with the surface. The way there is gone only as
+/// far as it does no harm: no dihedral angle at the seams may become greater than the greatest
+/// before, and no face may run through another that it did not.
 /// Errors: invalid_argument for a number of widths other than that of seams, widths that are
 /// negative or not finite, and options out of range; not_positive_definite; memory_limit;
 /// cancelled. The mesh is then unchanged.

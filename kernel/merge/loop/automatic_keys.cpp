@@ -16,8 +16,24 @@ constexpr int kSameGuess = kSamples / 10;
 // What a mismatch of normals counts beside a misfit of points in sizes of the target.
 constexpr double kNormalWeight = 0.5;
 constexpr double kFrameSigma = 0.015;
-// Steps of the search between samples: the last is a millionth of a loop.
-constexpr int kRefinements = 20;
+// Steps of the search between samples: the last is a billionth of a loop.
+constexpr int kRefinements = 30;
+// Certainty is told in costs of the best offset and at least these: of a fit alone, and where
+// directions or parts decide.
+constexpr double kFitFloor = 1e-6, kLeaningFloor = 0.05;
+// Costs that differ by less are equally good; sampling changes them by as much.
+constexpr double kTie = 1e-3;
+// Costs of neighbours that differ by less are level: rounding changes them by less than that where
+// a copy of the source lies elsewhere.
+constexpr double kFlat = 1e-6;
+// A rise below this is none, whatever the sign that rounding gives it.
+constexpr double kLevel = 1e-10;
+// Directions whose parts in the planes of the loops have a smaller product say nothing.
+constexpr double kLeastLean = 0.01;
+// What directions of the user's count where they are opposite to each other, halved.
+constexpr double kDirectionWeight = 4.0;
+// The same of the planes in which the parts are mirror images of themselves.
+constexpr double kMirrorWeight = 1.0;
 
 // A loop at evenly spaced parameters from `start`.
 struct Samples {
@@ -72,49 +88,60 @@ double misfit(const Samples& source, const Samples& target, const Similarity& s,
     return std::sqrt(squares / kSamples) / size + kNormalWeight * mismatch / kSamples;
 }
 
-// Where costs at cyclic offsets are lowest, and how certain that is.
-struct Lowest {
-    int offset = 0;
-    double certainty = 1.0;
-};
+using Costs = std::array<double, kSamples>;
 
-Lowest lowest(const std::array<double, kSamples>& cost) {
-    Lowest best;
-    best.offset = static_cast<int>(std::min_element(cost.begin(), cost.end()) - cost.begin());
-    double second = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < kSamples; ++k) {
-        const int apart = std::abs(k - best.offset);
-        if (std::min(apart, kSamples - apart) > kSameGuess) second = std::min(second, cost[k]);
-    }
-    // Costs below this are those of one fit.
-    const double floor = 1e-6;
-    best.certainty = (second + floor) / (cost[best.offset] + floor);
-    return best;
+int wrapped_sample(int k) {
+    return (k + kSamples) % kSamples;
 }
 
-// Golden section: `cost` has one minimum between a sample before and one after the best offset.
+// A bottom that is flat at the scale of samples has no place of its own.
+bool is_flat(const Costs& cost, int k) {
+    return std::max(cost[wrapped_sample(k - 1)], cost[wrapped_sample(k + 1)]) - cost[k] <= kFlat;
+}
+
+// The first of the offsets that are as good as the best one, or the bottom next to it.
+int first_of_lowest(const Costs& cost) {
+    const double least = *std::min_element(cost.begin(), cost.end());
+    int k = 0;
+    while (cost[k] > least + kTie) ++k;
+    while (!is_flat(cost, k)) {
+        const int before = wrapped_sample(k - 1), after = wrapped_sample(k + 1);
+        const int next = cost[before] < cost[after] - kFlat ? before : after;
+        if (!(cost[next] < cost[k])) break;
+        k = next;
+    }
+    return k;
+}
+
+// `floor`: costs below this are those of one fit.
+double certainty_of(const Costs& cost, int best, double floor) {
+    double second = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kSamples; ++k) {
+        const int apart = std::abs(k - best);
+        if (std::min(apart, kSamples - apart) > kSameGuess) second = std::min(second, cost[k]);
+    }
+    return std::max(1.0, (second + floor) / (cost[best] + floor));
+}
+
+// The offset near a sample at which `cost` is as high a little before as a little after: in a
+// bottom of any shape that is a zero with a slope, so that rounding hardly moves it.
 template <typename Cost>
 double refined(int offset, const Cost& cost) {
-    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    const double apart = 0.5 / kSamples;
+    const auto rise = [&](double x) { return cost(x + apart) - cost(x - apart); };
     double low = (offset - 1.0) / kSamples, high = (offset + 1.0) / kSamples;
-    double a = high - golden * (high - low), b = low + golden * (high - low);
-    double at_a = cost(a), at_b = cost(b);
+    if (!(rise(low) < -kLevel && rise(high) > kLevel)) {
+        return static_cast<double>(offset) / kSamples;
+    }
     for (int step = 0; step < kRefinements; ++step) {
-        if (at_a < at_b) {
-            high = b;
-            b = a;
-            at_b = at_a;
-            a = high - golden * (high - low);
-            at_a = cost(a);
-        } else {
-            low = a;
-            a = b;
-            at_a = at_b;
-            b = low + golden * (high - low);
-            at_b = cost(b);
-        }
+        const double middle = 0.5 * (low + high);
+        (rise(middle) < -kLevel ? low : high) = middle;
     }
     return 0.5 * (low + high);
+}
+
+Vec3 square_to(const Vec3& direction, const Vec3& axis) {
+    return direction - direction.dot(axis) * axis;
 }
 
 // All joins, to try offsets of the first one.
@@ -146,8 +173,7 @@ class OffsetSearch {
     }
 
     // Of the first join, with how far the similarity leaves the other joins apart.
-    double first_cost(double offset) const {
-        const Similarity s = fit(offset);
+    double first_cost(double offset, const Similarity& s) const {
         const double size = joins_[0].target->radius();
         double squares = 0.0;
         for (std::size_t j = 1; j < joins_.size(); ++j) {
@@ -166,23 +192,75 @@ class OffsetSearch {
     std::vector<Samples> source_;
 };
 
+// How far a rotation brings the directions together that belong together, in the planes of the
+// loops.
+class Leaning {
+  public:
+    Leaning(const LoopJoin& join, std::span<const DirectionPair> directions)
+        : source_axis_(join.source->axis()), target_axis_(join.target->axis()) {
+        for (const DirectionPair& pair : directions) {
+            add(kDirectionWeight, pair.source.normalized(), pair.target.normalized(), false);
+        }
+        if (!join.source_part || !join.target_part) return;
+        add(kMirrorWeight, join.source_part->mirror, join.target_part->mirror, true);
+    }
+
+    bool counts() const { return !pairs_.empty(); }
+
+    double cost(const Mat3& rotation) const {
+        double sum = 0.0;
+        for (const Pair& pair : pairs_) {
+            const double along = square_to(rotation * pair.source, target_axis_).dot(pair.target);
+            sum += pair.weight * (pair.length - (pair.either_way ? std::abs(along) : along));
+        }
+        return sum;
+    }
+
+  private:
+    struct Pair {
+        Vec3 source, target;
+        // Product of both lengths, which is the most they can have in common.
+        double length = 0.0, weight = 0.0;
+        bool either_way = false;
+    };
+
+    void add(double weight, const Vec3& from, const Vec3& to, bool either_way) {
+        Pair pair{square_to(from, source_axis_), square_to(to, target_axis_), 0.0, weight,
+                  either_way};
+        pair.length = pair.source.norm() * pair.target.norm();
+        if (pair.length > kLeastLean) pairs_.push_back(pair);
+    }
+
+    Vec3 source_axis_, target_axis_;
+    std::vector<Pair> pairs_;
+};
+
 template <typename Cost>
-OffsetGuess best_offset(const Cost& cost) {
-    std::array<double, kSamples> costs{};
+OffsetGuess best_offset(const Cost& cost, double floor) {
+    Costs costs{};
     for (int k = 0; k < kSamples; ++k) costs[k] = cost(static_cast<double>(k) / kSamples);
-    const Lowest best = lowest(costs);
-    return {{0.0, refined(best.offset, cost)}, best.certainty};
+    const int best = first_of_lowest(costs);
+    const double offset =
+        is_flat(costs, best) ? static_cast<double>(best) / kSamples : refined(best, cost);
+    return {{0.0, offset}, certainty_of(costs, best, floor)};
 }
 
 }  // namespace
 
-std::vector<OffsetGuess> guess_offsets(std::span<const LoopJoin> joins) {
+std::vector<OffsetGuess> guess_offsets(std::span<const LoopJoin> joins,
+                                       std::span<const DirectionPair> directions) {
     const OffsetSearch search(joins);
-    std::vector<OffsetGuess> guesses{
-        best_offset([&](double offset) { return search.first_cost(offset); })};
+    const Leaning leaning(joins.front(), directions);
+    std::vector<OffsetGuess> guesses{best_offset(
+        [&](double offset) {
+            const Similarity fit = search.fit(offset);
+            return search.first_cost(offset, fit) + leaning.cost(fit.rotation);
+        },
+        leaning.counts() ? kLeaningFloor : kFitFloor)};
     const Similarity fit = search.fit(guesses.front().key.target);
     for (std::size_t j = 1; j < joins.size(); ++j) {
-        guesses.push_back(best_offset([&](double offset) { return search.cost(j, offset, fit); }));
+        guesses.push_back(
+            best_offset([&](double offset) { return search.cost(j, offset, fit); }, kFitFloor));
     }
     return guesses;
 }

@@ -19,6 +19,15 @@ struct KeyPair {
     Key source, target;
 };
 
+/// Directions of the source and of the target that are to lie the same way, as the fronts of a head
+/// and of a body; of any length above 0.
+struct DirectionPair {
+    Vec3 source = Vec3::Zero(), target = Vec3::Zero();
+};
+
+/// A correspondence that was guessed with less certainty than this is a toss; see JoinReport.
+inline constexpr double kCertain = 1.5;
+
 /// Parameters of two loops that meet, each ascending cyclically.
 struct ParameterPair {
     double source = 0.0, target = 0.0;

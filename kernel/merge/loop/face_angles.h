@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/mesh/mesh.h"
@@ -22,6 +23,41 @@ inline Vec3 area_vector(const Mesh& mesh, Index face) {
 /// In radians, 0 to pi.
 inline double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// The face on the left of a directed edge, or kNoIndex.
+inline Index face_left_of(const Topology& topology, Index from, Index to) {
+    for (const Index f : topology.faces_around(from)) {
+        const std::span<const Index> face = topology.face(f);
+        const std::size_t n = face.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            if (face[k] == from && face[(k + 1) % n] == to) return f;
+        }
+    }
+    return kNoIndex;
+}
+
+/// Dihedral angle at the edge between two vertices: 0 where it is open, and next to a face without
+/// area.
+inline double edge_dihedral(const Mesh& mesh, Index a, Index b) {
+    const Index left = face_left_of(mesh.topology(), a, b);
+    const Index right = face_left_of(mesh.topology(), b, a);
+    if (left == kNoIndex || right == kNoIndex) return 0.0;
+    const Vec3 n = area_vector(mesh, left), m = area_vector(mesh, right);
+    return n.squaredNorm() > 0.0 && m.squaredNorm() > 0.0 ? angle_between(n, m) : 0.0;
+}
+
+/// The smallest angle of a face.
+inline double smallest_face_angle(const Mesh& mesh, Index face) {
+    const std::span<const Index> vertices = mesh.topology().face(face);
+    const std::size_t n = vertices.size();
+    double smallest = kPi;
+    for (std::size_t k = 0; k < n; ++k) {
+        const Vec3& at = mesh.position(vertices[k]);
+        smallest = std::min(smallest, angle_between(mesh.position(vertices[(k + 1) % n]) - at,
+                                                    mesh.position(vertices[(k + n - 1) % n]) - at));
+    }
+    return smallest;
 }
 
 }  // namespace lissom

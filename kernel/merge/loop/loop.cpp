@@ -131,7 +131,8 @@ void Loop::find_moments() {
 
 // Gaussian along the true arc length; a vertex counts as much as half the edges at it.
 std::vector<Vec3> Loop::smoothed(std::span<const Vec3> values, double sigma) const {
-    const double reach = kReach * sigma * length_;
+    // A little more, so that rounding does not decide about vertices just there.
+    const double reach = (kReach * sigma + 1e-9) * length_;
     std::vector<Vec3> result;
     const auto mass = [&](Index k) { return 0.5 * (edge(k) + edge((k + size() - 1) % size())); };
     for (Index k = 0; k < size(); ++k) {
@@ -232,6 +233,14 @@ std::vector<Mat3> Loop::frames(double sigma) const {
         frames.push_back(frame);
     }
     return frames;
+}
+
+Vec3 Loop::axis() const {
+    Vec3 area = Vec3::Zero();
+    for (Index k = 0; k < size(); ++k) {
+        area += (points_[k] - center_).cross(points_[(k + 1) % size()] - center_);
+    }
+    return area.norm() > 1e-12 * length_ * length_ ? Vec3(area.normalized()) : Vec3(Vec3::Zero());
 }
 
 double Loop::mean_turn() const {

@@ -41,6 +41,8 @@ class Loop {
     /// Mean of the curve by arc length, and RMS distance of the curve to it.
     const Vec3& center() const { return center_; }
     double radius() const { return radius_; }
+    /// Unit vector of the area that the curve encloses; zero where it encloses none.
+    Vec3 axis() const;
     /// Mean angle, in radians, between an edge and the next.
     double mean_turn() const;
 

@@ -25,7 +25,17 @@ class BandSeam {
     void remove_band() {
         find_rim();
         work_.patch.remove(band_);
-        work_.gone.insert(join_.target.begin(), join_.target.end());
+        // Beside those of the loop, vertices all of whose faces touch it have none left.
+        const Topology& topology = work_.both.topology();
+        for (const Index f : band_) {
+            for (const Index v : topology.face(f)) {
+                const std::span<const Index> around = topology.faces_around(v);
+                if (std::all_of(around.begin(), around.end(),
+                                [&](Index g) { return band_.contains(g); })) {
+                    work_.gone.insert(v);
+                }
+            }
+        }
         work_.report.band_removed += static_cast<Index>(band_.size());
     }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "kernel/merge/sew/seam_collar.h"
 #include "kernel/merge/sew/seam_umbrella.h"
 #include "kernel/merge/sew/seam_work.h"
 
@@ -106,20 +107,6 @@ class Assembly {
     std::vector<Index> vertices_;
 };
 
-void smooth(SeamWork& work, std::span<const Index> number, Index times, Sewn& sewn) {
-    smooth_seams(work.patch, times);
-    std::vector<std::pair<Index, Vec3>> moved;
-    for (const auto& [v, position] : work.patch.moved()) {
-        const bool moves = number[v] != kNoIndex && sewn.mesh.position(number[v]) != position;
-        if (moves) moved.emplace_back(number[v], position);
-    }
-    std::vector<Index> vertices;
-    for (const auto& [v, position] : moved) vertices.push_back(v);
-    SeamNormals normals(sewn.mesh, std::move(vertices));
-    for (const auto& [v, position] : moved) sewn.mesh.set_position(v, position);
-    normals.follow(sewn.seams);
-}
-
 }  // namespace
 
 SeamSources sources_of(const SeamWork& work, const LoopPair& join, const LoopPoint& on_target,
@@ -136,15 +123,20 @@ Sewn finish(SeamWork& work, const SewOptions& options, const Context& context) {
                        assembly.map, context);
     sewn.map = std::move(assembly.map);
     sewn.side_of_face = std::move(assembly.sides);
+    for (Index v = 0; v < work.first_source_vertex; ++v) {
+        sewn.first_source_vertex += number[v] == kNoIndex ? 0 : 1;
+    }
     carry_seam_regions(work.both, work.sources, number, sewn.mesh);
     for (const std::vector<Index>& seam : work.seams) {
         sewn.seams.emplace_back();
         for (const Index v : seam) sewn.seams.back().push_back(number[v]);
     }
-    work.report.before = seam_quality(sewn.mesh, sewn.seams);
-    smooth(work, number, options.smooth, sewn);
-    work.report.after = seam_quality(sewn.mesh, sewn.seams);
     sewn.report = work.report;
+    sewn.report.before = seam_quality(sewn.mesh, sewn.seams);
+    if (options.collar) make_collars(sewn, context);
+    sewn.report.smoothed = smooth_seams(sewn.mesh, sewn.seams, options.smooth, context);
+    if (options.flip && sewn.report.smoothed > 0) flip_near_seams(sewn, context);
+    sewn.report.after = seam_quality(sewn.mesh, sewn.seams);
     return sewn;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kernel/merge/sew/seam_patch.h"
 
@@ -108,12 +109,39 @@ Vec3 SeamPatch::area_vector(const SeamFace& face) const {
     return sum;
 }
 
-double SeamPatch::dihedral_across(Index from, Index to, const Vec3& normal) const {
+// The angle between a face with `normal` on the left of an edge and the face on its right.
+void SeamPatch::add_dihedral(Index from, Index to, const Vec3& normal, Dihedrals& greatest) const {
     const Index other = left_of(to, from);
-    return other == kNoIndex ? 0.0 : normal_angle(normal, area_vector(faces_[other]));
+    if (other == kNoIndex) return;
+    const bool on_seam = seam_edges_.contains(key(std::min(from, to), std::max(from, to)));
+    double& angle = on_seam ? greatest.seam : greatest.other;
+    angle = std::max(angle, normal_angle(normal, area_vector(faces_[other])));
 }
 
-bool SeamPatch::improves(const Diagonal& quad, double allowed_dihedral) const {
+// At the seams and next to them. Faces without area have none.
+SeamPatch::Dihedrals SeamPatch::greatest_dihedrals() const {
+    Dihedrals greatest;
+    std::unordered_set<Index> near(seam_vertices_.begin(), seam_vertices_.end());
+    for (const Index v : seam_vertices_) {
+        for (const Index w : neighbors(v)) near.insert(w);
+    }
+    for (const SeamFace& face : faces_) {
+        if (face.corners.empty()) continue;
+        const Vec3 normal = area_vector(face);
+        if (!(normal.squaredNorm() > 0.0)) continue;
+        for (std::size_t k = 0; k < face.corners.size(); ++k) {
+            const Index from = face.corners[k].vertex;
+            const Index to = face.corners[(k + 1) % face.corners.size()].vertex;
+            const Index other = left_of(to, from);
+            if (!near.contains(from) && !near.contains(to)) continue;
+            if (other == kNoIndex || area_vector(faces_[other]).isZero(0.0)) continue;
+            add_dihedral(from, to, normal, greatest);
+        }
+    }
+    return greatest;
+}
+
+bool SeamPatch::improves(const Diagonal& quad, const Dihedrals& allowed) const {
     const Index ia = quad.a.vertex, ib = quad.b.vertex, ic = quad.c.vertex, id = quad.d.vertex;
     const Vec3 a = position(ia), b = position(ib), c = position(ic), d = position(id);
     const double old_angle = std::min(smallest_angle(a, c, d), smallest_angle(c, a, b));
@@ -121,25 +149,28 @@ bool SeamPatch::improves(const Diagonal& quad, double allowed_dihedral) const {
     if (!(new_angle > old_angle * (1.0 + kGain) + kSameAngle)) return false;
     const Vec3 old_left = normal(a, c, d), old_right = normal(c, a, b);
     const Vec3 new_left = normal(a, b, d), new_right = normal(b, c, d);
-    const double before =
-        std::max({normal_angle(old_left, old_right), dihedral_across(ic, id, old_left),
-                  dihedral_across(id, ia, old_left), dihedral_across(ia, ib, old_right),
-                  dihedral_across(ib, ic, old_right)});
-    const double after =
-        std::max({normal_angle(new_left, new_right), dihedral_across(ic, id, new_right),
-                  dihedral_across(id, ia, new_left), dihedral_across(ia, ib, new_left),
-                  dihedral_across(ib, ic, new_right)});
-    return after <= std::max(before, allowed_dihedral) + kSameAngle;
+    Dihedrals before{0.0, normal_angle(old_left, old_right)};
+    add_dihedral(ic, id, old_left, before);
+    add_dihedral(id, ia, old_left, before);
+    add_dihedral(ia, ib, old_right, before);
+    add_dihedral(ib, ic, old_right, before);
+    Dihedrals after{0.0, normal_angle(new_left, new_right)};
+    add_dihedral(ic, id, new_right, after);
+    add_dihedral(id, ia, new_left, after);
+    add_dihedral(ia, ib, new_left, after);
+    add_dihedral(ib, ic, new_right, after);
+    return after.seam <= std::max(before.seam, allowed.seam) + kSameAngle &&
+           after.other <= std::max(before.other, allowed.other) + kSameAngle;
 }
 
-Index SeamPatch::flip_all_once(double allowed_dihedral) {
+Index SeamPatch::flip_all_once(const Dihedrals& allowed) {
     Index flips = 0;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         for (std::size_t k = 0; k < 3 && faces_[f].corners.size() == 3; ++k) {
             const Index a = faces_[f].corners[k].vertex, c = faces_[f].corners[(k + 1) % 3].vertex;
             Diagonal quad;
             if (!find_diagonal(a, c, is_source(faces_[f]) ? 1 : 0, quad)) continue;
-            if (!can_flip(quad) || !improves(quad, allowed_dihedral) || !same_chart(quad)) continue;
+            if (!can_flip(quad) || !improves(quad, allowed) || !same_chart(quad)) continue;
             flip(quad);
             ++flips;
         }
@@ -147,14 +178,49 @@ Index SeamPatch::flip_all_once(double allowed_dihedral) {
     return flips;
 }
 
-Index SeamPatch::flip_edges(double allowed_dihedral) {
+// Pairs of faces of the patch that run through one another. Vertices at one place count as one, so
+// that the faces need not be connected.
+std::vector<FacePair> SeamPatch::crossings(const Context& context) const {
+    std::vector<Vec3> points;
+    std::vector<Index> number, vertices;
+    FaceList faces;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        if (faces_[f].corners.empty()) continue;
+        vertices.clear();
+        for (const SeamCorner& corner : faces_[f].corners) {
+            vertices.push_back(static_cast<Index>(points.size()));
+            points.push_back(position(corner.vertex));
+        }
+        faces.add(vertices);
+        number.push_back(static_cast<Index>(f));
+    }
+    std::vector<FacePair> pairs =
+        self_intersections(Mesh(std::move(points), std::move(faces)), {}, context);
+    for (FacePair& pair : pairs) pair = {number[pair.first], number[pair.second]};
+    return pairs;
+}
+
+Index SeamPatch::flip_edges(double allowed_dihedral, const Context& context) {
+    const Dihedrals greatest = greatest_dihedrals();
+    const Dihedrals allowed{std::min(allowed_dihedral, greatest.seam),
+                            std::min(allowed_dihedral, greatest.other)};
+    const std::vector<FacePair> before = crossings(context);
+    const auto old_faces = faces_;
+    const auto old_edges = edges_;
+    const auto old_faces_at = faces_at_;
     Index flips = 0;
     for (int pass = 0; pass < kPasses; ++pass) {
-        const Index more = flip_all_once(allowed_dihedral);
+        const Index more = flip_all_once(allowed);
         flips += more;
         if (more == 0) break;
     }
-    return flips;
+    if (flips == 0) return 0;
+    const std::vector<FacePair> after = crossings(context);
+    if (std::includes(before.begin(), before.end(), after.begin(), after.end())) return flips;
+    faces_ = old_faces;
+    edges_ = old_edges;
+    faces_at_ = old_faces_at;
+    return 0;
 }
 
 }  // namespace lissom

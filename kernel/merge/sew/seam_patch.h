@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/query/self_intersections.h"
 
 namespace lissom {
 
@@ -72,10 +73,12 @@ class SeamPatch {
     void close(std::span<const std::vector<Index>> seams);
 
     /// Flips edges between triangles of one side where that makes the smallest angle greater, but
-    /// makes no dihedral angle greater than `allowed_dihedral` (radians) and the greatest one of
-    /// before. Edges with different corner attributes or labels on their sides stay. Returns how
-    /// many flips there were.
-    Index flip_edges(double allowed_dihedral);
+    /// makes no dihedral angle greater than `allowed_dihedral` (radians), the greatest of the
+    /// patch, and the greatest of the edges concerned; angles across the seam count by themselves.
+    /// Edges with different corner attributes or labels on their sides stay. Nothing is flipped
+    /// where faces of the patch would run through one another that did not. Returns how many flips
+    /// there were.
+    Index flip_edges(double allowed_dihedral, const Context& context);
 
     /// The vertices of all seams, ascending.
     const std::vector<Index>& seam_vertices() const { return seam_vertices_; }
@@ -113,12 +116,18 @@ class SeamPatch {
     void separate_inner_edges();
     bool find_diagonal(Index a, Index c, std::size_t side, Diagonal& diagonal) const;
     bool can_flip(const Diagonal& diagonal) const;
-    bool improves(const Diagonal& diagonal, double allowed_dihedral) const;
+    // Greatest dihedral angles, across the seams and elsewhere.
+    struct Dihedrals {
+        double seam = 0.0, other = 0.0;
+    };
+    std::vector<FacePair> crossings(const Context& context) const;
+    Dihedrals greatest_dihedrals() const;
+    void add_dihedral(Index from, Index to, const Vec3& normal, Dihedrals& greatest) const;
+    bool improves(const Diagonal& diagonal, const Dihedrals& allowed) const;
     void flip(const Diagonal& diagonal);
-    Index flip_all_once(double allowed_dihedral);
+    Index flip_all_once(const Dihedrals& allowed);
     bool same_chart(const Diagonal& diagonal) const;
     bool same_values(const SeamCorner& p, const SeamCorner& q) const;
-    double dihedral_across(Index from, Index to, const Vec3& normal) const;
     Vec3 area_vector(const SeamFace& face) const;
 
     const Mesh& mesh_;

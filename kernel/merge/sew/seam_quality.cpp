@@ -6,44 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 namespace lissom {
 namespace {
-
-using Edge = std::pair<Index, Index>;
-
-// The face on the left of a directed edge, or kNoIndex.
-Index left_of(const Topology& topology, Index from, Index to) {
-    for (const Index f : topology.faces_around(from)) {
-        const std::span<const Index> face = topology.face(f);
-        const std::size_t n = face.size();
-        for (std::size_t k = 0; k < n; ++k) {
-            if (face[k] == from && face[(k + 1) % n] == to) return f;
-        }
-    }
-    return kNoIndex;
-}
-
-// 0 for an open edge and next to a face without area.
-double dihedral(const Mesh& mesh, Index a, Index b) {
-    const Index left = left_of(mesh.topology(), a, b), right = left_of(mesh.topology(), b, a);
-    if (left == kNoIndex || right == kNoIndex) return 0.0;
-    const Vec3 n = area_vector(mesh, left), m = area_vector(mesh, right);
-    return n.squaredNorm() > 0.0 && m.squaredNorm() > 0.0 ? angle_between(n, m) : 0.0;
-}
-
-double smallest_face_angle(const Mesh& mesh, Index face) {
-    const std::span<const Index> vertices = mesh.topology().face(face);
-    const std::size_t n = vertices.size();
-    double smallest = kPi;
-    for (std::size_t k = 0; k < n; ++k) {
-        const Vec3& at = mesh.position(vertices[k]);
-        smallest = std::min(smallest, angle_between(mesh.position(vertices[(k + 1) % n]) - at,
-                                                    mesh.position(vertices[(k + n - 1) % n]) - at));
-    }
-    return smallest;
-}
 
 void measure_seam_edges(const Mesh& mesh, std::span<const std::vector<Index>> seams,
                         SeamQuality& quality) {
@@ -57,7 +22,7 @@ void measure_seam_edges(const Mesh& mesh, std::span<const std::vector<Index>> se
                             "consecutive vertices of a seam share no edge",
                             {ElementKind::vertex, 2, {a, b}});
             }
-            const double angle = dihedral(mesh, a, b);
+            const double angle = edge_dihedral(mesh, a, b);
             const double edge = (mesh.position(b) - mesh.position(a)).norm();
             quality.greatest_dihedral = std::max(quality.greatest_dihedral, angle);
             squares += edge * angle * angle;
@@ -77,7 +42,7 @@ void measure_near_edges(const Mesh& mesh, const std::set<Index>& on_seam, SeamQu
     }
     for (const Index v : near) {
         for (const Index w : mesh.topology().neighbors(v)) {
-            quality.greatest_near = std::max(quality.greatest_near, dihedral(mesh, v, w));
+            quality.greatest_near = std::max(quality.greatest_near, edge_dihedral(mesh, v, w));
         }
     }
 }

@@ -1,15 +1,20 @@
 /// Smoothing of a seam; private to kernel/merge.
 #pragma once
 
-#include <unordered_map>
+#include <span>
+#include <vector>
 
-#include "kernel/merge/sew/seam_patch.h"
+#include "kernel/core/context.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 
-/// Moves the vertices of the patch's seams and, half as far, those next to them by the umbrella
-/// operator (Kobbelt et al. 1998): half of the way to the mean of their neighbours, `times` times.
-/// Vertices on open boundaries stay.
-void smooth_seams(SeamPatch& patch, Index times);
+/// Moves the vertices of `seams` and, half as far, those next to them by the umbrella operator
+/// (Kobbelt et al. 1998): half of the way to the mean of their neighbours, up to `times` times.
+/// Each step is guarded (SeamGuard); the first that would do harm is the last. Vertices on open
+/// boundaries stay; normals turn with the surface and become those of the surface on the seams.
+/// Returns how many steps were made.
+Index smooth_seams(Mesh& mesh, std::span<const std::vector<Index>> seams, Index times,
+                   const Context& context);
 
 }  // namespace lissom

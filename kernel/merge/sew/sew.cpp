@@ -1,5 +1,7 @@
 #include "kernel/merge/sew/sew.h"
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/merge/sew/seam_loop.h"
@@ -8,6 +10,14 @@
 
 namespace lissom {
 namespace {
+
+Elements isolated_vertices(const Topology& topology) {
+    Elements elements{ElementKind::vertex, 0, {}};
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+        if (topology.is_isolated(v)) elements.add(v);
+    }
+    return elements;
+}
 
 // Dihedral angles up to this may arise from flips.
 constexpr double kAllowedDihedral = 20.0 * kPi / 180.0;
@@ -57,10 +67,36 @@ Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins
         }
     }
     work.patch.close(work.seams);
-    if (options.flip) work.report.flipped = work.patch.flip_edges(kAllowedDihedral);
+    if (options.flip) work.report.flipped = work.patch.flip_edges(kAllowedDihedral, context);
     Sewn sewn = finish(work, options, context);
     if (const auto skinned = skinned_side(target, source)) extend_skin(sewn, *skinned, context);
+    require_sound(sewn, target, source, joins.size());
     return sewn;
+}
+
+void require_sound(const Sewn& sewn, const Mesh& target, const Mesh& source, std::size_t joins) {
+    const auto fail = [](const std::string& what, Elements elements) {
+        throw Error(ErrorCode::internal,
+                    "sewing went wrong: " + what +
+                        "; please report it with both meshes, and try another kind of seam",
+                    std::move(elements));
+    };
+    const Elements isolated = isolated_vertices(sewn.mesh.topology());
+    const std::size_t before =
+        isolated_vertices(target.topology()).count + isolated_vertices(source.topology()).count;
+    if (isolated.count > before) fail("vertices lost their faces", isolated);
+    const auto loops = [](const Mesh& mesh) { return mesh.topology().boundary_loops().size(); };
+    if (loops(sewn.mesh) + 2 * joins != loops(target) + loops(source)) {
+        fail("it left " + std::to_string(loops(sewn.mesh)) + " open boundaries",
+             {ElementKind::vertex, 0, {}});
+    }
+    for (const std::vector<Index>& seam : sewn.seams) {
+        for (const Index v : seam) {
+            if (sewn.mesh.topology().is_boundary(v)) {
+                fail("the seam is open", {ElementKind::vertex, 1, {v}});
+            }
+        }
+    }
 }
 
 }  // namespace lissom

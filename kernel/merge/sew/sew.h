@@ -30,14 +30,23 @@ enum class SeamKind {
 
 struct SewOptions {
     SeamKind kind = SeamKind::conform;
-    /// Times that the umbrella operator moves the seam and, half as far, the vertices next to it; 0
-    /// leaves every position of the target as it is, to the bit.
+    /// Times, at most, that the umbrella operator moves the seam and, half as far, the vertices
+    /// next to it. A step that would fold the seam is made only as far as it does not, or is the
+    /// last: no dihedral angle at the seam grows by it, and no faces are made to run through one
+    /// another. 0 leaves every position of the target as it is, to the bit.
     Index smooth = 3;
     /// Neighbours on the seam that are closer than this many mean seam edges become one vertex, 0
     /// to 1: that of the target, if one is. Two of the target stay apart. `band` does not use it.
     double snap = 0.5;
     /// Flips edges within two rings of the seam that make slivers.
     bool flip = true;
+    /// Remeshes the collar: the faces beside a seam on a side whose edges there are more than 1.5
+    /// times as long as the seam's, which holds the vertices of both loops. Their edges grow from
+    /// the seam's length to the side's by half the distance from it; sharp edges and borders of
+    /// charts and labels keep their shape, and what vertices and corners carry is interpolated.
+    /// Elements beyond the collar stay as they are; the vertices and faces made come after the
+    /// others of their side.
+    bool collar = false;
 };
 
 /// What was done to sew two meshes.
@@ -49,8 +58,12 @@ struct SewReport {
     /// drawn into another of the source, because they were close.
     Index snapped = 0, collapsed = 0;
     Index flipped = 0;
+    /// Umbrella steps that were made.
+    Index smoothed = 0;
     /// Faces of the target that `band` removed, and those it made.
     Index band_removed = 0, band_added = 0;
+    /// Faces that collars took the place of, and the triangles of the collars.
+    Index collar_removed = 0, collar_added = 0;
     /// The seam before and after smoothing.
     SeamQuality before, after;
 };
@@ -66,6 +79,8 @@ struct Sewn {
     /// edge.
     std::vector<std::vector<Index>> seams;
     SewReport report;
+    /// Vertices from this one on are the source's, or were made on its side.
+    Index first_source_vertex = 0;
 };
 
 /// Sews `source` to `target` along all `joins`. Both may be polygon meshes of any genus; boundaries
@@ -92,8 +107,13 @@ struct Sewn {
 /// Errors: invalid_argument for options out of range, for no joins, or where a join's counts
 /// differ; out_of_range; not_a_boundary; boundary_conflict (two joins on one boundary, places that
 /// do not follow each other around a loop); nonmanifold_edge where both sides join two seam
-/// vertices by an inner edge that cannot be flipped; skin_mismatch; cancelled.
+/// vertices by an inner edge that cannot be flipped; skin_mismatch; cancelled; internal in place of
+/// a result that is not sound.
 Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
          const SewOptions& options = {}, const Context& context = {});
+
+/// Throws internal where a sewn mesh is not what two sound meshes and `joins` joins make: a vertex
+/// has lost all of its faces, or it has more or fewer open boundaries.
+void require_sound(const Sewn& sewn, const Mesh& target, const Mesh& source, std::size_t joins);
 
 }  // namespace lissom

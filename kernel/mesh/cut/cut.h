@@ -69,6 +69,10 @@ enum class CutConcern {
     folded_line,
     /// The plane crosses the mesh not far from the line that was cut too.
     lines_nearby,
+    /// A plane or path keeps more than 80 % of the mesh's area: perhaps the wrong part.
+    keeps_most,
+    /// The sides of the lines are connected elsewhere: a cut would fail. Of a preview only.
+    not_separating,
 };
 
 struct CutWarning {
@@ -87,6 +91,8 @@ struct CutReport {
     Index lines_left = 0;
     /// Components without a cut, which went to one part as a whole.
     Index whole_components = 0;
+    /// Fraction of the mesh's area that lies on the side of the lines that is kept.
+    double kept_fraction = 0.0;
     /// Old vertices that slid onto a line, ascending.
     std::vector<Index> slid_vertices;
     /// Old faces that were divided.
@@ -108,6 +114,16 @@ struct CutLine {
 struct Cut {
     CutPiece kept, rest;
     std::vector<CutLine> lines;
+    CutReport report;
+};
+
+/// Where a cut would run.
+struct CutPreview {
+    /// Lines that would be cut, of free points, each with the kept part on its left.
+    std::vector<Path> lines;
+    /// Lines in which the plane crosses the mesh and which would stay whole.
+    std::vector<Path> others;
+    /// Without what is known once the mesh is divided: `slid_vertices` and `divided_faces`.
     CutReport report;
 };
 
@@ -138,5 +154,15 @@ Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options = {},
 /// or another outline; nonmanifold_edge; cancelled.
 Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options = {},
         const Context& context = {});
+
+/// The lines along which `cut` would divide the mesh, before vertices slide onto them; the mesh
+/// stays as it is. Where the lines would not separate it, they are shown with a warning
+/// (not_separating). Errors: otherwise as `cut`.
+CutPreview preview_cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options = {},
+                       const Context& context = {});
+CutPreview preview_cut(const Mesh& mesh, const CutPath& path, const CutOptions& options = {},
+                       const Context& context = {});
+CutPreview preview_cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options = {},
+                       const Context& context = {});
 
 }  // namespace lissom

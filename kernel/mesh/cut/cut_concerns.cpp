@@ -7,11 +7,16 @@
 #include <set>
 #include <tuple>
 
+#include "kernel/mesh/measure/measures.h"
+
 namespace lissom {
 namespace {
 
 // A line that encloses less than this part of its convex outline is called folded.
 constexpr double kFolded = 0.72;
+
+// Who keeps more than this fraction of the area by a plane may have meant the other part.
+constexpr double kMost = 0.8;
 
 double cross(const Vec2& a, const Vec2& b) {
     return a.x() * b.y() - a.y() * b.x();
@@ -98,7 +103,63 @@ void add_touched_boundaries(const Mesh& mesh, const std::vector<ContourLine>& li
          std::move(ends)});
 }
 
+double triangle_area(const Mesh& mesh, const Triangle& t) {
+    const Vec3& a = mesh.position(t[0]);
+    return 0.5 * (mesh.position(t[1]) - a).cross(mesh.position(t[2]) - a).norm();
+}
+
+// Fraction of a triangle's area on the positive side, which a line enters and leaves by two edges.
+double positive_fraction(const Crossing& enter, const Crossing& leave) {
+    if (enter.positive == leave.positive) return enter.t * leave.t;
+    return 1.0 - (1.0 - enter.t) * (1.0 - leave.t);
+}
+
+std::vector<Index> crossed_faces(const std::vector<ContourLine>& lines) {
+    std::set<Index> faces;
+    for (const ContourLine& line : lines) faces.insert(line.faces.begin(), line.faces.end());
+    return {faces.begin(), faces.end()};
+}
+
+// Area on the positive side of the lines.
+double positive_area(const Mesh& mesh, const std::vector<ContourLine>& lines,
+                     const std::vector<signed char>& side) {
+    double sum = 0.0;
+    const std::vector<double> areas = face_areas(mesh);
+    const std::vector<Index> crossed = crossed_faces(lines);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const bool whole = !std::binary_search(crossed.begin(), crossed.end(), f);
+        if (whole && side[mesh.topology().face(f)[0]] > 0) sum += areas[f];
+    }
+    const auto positive = [&](Index v) { return side[v] > 0; };
+    const Triangulation parts = triangulate_faces(mesh.topology(), mesh.positions(), crossed);
+    for (const Triangle& t : parts.triangles) {
+        if (std::all_of(t.begin(), t.end(), positive)) sum += triangle_area(mesh, t);
+    }
+    for (const ContourLine& line : lines) {
+        const std::size_t n = line.crossings.size();
+        for (std::size_t i = 0; i < line.triangles.size(); ++i) {
+            sum += positive_fraction(line.crossings[i], line.crossings[(i + 1) % n]) *
+                   triangle_area(mesh, line.triangles[i]);
+        }
+    }
+    return sum;
+}
+
 }  // namespace
+
+void add_kept_fraction(const Mesh& mesh, const std::vector<ContourLine>& lines,
+                       const CutSides& sides, CutReport& report) {
+    const double all = area(mesh), positive = positive_area(mesh, lines, sides.side);
+    if (!(all > 0.0)) return;
+    report.kept_fraction = (sides.kept > 0 ? positive : all - positive) / all;
+    if (sides.named || report.kept_fraction <= kMost) return;
+    const auto percent = static_cast<int>(std::floor(100.0 * report.kept_fraction));
+    report.warnings.push_back({CutConcern::keeps_most,
+                               "the cut keeps " + std::to_string(percent) +
+                                   " % of the mesh's area; to keep the small part, turn the normal "
+                                   "or path around, or give a seed on it",
+                               {}});
+}
 
 double fullness(const std::vector<Vec3>& points) {
     const std::vector<Vec2> flat = flattened(points);

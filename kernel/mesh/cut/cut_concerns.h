@@ -5,11 +5,16 @@
 
 #include "kernel/mesh/cut/contour.h"
 #include "kernel/mesh/cut/cut.h"
+#include "kernel/mesh/cut/cut_parts.h"
 
 namespace lissom {
 
 /// Adds to the report which open boundaries the lines end at and which lines are folded.
 void add_concerns(const Mesh& mesh, const std::vector<ContourLine>& lines, CutReport& report);
+
+/// Adds which part of the mesh's area is kept, and whether that is suspiciously much.
+void add_kept_fraction(const Mesh& mesh, const std::vector<ContourLine>& lines,
+                       const CutSides& sides, CutReport& report);
 
 /// Area of a closed polyline as a fraction of that of its convex outline, both seen along the
 /// polyline's mean normal: 1 for a convex one, less for one with deep folds. 0 where it has no

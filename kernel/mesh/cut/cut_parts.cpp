@@ -113,15 +113,17 @@ signed char side_near(const Mesh& mesh, const std::vector<signed char>& side, co
     return found;
 }
 
-Cut cut_along(const Mesh& mesh, std::vector<ContourLine> lines, std::vector<signed char> side,
-              signed char kept_side, const CutOptions& options, CutReport report,
+Cut cut_along(const Mesh& mesh, CutLines found, CutSides sides, const CutOptions& options,
               const Context& context) {
-    const Splitting splitting{std::move(lines), std::move(side), options.slide};
+    CutReport report = std::move(found.report);
+    report.whole_components = sides.whole_components;
+    add_concerns(mesh, found.lines, report);
+    add_kept_fraction(mesh, found.lines, sides, report);
+    const Splitting splitting{std::move(found.lines), std::move(sides.side), options.slide};
     SplitResult parts = split(mesh, splitting, context);
-    add_concerns(mesh, splitting.lines, report);
     report.slid_vertices = std::move(parts.slid);
     report.divided_faces = parts.divided_faces;
-    if (kept_side < 0) std::swap(parts.positive, parts.negative);
+    if (sides.kept < 0) std::swap(parts.positive, parts.negative);
     Cut cut;
     for (std::size_t i = 0; i < splitting.lines.size(); ++i) {
         cut.lines.push_back({parts.positive.lines[i], parts.negative.lines[i]});
@@ -130,6 +132,32 @@ Cut cut_along(const Mesh& mesh, std::vector<ContourLine> lines, std::vector<sign
     cut.rest = {std::move(parts.negative.mesh), std::move(parts.negative.map)};
     cut.report = std::move(report);
     return cut;
+}
+
+CutPreview preview_along(const Mesh& mesh, const CutLines& found,
+                         const std::function<CutSides()>& decide) {
+    CutPreview preview;
+    preview.report = found.report;
+    add_concerns(mesh, found.lines, preview.report);
+    signed char kept = 1;
+    try {
+        const CutSides sides = decide();
+        kept = sides.kept;
+        preview.report.whole_components = sides.whole_components;
+        add_kept_fraction(mesh, found.lines, sides, preview.report);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::boundary_conflict) throw;
+        preview.report.warnings.push_back(
+            {CutConcern::not_separating, error.message(), error.elements()});
+    }
+    for (const ContourLine& line : found.lines) {
+        const Path path(line.points(mesh), line.closed);
+        preview.lines.push_back(kept > 0 ? path : path.reversed());
+    }
+    for (const ContourLine& line : found.others) {
+        preview.others.emplace_back(line.points(mesh), line.closed);
+    }
+    return preview;
 }
 
 }  // namespace lissom

@@ -25,9 +25,30 @@ Index assign_whole_components(const Mesh& mesh, std::vector<signed char>& side,
 /// The side of the vertex nearest to `seed` among those that have one.
 signed char side_near(const Mesh& mesh, const std::vector<signed char>& side, const Vec3& seed);
 
-/// Divides the mesh; the part on `kept_side` is kept. `report` holds what is known by then.
-Cut cut_along(const Mesh& mesh, std::vector<ContourLine> lines, std::vector<signed char> side,
-              signed char kept_side, const CutOptions& options, CutReport report,
+/// Lines of a cut.
+struct CutLines {
+    /// Those to cut along, and those of the plane that are left.
+    std::vector<ContourLine> lines, others;
+    CutReport report;
+};
+
+/// What lies on which side of the lines.
+struct CutSides {
+    /// Of every vertex: 1 or -1.
+    std::vector<signed char> side;
+    /// The side that is kept.
+    signed char kept = 1;
+    /// The kept part was named vertex by vertex, not chosen by a direction or a seed.
+    bool named = false;
+    Index whole_components = 0;
+};
+
+/// Divides the mesh.
+Cut cut_along(const Mesh& mesh, CutLines found, CutSides sides, const CutOptions& options,
               const Context& context);
+
+/// What `cut_along` would do with the sides that `decide` returns.
+CutPreview preview_along(const Mesh& mesh, const CutLines& found,
+                         const std::function<CutSides()>& decide);
 
 }  // namespace lissom

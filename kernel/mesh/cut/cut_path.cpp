@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/cut/cut_parts.h"
 #include "kernel/mesh/cut/surface_curve.h"
@@ -190,57 +191,105 @@ void require_apart(const std::vector<ContourLine>& lines) {
                 std::move(shared));
 }
 
-}  // namespace
+// A path that is cut along, as vertices and as the smooth line near them.
+struct FollowedPath {
+    std::vector<Index> loop;
+    SmoothLine line;
 
-Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options, const Context& context) {
-    require_cuttable(mesh, options);
-    require_smoothing(path.smoothing);
-    Progress progress(context, "cut");
-    progress.step(0.6);
-    const std::vector<Index> loop = loop_through(mesh, path.path, context);
-    const SmoothLine line(mesh, loop, vertex_normals(mesh), path.smoothing, context);
-    std::vector<ContourLine> lines{line.contour()};
-    std::vector<signed char> side = sides_of(mesh, lines);
-    const signed char kept = path.seed ? side_near(mesh, side, *path.seed) : 1;
-    CutReport report;
-    report.whole_components =
-        assign_whole_components(mesh, side, [&](const auto& component) -> signed char {
+    FollowedPath(const Mesh& mesh, const CutPath& path, const Context& context)
+        : loop(loop_through(mesh, path.path, context)),
+          line(mesh, loop, vertex_normals(mesh), path.smoothing, context) {}
+};
+
+CutSides sides_by(const Mesh& mesh, const CutPath& path, const SmoothLine& line) {
+    CutSides sides{sides_of(mesh, {line.contour()})};
+    if (path.seed) sides.kept = side_near(mesh, sides.side, *path.seed);
+    sides.whole_components =
+        assign_whole_components(mesh, sides.side, [&](const auto& component) -> signed char {
             Vec3 mean = Vec3::Zero();
             for (const Index v : component) {
                 mean += mesh.position(v) / static_cast<double>(component.size());
             }
             return line.curve().nearest(mean).left >= 0.0 ? 1 : -1;
         });
-    progress.step(0.4);
-    return cut_along(mesh, std::move(lines), std::move(side), kept, options, std::move(report),
-                     context);
+    return sides;
 }
 
-Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options,
-        const Context& context) {
+void require_path(const Mesh& mesh, const CutPath& path, const CutOptions& options) {
+    require_cuttable(mesh, options);
+    require_smoothing(path.smoothing);
+}
+
+CutLines lines_of(const Mesh& mesh, const CutRegion& region, const CutOptions& options,
+                  const Context& context) {
     require_cuttable(mesh, options);
     require_smoothing(region.smoothing);
     require_same_topology(mesh, region.region.topology(), "the region");
-    Progress progress(context, "cut");
-    progress.step(0.6);
     const std::vector<Vec3> normals = vertex_normals(mesh);
-    std::vector<ContourLine> lines;
+    CutLines found;
     for (const std::vector<Index>& loop : inner_outlines(region)) {
-        lines.push_back(SmoothLine(mesh, loop, normals, region.smoothing, context).contour());
+        found.lines.push_back(SmoothLine(mesh, loop, normals, region.smoothing, context).contour());
     }
-    require_apart(lines);
-    std::vector<signed char> side = sides_of(mesh, lines);
-    CutReport report;
+    require_apart(found.lines);
+    return found;
+}
+
+CutSides sides_by(const Mesh& mesh, const CutRegion& region,
+                  const std::vector<ContourLine>& lines) {
+    CutSides sides{sides_of(mesh, lines), 1, true};
     const std::vector<char> inside = region.region.mask();
-    report.whole_components =
-        assign_whole_components(mesh, side, [&](const auto& component) -> signed char {
+    sides.whole_components =
+        assign_whole_components(mesh, sides.side, [&](const auto& component) -> signed char {
             const auto count = std::count_if(component.begin(), component.end(),
                                              [&](Index v) { return inside[v] != 0; });
             return 2 * count > static_cast<std::ptrdiff_t>(component.size()) ? 1 : -1;
         });
+    return sides;
+}
+
+}  // namespace
+
+Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options,
+        const Context& context) try {
+    require_path(mesh, path, options);
+    Progress progress(context, "cut");
+    progress.step(0.6);
+    const FollowedPath followed(mesh, path, context);
+    CutSides sides = sides_by(mesh, path, followed.line);
     progress.step(0.4);
-    return cut_along(mesh, std::move(lines), std::move(side), 1, options, std::move(report),
-                     context);
+    return cut_along(mesh, {{followed.line.contour()}, {}, {}}, std::move(sides), options, context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
+
+CutPreview preview_cut(const Mesh& mesh, const CutPath& path, const CutOptions& options,
+                       const Context& context) try {
+    require_path(mesh, path, options);
+    const FollowedPath followed(mesh, path, context);
+    return preview_along(mesh, {{followed.line.contour()}, {}, {}},
+                         [&] { return sides_by(mesh, path, followed.line); });
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
+
+Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options,
+        const Context& context) try {
+    Progress progress(context, "cut");
+    progress.step(0.6);
+    CutLines found = lines_of(mesh, region, options, context);
+    CutSides sides = sides_by(mesh, region, found.lines);
+    progress.step(0.4);
+    return cut_along(mesh, std::move(found), std::move(sides), options, context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
+
+CutPreview preview_cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options,
+                       const Context& context) try {
+    const CutLines found = lines_of(mesh, region, options, context);
+    return preview_along(mesh, found, [&] { return sides_by(mesh, region, found.lines); });
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 }  // namespace lissom

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/cut/cut_parts.h"
 
@@ -51,18 +52,20 @@ double distance_to(const Mesh& mesh, const ContourLine& line, const Vec3& p) {
 }
 
 // Leaves only the line nearest to the picked point.
-void keep_nearest(const Mesh& mesh, const Vec3& picked, std::vector<ContourLine>& lines,
-                  CutReport& report) {
+void keep_nearest(const Mesh& mesh, const Vec3& picked, CutLines& found) {
+    std::vector<ContourLine>& lines = found.lines;
     std::vector<double> distance;
     for (const ContourLine& line : lines) distance.push_back(distance_to(mesh, line, picked));
     const auto nearest = std::min_element(distance.begin(), distance.end()) - distance.begin();
     const auto nearby = std::count_if(distance.begin(), distance.end(),
                                       [&](double d) { return d <= kNearby * distance[nearest]; }) -
                         1;
-    report.lines_left = static_cast<Index>(lines.size()) - 1;
-    lines = {std::move(lines[nearest])};
+    found.report.lines_left = static_cast<Index>(lines.size()) - 1;
+    found.others = std::move(lines);
+    lines = {std::move(found.others[static_cast<std::size_t>(nearest)])};
+    found.others.erase(found.others.begin() + nearest);
     if (nearby == 0) return;
-    report.warnings.push_back(
+    found.report.warnings.push_back(
         {CutConcern::lines_nearby,
          "the plane crosses the mesh in " + std::to_string(nearby) +
              " more lines that are nearly as near to the picked point; check that the right one "
@@ -70,35 +73,60 @@ void keep_nearest(const Mesh& mesh, const Vec3& picked, std::vector<ContourLine>
          {ElementKind::vertex, 1, {lines[0].crossings[0].positive}}});
 }
 
-}  // namespace
-
-Cut cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options,
-        const Context& context) {
+LevelSet checked_levels(const Mesh& mesh, const CutPlane& plane, const CutOptions& options) {
     require_cuttable(mesh, options);
     require_plane(plane);
-    Progress progress(context, "cut");
-    progress.step(0.4);
-    const LevelSet levels = distances_from(mesh, plane);
-    std::vector<ContourLine> lines = trace_contours(mesh, levels, context);
-    if (lines.empty()) {
+    return distances_from(mesh, plane);
+}
+
+CutLines lines_of(const Mesh& mesh, const CutPlane& plane, const LevelSet& levels,
+                  const CutOptions& options, const Context& context) {
+    CutLines found{trace_contours(mesh, levels, context), {}, {}};
+    if (found.lines.empty()) {
         throw Error(ErrorCode::invalid_argument,
                     "the plane does not cross the mesh; move its point into the mesh");
     }
-    CutReport report;
     if (options.loops == CutLoops::nearest) {
-        keep_nearest(mesh, plane.near.value_or(plane.point), lines, report);
+        keep_nearest(mesh, plane.near.value_or(plane.point), found);
     }
-    std::vector<signed char> side = sides_of(mesh, lines);
-    const signed char kept = plane.seed ? side_near(mesh, side, *plane.seed) : 1;
+    return found;
+}
+
+CutSides sides_by(const Mesh& mesh, const CutPlane& plane, const LevelSet& levels,
+                  const std::vector<ContourLine>& lines) {
+    CutSides sides{sides_of(mesh, lines)};
+    if (plane.seed) sides.kept = side_near(mesh, sides.side, *plane.seed);
     const auto side_of = [&](const std::vector<Index>& component) -> signed char {
         double sum = 0.0;
         for (const Index v : component) sum += levels.value[v];
         return sum >= 0.0 ? 1 : -1;
     };
-    report.whole_components = assign_whole_components(mesh, side, side_of);
+    sides.whole_components = assign_whole_components(mesh, sides.side, side_of);
+    return sides;
+}
+
+}  // namespace
+
+Cut cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options,
+        const Context& context) try {
+    Progress progress(context, "cut");
+    progress.step(0.4);
+    const LevelSet levels = checked_levels(mesh, plane, options);
+    CutLines found = lines_of(mesh, plane, levels, options, context);
+    CutSides sides = sides_by(mesh, plane, levels, found.lines);
     progress.step(0.6);
-    return cut_along(mesh, std::move(lines), std::move(side), kept, options, std::move(report),
-                     context);
+    return cut_along(mesh, std::move(found), std::move(sides), options, context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
+
+CutPreview preview_cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options,
+                       const Context& context) try {
+    const LevelSet levels = checked_levels(mesh, plane, options);
+    const CutLines found = lines_of(mesh, plane, levels, options, context);
+    return preview_along(mesh, found, [&] { return sides_by(mesh, plane, levels, found.lines); });
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 }  // namespace lissom

@@ -1,4 +1,5 @@
 #include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/label_adder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,14 +115,17 @@ std::shared_ptr<const Asset> joined_asset(const Mesh& mesh, const Mesh& other,
 }
 
 void join_labels(const Mesh& mesh, const Mesh& other, const LabelRenames& renames,
-                 AttributeSet& result) {
+                 AttributeSet& result, const Context& context) {
     result.labels() = mesh.attributes().labels();
     for (const auto& [kind, labels] : other.attributes().labels()) {
+        context.checkpoint();
         FaceLabels& joined = result.labels()[kind];
         joined.of_face.resize(static_cast<std::size_t>(mesh.face_count()), kNoIndex);
+        LabelAdder adder(joined);
         std::vector<Index> renumbered;
-        for (const std::string& name : labels.names)
-            renumbered.push_back(joined.add(renamed(renames, kind, name)));
+        for (const std::string& name : labels.names) {
+            renumbered.push_back(adder.add(renamed(renames, kind, name)));
+        }
         for (const Index label : labels.of_face) {
             joined.of_face.push_back(label == kNoIndex ? kNoIndex : renumbered[label]);
         }
@@ -166,7 +170,7 @@ void append(Mesh& mesh, const Mesh& other, const Context& context) {
     result.attributes() = joined_attributes(mesh, other);
     LabelRenames renames;
     result.set_asset(joined_asset(mesh, other, renames));
-    join_labels(mesh, other, renames, result.attributes());
+    join_labels(mesh, other, renames, result.attributes(), context);
     for (auto& [name, vertices] : joined_regions(mesh, other)) {
         result.set_region(name, Region(result.shared_topology(), std::move(vertices)));
     }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/measure/triangulation.h"
@@ -241,7 +242,7 @@ std::vector<Index> faces_to_triangulate(const Mesh& mesh, SubdivisionScheme sche
 
 }  // namespace
 
-Mesh subdivide(const Mesh& mesh, const SubdivideOptions& options, const Context& context) {
+Mesh subdivide(const Mesh& mesh, const SubdivideOptions& options, const Context& context) try {
     if (options.levels < 0) {
         throw Error(ErrorCode::invalid_argument, "levels of subdivision must be 0 or more");
     }
@@ -253,6 +254,8 @@ Mesh subdivide(const Mesh& mesh, const SubdivideOptions& options, const Context&
         result = Step(result, options.scheme).subdivided(context);
     }
     return result;
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 }  // namespace lissom

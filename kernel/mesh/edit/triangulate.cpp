@@ -6,35 +6,39 @@
 #include <vector>
 
 #include "kernel/mesh/derive.h"
-#include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/edit/polygon_splitter.h"
 
 namespace lissom {
 namespace {
 
-// One flag a face: polygons among `faces`.
-std::vector<char> polygons_among(const Topology& topology, std::span<const Index> faces) {
+// Those among `faces` that have more than three corners, ascending, once each.
+std::vector<Index> polygons_among(const Topology& topology, std::span<const Index> faces) {
     require_faces(topology, faces);
-    std::vector<char> chosen(static_cast<std::size_t>(topology.face_count()), 0);
-    for (const Index f : faces) chosen[f] = topology.face(f).size() > 3;
-    return chosen;
+    std::vector<Index> polygons;
+    for (const Index f : faces) {
+        if (topology.face(f).size() > 3) polygons.push_back(f);
+    }
+    std::sort(polygons.begin(), polygons.end());
+    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+    return polygons;
 }
 
 }  // namespace
 
 void triangulate(Mesh& mesh, std::span<const Index> faces, const Context& context) {
     const Topology& topology = mesh.topology();
-    const std::vector<char> chosen = polygons_among(topology, faces);
-    if (std::find(chosen.begin(), chosen.end(), 1) == chosen.end()) return;
+    const std::vector<Index> polygons = polygons_among(topology, faces);
+    if (polygons.empty()) return;
     Progress progress(context, "triangulate");
+    const PolygonSplitter splitter(topology, mesh.positions(), polygons);
 
     FaceList result;
     std::vector<Index> corners, face_map;
-    std::vector<Vec3> points;
-    std::vector<Triangle> triangles;
+    std::size_t next = 0;
     for (Index f = 0; f < topology.face_count(); ++f) {
         const std::span<const Index> face = topology.face(f);
         const Index first = topology.first_corner(f);
-        if (!chosen[f]) {
+        if (next == polygons.size() || polygons[next] != f) {
             result.add(face);
             for (std::size_t k = 0; k < face.size(); ++k) {
                 corners.push_back(first + static_cast<Index>(k));
@@ -42,11 +46,7 @@ void triangulate(Mesh& mesh, std::span<const Index> faces, const Context& contex
             face_map.push_back(f);
             continue;
         }
-        points.clear();
-        triangles.clear();
-        for (const Index v : face) points.push_back(mesh.position(v));
-        triangulate_polygon(points, triangles);
-        for (const auto& [a, b, c] : triangles) {
+        for (const auto& [a, b, c] : splitter.triangles(next++)) {
             result.add({face[a], face[b], face[c]});
             corners.insert(corners.end(), {first + a, first + b, first + c});
             face_map.push_back(f);

@@ -11,8 +11,10 @@ namespace lissom {
 /// vertices stay. The triangles of a face follow each other and take its labels and attributes.
 /// Where nothing is to be split the mesh is left as it is, topology included; else the topology is
 /// a new one, to which named regions move.
-/// Errors: out_of_range naming faces that do not exist; nonmanifold_edge where two polygons would
-/// be split along the same diagonal; cancelled.
+/// Where two polygons would be split along the same diagonal, or one along an edge that the mesh
+/// has, another diagonal is taken.
+/// Errors: out_of_range naming faces that do not exist; nonmanifold_edge where no other diagonal is
+/// found; cancelled.
 void triangulate(Mesh& mesh, const Context& context = {});
 void triangulate(Mesh& mesh, std::span<const Index> faces, const Context& context = {});
 

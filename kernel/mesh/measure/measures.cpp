@@ -20,17 +20,6 @@ Vec3 mean(std::span<const Vec3> points) {
     return points.empty() ? sum : Vec3(sum / static_cast<double>(points.size()));
 }
 
-// Half the sum of cross products around a face: its normal times its area where it is planar.
-Vec3 face_vector_area(const Mesh& mesh, Index f) {
-    const std::span<const Index> face = mesh.topology().face(f);
-    const Vec3& origin = mesh.position(face[0]);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 1; k + 1 < face.size(); ++k) {
-        sum += (mesh.position(face[k]) - origin).cross(mesh.position(face[k + 1]) - origin);
-    }
-    return 0.5 * sum;
-}
-
 double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     return 0.5 * (b - a).cross(c - a).norm();
 }
@@ -229,12 +218,31 @@ Index genus(const Topology& topology) {
     return (2 * components - loops - euler_characteristic(topology)) / 2;
 }
 
+Vec3 polygon_normal(std::span<const Vec3> corners) {
+    Vec3 area = Vec3::Zero();
+    double longest = 0.0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Vec3& next = corners[(k + 1) % corners.size()];
+        area += 0.5 * (corners[k] - corners[0]).cross(next - corners[0]);
+        longest = std::max(longest, (next - corners[k]).squaredNorm());
+    }
+    const double size = area.norm();
+    return size > kFlatFace * longest ? Vec3(area / size) : Vec3(Vec3::Zero());
+}
+
+double corner_angle(const Vec3& before, const Vec3& corner, const Vec3& after, const Vec3& normal) {
+    const Vec3 a = after - corner, b = before - corner;
+    const double angle = std::atan2(a.cross(b).dot(normal), a.dot(b));
+    return angle < 0.0 ? angle + 2.0 * kPi : angle;
+}
+
 std::vector<Vec3> face_normals(const Mesh& mesh) {
-    std::vector<Vec3> normals(static_cast<std::size_t>(mesh.face_count()), Vec3::Zero());
+    std::vector<Vec3> normals, corners;
+    normals.reserve(static_cast<std::size_t>(mesh.face_count()));
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        const Vec3 area = face_vector_area(mesh, f);
-        const double size = area.norm();
-        if (size > kFlatFace * longest_edge_squared(mesh, f)) normals[f] = area / size;
+        corners.clear();
+        for (const Index v : mesh.topology().face(f)) corners.push_back(mesh.position(v));
+        normals.push_back(polygon_normal(corners));
     }
     return normals;
 }
@@ -246,12 +254,9 @@ std::vector<Vec3> vertex_normals(const Mesh& mesh) {
         const std::span<const Index> face = mesh.topology().face(f);
         const std::size_t n = face.size();
         for (std::size_t k = 0; k < n; ++k) {
-            const Vec3& here = mesh.position(face[k]);
-            const Vec3 a = mesh.position(face[(k + 1) % n]) - here;
-            const Vec3 b = mesh.position(face[(k + n - 1) % n]) - here;
-            // The angle from a to b about the face's normal, so that reflex corners count in full.
-            double angle = std::atan2(a.cross(b).dot(of_face[f]), a.dot(b));
-            if (angle < 0.0) angle += 2.0 * kPi;
+            const double angle =
+                corner_angle(mesh.position(face[(k + n - 1) % n]), mesh.position(face[k]),
+                             mesh.position(face[(k + 1) % n]), of_face[f]);
             normals[face[k]] += angle * of_face[f];
         }
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kernel/mesh/mesh.h"
@@ -43,6 +44,13 @@ Index euler_characteristic(const Topology& topology);
 /// Handles of the surface, summed over components: (2 c - b - chi) / 2, with boundary loops counted
 /// as closed. Vertices without faces do not count.
 Index genus(const Topology& topology);
+
+/// Unit normal of a polygon from its vector area; zero where it has no area.
+Vec3 polygon_normal(std::span<const Vec3> corners);
+
+/// Angle of a polygon's corner, `before` and `after` being those next to it counter-clockwise,
+/// about the polygon's normal; from 0 to 2 pi, so that reflex corners count in full.
+double corner_angle(const Vec3& before, const Vec3& corner, const Vec3& after, const Vec3& normal);
 
 /// Unit normal of every face from its vector area; zero for a face without area.
 std::vector<Vec3> face_normals(const Mesh& mesh);

@@ -1,6 +1,7 @@
 #include "kernel/mesh/query/distances.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -61,11 +62,30 @@ std::vector<double> edge_distances(const Mesh& mesh, std::span<const Index> sour
     return ShortestPaths(mesh).from(sources, limit, context);
 }
 
+std::vector<double> edge_distances(const Mesh& mesh, const SurfacePoint& point,
+                                   const Context& context) {
+    require_vertices(mesh.topology(), point.triangle);
+    std::vector<double> shortest(static_cast<std::size_t>(mesh.vertex_count()), kInfinity);
+    ShortestPaths paths(mesh);
+    for (const Index corner : point.triangle) {
+        const double first = (mesh.position(corner) - point.position).norm();
+        const std::vector<double>& further = paths.from(std::array{corner}, kInfinity, context);
+        for (std::size_t v = 0; v < shortest.size(); ++v) {
+            shortest[v] = std::min(shortest[v], first + further[v]);
+        }
+    }
+    return shortest;
+}
+
 struct HeatDistances::State {
     State(const Mesh& given, const Context& context);
 
     void build_systems(const Context& context);
-    std::vector<double> diffuse(std::span<const Index> sources) const;
+    std::vector<double> diffuse(std::span<const Index> sources,
+                                std::span<const double> weights) const;
+    std::vector<double> up_to_a_constant(std::span<const Index> sources,
+                                         std::span<const double> weights,
+                                         const Context& context) const;
     std::vector<double> divergence_of_directions(const std::vector<double>& heat,
                                                  const Context& context) const;
     void shift_to_sources(std::vector<double>& distance, std::span<const Index> sources) const;
@@ -132,10 +152,13 @@ void HeatDistances::State::build_systems(const Context& context) {
     prepare(poisson, assemble(n, laplacian, poisson_pinned), context);
 }
 
-std::vector<double> HeatDistances::State::diffuse(std::span<const Index> sources) const {
+std::vector<double> HeatDistances::State::diffuse(std::span<const Index> sources,
+                                                  std::span<const double> weights) const {
     const auto n = static_cast<std::size_t>(topology->vertex_count());
     std::vector<double> start(n, 0.0), heat(n, 0.0);
-    for (const Index v : sources) start[v] = 1.0;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        start[sources[i]] = weights.empty() ? 1.0 : weights[i];
+    }
     heat_free.solve(start, heat, 1);
     if (topology->is_closed()) return heat;
     // The mean of a boundary that keeps all heat in and one that is kept cold (section 3.3.1).
@@ -173,6 +196,21 @@ std::vector<double> HeatDistances::State::divergence_of_directions(const std::ve
     return divergence;
 }
 
+// Distances, but for a constant in each component. Sources weigh alike where no weights are given.
+std::vector<double> HeatDistances::State::up_to_a_constant(std::span<const Index> sources,
+                                                           std::span<const double> weights,
+                                                           const Context& context) const {
+    const std::vector<double> heat = diffuse(sources, weights);
+    context.checkpoint();
+    std::vector<double> distance = divergence_of_directions(heat, context);
+    // The Laplacian here is positive, minus that of the paper.
+    for (std::size_t v = 0; v < distance.size(); ++v) {
+        distance[v] = poisson_pinned[v] ? 0.0 : -distance[v];
+    }
+    poisson.solve(distance, distance, 1);
+    return distance;
+}
+
 // The Poisson system leaves a constant open in each component: there the sources' mean becomes 0.
 void HeatDistances::State::shift_to_sources(std::vector<double>& distance,
                                             std::span<const Index> sources) const {
@@ -208,19 +246,38 @@ std::vector<double> HeatDistances::from(std::span<const Index> sources,
         throw Error(ErrorCode::invalid_argument,
                     "distances need at least one vertex to start from");
     }
-    const std::vector<double> heat = state_->diffuse(sources);
-    context.checkpoint();
-    std::vector<double> distance = state_->divergence_of_directions(heat, context);
-    // The Laplacian here is positive, minus that of the paper.
-    for (std::size_t v = 0; v < distance.size(); ++v) {
-        distance[v] = state_->poisson_pinned[v] ? 0.0 : -distance[v];
-    }
-    state_->poisson.solve(distance, distance, 1);
+    std::vector<double> distance = state_->up_to_a_constant(sources, {}, context);
     state_->shift_to_sources(distance, sources);
     // Heat overshoots where it is squeezed through narrow parts; no geodesic is longer than a way
     // along edges.
     const std::vector<double> bound = edge_distances(state_->shape, sources, kInfinity, context);
     for (std::size_t v = 0; v < distance.size(); ++v) distance[v] = std::min(distance[v], bound[v]);
+    return distance;
+}
+
+// The mean of the triangle's corners fixes the constant; within a step of the point, where heat
+// does not tell, distances are at least the straight ones.
+std::vector<double> HeatDistances::from_point(const SurfacePoint& point,
+                                              const Context& context) const {
+    const Triangle& corners = point.triangle;
+    require_vertices(*state_->topology, corners);
+    const std::span<const double> weights(point.barycentric.data(), 3);
+    std::vector<double> distance = state_->up_to_a_constant(corners, weights, context);
+    const auto straight = [&](std::size_t v) {
+        return (state_->shape.position(static_cast<Index>(v)) - point.position).norm();
+    };
+    double constant = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto v = static_cast<std::size_t>(corners[k]);
+        constant += weights[k] * (distance[v] - straight(v));
+    }
+    const std::vector<double> bound = edge_distances(state_->shape, point, context);
+    for (std::size_t v = 0; v < distance.size(); ++v) {
+        const bool out_of_reach = std::isinf(bound[v]);
+        distance[v] = out_of_reach
+                          ? kInfinity
+                          : std::min(std::max(distance[v] - constant, straight(v)), bound[v]);
+    }
     return distance;
 }
 

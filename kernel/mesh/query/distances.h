@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/query/spatial_tree.h"
 
 namespace lissom {
 
@@ -16,6 +17,10 @@ namespace lissom {
 /// Errors: out_of_range; invalid_argument for a limit that is negative or NaN; cancelled.
 std::vector<double> edge_distances(const Mesh& mesh, std::span<const Index> sources,
                                    double limit = std::numeric_limits<double>::infinity(),
+                                   const Context& context = {});
+
+/// The same from a point of the surface: straight to a corner of its triangle, then along edges.
+std::vector<double> edge_distances(const Mesh& mesh, const SurfacePoint& point,
                                    const Context& context = {});
 
 /// Geodesic distances by the heat method (Crane, Weischedel and Wardetzky 2013), with its two
@@ -40,6 +45,9 @@ class HeatDistances {
     /// components without one.
     /// Errors: out_of_range; invalid_argument without sources; cancelled.
     std::vector<double> from(std::span<const Index> sources, const Context& context = {}) const;
+    /// Distance of every vertex to a point of the surface, which need not be a vertex.
+    /// Errors: out_of_range; cancelled.
+    std::vector<double> from_point(const SurfacePoint& point, const Context& context = {}) const;
 
   private:
     struct State;

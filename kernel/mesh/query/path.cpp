@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/mesh/measure/directions.h"
+#include "kernel/mesh/query/path_smooth.h"
 #include "kernel/mesh/query/shortest_path.h"
 
 namespace lissom {
@@ -68,14 +69,19 @@ PathPoint polyline_nearest(std::span<const Vec3> points, bool closed, const Vec3
     return best;
 }
 
-void smooth_polyline(std::vector<Vec3>& points, bool closed, Index iterations, double strength) {
+void smooth_polyline(std::vector<Vec3>& points, bool closed, Index iterations, double strength,
+                     const Context& context) {
     if (iterations < 0 || !(strength >= 0.0 && strength <= 1.0)) {
         throw Error(ErrorCode::invalid_argument,
                     "smoothing a path needs iterations of 0 or more and a strength from 0 to 1");
     }
+    constexpr Index kIterationsPerReport = 1024;
+    Progress progress(context, "smooth path");
     const std::size_t n = points.size();
     std::vector<Vec3> next = points;
     for (Index iteration = 0; iteration < iterations; ++iteration) {
+        context.checkpoint();
+        if (iteration % kIterationsPerReport == 0) progress.update(double(iteration) / iterations);
         for (std::size_t i = closed ? 0 : 1; i < (closed ? n : n - 1); ++i) {
             const Vec3 middle = 0.5 * (points[(i + n - 1) % n] + points[(i + 1) % n]);
             next[i] = points[i] + strength * (middle - points[i]);
@@ -205,24 +211,33 @@ Path path_through(const Mesh& mesh, std::span<const Index> vertices, bool closed
     return {mesh.shared_topology(), std::move(path), closed};
 }
 
-void smooth_path(Mesh& mesh, const Path& path, Index iterations, double strength) {
+void smooth_path(Mesh& mesh, const Path& path, Index iterations, double strength,
+                 const Context& context) {
     if (!path.on_mesh()) {
         throw Error(
             ErrorCode::invalid_argument,
             "the path has points of its own and none of the mesh; smooth it without a mesh");
     }
     std::vector<Vec3> points = path.points(mesh);
-    smooth_polyline(points, path.closed(), iterations, strength);
+    smooth_polyline(points, path.closed(), iterations, strength, context);
     const DirectionCarrier directions(mesh);
     const std::span<Vec3> positions = mesh.edit_positions();
     for (std::size_t i = 0; i < points.size(); ++i) positions[path.vertices()[i]] = points[i];
     directions.follow(mesh);
 }
 
-void smooth_path(Path& path, Index iterations, double strength) {
+void smooth_path(Path& path, Index iterations, double strength, const Context& context) {
     std::vector<Vec3> points = path.points();
-    smooth_polyline(points, path.closed(), iterations, strength);
-    path.points_ = std::move(points);
+    smooth_polyline(points, path.closed(), iterations, strength, context);
+    path = Path(std::move(points), path.closed());
+}
+
+void smooth_path(Mesh& mesh, const Path& path, Index iterations, double strength) {
+    smooth_path(mesh, path, iterations, strength, Context());
+}
+
+void smooth_path(Path& path, Index iterations, double strength) {
+    smooth_path(path, iterations, strength, Context());
 }
 
 }  // namespace lissom

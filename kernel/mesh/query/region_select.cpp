@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/distances.h"
 
 namespace lissom {
@@ -77,9 +78,54 @@ Region select_sphere(const Mesh& mesh, const Vec3& center, double radius) {
 
 Region select_box(const Mesh& mesh, const Box& box) {
     if (!(box.min.array() <= box.max.array()).all()) {
-        throw Error(ErrorCode::invalid_argument, "the box needs min <= max on every axis");
+        throw Error(ErrorCode::invalid_argument,
+                    "the box needs min <= max on every axis; a side that is open is infinite");
     }
     return select(mesh, [&](Index, const Vec3& p) { return box.contains(p); });
+}
+
+Region select_fraction(const Mesh& mesh, const Box& fractions) {
+    const Box whole = bounds(mesh);
+    Box box = fractions;
+    for (int axis = 0; axis < 3 && !whole.empty(); ++axis) {
+        for (double* side : {&box.min[axis], &box.max[axis]}) {
+            // Exact at 0 and 1, and infinite where the fraction is.
+            if (std::isfinite(*side)) *side = std::lerp(whole.min[axis], whole.max[axis], *side);
+        }
+    }
+    return select_box(mesh, box);
+}
+
+Region connected_part(const Region& region, Index vertex) {
+    if (!region.contains(vertex)) {
+        Elements named{ElementKind::vertex, 1, {vertex}};
+        const std::string name = describe(named);
+        throw Error(ErrorCode::out_of_range,
+                    name + " is not in the region, so no part of it is connected with it",
+                    std::move(named));
+    }
+    std::vector<char> open = region.mask();
+    std::vector<Index> part{vertex};
+    open[vertex] = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        for (const Index n : region.topology()->neighbors(part[i])) {
+            if (std::exchange(open[n], 0)) part.push_back(n);
+        }
+    }
+    return {region.topology(), std::move(part)};
+}
+
+Region connected_part(const Mesh& mesh, const Region& region, const Vec3& point) {
+    require_same_topology(mesh, region.topology(), "the region");
+    require_finite_option(point, "the point");
+    if (region.empty()) {
+        throw Error(ErrorCode::region_empty, "a region without vertices has no connected part");
+    }
+    const std::vector<Index>& all = region.vertices();
+    const auto nearer = [&](Index a, Index b) {
+        return (mesh.position(a) - point).squaredNorm() < (mesh.position(b) - point).squaredNorm();
+    };
+    return connected_part(region, *std::min_element(all.begin(), all.end(), nearer));
 }
 
 Region select_plane(const Mesh& mesh, const Vec3& point, const Vec3& normal) {
@@ -95,6 +141,13 @@ Region select_geodesic(const Mesh& mesh, std::span<const Index> from, double rad
                        const Context& context) {
     require_radius(radius);
     const std::vector<double> distance = heat_distances(mesh, from, context);
+    return select(mesh, [&](Index v, const Vec3&) { return distance[v] <= radius; });
+}
+
+Region select_around(const Mesh& mesh, const SurfacePoint& from, double radius,
+                     const Context& context) {
+    require_radius(radius);
+    const std::vector<double> distance = HeatDistances(mesh, context).from_point(from, context);
     return select(mesh, [&](Index v, const Vec3&) { return distance[v] <= radius; });
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/query/spatial_tree.h"
 #include "kernel/mesh/region.h"
 
 namespace lissom {
@@ -20,6 +21,17 @@ Region select_sphere(const Mesh& mesh, const Vec3& center, double radius);
 /// Errors: invalid_argument where min exceeds max or is NaN.
 Region select_box(const Mesh& mesh, const Box& box);
 
+/// Vertices inside a box that is given in fractions of the mesh's bounds: 0 is the least coordinate
+/// of an axis, 1 the greatest. Sides may be infinite. Errors: as select_box.
+Region select_fraction(const Mesh& mesh, const Box& fractions);
+
+/// The part of a region that edges between its vertices connect with `vertex`. Errors: out_of_range
+/// where it is not in the region.
+Region connected_part(const Region& region, Index vertex);
+/// The same for the vertex of the region that is nearest to `point`.
+/// Errors: region_empty; topology_mismatch; not_finite.
+Region connected_part(const Mesh& mesh, const Region& region, const Vec3& point);
+
 /// Vertices on the side of a plane that `normal` points to, the plane included.
 /// Errors: invalid_argument for a normal without length; not_finite.
 Region select_plane(const Mesh& mesh, const Vec3& point, const Vec3& normal);
@@ -30,6 +42,10 @@ Region select_plane(const Mesh& mesh, const Vec3& point, const Vec3& normal);
 /// naming the vertices; as HeatDistances.
 Region select_geodesic(const Mesh& mesh, std::span<const Index> from, double radius,
                        const Context& context = {});
+
+/// The same from a point of the surface, which need not be a vertex.
+Region select_around(const Mesh& mesh, const SurfacePoint& from, double radius,
+                     const Context& context = {});
 
 /// Vertices of the faces that carry `label` of the given kind ("group", "material", "object", ...).
 /// Errors: invalid_argument naming the labels there are.

@@ -20,13 +20,15 @@ namespace {
 
 constexpr int kHeadRelaxSteps = 4;
 constexpr Index kBlock = 8;
+// Lines of the grid at the face, in those of a length far from it.
+constexpr double kFaceLines = 2.2;
 
 // How the grid's lines lie along one axis: `fine` times closer in the middle of a band than far
 // from it.
 struct Warp {
     double low = 0.0, high = 0.0;            // of the box
     double band_low = 0.0, band_high = 0.0;  // where lines are close
-    double fine = 2.2;
+    double fine = kFaceLines;
 
     static constexpr double kFade = 0.03;
 
@@ -78,8 +80,8 @@ struct Lines {
 
 class HeadBuilder {
   public:
-    HeadBuilder(double step, const Vec2& shift, const Context& context)
-        : context_(context), lines_(step, shift), middle_(lines_.count(0) / 2 - 1) {
+    HeadBuilder(double step, const HeadForm& form, const Vec2& shift, const Context& context)
+        : context_(context), form_(form), lines_(step, shift), middle_(lines_.count(0) / 2 - 1) {
         for (int axis = 0; axis < 3; ++axis) counts_[axis] = lines_.count(axis);
     }
 
@@ -129,12 +131,12 @@ class HeadBuilder {
             last[axis] = std::min(first[axis] + kBlock, counts_[axis]) - 1;
         }
         const Vec3 low = lines_.point(first), high = lines_.point(last);
-        const double middle = head_form(0.5 * (low + high));
+        const double middle = form_(0.5 * (low + high));
         const bool far = std::abs(middle) > 1.5 * (high - low).norm();
         for (Index k = first[2]; k <= last[2]; ++k) {
             for (Index j = first[1]; j <= last[1]; ++j) {
                 for (Index i = first[0]; i <= last[0]; ++i) {
-                    const double value = far ? middle : head_form(lines_.point({i, j, k}));
+                    const double value = far ? middle : form_(lines_.point({i, j, k}));
                     values_[number({i, j, k})] = static_cast<float>(value);
                 }
             }
@@ -239,20 +241,21 @@ class HeadBuilder {
         }
     }
 
-    static Vec3 relaxed(const Topology& topology, std::span<const Vec3> positions, Index v) {
+    Vec3 relaxed(const Topology& topology, std::span<const Vec3> positions, Index v) const {
         const auto ring = topology.neighbors(v);
         Vec3 mean = Vec3::Zero();
         for (const Index n : ring) mean += positions[n] / static_cast<double>(ring.size());
         Vec3 p = positions[v] + 0.5 * (mean - positions[v]);
         for (int i = 0; i < 2; ++i) {
-            const Vec3 gradient = head_form_gradient(p);
+            const Vec3 gradient = form_.gradient(p);
             const double square = std::max(gradient.squaredNorm(), 0.05);
-            p -= head_form(p) / square * gradient;
+            p -= form_(p) / square * gradient;
         }
         return p;
     }
 
     const Context& context_;
+    const HeadForm& form_;
     Lines lines_;
     std::array<Index, 3> counts_{};
     Index middle_;  // the column of cells that holds x = 0
@@ -264,12 +267,12 @@ class HeadBuilder {
     FaceList faces_;
 };
 
-void name_regions(Mesh& mesh) {
+void name_regions(Mesh& mesh, const HeadForm& form) {
     std::vector<Index> scalp, ears, bottom;
     const std::vector<HairlinePoint> hairline = default_hairline();
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         const Vec3& p = mesh.position(v);
-        const bool ear = head_ears(p) < 1e-3;
+        const bool ear = form.ears(p) < 1e-3;
         const double elevation = std::atan2(p.y(), std::hypot(p.x(), p.z()));
         if (ear) ears.push_back(v);
         if (p.y() < kHeadBottom + 2e-3) bottom.push_back(v);
@@ -285,14 +288,14 @@ void name_regions(Mesh& mesh) {
 
 // Where a part is about as thin as a cell, two sheets of the surface share vertices of the net, and
 // it is no manifold: lines that lie a little elsewhere then tell them apart.
-Mesh build_manifold(double step, const Context& context) {
+Mesh build_manifold(double step, const HeadForm& form, const Context& context) {
     constexpr int kAttempts = 40;
     for (int attempt = 0;; ++attempt) {
         // Spread evenly by multiples of irrational numbers.
         const Vec2 shift(std::fmod(0.7548776662 * attempt, 1.0),
                          std::fmod(0.5698402910 * attempt, 1.0));
         try {
-            return HeadBuilder(step, shift, context).build();
+            return HeadBuilder(step, form, shift, context).build();
         } catch (const Error& error) {
             const bool shared = error.code() == ErrorCode::nonmanifold_edge ||
                                 error.code() == ErrorCode::nonmanifold_vertex;
@@ -311,8 +314,9 @@ Mesh make_head(const HeadOptions& options, const Context& context) {
     }
     // Vertices grow with the square of the lines' number.
     const double step = 0.0132 * std::sqrt(10000.0 / options.vertices);
-    Mesh mesh = build_manifold(step, context);
-    name_regions(mesh);
+    const HeadForm form(step / kFaceLines);
+    Mesh mesh = build_manifold(step, form, context);
+    name_regions(mesh, form);
     const double scale = options.height / (kHeadTop - kHeadBottom);
     for (Vec3& p : mesh.edit_positions()) p *= scale;
     return mesh;

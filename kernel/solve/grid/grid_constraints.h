@@ -19,6 +19,8 @@ struct GridConstraint {
     Vec3 value = Vec3::Zero();
     /// The weight omega of equation (4.2), whose value this is.
     double weight = 100.0;
+    /// For the caller to tell constraints apart; the field does not read it.
+    int tag = 0;
 };
 
 /// All constraints at one grid point as one.

@@ -91,6 +91,18 @@ std::string option_text(const Entry::Slot& slot, const std::string& value) {
            " } }";
 }
 
+TEST_CASE("a method called with a dot is told of the colon") {
+    test::LuaState lua;
+    const std::string message = lua.run("local m = lissom.shapes.box() m.smooth{ iterations = 1 }");
+    CHECK(
+        message ==
+        "test:1: bad argument #1 to 'smooth' (lissom.Mesh expected, got table; write mesh:smooth, "
+        "not mesh.smooth)");
+    CHECK(lua.run("lissom.shapes.box().area()")
+              .find("got no value; write mesh:area, not mesh.area") != std::string::npos);
+    CHECK(lua.run("lissom.shapes.box().area(nil)").find("write") == std::string::npos);
+}
+
 TEST_CASE("no function crashes on arguments of any type") {
     const Registry registry = kernel_registry();
     for (const auto& entry : registry.entries()) {
@@ -216,7 +228,7 @@ TEST_CASE("what does not fit is named with what is expected") {
     refuses("ids = { 1, 'a' }",
             "bad option 'ids' of 'describe' (list of ids expected at [2], got \"a\")");
     refuses("axis = { 0, 0, 0 }",
-            "bad option 'axis' of 'describe' (\"x\", \"y\", \"z\" or {x, y, z} "
+            "bad option 'axis' of 'describe' (\"x\", \"-y\", ... or {x, y, z} "
             "with a length expected, got table)");
     refuses("inner = { }", "missing option 'inner.deep' of 'describe' (finite number)");
     refuses("inner = { depe = 1 }",

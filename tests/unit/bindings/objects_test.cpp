@@ -59,6 +59,65 @@ TEST_CASE("finalizers called by hand do no harm") {
                   "gc(mesh) gc(mesh) gc({}) gc(io.stdout) pcall(gc)") == "");
 }
 
+TEST_CASE("a metatable that a script has set on an object of another type is an error") {
+    LuaState lua;
+    CHECK(lua.run("mesh = lissom.shapes.box() region = mesh:region('top') "
+                  "area, grow = mesh.area, region.grow "
+                  "debug.setmetatable(region, getmetatable(mesh))") == "");
+    CHECK(lua.run("region:area()") ==
+          "test:1: bad argument #1 to 'area' (lissom.Mesh expected, got lissom.Region)");
+    CHECK(lua.run("return #region").find("lissom.Mesh expected") != std::string::npos);
+    CHECK(lua.run("lissom.deform(region)").find("got lissom.Region") != std::string::npos);
+    CHECK(lua.run("return region == mesh") == "");
+    CHECK(lua.eval("tostring(region)") == "lissom.Mesh");
+    // What it is, it still is.
+    CHECK(lua.eval("#grow(region):vertices()") == "8");
+    CHECK(lua.run("region:close()").find("got userdata") != std::string::npos);
+    CHECK(lua.run("region = nil") == "");
+    lua.collect();
+}
+
+TEST_CASE("our metatables on foreign userdata do no harm") {
+    LuaState lua;
+    CHECK(lua.run("mesh = lissom.shapes.box() meta = getmetatable(mesh)") == "");
+    // A file of Lua's, and one of our own values that is no object.
+    lua_newuserdata(lua.get(), 256);
+    lua_setglobal(lua.get(), "large");
+    lua_newuserdata(lua.get(), 1);
+    lua_setglobal(lua.get(), "small");
+    for (const char* name : {"large", "small", "io.stdout"}) {
+        CAPTURE(name);
+        CHECK(lua.run("other = " + std::string(name) +
+                      " old = debug.getmetatable(other) debug.setmetatable(other, meta)") == "");
+        CHECK(lua.run("other:area()").find("lissom.Mesh expected") != std::string::npos);
+        CHECK(lua.run("return #other").find("lissom.Mesh expected") != std::string::npos);
+        CHECK(lua.run("other:close()").find("lissom.Mesh expected") != std::string::npos);
+        CHECK(lua.run("local s = tostring(other) return other == mesh") == "");
+        CHECK(lua.run("meta.__gc(other) debug.setmetatable(other, old) other = nil") == "");
+    }
+    lua.collect();
+    CHECK(lua.eval("mesh:area()") == "6.0");
+}
+
+TEST_CASE("an object without its metatable is still what it is") {
+    LuaState lua;
+    CHECK(lua.run("mesh = lissom.shapes.box() area = mesh.area debug.setmetatable(mesh, nil)") ==
+          "");
+    CHECK(lua.eval("area(mesh)") == "6.0");
+}
+
+TEST_CASE("strings with zero bytes are refused, not cut") {
+    LuaState lua;
+    CHECK(lua.run("lissom.load('a.obj\\0.txt')").find("string without zero bytes expected") !=
+          std::string::npos);
+    CHECK(lua.run("lissom.shapes.box():save('a.obj\\0.txt')").find("zero bytes") !=
+          std::string::npos);
+    CHECK(lua.run("lissom.shapes.box():region('top\\0')").find("zero bytes") != std::string::npos);
+    CHECK(lua.run("lissom.shapes.box():save('a.obj', { up = 'z\\0' })").find("zero bytes") !=
+          std::string::npos);
+    CHECK(lua.run("lissom.shapes.box():transform{ rotate = { axis = 'x\\0', angle = 1 } }") != "");
+}
+
 TEST_CASE("native memory makes the collector work") {
     LuaState lua;
     // 300 meshes of about 3 MB each, and next to nothing for Lua.

@@ -1,6 +1,7 @@
 #include "bindings/cli/program.h"
 
 #include <csignal>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -120,6 +121,55 @@ TEST_CASE("scripts end with a status and the place of their error") {
     CHECK(ends("local t\nprint(t.x)").err.find("may come from") == std::string::npos);
 }
 
+TEST_CASE("a failure that nobody looked at is told with file and line, and the status is 1") {
+    const Folder folder;
+    const std::string script = folder.write(
+        "s.lua",
+        "local lissom = require 'lissom'\nlocal box = lissom.shapes.box()\n"
+        "box:save('no/folder.obj')\nprint('goes on')\n"
+        "local _ = box:save('no/folder.obj')\nif box:save('no/folder.obj') then return end\n");
+    const Ended ended = run({"run", script});
+    CHECK(ended.status == kFailure);
+    CHECK(ended.err.find("warning: " + script + ":3: no/folder.obj: ") == 0);
+    CHECK(ended.err.find("[file_write_failed]; nobody looked at this failure") !=
+          std::string::npos);
+    CHECK(ended.err.find("\n" + script + ":3: a failure that nobody looked at") !=
+          std::string::npos);
+    CHECK(std::count(ended.err.begin(), ended.err.end(), '\n') == 2);
+    const Ended json = run({"run", "--json", script});
+    const Json error = Json::parse(json.err.substr(json.err.rfind("{\"error\"")))["error"];
+    CHECK(error["code"] == "file_write_failed");
+    CHECK(error["file"] == script);
+    CHECK(error["line"] == 3);
+    const std::string last = folder.write("t.lua", "return require 'lissom'.load('none.obj')");
+    const Ended returned = run({"run", last});
+    CHECK(returned.status == kFailure);
+    CHECK(returned.err.find(last + ":1: none.obj: there is no such file [file_not_found]") == 0);
+    const std::string good = folder.write("u.lua", "return require 'lissom'.shapes.box()");
+    CHECK(run({"run", good}).status == kSuccess);
+}
+
+TEST_CASE("a missing file gets the nearest name") {
+    const Folder folder;
+    const std::string mesh = folder.write("models/armadillo.obj", kTriangle);
+    folder.write("first.lua", "local x = 1");
+    const auto said = [&](const std::vector<std::string>& words) {
+        const Ended ended = run(words);
+        CHECK(ended.status == kFailure);
+        return ended.err;
+    };
+    CHECK(
+        said({"run", folder.path("frist.lua")}).find("did you mean '" + folder.path("first.lua")) !=
+        std::string::npos);
+    CHECK(said({"inspect", folder.path("models/armadilo.obj")})
+              .find("did you mean '" + mesh + "'?") != std::string::npos);
+    CHECK(said({"inspect", folder.path("models/armadillo")}).find("did you mean '" + mesh + "'?") !=
+          std::string::npos);
+    CHECK(said({"inspect", folder.path("model/armadillo.obj")})
+              .find("there is no folder '" + folder.path("model") + "', did you mean '" +
+                    folder.path("models") + "'?") != std::string::npos);
+}
+
 TEST_CASE("errors of scripts as JSON") {
     const Folder folder;
     const std::string script =
@@ -177,10 +227,152 @@ TEST_CASE("Ctrl-C stops Lua, in coroutines and past pcall") {
         char* argv[] = {name.data(), verb.data(), path.data()};
         std::ostringstream err;
         std::streambuf* const old = std::cerr.rdbuf(err.rdbuf());
-        CHECK(run_program(3, argv, parts) == kFailure);
+        CHECK(run_program(3, argv, parts) == kInterrupted);
         std::cerr.rdbuf(old);
         CHECK(err.str().find("cancelled") != std::string::npos);
     }
+}
+
+TEST_CASE("--help never runs the script") {
+    const Folder folder;
+    const std::string mark = folder.path("mark");
+    const auto help_of = [&](const std::string& code) {
+        return run({"run", folder.write("s.lua", code), "--help"});
+    };
+    const std::string open = "io.open('" + mark + "', 'w'):close() ";
+    const std::string lissom = "local lissom = require 'lissom' ";
+    const std::string declare = "lissom.params{ n = { type = 'integer', default = 1 } } ";
+    const Ended plain = help_of(open + "error('ran')");
+    CHECK(plain.status == kSuccess);
+    CHECK(plain.out.find("declares no parameters") != std::string::npos);
+    const Ended late = help_of(lissom + open + declare + "error('ran')");
+    CHECK(late.status == kSuccess);
+    CHECK(late.out.find("works before it declares parameters") != std::string::npos);
+    for (const char* work : {"os.remove('x')", "os.execute('true')", "os.exit(3)", "io.write('x')",
+                             "lissom.shapes.box()", "pcall(lissom.load, 'x.obj') os.exit(3)",
+                             "io.stdout:write('x')"}) {
+        CAPTURE(work);
+        const Ended ended = help_of(lissom + work + " " + declare);
+        CHECK(ended.status == kSuccess);
+        CHECK(ended.out.find("works before it declares parameters") != std::string::npos);
+    }
+    const Ended good = help_of(lissom + "print('hello') local now = os.time() " + declare + open);
+    CHECK(good.status == kSuccess);
+    CHECK(good.out.find("--n integer") != std::string::npos);
+    CHECK(!folder.has("mark"));
+    CHECK(help_of("x = = 1 -- params").status == kFailure);
+    CHECK(run({"run", folder.path("none.lua"), "--help"}).status == kFailure);
+    const std::string script = folder.write("s.lua", "error('ran')");
+    CHECK(Json::parse(run({"run", "--json", script, "-h"}).out)["parameters"].empty());
+}
+
+TEST_CASE("flags that a script does not declare are refused") {
+    const Folder folder;
+    const std::string mark = folder.path("mark");
+    const std::string open = "io.open('" + mark + "', 'w'):close() ";
+    const std::string plain = folder.write("plain.lua", open);
+    const Ended refused = run({"run", plain, "--size", "3"});
+    CHECK(refused.status == kUsage);
+    CHECK(refused.err.find("no parameter '--size': the script declares none") != std::string::npos);
+    CHECK(!folder.has("mark"));
+    CHECK(run({"run", plain, "word"}).status == kSuccess);
+    CHECK(run({"run", plain, "--", "--size"}).status == kSuccess);
+    // It may be declared in another file, which is known in the end.
+    folder.write("part.lua", "return 1");
+    CHECK(run({"run", folder.write("s.lua", "require 'part'"), "--size"}).status == kUsage);
+    folder.write("part.lua", "require 'lissom'.params{ size = { type = 'integer', default = 1 } }");
+    CHECK(run({"run", folder.write("s.lua", "require 'part'"), "--size", "3"}).status == kSuccess);
+    // A script that reads its words by itself knows them.
+    CHECK(run({"run", folder.write("own.lua", "assert(arg[1] == '--size')"), "--size"}).status ==
+          kSuccess);
+}
+
+TEST_CASE("run - reads the script from the standard input") {
+    const auto typed = [](const std::string& code, std::vector<std::string> words) {
+        std::istringstream input(code);
+        std::streambuf* const old = std::cin.rdbuf(input.rdbuf());
+        words.insert(words.begin(), {"run", "-"});
+        const Ended ended = run(words);
+        std::cin.rdbuf(old);
+        return ended;
+    };
+    CHECK(typed("local lissom = require 'lissom'", {}).status == kSuccess);
+    CHECK(typed("#!/usr/bin/env lissom\nerror('no')", {}).err == "stdin:2: no\n");
+    CHECK(typed("x = = 1", {}).err.find("stdin:1:") == 0);
+    const std::string declare =
+        "local p = require 'lissom'.params{ n = { type = 'integer', default = 1 } } ";
+    CHECK(typed(declare + "assert(p.n == 3)", {"--n", "3"}).status == kSuccess);
+    CHECK(typed(declare, {"--help"}).out.find("Usage: lissom run -") == 0);
+    CHECK(typed("", {"--m"}).status == kUsage);
+}
+
+TEST_CASE("a folder to write to is made before the work") {
+    const Folder folder;
+    const std::string code =
+        "local lissom = require 'lissom' "
+        "local p = lissom.params{ out = { type = 'folder', default = '' } } "
+        "assert(lissom.shapes.box():save(p.out .. '/box.obj')) ";
+    const std::string script = folder.write("s.lua", code);
+    CHECK(run({"run", script, "--out", folder.path("a/b")}).status == kSuccess);
+    CHECK(folder.has("a/b/box.obj"));
+    CHECK(run({"run", script, "--out", folder.path("a/b")}).status == kSuccess);
+    const Ended refused = run({"run", script, "--out", folder.path("s.lua")});
+    CHECK(refused.status == kUsage);
+    CHECK(refused.err.find("parameter 'out': ") != std::string::npos);
+    CHECK(run({"run", script, "--help"}).out.find("--out folder") != std::string::npos);
+    const std::string in = folder.write("a.obj", kTriangle);
+    CHECK(run({"convert", in, folder.path("c/d/a.ply")}).status == kSuccess);
+    CHECK(folder.has("c/d/a.ply"));
+}
+
+TEST_CASE("inspect says what exceeds the range of numbers") {
+    const Folder folder;
+    const std::string huge =
+        folder.write("a.obj",
+                     "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nv 0 0 1e200\nf 1 3 2\nf 1 2 4\n"
+                     "f 1 4 3\nf 2 3 4\n");
+    const std::string text = run({"inspect", huge}).out;
+    CHECK(text.find("beyond the range of numbers") != std::string::npos);
+    CHECK(text.find("nan") == std::string::npos);
+    const Json mesh = Json::parse(run({"inspect", huge, "--json"}).out)["meshes"][0];
+    CHECK(mesh["volume"].is_null());
+}
+
+TEST_CASE("inspect counts many labels in a time that grows with their number") {
+    const Folder folder;
+    std::string text;
+    constexpr int kCount = 60000;
+    for (int i = 0; i <= kCount + 1; ++i) {
+        text += "v " + std::to_string(i) + " " + std::to_string(i % 2) + " 0\n";
+    }
+    for (int i = 1; i <= kCount; ++i) {
+        text += "g a_group_of_one_face_" + std::to_string(i) + "\nf " + std::to_string(i) + " " +
+                std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
+    }
+    const std::string path = folder.write("a.obj", text);
+    const std::clock_t start = std::clock();
+    const Json mesh =
+        Json::parse(run({"inspect", path, "--json", "--threads", "1"}).out)["meshes"][0];
+    // Adding each name to a list that is searched took 20 times as long.
+    CHECK(double(std::clock() - start) / CLOCKS_PER_SEC < 5.0);
+    CHECK(mesh["labels"]["group"].size() == kCount);
+}
+
+TEST_CASE("convert refuses what single precision destroys, and moves the origin") {
+    const Folder folder;
+    const std::string in =
+        folder.write("a.obj", "v 4000000 0 0\nv 4000000.01 0 0\nv 4000000 0.01 0\nf 1 2 3\n");
+    const Ended refused = run({"convert", in, folder.path("a.stl"), "--json"});
+    CHECK(refused.status == kFailure);
+    CHECK(Json::parse(refused.out)["error"]["code"] == "unsupported");
+    const Ended moved = run({"convert", in, folder.path("a.stl"), "--origin", "auto", "--json"});
+    CHECK(moved.status == kSuccess);
+    CHECK(Json::parse(moved.out)["origin"][0] == 4000000.0);
+    CHECK(Json::parse(moved.out)["lost"].size() == 1);
+    const std::string points = folder.write("p.obj", "v 0 0 0\nv 1 0 0\n");
+    const Ended cloud = run({"convert", points, folder.path("p.stl"), "--json"});
+    CHECK(cloud.status == kFailure);
+    CHECK(Json::parse(cloud.out)["error"]["code"] == "unsupported");
 }
 
 TEST_CASE("the prompt evaluates, continues and goes on after errors") {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bindings/lua/reference/reference.h"
+#include "tests/unit/bindings/annotation_check.h"
 #include "tests/unit/bindings/lua_state.h"
 
 namespace lissom::lua {
@@ -40,12 +41,39 @@ TEST_CASE("every example of the table runs") {
     }
 }
 
-TEST_CASE("the annotations and the reference page are those of the table") {
-    const Library library = kernel_library();
-    const bool annotations_current = content("meta/lissom.lua") == annotations(library);
-    const bool reference_current = content("reference.md") == reference_page(library);
-    CHECK_MESSAGE(annotations_current, "run the build target `reference` and look at what changed");
-    CHECK_MESSAGE(reference_current, "run the build target `reference` and look at what changed");
+TEST_CASE("the annotations are those of the table") {
+    const bool current = content("meta/lissom.lua") == annotations(kernel_library());
+    CHECK_MESSAGE(current, "run the build target `reference` and look at what changed");
+}
+
+TEST_CASE("lua-language-server understands the annotations") {
+    const std::string text = annotations(kernel_library());
+    const std::vector<std::string> mistakes =
+        test::annotation_mistakes(text, test::declared_types(text));
+    for (const std::string& mistake : mistakes) CHECK_MESSAGE(false, mistake);
+    CHECK(mistakes.empty());
+    const std::string wrong =
+        "---@field a? strin\n---@field b (fun(x: integer): number)|string\n---@param c number\n"
+        "function f(d) end\n---@return lissom.Nothing\n---@overload number\n";
+    CHECK(test::annotation_mistakes(wrong, {}).size() == 4);
+}
+
+TEST_CASE("help says how a function is called, under all its names") {
+    const Registry registry = kernel_registry();
+    const std::string save = help_for(registry, "mesh.save");
+    CHECK(save.find("mesh:save(path, [{...}])\n") == 0);
+    CHECK(save.find("path (string; required)") != std::string::npos);
+    CHECK(save.find("errors: unknown_format") != std::string::npos);
+    for (const char* name : {"lissom.Mesh:save", "Mesh.save", "mesh:save"}) {
+        CHECK_MESSAGE(help_for(registry, name) == save, name);
+    }
+    CHECK(help_for(registry, "save").find("strands:save(") != std::string::npos);
+    CHECK(help_for(registry, "shapes.box").find("lissom.shapes.box") == 0);
+    CHECK(help_for(registry, "Mesh").find("mesh:smooth{...}") != std::string::npos);
+    CHECK(help_for(registry, "sav") == "");
+    for (const std::string& name : help_names(registry)) {
+        CHECK_MESSAGE(help_for(registry, name) != "", name);
+    }
 }
 
 TEST_CASE("the annotations are Lua") {

@@ -67,8 +67,33 @@ TEST_CASE("what does not fit is refused") {
     CHECK(message_of(example(), {"--mode", "cripsy"}) ==
           "parameter 'mode': soft or crisp expected, got 'cripsy', did you mean 'crisp'?");
     CHECK(message_of(example(), {"--moed", "soft"}) ==
-          "no parameter '--moed', did you mean 'mode'?");
+          "no parameter '--moed', did you mean '--mode'?");
     CHECK(message_of(example(), {"--count"}) == "a value must follow --count");
+}
+
+TEST_CASE("integers that no number holds exactly are refused") {
+    for (const char* text : {"99999999999999999999", "-99999999999999999999", "9007199254740994",
+                             "1e300", "inf", "-inf"}) {
+        CAPTURE(text);
+        CHECK(message_of(example(), {"--count", text}).find("integer of at most 16 digits") !=
+              std::string::npos);
+    }
+    ParameterSet set = example();
+    set.take({"--count", "9007199254740992"});
+    CHECK(std::get<double>(*set.find("count")->value) == 9007199254740992.0);
+}
+
+TEST_CASE("flags that no parameter has are refused, with one dash or two") {
+    CHECK(message_of(example(), {"-mode", "soft"}) ==
+          "no parameter '-mode', did you mean '--mode'?");
+    CHECK(message_of(example(), {"--local-siz=3"}) ==
+          "no parameter '--local-siz', did you mean '--local-size'?");
+    CHECK(message_of(example(), {"--zzzzzz"}) ==
+          "no parameter '--zzzzzz'; there is: --local-size, --count, --fast, --mode, --out");
+    CHECK(message_of(example(), {"--threads", "2"}) ==
+          "no parameter '--threads'; --threads belongs before the script's name");
+    ParameterSet set = example();
+    CHECK(set.take({"-", "-1", "--", "-x"}) == std::vector<std::string>{"-", "-1", "-x"});
 }
 
 TEST_CASE("a parameter without a default must be given") {

@@ -4,6 +4,8 @@
 #include <set>
 #include <string>
 
+#include "kernel/core/context.h"
+#include "kernel/core/memory_error.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -79,4 +81,24 @@ TEST_CASE("every kind of element has a name") {
     CHECK(kind_name(ElementKind::none) == "element");
     CHECK(kind_name(ElementKind::component) == "component");
     CHECK(kind_name(ElementKind::line) == "line");
+}
+
+TEST_CASE("memory that runs out is an error with a code") {
+    const auto code_of = [](const auto& work) {
+        try {
+            with_memory_errors(work);
+            return ErrorCode::internal;
+        } catch (const Error& error) {
+            return error.code();
+        }
+    };
+    CHECK(code_of([] { throw std::bad_alloc(); }) == ErrorCode::memory_limit);
+    CHECK(code_of([] { throw std::bad_array_new_length(); }) == ErrorCode::memory_limit);
+    CHECK(code_of([] { throw std::length_error("vector"); }) == ErrorCode::memory_limit);
+    CHECK(code_of([] { throw Error(ErrorCode::cancelled, "stop"); }) == ErrorCode::cancelled);
+    CHECK(with_memory_errors([] { return 7; }) == 7);
+    const Context context;
+    CHECK(code_of([&] {
+              context.parallel_for(0, 10, 1, [](Index, Index) { throw std::bad_alloc(); });
+          }) == ErrorCode::memory_limit);
 }

@@ -135,6 +135,38 @@ TEST_CASE("reference: real meshes") {
     }
 }
 
+TEST_CASE("reference: the thesis's own result up to a right angle, and near it up to 120 degrees") {
+    Mesh bar = make_bar({1.0, 5.0, 4, 18});
+    triangulate(bar);
+    Mesh egg = make_sphere({1.0, 5, SphereKind::triangles});
+    for (Vec3& p : egg.edit_positions()) p.y() *= 2.5;
+    for (const Scene& scene : {make_scene(bar), make_scene(egg)}) {
+        Edit edit = make_edit(scene);
+        Deformer& d = edit.deformer;
+        const Vec3 low = d.handle_center(edit.low), high = d.handle_center(edit.high);
+        const std::vector<Vec3> displaced_at_rest = displaced_rest(scene, low, {});
+        for (const Vec3& axis : {Vec3(Vec3::UnitY()), Vec3(Vec3::UnitX()), Vec3(1.0, 2.0, 0.5)}) {
+            for (const double degrees : {45.0, 89.9, 105.0, 120.0}) {
+                CAPTURE(axis);
+                CAPTURE(degrees);
+                const Affine move = rotation(axis, degrees * kPi / 180.0, 0.9 * high);
+                std::map<Index, Affine> held;
+                for (const Index v : scene.high) held[v] = move;
+                for (const Index v : scene.low) held[v] = {};
+                d.set_transform(edit.high, move);
+                const Reference reference(scene.mesh, displaced_at_rest, held, {});
+                const std::vector<Vec3> expected = reference.second(reference.first());
+                // Beyond the right angle in shares of the length; a bend on the spot shears most.
+                const bool bent = axis == Vec3(Vec3::UnitX());
+                const double share = bent && degrees > 110.0 ? 0.025 : 0.01;
+                const double error = greatest_distance(d.solve(), expected);
+                CHECK(error < (degrees < 90.0 ? kNearlyDegenerate * kSecond * scene.size
+                                              : share * (high - low).norm()));
+            }
+        }
+    }
+}
+
 TEST_CASE("refinement: each step lowers the energy that it is about") {
     for_each_model([](const Scene& given) {
         Mesh mesh = given.mesh;

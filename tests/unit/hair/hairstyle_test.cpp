@@ -5,6 +5,8 @@
 
 #include <memory>
 
+#include "kernel/core/machine_memory.h"
+#include "kernel/hair/curve/length_text.h"
 #include "kernel/hair/strands/strand_measures.h"
 #include "kernel/mesh/shapes/head.h"
 #include "kernel/solve/field/grid_field.h"
@@ -294,6 +296,43 @@ TEST_CASE("hairstyle: the scalp step turns the field along the head, and can be 
     CHECK(greatest_difference(before, field_of(style)) < 1e-5);
 }
 
+TEST_CASE("hairstyle: its constraints are listed once a point, with kind and curve") {
+    Hairstyle style = small_style();
+    const CurveId flow = style.add(stream(side(style, 1)));
+    const CurveId line = style.add(parting(style));
+    const CurveId pony = style.add(tail(style));
+    const CurveId off = style.add(stream(side(style, -1)));
+    style.enable(off, false);
+    style.avoid_scalp();
+    const std::vector<StyleConstraint> all = style.constraints();
+    CHECK(static_cast<int>(all.size()) == style.field().grid().constraint_count());
+    std::array<int, 8> counts{};
+    for (const StyleConstraint& one : all) {
+        ++counts[static_cast<std::size_t>(one.kind)];
+        CHECK(one.vector.norm() <= 1.0 + 1e-9);
+        CHECK(one.weight == 100.0);
+        const bool own = one.kind == ConstraintKind::stream       ? one.curve == flow
+                         : one.kind == ConstraintKind::parting    ? one.curve == line
+                         : one.kind == ConstraintKind::separation ? one.curve == line
+                         : one.kind == ConstraintKind::section    ? one.curve == pony
+                         : one.kind == ConstraintKind::gather     ? one.curve == pony
+                         : one.kind == ConstraintKind::scalp      ? !one.curve
+                                                                  : one.curve.has_value();
+        CHECK(own);
+        CHECK_FALSE(one.curve == off);
+        // The field keeps them.
+        const Vec3 field = style.field().sample(one.point).direction;
+        if (one.kind != ConstraintKind::scalp) CHECK((field - one.vector).norm() < 0.3);
+    }
+    for (const ConstraintKind kind :
+         {ConstraintKind::stream, ConstraintKind::stop, ConstraintKind::parting,
+          ConstraintKind::separation, ConstraintKind::section, ConstraintKind::gather,
+          ConstraintKind::scalp}) {
+        CAPTURE(kind_name(kind));
+        CHECK(counts[static_cast<std::size_t>(kind)] > 0);
+    }
+}
+
 TEST_CASE("hairstyle: refused curves leave everything as it was") {
     Hairstyle style = small_style();
     const CurveId id = style.add(stream(side(style, 1)));
@@ -315,11 +354,114 @@ TEST_CASE("hairstyle: refused curves leave everything as it was") {
     CHECK(field_of(style) == before);
 }
 
+TEST_CASE("hairstyle: hair leaves a parting that is added after it has grown") {
+    HairOptions options;
+    options.roots.count = 800;
+    StyleCurve line = parting(small_style());
+    std::get<DividingCurve>(line.shape).gap = 0.01;
+    Hairstyle grown = small_style(), fresh = small_style();
+    grown.add(stream(side(grown, 1)));
+    grown.grow(options);
+    grown.add(line);
+    fresh.add(stream(side(fresh, 1)));
+    fresh.add(line);
+    CHECK(hash(grown.grow(options)) == hash(fresh.grow(options)));
+}
+
+TEST_CASE("hairstyle: what is beyond its limit is refused, and the limit is told") {
+    Hairstyle style = small_style();
+    style.add(stream(side(style, 1)));
+    const Box box = style.layout().box();
+    const auto told = [](const Error& error, const std::string& text) {
+        CAPTURE(error.message());
+        return error.code() == ErrorCode::invalid_argument &&
+               error.message().find(text) != std::string::npos;
+    };
+    const auto grow = [&](const auto& change) {
+        HairOptions options;
+        options.roots.count = 20;
+        change(options.growth);
+        return error_of([&] { style.grow(options); });
+    };
+    const std::string most = length_text(longest_hair(style.layout()));
+    CHECK(longest_hair(style.layout()) == doctest::Approx(2.0 * box.diagonal()));
+    CHECK(told(grow([](GrowthOptions& o) { o.length = 50.0; }), most));
+    CHECK(told(grow([](GrowthOptions& o) {
+                   o.length_map.assign(static_cast<std::size_t>(small_head().vertex_count()), 20.0);
+               }),
+               most));
+    CHECK(told(grow([](GrowthOptions& o) { o.segment = 1e-9; }), "0.01"));
+    CHECK(told(grow([](GrowthOptions& o) { o.segment = 11.0; }), "10 steps"));
+
+    const auto add = [&](StyleCurve curve) { return error_of([&] { style.add(curve); }); };
+    StyleCurve wide = tail(style), inside = tail(style), long_tail = tail(style);
+    std::get<Ponytail>(wide.shape).options.radius = 5.0;
+    CHECK(told(add(wide), length_text(0.5 * (box.max - box.min).minCoeff())));
+    for (Vec3& p : std::get<Ponytail>(inside.shape).spine) p.z() += 0.06;
+    CHECK(told(add(inside), "inside the head"));
+    CHECK(style.curves().size() == 1);
+    std::get<Ponytail>(long_tail.shape).tail_length = 50.0;
+    style.add(long_tail);
+    CHECK(told(grow([](GrowthOptions&) {}), "tail"));
+}
+
+TEST_CASE("hairstyle: a grid that does not fit into memory is refused before it is made") {
+    ContextOptions limited;
+    limited.memory_limit = std::size_t{1} << 30;
+    const Context context(limited);
+    HairstyleOptions huge;
+    huge.resolution = 190'000'000;
+    const Error error = error_of([&] { Hairstyle(small_head(), small_scalp(), huge, context); });
+    CHECK(error.code() == ErrorCode::memory_limit);
+    CHECK(error.message().find(" GB") != std::string::npos);
+    CHECK(context.memory()->peak() == 0);
+    // What it says would fit does.
+    const std::size_t at = error.message().find("at most ");
+    REQUIRE(at != std::string::npos);
+    CHECK(std::stol(error.message().substr(at + 8)) > 5'000'000);
+    if (machine_memory() > 0) CHECK(machine_memory() > (std::size_t{1} << 28));
+}
+
+TEST_CASE("hairstyle: a large grid is given up soon after it was cancelled") {
+    HairstyleOptions large;
+    large.resolution = 1'000'000;
+    for (const double share : {0.0, 0.1, 0.25}) {
+        Context* running = nullptr;
+        ContextOptions options;
+        options.progress = [&](std::string_view, double fraction) {
+            if (fraction >= share) running->cancel();
+        };
+        Context context(options);
+        running = &context;
+        CHECK(error_of([&] { Hairstyle(small_head(), small_scalp(), large, context); }).code() ==
+              ErrorCode::cancelled);
+    }
+}
+
+TEST_CASE("hairstyle: the distance to the surface is that of the surface, not of the grid") {
+    const Hairstyle style = small_style();
+    const Scalp& scalp = style.scalp();
+    const SpatialTree tree(style.head());
+    RandomPoints random(5);
+    double worst = 0.0, grid = 0.0;
+    for (int i = 0; i < 400; ++i) {
+        const ScalpDirection direction{random.uniform(-3.1, 3.1), random.uniform(0.5, 1.5)};
+        const double lift = random.uniform(-0.006, 0.006);
+        const Vec3 p = scalp.to_metres(scalp.at(direction, lift).position);
+        const double exact = std::copysign(tree.nearest(p).distance, lift);
+        worst = std::max(worst, std::abs(style.surface_distance(p) - exact));
+        grid = std::max(grid, std::abs(style.field().distances().value(p) - exact));
+    }
+    CHECK(worst < 1e-9);
+    CHECK(grid > 1e-4);
+    CHECK(style.surface_distance(Vec3::Zero()) < -0.03);
+}
+
 TEST_CASE("hairstyle: what cannot be made or grown is refused") {
     Hairstyle style = small_style();
-    CHECK(error_of([&] { style.grow(); }).code() == ErrorCode::unconstrained);
+    CHECK(error_of([&] { style.grow(); }).code() == ErrorCode::invalid_argument);
     style.enable(style.add(stream(side(style, 1))), false);
-    CHECK(error_of([&] { style.grow(); }).code() == ErrorCode::unconstrained);
+    CHECK(error_of([&] { style.grow(); }).code() == ErrorCode::invalid_argument);
     const Mesh other = make_head({.vertices = 4000});
     CHECK(error_of([&] { Hairstyle(other, small_scalp()); }).code() ==
           ErrorCode::topology_mismatch);

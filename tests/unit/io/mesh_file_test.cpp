@@ -183,6 +183,24 @@ TEST_CASE("progress grows from 0 to 1 while a mesh is loaded") {
     }
 }
 
+TEST_CASE("progress grows from 0 to 1 while a mesh is saved") {
+    const TemporaryFolder folder;
+    const Mesh mesh(std::vector<Vec3>(100000, Vec3(1, 2, 3)), FaceList());
+    for (const char* name : {"a.obj", "a.ply", "a.off"}) {
+        std::vector<double> fractions;
+        ContextOptions options;
+        options.progress = [&](std::string_view, double fraction) {
+            fractions.push_back(fraction);
+        };
+        save_mesh(mesh, folder / name, {}, Context(options));
+        CAPTURE(name);
+        CHECK(fractions.size() > 5);
+        CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+        CHECK(fractions.front() == 0.0);
+        CHECK(fractions.back() == doctest::Approx(1.0));
+    }
+}
+
 TEST_CASE("the memory of a load is charged and released") {
     const TemporaryFolder folder;
     save_mesh(prism(100), folder / "a.obj");

@@ -15,6 +15,7 @@
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/merge/loop/loop_shapes.h"
+#include "tests/unit/mesh/mesh_support.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -342,4 +343,117 @@ TEST_CASE("the thesis to the letter still gives one surface, whatever the unit")
     for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
         CHECK((result.mesh.position(v) - same.mesh.position(v)).norm() < 1e-7);
     }
+}
+
+TEST_CASE("without keys a merge is the same wherever its source lies") {
+    // Round loops could meet anywhere, and nothing of the parts says where.
+    const auto round_dome = [](Index count) {
+        return tube(count, 20, [](double angle, double height) {
+            const double r = std::sqrt(1.0 - 0.98 * height * height);
+            return Vec3(r * std::cos(angle), r * std::sin(angle), 2.5 * height);
+        });
+    };
+    const Mesh source = round_dome(40);
+    Mesh target = round_dome(56);
+    transform(target, rotation(Vec3::UnitX(), kPi, Vec3::Zero()));
+    const auto low = [](const Mesh& mesh) {
+        const std::vector<Path> paths = boundaries(mesh);
+        const auto length = [&](const Path& path) { return path.length(mesh); };
+        return length(paths[0]) > length(paths[1]) ? paths[0] : paths[1];
+    };
+    const Mesh* targets[] = {&target};
+    MergeOptions options;
+    const auto merged_from = [&](const Mesh& mesh) {
+        return Merge(mesh, targets, {Join{low(mesh), low(target)}}, options).solve();
+    };
+    const MergeResult first = merged_from(source);
+    CHECK(first.report.joins[0].certainty < kCertain);
+    CHECK(!first.report.warnings.empty());
+    CHECK(!first.report.ok);
+    Random random(8);
+    for (int trial = 0; trial < 4; ++trial) {
+        Mesh moved = source;
+        transform(moved, similarity(random, trial % 2 == 0 ? 0.02 : 40.0));
+        const MergeResult other = merged_from(moved);
+        REQUIRE(other.mesh.vertex_count() == first.mesh.vertex_count());
+        double apart = 0.0;
+        for (Index v = 0; v < first.mesh.vertex_count(); ++v) {
+            apart = std::max(apart, (other.mesh.position(v) - first.mesh.position(v)).norm());
+        }
+        CHECK(apart < 1e-8);
+    }
+}
+
+TEST_CASE("a transition wider than there is room is told, one that is chosen fits") {
+    const Mesh source = bumpy_dome(40, 24), target = bowl(50, 20);
+    const std::vector<KeyPair> keys{{Vec3(1, 0, 0), Vec3(2, 0, 0)}};
+    MergeOptions options;
+    options.source_transition = 0.5;
+    options.target_transition = 1.0;
+    CHECK(merged(source, target, options, keys).report.warnings.empty());
+    options.source_transition = 100.0;
+    const MergeReport wide = merged(source, target, options, keys).report;
+    REQUIRE(wide.warnings.size() == 1);
+    CHECK(wide.warnings[0].find("join 1: the transition on the source is ") == 0);
+    CHECK(wide.warnings[0].find("in place of 200") != std::string::npos);
+    CHECK(wide.transition.source[0].width < 20.0);
+
+    options.source_transition = options.target_transition = 0.0;
+    options.suit_transition = true;
+    const MergeReport chosen = merged(source, target, options, keys).report;
+    CHECK(chosen.warnings.empty());
+    CHECK(chosen.transition.source[0].width > 1.0);
+    CHECK(chosen.transition.target[0].width > 1.0);
+    options.thesis = true;
+    CHECK(error_of([&] { (void)merged(source, target, options, keys); }).code() ==
+          ErrorCode::invalid_argument);
+}
+
+TEST_CASE("keys are checked when they are set, and those of before stay") {
+    const Mesh source = bumpy_dome(40, 24), target = bowl(50, 20);
+    const Mesh* targets[] = {&target};
+    const std::vector<KeyPair> keys{{Vec3(1, 0, 0), Vec3(2, 0, 0)}};
+    Merge merge(source, targets, {Join{opening(source), opening(target), 0, keys}});
+    const std::uint64_t before = hash(merge.solve().mesh);
+    const Index inner = source.vertex_count() - 1;
+    const Error off = error_of([&] { merge.set_keys(0, {{inner, Vec3(2, 0, 0)}}); });
+    CHECK(off.code() == ErrorCode::key_conflict);
+    CHECK(off.elements().ids == std::vector<Index>{inner});
+    CHECK(error_of([&] {
+              merge.set_keys(0, {{Vec3(9, 9, 9), Vec3(2, 0, 0)}});
+          }).code() == ErrorCode::key_conflict);
+    CHECK(hash(merge.solve().mesh) == before);
+}
+
+TEST_CASE("loose parts that move along are told") {
+    Mesh source = bumpy_dome(40, 24);
+    SphereOptions small;
+    small.radius = 0.1;
+    Mesh eye = make_sphere(small);
+    for (Vec3& p : eye.edit_positions()) p += Vec3(0.8, 0, 1.4);
+    append(source, eye);
+    for (Vec3& p : eye.edit_positions()) p.x() -= 1.6;
+    append(source, eye);
+    const Mesh target = bowl(50, 20);
+    const MergeReport report = merged(source, target, {}, {{Vec3(1, 0, 0), Vec3(2, 0, 0)}}).report;
+    CHECK(report.loose_parts == 2);
+    REQUIRE(!report.warnings.empty());
+    CAPTURE(report.warnings.back());
+    CHECK(std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& told) {
+        return told.find("2 parts of the source") == 0;
+    }));
+}
+
+TEST_CASE("the report says in one line whether the seam is good") {
+    const Mesh source = bumpy_dome(40, 24), target = bowl(50, 20);
+    const std::vector<KeyPair> keys{{Vec3(1, 0, 0), Vec3(2, 0, 0)}};
+    const MergeReport good = merged(source, target, {}, keys).report;
+    CHECK(good.ok);
+    CHECK(good.verdict.find("good: ") == 0);
+    // Both in one line, and nothing is claimed that was not looked for.
+    MergeOptions quick;
+    quick.find_intersections = false;
+    const MergeReport unsought = merged(source, target, quick, keys).report;
+    CHECK(unsought.verdict.find("were not looked for") != std::string::npos);
+    CHECK(unsought.verdict.find('\n') == std::string::npos);
 }

@@ -1,6 +1,7 @@
 #include "kernel/mesh/region.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "kernel/mesh/edit/extract.h"
@@ -154,4 +155,32 @@ TEST_CASE("smoothing leaves no region empty") {
     const Mesh mesh = make_grid();
     const Region dot(mesh.shared_topology(), {60});
     CHECK(dot.smoothed(10) == dot);
+}
+
+TEST_CASE("votes that swing between two outlines end, as if all were held") {
+    // A checkerboard on a closed strip: each vote turns it over.
+    const Mesh mesh = make_torus();
+    std::vector<Index> vertices;
+    const auto& topology = mesh.topology();
+    std::vector<int> color(static_cast<std::size_t>(mesh.vertex_count()), -1);
+    std::vector<Index> front{0};
+    color[0] = 0;
+    while (!front.empty()) {
+        const Index v = front.back();
+        front.pop_back();
+        for (const Index n : topology.neighbors(v)) {
+            if (color[n] >= 0) continue;
+            color[n] = 1 - color[v];
+            front.push_back(n);
+        }
+    }
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (color[v] == 0) vertices.push_back(v);
+    }
+    const Region board(mesh.shared_topology(), vertices);
+    const Region once = board.smoothed(1);
+    constexpr Index kForEver = std::numeric_limits<Index>::max();
+    CHECK(board.smoothed(kForEver) == board.smoothed(kForEver % 2 == 1 ? 1 : 2));
+    CHECK(board.smoothed(kForEver - 1) == board.smoothed(2));
+    CHECK(once.smoothed(1000001) == once.smoothed(1));
 }

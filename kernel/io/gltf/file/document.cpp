@@ -1,6 +1,8 @@
 #include "kernel/io/gltf/file/document.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include "kernel/io/gltf/file/container.h"
 #include "kernel/io/gltf/file/extensions.h"
@@ -18,12 +20,26 @@ std::string without_tag(const std::string& message) {
     return message.starts_with('[') && end != std::string::npos ? message.substr(end + 2) : message;
 }
 
+// Some programs write whole numbers as 4.0, which JSON does not tell from 4.
+void restore_integers(Json& json) {
+    constexpr double kLargest = 9007199254740992.0;
+    if (json.is_structured()) {
+        for (Json& item : json) restore_integers(item);
+    } else if (json.is_number_float()) {
+        const double value = json.get<double>();
+        const bool is_whole =
+            !std::signbit(value) && value <= kLargest && value == std::floor(value);
+        if (is_whole) json = static_cast<std::uint64_t>(value);
+    }
+}
+
 Json parse_json(std::string_view text) {
     require_shallow(text);
     // A GLB chunk may be padded with zeros by careless writers.
     while (text.ends_with('\0')) text.remove_suffix(1);
     try {
         Json json = Json::parse(text);
+        restore_integers(json);
         if (json.is_object()) return json;
     } catch (const Json::exception& error) {
         refuse(ErrorCode::file_syntax, "the JSON cannot be read: " + without_tag(error.what()));

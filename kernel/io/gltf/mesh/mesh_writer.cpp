@@ -138,6 +138,7 @@ class MeshWriter::Object {
                 vertices.push_back(pools.vertex_of_corner(topology.first_corner(f) + k));
                 points.push_back(mesh.position(v));
             }
+            look_at_loss(f, points);
             if (place_.to_node.mirrors()) {
                 std::reverse(vertices.begin() + 1, vertices.end());
                 std::reverse(points.begin() + 1, points.end());
@@ -151,6 +152,12 @@ class MeshWriter::Object {
             parts_.push_back(added.parts);
         }
         return fans;
+    }
+
+    void look_at_loss(Index f, const std::vector<Vec3>& points) {
+        placed_.clear();
+        for (const Vec3& p : points) placed_.push_back(place_.to_node.position(p));
+        writer_.float_loss_.look_at(f, placed_);
     }
 
     template <typename Make>
@@ -304,6 +311,8 @@ class MeshWriter::Object {
     std::map<std::size_t, std::vector<const WrittenMorph*>> morphs_;
     std::size_t target_count_ = 0;
     bool has_joints_ = false;
+    // Corners of the face at hand, in the node.
+    std::vector<Vec3> placed_;
     // The face of the mesh that each polygon read back will be.
     std::vector<Index> faces_;
     // Where in that polygon its first corner is, and of how many faces it is put together.

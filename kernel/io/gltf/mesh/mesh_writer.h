@@ -5,6 +5,7 @@
 #include "kernel/io/gltf/mesh/surface.h"
 #include "kernel/io/gltf/mesh/transform.h"
 #include "kernel/io/gltf/mesh/values.h"
+#include "kernel/io/record/float_loss.h"
 
 namespace lissom {
 
@@ -41,6 +42,8 @@ class MeshWriter {
 
     /// Whether the meshes shall say which of their vertices are one.
     bool states_copies = false;
+    /// What rounding takes from the faces written so far.
+    const FloatLoss& float_loss() const { return float_loss_; }
     /// Tangents that were left out for want of normals, in objects so far.
     std::size_t lost_tangents() const { return lost_tangents_; }
 
@@ -53,6 +56,7 @@ class MeshWriter {
     const Context& context_;
     std::vector<std::pair<std::string, const FaceLabels*>> labels_;
     std::vector<std::pair<std::string, std::vector<char>>> regions_;
+    FloatLoss float_loss_;
     std::size_t lost_tangents_ = 0;
 };
 

@@ -57,6 +57,12 @@ NodeTransform NodeTransform::inverse() const {
     return {back, normals.pseudoInverse(), 1.0 / scale_};
 }
 
+NodeTransform NodeTransform::moved(const Vec3& offset) const {
+    NodeTransform result = *this;
+    result.transform_.translation += offset;
+    return result;
+}
+
 void NodeTransform::turn_normal(std::span<double> n) const {
     Direction direction(n.data());
     if (!is_identity()) direction = (normals_ * direction).eval();

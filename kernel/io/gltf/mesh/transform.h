@@ -16,6 +16,9 @@ class NodeTransform {
     /// The way back; of a transform that flattens, the least squares one.
     NodeTransform inverse() const;
 
+    /// The same with positions moved by `offset` afterwards.
+    NodeTransform moved(const Vec3& offset) const;
+
     bool is_identity() const { return transform_.is_identity(); }
     /// True where faces have to be turned over to keep their outside.
     bool mirrors() const { return mirrors_; }

@@ -253,8 +253,7 @@ TEST_CASE("dividing: bad curves and options are refused") {
     }
 }
 
-TEST_CASE(
-    "dividing: a curve shorter than a step still parts hair or says that it does not") {
+TEST_CASE("dividing: a curve shorter than a step still parts hair or says that it does not") {
     const Line line = arc(0.001, 0.004, 0.0, 0.02);
     const auto all = dividing_constraints(line);
     CHECK(!all.empty());

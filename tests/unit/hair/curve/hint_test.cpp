@@ -119,11 +119,87 @@ TEST_CASE("hint: insert takes the place of the part between, whichever way it ru
 
 TEST_CASE("hint: which operation a stroke means") {
     const auto kind = [](const Vec3& from, const Vec3& to) {
-        return hint_operation(curve(), line(from, to), {.reach = 0.02});
+        return hint_operation(curve(), line(from, to));
     };
+    // Across, from far and from near.
     CHECK(kind({0.05, 0.1, 0}, {0.05, -0.1, 0}) == HintOperation::cut);
-    CHECK(kind({0.05, 0.01, 0}, {0.05, -0.1, 0}) == HintOperation::concatenate);
-    CHECK(kind({0.05, 0.01, 0}, {0.08, -0.01, 0}) == HintOperation::insert);
+    CHECK(kind({0.05, 0.004, 0}, {0.052, -0.02, 0}) == HintOperation::cut);
+    // Away from the curve, and from its tip.
+    CHECK(kind({0.05, -0.003, 0}, {0.08, -0.06, 0}) == HintOperation::concatenate);
+    CHECK(kind({0.098, 0.002, 0}, {0.11, -0.06, 0}) == HintOperation::concatenate);
+    CHECK(kind({0.05, 0.004, 0}, {0.08, -0.004, 0}) == HintOperation::insert);
+    CHECK(kind({0.08, 0.004, 0}, {0.05, -0.004, 0}) == HintOperation::insert);
+}
+
+TEST_CASE("hint: its general direction tells a cut from a concatenation that begins across") {
+    // Both begin 3 mm beside the curve and cross it at once.
+    const auto kind = [](double degrees, double length) {
+        const Vec3 from(0.05, 0.003, 0);
+        const double a = degrees * kPi / 180.0;
+        return hint_operation(curve(),
+                              line(from, from + length * Vec3(std::cos(a), -std::sin(a), 0)));
+    };
+    CHECK(kind(95, 0.025) == HintOperation::cut);
+    CHECK(kind(120, 0.025) == HintOperation::cut);
+    CHECK(kind(30, 0.06) == HintOperation::concatenate);
+    CHECK(kind(50, 0.06) == HintOperation::concatenate);
+    // As far above the curve as it may be, the reading is the same.
+    CHECK(hint_operation(curve(), line(Vec3(0.05, 0.003, 0.004), Vec3(0.05, -0.022, 0.004))) ==
+          HintOperation::cut);
+}
+
+TEST_CASE("hint: drawn strokes are read as they were meant, and doubtful ones say so") {
+    // Cuts at 60 to 120 degrees, concatenations within 75 degrees of the way to the tip, insertions
+    // either way, with ends that miss the curve.
+    test::RandomPoints random(7);
+    const std::vector<Vec3> path = smooth_curve(
+        std::vector<Vec3>{{0, 0, 0}, {0.06, 0.02, 0}, {0.12, 0.01, 0}, {0.2, 0.05, 0}}, 0.004);
+    const std::vector<double> lengths = arc_lengths(path);
+    const std::vector<Vec3> tangents = curve_tangents(path);
+    const auto turned = [](const Vec3& v, double degrees) {
+        return Vec3(Eigen::AngleAxisd(degrees * kPi / 180.0, Vec3::UnitZ()) * v);
+    };
+    const auto at = [&](double share) {
+        return point_at_arc_length(path, lengths, share * lengths.back());
+    };
+    const auto along = [&](double share) {
+        return point_at_arc_length(tangents, lengths, share * lengths.back()).normalized();
+    };
+    constexpr double kPixel = 0.007 / 20.0;
+    int right = 0, sure = 0, sure_right = 0;
+    const int count = 300;
+    for (int i = 0; i < count; ++i) {
+        const double side = i % 2 == 0 ? 1.0 : -1.0, share = random.uniform(0.2, 0.9);
+        const Vec3 place = at(share), tangent = along(share);
+        std::vector<Vec3> hint;
+        HintOperation meant = HintOperation::cut;
+        if (i % 3 == 0) {
+            const Vec3 way = turned(tangent, side * random.uniform(60, 120));
+            const double length = random.uniform(20, 200) * kPixel,
+                         before = random.uniform(0.3, 0.7);
+            hint = {place - before * length * way, place + (1.0 - before) * length * way};
+        } else if (i % 3 == 1) {
+            meant = HintOperation::concatenate;
+            const Vec3 from = place + random.uniform(-12, 12) * kPixel * turned(tangent, 90);
+            const Vec3 way = turned(tangent, side * random.uniform(10, 75));
+            hint = {from, from + random.uniform(100, 400) * kPixel * way};
+        } else {
+            meant = HintOperation::insert;
+            const double other = share > 0.5 ? share - 0.3 : share + 0.3;
+            const double height = random.uniform(12, 60) * kPixel;
+            hint = {place + random.uniform(-10, 10) * kPixel * turned(tangent, 90),
+                    at(0.5 * (share + other)) + side * height * turned(along(0.5), 90),
+                    at(other) + random.uniform(-10, 10) * kPixel * turned(along(other), 90)};
+        }
+        const HintReading reading = hint_reading(path, smooth_curve(hint, kPixel));
+        const bool good = reading.operation == meant;
+        right += good;
+        sure += reading.sure;
+        sure_right += reading.sure && good;
+    }
+    CHECK(right > 0.95 * count);
+    CHECK(sure > 0.8 * count);
+    CHECK(sure_right > 0.98 * sure);
 }
 
 TEST_CASE("hint: strokes that are nowhere near are refused, and say how far they are") {
@@ -131,9 +207,9 @@ TEST_CASE("hint: strokes that are nowhere near are refused, and say how far they
     CHECK(code_of(cut_curve, away) == ErrorCode::out_of_range);
     CHECK(code_of(concatenated_curve, away) == ErrorCode::out_of_range);
     CHECK(code_of(inserted_curve, away) == ErrorCode::out_of_range);
-    CHECK(code_of(hint_operation, away) == ErrorCode::out_of_range);
+    CHECK(test::error_of([&] { hint_operation(curve(), away); }).code() == ErrorCode::out_of_range);
     const Error error = test::error_of([&] { cut_curve(curve(), away); });
-    CHECK(error.message().find("0.1 away") != std::string::npos);
+    CHECK(error.message().find("0.1 m away") != std::string::npos);
     // Starts near, ends far.
     CHECK(code_of(inserted_curve, line(Vec3(0.05, 0, 0), Vec3(0.05, 0.1, 0))) ==
           ErrorCode::out_of_range);
@@ -150,6 +226,8 @@ TEST_CASE("hint: bad strokes and options are refused") {
     CHECK(code_of(cut_curve, line(Vec3(0, -0.02, 0), Vec3(0, 0.02, 0))) ==
           ErrorCode::invalid_argument);
     CHECK(code_of(cut_curve, across, {.reach = -1.0}) == ErrorCode::invalid_argument);
+    CHECK(test::error_of([&] { hint_reading(curve(), across, 0.0); }).code() ==
+          ErrorCode::invalid_argument);
     CHECK(code_of(concatenated_curve, across, {.join = test::kNaN}) == ErrorCode::invalid_argument);
     CHECK(test::error_of([&] { cut_curve(std::vector<Vec3>{}, across); }).code() ==
           ErrorCode::invalid_argument);

@@ -87,6 +87,32 @@ TEST_CASE("growth: a tie catches what passes it in its direction, and nothing el
     CHECK(longest > 0.019);
 }
 
+TEST_CASE("growth: the length of a tail is measured along its spine, so that it has one end") {
+    const Meadow meadow;
+    GrowthOptions options = meadow.options();
+    HairTie tie{meadow.above(0.02), {0, 1, 0}, 0.02, 0.05, 0.0};
+    // It leans while hair goes straight up: hair that it leans towards is farther along it.
+    const Vec3 along(0.6, 0.8, 0.0);
+    for (int k = 0; k <= 25; ++k) tie.spine.push_back(tie.center + 0.002 * k * along);
+    options.ties = {tie};
+    Strands strands;
+    const GrowthReport report = grow(meadow.head, meadow.field, meadow.roots, options, strands);
+    Index tied = 0;
+    for (Index s = 0; s < strands.size(); ++s) {
+        const auto i = static_cast<std::size_t>(s);
+        if (report.ties[i] != 0) continue;
+        ++tied;
+        const double lean = meadow.roots[i].position.x() - tie.center.x();
+        CHECK(tip_height(meadow, strands, s) - 0.02 ==
+              Approx((0.05 - 0.6 * lean) / 0.8).epsilon(0.015));
+    }
+    CHECK(tied > 10);
+    options.ties[0].spine.front().x() = test::kNaN;
+    CHECK(test::error_of([&] {
+              grow(meadow.head, meadow.field, meadow.roots, options, strands);
+          }).code() == ErrorCode::invalid_argument);
+}
+
 TEST_CASE("growth: a cut ends strands on its plane, each where chance moves it") {
     const Meadow meadow;
     GrowthOptions options = meadow.options();
@@ -134,8 +160,11 @@ TEST_CASE("growth: a cut spares what a tie has caught, if asked") {
 TEST_CASE("growth: the same to the bit with and without vector instructions") {
     const test::Groomed& scene = test::groomed();
     const GridLayout& layout = scene.field.layout();
-    QuadGrid grid{
-        scene.field.values().data(), layout.counts[0], layout.counts[0] * layout.counts[1], {}};
+    QuadGrid grid{scene.field.values().data(),
+                  scene.field.gradients().data(),
+                  layout.counts[0],
+                  layout.counts[0] * layout.counts[1],
+                  {}};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         grid.last[axis] = static_cast<float>(layout.counts[axis] - 1);
     }
@@ -151,6 +180,11 @@ TEST_CASE("growth: the same to the bit with and without vector instructions") {
     const Eigen::Vector3f middle = Eigen::Vector3f(grid.last.data()) / 2.0f;
     rules.cuts = {{{0.0f, -1.0f, 0.0f}, -middle.y() - 1.0f, 1.0f}};
     rules.ties = {{middle, {0.0f, 0.0f, -1.0f}, 50.0f, 5.0f, 0.45f}};
+    for (int k = 1; k < 5; ++k) {
+        const auto along = static_cast<float>(k);
+        rules.ties[0].planes.push_back(
+            {middle - Eigen::Vector3f(0, along, along), {0.0f, -0.6f, -0.8f}, 1.4f * along});
+    }
     rules.linear = Eigen::Matrix3f::Identity();
     rules.translation = {0.1f, 0.2f, 0.3f};
     std::vector<Seedling> seedlings;

@@ -166,6 +166,40 @@ TEST_CASE("growth: no turn beyond a right angle, no segment without length, what
     }
 }
 
+TEST_CASE("growth: the greatest turn can be set, and no strand turns by more") {
+    const Groomed& scene = groomed();
+    const auto grown = [&](double degrees, Index& turned) {
+        GrowthOptions options;
+        options.greatest_turn = degrees * kPi / 180.0;
+        options.avoid = false;
+        Strands strands;
+        const GrowthReport report = grow(scene.head, scene.field, scene.roots, options, strands);
+        turned = report.ended_by(StrandEnd::turned);
+        double sharpest = 0.0;
+        for (Index s = 0; s < strands.size(); ++s) {
+            const StrandView points = strands.strand(s);
+            for (Eigen::Index i = 2; i < points.cols(); ++i) {
+                const Vec3 a = (points.col(i - 1) - points.col(i - 2)).cast<double>(),
+                           b = (points.col(i) - points.col(i - 1)).cast<double>();
+                sharpest = std::max(sharpest, std::atan2(a.cross(b).norm(), a.dot(b)));
+            }
+        }
+        return sharpest * 180.0 / kPi;
+    };
+    Index few = 0, many = 0, none = 0;
+    CHECK(grown(88, few) < 88.1);
+    CHECK(grown(10, many) < 10.1);
+    grown(180, none);
+    CHECK(many > few);
+    CHECK(none == 0);
+    GrowthOptions wrong;
+    wrong.greatest_turn = 4.0;
+    Strands strands;
+    CHECK(test::error_of([&] {
+              grow(scene.head, scene.field, scene.roots, wrong, strands);
+          }).code() == ErrorCode::invalid_argument);
+}
+
 TEST_CASE("growth: hair without a field is roots, and a slow field still gives the full length") {
     const Groomed& scene = groomed();
     HairField field(DistanceGrid(scene.head, scene.field.layout()));

@@ -34,6 +34,78 @@ double root_area(const Mesh& mesh, const Scalp& scalp) {
     return sum / (scalp.scale() * scalp.scale());
 }
 
+// The faces all of whose vertices are where `keeps` says.
+template <typename Keeps>
+Mesh part_where(const Mesh& mesh, const Keeps& keeps) {
+    std::vector<Vec3> positions;
+    std::vector<Index> number(static_cast<std::size_t>(mesh.vertex_count()), kNoIndex);
+    FaceList faces;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const auto face = mesh.topology().face(f);
+        if (!std::all_of(face.begin(), face.end(),
+                         [&](Index v) { return keeps(mesh.position(v)); })) {
+            continue;
+        }
+        std::vector<Index> corners;
+        for (const Index v : face) {
+            Index& kept = number[static_cast<std::size_t>(v)];
+            if (kept == kNoIndex) {
+                kept = static_cast<Index>(positions.size());
+                positions.push_back(mesh.position(v));
+            }
+            corners.push_back(kept);
+        }
+        faces.add(corners);
+    }
+    return Mesh(std::move(positions), std::move(faces));
+}
+
+// The face of a head in its usual place, from ear to ear.
+Mesh mask_of(const Mesh& head) {
+    const Scalp scalp(head);
+    return part_where(head, [&](const Vec3& p) {
+        const Vec3 m = scalp.to_metres(p);
+        return m.z() > 0.005 && m.y() > -0.12;
+    });
+}
+
+Mesh left_half_of(const Mesh& head) {
+    const Scalp scalp(head);
+    return part_where(head, [&](const Vec3& p) { return scalp.to_metres(p).x() > -1e-6; });
+}
+
+// What making a scalp says.
+std::string warning_of(const Mesh& head, const ScalpOptions& options = {}) {
+    std::string said;
+    ContextOptions context;
+    context.log = [&](LogLevel level, std::string_view text) {
+        if (level == LogLevel::warning) said += std::string(text) + "\n";
+    };
+    Scalp(head, options, Context(context));
+    return said;
+}
+
+// A head with balls for eyes beside it.
+Mesh with_eyes(const Mesh& head) {
+    std::vector<Vec3> positions(head.positions().begin(), head.positions().end());
+    FaceList faces;
+    for (Index f = 0; f < head.face_count(); ++f) faces.add(head.topology().face(f));
+    const Mesh ball = make_sphere({.radius = 0.012, .segments = 12});
+    for (const double side : {-1.0, 1.0}) {
+        const auto first = static_cast<Index>(positions.size());
+        for (const Vec3& p : ball.positions()) {
+            positions.push_back(p + Vec3(0.0318 * side, -0.0098, 0.064));
+        }
+        for (Index f = 0; f < ball.face_count(); ++f) {
+            const auto face = ball.topology().face(f);
+            std::vector<Index> corners(face.begin(), face.end());
+            for (Index& corner : corners) corner += first;
+            faces.add(corners);
+        }
+    }
+    return Mesh(std::move(positions), std::move(faces));
+}
+
 }  // namespace
 
 TEST_CASE("the frame of an ellipsoid lies on its axes") {
@@ -110,11 +182,99 @@ TEST_CASE("real heads: up, front, unit and the size of the scalp are guessed") {
         CHECK(scalp.frame().asymmetry < 0.05);
         CHECK(scalp.frame().roughness < 0.05);
         CHECK(scalp.frame().forwardness > 0.05);
-        if (head.unit > 0.0) CHECK(scalp.unit() == head.unit);
+        if (head.unit > 0.0) CHECK((scalp.knows_unit() && scalp.unit() == head.unit));
+        CHECK(scalp.confidence() > 0.8);
         const double area = root_area(*mesh, scalp);
         CHECK(area > 0.050);
         CHECK(area < 0.072);
         CHECK(scalp.default_box().contains(scalp.at({0.0, 1.2}, 0.05).position));
+    }
+}
+
+TEST_CASE("scalp: masks and halves of heads are doubted, and a mask looks the right way") {
+    std::vector<Mesh> heads = {make_head()};
+    for (const char* name : {"ict_head.obj", "makehuman_head.obj", "sintel_head.obj",
+                             "digitalsalon_head.obj", "ict_generic_neutral.obj"}) {
+        if (auto head = test::load_head(name)) heads.push_back(std::move(*head));
+    }
+    for (const Mesh& head : heads) {
+        CAPTURE(head.vertex_count());
+        CHECK(Scalp(head).confidence() > 0.8);
+        const Mesh mask = mask_of(head);
+        const Scalp on_mask(mask);
+        CHECK(on_mask.confidence() < 0.5);
+        CHECK((on_mask.frame().up() - Vec3::UnitY()).norm() < 1e-9);
+        CHECK((on_mask.frame().front() - Vec3::UnitZ()).norm() < 1e-9);
+        CHECK(warning_of(mask).find("confidence") != std::string::npos);
+        // Wherever the mask looks.
+        const Mat3 turn = mat3(Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY());
+        const Scalp turned(test::moved(mask, {turn, Vec3::Zero()}));
+        CHECK((turned.frame().up() - turn * Vec3::UnitY()).norm() < 1e-9);
+        const Mesh half = left_half_of(head);
+        CHECK(Scalp(half).confidence() < 0.5);
+        CHECK((Scalp(half).frame().up() - Vec3::UnitY()).norm() < 1e-9);
+        CHECK(!warning_of(half).empty());
+    }
+}
+
+TEST_CASE("scalp: a real open face and a clothed figure are doubted") {
+    for (const char* name : {"lscm-head.obj", "threejs_male02.obj"}) {
+        const auto mesh = test::load_head(name);
+        if (!mesh) continue;
+        CAPTURE(name);
+        CHECK(Scalp(*mesh).confidence() < 0.5);
+        CHECK(warning_of(*mesh).find("confidence") != std::string::npos);
+    }
+    const auto face = test::load_head("lscm-head.obj");
+    if (!face) return;
+    CHECK(Scalp(*face).frame().up() == Vec3::UnitY());
+    CHECK(Scalp(*face).frame().front() == Vec3::UnitZ());
+}
+
+TEST_CASE("scalp: what was given is not doubted") {
+    const Mesh head = make_head();
+    CHECK(warning_of(head).empty());
+    const Mesh half = left_half_of(head);
+    ScalpOptions given = upright();
+    given.region = select_plane(half, Vec3(0, 0.03, 0), Vec3::UnitY());
+    given.unit = 1.0;
+    CHECK(warning_of(half, given).empty());
+    // An egg has no face, but directions that were given need none.
+    CHECK(Scalp(egg()).confidence() < 0.5);
+    CHECK(Scalp(egg()).frame().doubt == "front and back are alike");
+    CHECK(Scalp(egg(), upright()).confidence() > 0.9);
+}
+
+TEST_CASE("scalp: eyes tell which way a head that stands aslant looks") {
+    const Mesh upright_head = with_eyes(make_head());
+    const Affine aslant = rotation(Vec3::UnitZ(), 0.6, Vec3::Zero());
+    const Scalp scalp(test::moved(upright_head, aslant));
+    CHECK(scalp.frame().up().dot(aslant.linear * Vec3::UnitY()) > 0.99);
+    CHECK(scalp.frame().front().dot(Vec3::UnitZ()) > 0.99);
+    CHECK(scalp.confidence() > 0.5);
+    // They do not disturb one that stands along the axes.
+    CHECK(Scalp(upright_head).frame().axes == Mat3::Identity());
+}
+
+TEST_CASE("scalp: a unit that cannot be known says so") {
+    const Mesh head = make_head();
+    CHECK(Scalp(head).knows_unit());
+    for (const double scale : {0.3, 3.0, 25.0, 2000.0}) {
+        const Mesh other = test::moved(head, scaling(Vec3::Constant(scale), Vec3::Zero()));
+        CAPTURE(scale);
+        const Scalp scalp(other);
+        CHECK_FALSE(scalp.knows_unit());
+        CHECK(scalp.unit() * scalp.scale() == Approx(1.0));
+        CHECK(warning_of(other).find("unit of the head is not known") != std::string::npos);
+        ScalpOptions given;
+        given.unit = 0.5;
+        CHECK(Scalp(other, given).knows_unit());
+        CHECK(warning_of(other, given).empty());
+    }
+    for (const double unit : {1.0, 0.01, 0.001, 0.1, 0.0254}) {
+        const Scalp scalp(test::moved(head, scaling(Vec3::Constant(1.0 / unit), Vec3::Zero())));
+        CHECK(scalp.knows_unit());
+        CHECK(scalp.unit() == unit);
     }
 }
 

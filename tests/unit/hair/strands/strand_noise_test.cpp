@@ -1,6 +1,7 @@
 #include "kernel/hair/strands/strand_noise.h"
 
 #include "kernel/hair/strands/strand_resample.h"
+#include "tests/unit/hair/strands/groomed.h"
 #include "tests/unit/hair/strands/strand_support.h"
 
 using namespace lissom;
@@ -88,6 +89,21 @@ TEST_CASE("the shape of noise does not depend on how finely strands are sampled"
             const double apart = (coarse.strand(s).col(40) - fine.strand(s).col(160)).norm();
             CHECK(apart < 0.1 * options.amplitude);
         }
+    }
+}
+
+TEST_CASE("noise turns no tip by more than 90 degrees") {
+    GrowthOptions growth;
+    growth.length = 0.25;
+    const Strands grown = groomed().grown(growth);
+    REQUIRE(strand_statistics(grown).sharp == 0);
+    for (const double amplitude : {0.0016, 0.005, 0.02}) {
+        CAPTURE(amplitude);
+        NoiseOptions options;
+        options.amplitude = amplitude;
+        CHECK(strand_statistics(noisy(grown, options)).sharp == 0);
+        options.cumulative = true;
+        CHECK(strand_statistics(noisy(grown, options)).sharp == 0);
     }
 }
 

@@ -2,8 +2,11 @@
 #include "kernel/hair/strands/strand_operators.h"
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
+#include <limits>
 #include <string>
+#include <thread>
 
 #include "kernel/hair/strands/strand_clump.h"
 #include "kernel/hair/strands/strand_edit.h"
@@ -137,6 +140,22 @@ TEST_CASE("smoothing makes turns smaller and keeps tips") {
     }
     CHECK(error_of([&] { smooth(strands, {-1, 0.5}); }).code() == ErrorCode::invalid_argument);
     CHECK(error_of([&] { smooth(strands, {1, 0.0}); }).code() == ErrorCode::invalid_argument);
+}
+
+TEST_CASE("smoothing strands for ever can be cancelled, and then moves nothing") {
+    Strands strands = random_hair(3);
+    const std::uint64_t before = hash(strands);
+    const Context context;
+    std::thread canceller([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        context.cancel();
+    });
+    const Error error = error_of([&] {
+        smooth(strands, {std::numeric_limits<Index>::max(), 0.5}, context);
+    });
+    canceller.join();
+    CHECK(error.code() == ErrorCode::cancelled);
+    CHECK(hash(strands) == before);
 }
 
 TEST_CASE("smoothing a straight strand of even steps changes nothing") {

@@ -8,7 +8,7 @@ using namespace lissom::test;
 
 namespace {
 
-Strands trimmed(Strands strands, const TrimOptions& options, const Context& context = {}) {
+Strands trimmed(Strands strands, const StrandTrimOptions& options, const Context& context = {}) {
     trim(strands, options, context);
     return strands;
 }
@@ -17,7 +17,7 @@ Strands trimmed(Strands strands, const TrimOptions& options, const Context& cont
 
 TEST_CASE("a trimmed strand is the first part of the old one") {
     const Strands strands = rich_hair(50);
-    TrimOptions options;
+    StrandTrimOptions options;
     options.factor = 0.6;
     const Strands made = trimmed(strands, options);
     for (Index s = 0; s < strands.size(); ++s) {
@@ -30,7 +30,7 @@ TEST_CASE("a trimmed strand is the first part of the old one") {
 
 TEST_CASE("no strand is longer than asked, and short ones stay to the bit") {
     const Strands strands = random_hair(50);
-    TrimOptions options;
+    StrandTrimOptions options;
     options.length = 0.08;
     const Strands made = trimmed(strands, options);
     for (Index s = 0; s < strands.size(); ++s) {
@@ -42,8 +42,8 @@ TEST_CASE("no strand is longer than asked, and short ones stay to the bit") {
 
 TEST_CASE("nothing is left beyond a plane, within its jitter") {
     const Strands strands = random_hair(100);
-    TrimOptions options;
-    options.plane = TrimPlane{{0, 0.06, 0}, {0, 3, 0}};
+    StrandTrimOptions options;
+    options.plane = StrandTrimPlane{{0, 0.06, 0}, {0, 3, 0}};
     CHECK(bounds(trimmed(strands, options)).max.y() == doctest::Approx(0.06).epsilon(1e-5));
     options.jitter = 0.01;
     const double highest = bounds(trimmed(strands, options)).max.y();
@@ -52,8 +52,8 @@ TEST_CASE("nothing is left beyond a plane, within its jitter") {
 }
 
 TEST_CASE("a strand rooted beyond the plane keeps its least length") {
-    TrimOptions options;
-    options.plane = TrimPlane{{0, -1, 0}, {0, 1, 0}};
+    StrandTrimOptions options;
+    options.plane = StrandTrimPlane{{0, -1, 0}, {0, 1, 0}};
     options.least = 0.005;
     const Strands made = trimmed(random_hair(20), options);
     CHECK(strand_statistics(made).least_length == doctest::Approx(0.005));
@@ -62,7 +62,7 @@ TEST_CASE("a strand rooted beyond the plane keeps its least length") {
 
 TEST_CASE("trimming at random belongs to the id of a strand") {
     const Strands strands = rich_hair(600);
-    TrimOptions options;
+    StrandTrimOptions options;
     options.variation = 0.5;
     const Strands whole = trimmed(strands, options, threads(4));
     CHECK(hash(trimmed(strands, options, threads(1))) == hash(whole));
@@ -75,7 +75,7 @@ TEST_CASE("trimming nothing changes nothing") {
     const Strands strands = rich_hair(30);
     CHECK(hash(trimmed(strands, {})) == hash(strands));
     const Strands odd = strands_of({{{1, 1, 1}}, {{1, 1, 1}, {1, 1, 1}}});
-    TrimOptions options;
+    StrandTrimOptions options;
     options.factor = 0.5;
     CHECK(hash(trimmed(odd, options)) == hash(odd));
 }
@@ -84,15 +84,15 @@ TEST_CASE("trimming refuses options out of range and changes nothing") {
     Strands strands = random_hair(3);
     const std::uint64_t before = hash(strands);
     const auto refused = [&](const auto& change) {
-        TrimOptions options;
+        StrandTrimOptions options;
         change(options);
         return error_of([&] { trim(strands, options); }).code() == ErrorCode::invalid_argument;
     };
-    CHECK(refused([](TrimOptions& o) { o.length = 0.0; }));
-    CHECK(refused([](TrimOptions& o) { o.factor = 1.5; }));
-    CHECK(refused([](TrimOptions& o) { o.variation = std::nan(""); }));
-    CHECK(refused([](TrimOptions& o) { o.jitter = -1.0; }));
-    CHECK(refused([](TrimOptions& o) { o.least = 0.0; }));
-    CHECK(refused([](TrimOptions& o) { o.plane = TrimPlane{{0, 0, 0}, {0, 0, 0}}; }));
+    CHECK(refused([](StrandTrimOptions& o) { o.length = 0.0; }));
+    CHECK(refused([](StrandTrimOptions& o) { o.factor = 1.5; }));
+    CHECK(refused([](StrandTrimOptions& o) { o.variation = std::nan(""); }));
+    CHECK(refused([](StrandTrimOptions& o) { o.jitter = -1.0; }));
+    CHECK(refused([](StrandTrimOptions& o) { o.least = 0.0; }));
+    CHECK(refused([](StrandTrimOptions& o) { o.plane = StrandTrimPlane{{0, 0, 0}, {0, 0, 0}}; }));
     CHECK(hash(strands) == before);
 }

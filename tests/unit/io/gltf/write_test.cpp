@@ -280,3 +280,27 @@ TEST_CASE("extras of a surface that another program changed are left out") {
     json["meshes"][0]["extras"]["lissom"] = {{"vertices", "x"}, {"labels", 3}};
     CHECK(decode_mesh(json.dump(), "gltf").face_count() == 6);
 }
+
+TEST_CASE("every image inside a binary file has a media type") {
+    GltfFile file;
+    file.add_mesh(file.square_primitive());
+    const std::vector<std::pair<std::string, std::string>> images{
+        {"\x89PNG\r\n\x1a\n..", "image/png"},
+        {"\xff\xd8\xff..", "image/jpeg"},
+        {"BM......", "image/bmp"},
+        {"RIFF....WEBP", "image/webp"},
+        {"DDS |...", "image/vnd-ms.dds"},
+        {"RIFF", "application/octet-stream"},
+        {"what is it", "application/octet-stream"}};
+    for (const auto& [bytes, type] : images) {
+        const int view = file.view(std::vector<char>(bytes.begin(), bytes.end()));
+        file.json["images"].push_back({{"bufferView", view}});
+        file.json["textures"].push_back({{"source", file.json["images"].size() - 1}});
+    }
+    const Json json = json_of_glb(encode_mesh(file.load(), "glb"));
+    REQUIRE(json["images"].size() == images.size());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        CHECK(json["images"][i]["mimeType"] == images[i].second);
+        CHECK(json["images"][i].contains("bufferView"));
+    }
+}

@@ -69,32 +69,49 @@ TEST_CASE("real hair keeps its points through the other formats") {
     }
 }
 
-TEST_CASE("USDA keeps all that is known of strands") {
+TEST_CASE("USDA comes back with an equal hash") {
     Strands strands = rich_hair(40);
-    strands.set_comment("");
-    strands.set_transparency({0.0f});
-    StrandValues<Eigen::Vector3f> colors = *strands.colors();
-    colors.common.setZero();
-    strands.set_colors(colors);
-    StrandWidths widths = strands.widths();
-    widths.profile.clear();
-    strands.set_widths(widths);
-    const Strands read = back(strands, "usda");
-    CHECK(hash(read) == hash(strands));
+    strands.set_groups(std::vector<Index>(strands.groups()), {"a \"b\"", "c\\d\nand e\\"});
+    strands.set_comment("grown \"here\",\n\\ and there");
+    const EncodedStrands written = encode_strands(strands, "usda");
+    CHECK(written.report.empty());
+    CHECK(hash(decode_strands(written.bytes, "usda")) == hash(strands));
+    StrandValues<float> each{0.0f, StrandDomain::strand, std::vector<float>(40, 0.1f)};
+    strands.set_transparency(each);
+    strands.set_widths({});
+    CHECK(hash(back(strands, "usda")) == hash(strands));
+    CHECK(hash(back(random_hair(10), "usda")) == hash(random_hair(10)));
 }
 
-TEST_CASE("widths with a profile become widths of points") {
+TEST_CASE("USDA widths and opacities that another program changed count") {
+    Strands strands = strands_of({{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}}});
+    StrandWidths widths;
+    widths.common = 0.25f;
+    widths.profile = {1.0f, 0.5f};
+    strands.set_widths(widths);
+    strands.set_transparency({0.25f});
+    std::string text = encode_strands(strands, "usda").bytes;
+    const auto replace = [&](const std::string& old, const std::string& with) {
+        const std::size_t at = text.find(old);
+        REQUIRE(at != text.npos);
+        text.replace(at, old.size(), with);
+    };
+    replace("widths = [0.25, 0.1875, 0.125]", "widths = [0.5, 0.5, 0.5]");
+    replace("displayOpacity = [0.75]", "displayOpacity = [0.5]");
+    const Strands read = decode_strands(text, "usda");
+    CHECK(read.widths().values == std::vector<float>{0.5f, 0.5f, 0.5f});
+    CHECK(read.transparency().common == 0.5f);
+}
+
+TEST_CASE("widths with a profile become widths of points where the format knows no profile") {
     const Strands strands = rich_hair(20);
-    for (const char* extension : {"hair", "usda"}) {
-        CAPTURE(extension);
-        const Strands read = back(strands, extension);
-        CHECK(read.widths().domain == StrandDomain::point);
-        std::vector<float> a, b;
-        for (Index s = 0; s < strands.size(); ++s) {
-            widths_of(strands, s, a);
-            widths_of(read, s, b);
-            CHECK(a == b);
-        }
+    const Strands read = back(strands, "hair");
+    CHECK(read.widths().domain == StrandDomain::point);
+    std::vector<float> a, b;
+    for (Index s = 0; s < strands.size(); ++s) {
+        widths_of(strands, s, a);
+        widths_of(read, s, b);
+        CHECK(a == b);
     }
 }
 

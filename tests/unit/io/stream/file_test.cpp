@@ -1,12 +1,18 @@
 #include "kernel/io/stream/file.h"
 
+#include <atomic>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "tests/unit/io/io_support.h"
 
 #ifndef _WIN32
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <csignal>
 #endif
@@ -115,7 +121,73 @@ TEST_CASE("a read-only file is not replaced") {
     CHECK(read_bytes(folder / "file") == "old");
 }
 
+TEST_CASE("a path with a zero byte is refused and names no other file") {
+    const TemporaryFolder folder;
+    write_bytes(folder / "file", "old");
+    const fs::path path = folder / std::string("file\0.obj", 9);
+    CHECK(error_of([&] { read_file(path); }).code() == ErrorCode::file_not_found);
+    CHECK(error_of([&] { write_file_atomically(path, "new"); }).code() ==
+          ErrorCode::file_write_failed);
+    CHECK(read_bytes(folder / "file") == "old");
+}
+
+TEST_CASE("a missing folder is named before the work, and made where that is asked for") {
+    const TemporaryFolder folder;
+    const Error error = error_of([&] { require_folder_of(folder / "a/b/file"); });
+    CHECK(error.code() == ErrorCode::file_write_failed);
+    CHECK(error.message().find("there is no folder '") != std::string::npos);
+    make_folder(folder / "a/b");
+    make_folder(folder / "a/b");
+    require_folder_of(folder / "a/b/file");
+    write_bytes(folder / "a/file", "x");
+    CHECK(error_of([&] { make_folder(folder / "a/file"); }).code() == ErrorCode::file_write_failed);
+    CHECK(error_of([&] { make_folder(folder / "a/file/b"); }).code() ==
+          ErrorCode::file_write_failed);
+}
+
 #ifndef _WIN32
+TEST_CASE("what a killed process left is removed by the next write, and nothing else") {
+    const TemporaryFolder folder;
+    for (const char* name : {".lissom-7.tmp", ".lissom-12345.tmp", ".lissom-.tmp", ".lissom-7x.tmp",
+                             ".lissom-7.tmp.keep", "lissom-7.tmp"}) {
+        write_bytes(folder / name, "left");
+    }
+    fs::create_directory(folder / ".lissom-8.tmp");
+    fs::create_symlink("lissom-7.tmp", folder / ".lissom-9.tmp");
+    // One that somebody writes is locked.
+    write_bytes(folder / ".lissom-10.tmp", "at work");
+    const int descriptor = open((folder / ".lissom-10.tmp").c_str(), O_RDONLY);
+    REQUIRE(flock(descriptor, LOCK_EX | LOCK_NB) == 0);
+    write_file_atomically(folder / "file", "new");
+    CHECK(folder.names() == std::vector<std::string>{".lissom-.tmp", ".lissom-10.tmp",
+                                                     ".lissom-7.tmp.keep", ".lissom-7x.tmp",
+                                                     ".lissom-8.tmp", ".lissom-9.tmp", "file",
+                                                     "lissom-7.tmp"});
+    close(descriptor);
+    write_file_atomically(folder / "file", "new");
+    CHECK(!fs::exists(folder / ".lissom-10.tmp"));
+}
+
+TEST_CASE("files written into one folder at once do not take each other for left over") {
+    const TemporaryFolder folder;
+    std::atomic<int> failures{0};
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t) {
+        threads.emplace_back([&, t] {
+            for (int i = 0; i < 50; ++i) {
+                try {
+                    write_file_atomically(folder / std::to_string(t), "bytes");
+                } catch (const Error&) {
+                    ++failures;
+                }
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    CHECK(failures == 0);
+    CHECK(folder.names() == std::vector<std::string>{"0", "1", "2", "3"});
+}
+
 TEST_CASE("a symbolic link stays and the file it points to is replaced") {
     const TemporaryFolder folder;
     fs::create_directory(folder / "sub");

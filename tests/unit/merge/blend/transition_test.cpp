@@ -260,7 +260,16 @@ TEST_CASE("bands stop where the surface has no more room") {
         tube.seams.push_back(tube.seams[0]);
         const Mesh before = tube.mesh;
         for (Index& v : tube.seams[1]) v += 96;
-        tube.seams[1][0] = tube.seams[0][0];
+        // The second goes by way of a vertex of the first.
+        const Index common = tube.seams[0][0];
+        const std::span<const Index> ring = tube.mesh.topology().neighbors(common);
+        const auto is_near = [&](Index v) {
+            return std::find(ring.begin(), ring.end(), v) != ring.end();
+        };
+        std::vector<Index>& second = tube.seams[1];
+        std::size_t k = 0;
+        while (!is_near(second[k]) || !is_near(second[(k + 1) % second.size()])) ++k;
+        second.insert(second.begin() + static_cast<std::ptrdiff_t>(k) + 1, common);
         const TransitionReport report = blend(tube);
         CHECK(report.source[0].width == 0.0);
     }
@@ -324,4 +333,26 @@ TEST_CASE("bad widths and options, and a cancel at any step, change nothing") {
     }
     CHECK(finished);
     CHECK(hash(tube.mesh) == before);
+}
+
+TEST_CASE("widths that suit a seam: nine tenths of its radius where there is room") {
+    // Seven units of tube on either side of a seam of radius 1.
+    const Sewn tube = test::revolution(48, 60, [](double, double) { return 1.0; });
+    const TransitionWidths wide = suitable_widths(tube).front();
+    CHECK(wide.source == Approx(0.9).epsilon(0.01));
+    CHECK(wide.target == Approx(0.9).epsilon(0.01));
+    // Half of what there is on a short side.
+    const Sewn ring = test::revolution(48, 8, [](double, double) { return 1.0; });
+    double end = 0.0;
+    for (const Vec3& p : ring.mesh.positions()) end = std::max(end, p.z());
+    CHECK(suitable_widths(ring).front().source == Approx(0.5 * end).epsilon(0.02));
+    // Three edges on a coarse one.
+    const Sewn coarse = test::revolution(10, 30, [](double, double) { return 1.0; });
+    CHECK(suitable_widths(coarse).front().source > 1.7);
+    // The transition uses them as they are.
+    Sewn copy = tube;
+    const std::vector<TransitionWidths> widths = suitable_widths(copy);
+    const TransitionReport report = blend_transition(copy, widths);
+    CHECK(report.source[0].width == widths[0].source);
+    CHECK(report.target[0].width == widths[0].target);
 }

@@ -317,7 +317,10 @@ TEST_CASE("a line over fins is reported") {
     REQUIRE(parts.report.warnings.size() == 1);
     CHECK(parts.report.warnings[0].concern == CutConcern::folded_line);
     CHECK(parts.report.warnings[0].elements.count > 10);
-    CHECK(cut(make_cactus({.vertices = 4000}), {{0, 0.5, 0}, {0, 1, 0}}).report.warnings.empty());
+    const Cut plain = cut(make_cactus({.vertices = 4000}), {{0, 0.5, 0}, {0, 1, 0}});
+    for (const CutWarning& warning : plain.report.warnings) {
+        CHECK(warning.concern == CutConcern::keeps_most);
+    }
 }
 
 TEST_CASE("what cannot be cut is refused") {
@@ -334,4 +337,71 @@ TEST_CASE("what cannot be cut is refused") {
     context.cancel();
     CHECK(test::error_of([&] { (void)cut(mesh, CutPlane{}, {}, context); }).code() ==
           ErrorCode::cancelled);
+}
+
+TEST_CASE("a cut that keeps more than four fifths of the mesh is told") {
+    const Mesh ball = make_sphere({.segments = 16});
+    const CutPlane cap{{0, 0.8, 0}, {0, 1, 0}}, rest{{0, 0.8, 0}, {0, -1, 0}};
+    const CutReport small = cut(ball, cap).report, large = cut(ball, rest).report;
+    // A cap of height h has h / 2 of the area.
+    CHECK(small.kept_fraction == Approx(0.1).epsilon(0.05));
+    CHECK(large.kept_fraction == Approx(0.9).epsilon(0.01));
+    CHECK(small.warnings.empty());
+    REQUIRE(large.warnings.size() == 1);
+    CHECK(large.warnings[0].concern == CutConcern::keeps_most);
+    CHECK(large.warnings[0].message.find("the cut keeps ") == 0);
+    // The fraction is that of the parts, up to what faces that are not plane leave open.
+    test::Random random(4);
+    for (const Mesh& mesh : {make_box({.size = {3, 1, 2}}), make_bar({.across = 2, .along = 3}),
+                             make_sphere({.segments = 2})}) {
+        for (int i = 0; i < 8; ++i) {
+            const CutPlane plane{0.6 * random.in_box(bounds(mesh)), random.direction()};
+            const Cut parts = cut(mesh, plane, {.loops = CutLoops::all, .slide = 0.0});
+            const double kept = area(parts.kept.mesh), all = kept + area(parts.rest.mesh);
+            CHECK(parts.report.kept_fraction == Approx(kept / all).epsilon(0.005));
+        }
+    }
+}
+
+TEST_CASE("a preview shows the lines of a cut and changes nothing") {
+    const Mesh cactus = make_cactus({.vertices = 3000});
+    const std::uint64_t before = hash(cactus);
+    const CutPlane plane{{0, 1.4, 0}, {0, -1, 0}};
+    const CutPreview preview = preview_cut(cactus, plane);
+    const Cut done = cut(cactus, plane, {.slide = 0.0});
+    CHECK(hash(cactus) == before);
+    REQUIRE(preview.lines.size() == 1);
+    CHECK(preview.others.size() == static_cast<std::size_t>(done.report.lines_left));
+    CHECK(!preview.others.empty());
+    CHECK(preview.lines[0].closed());
+    CHECK(preview.lines[0].length() == Approx(done.lines[0].kept.length(done.kept.mesh)));
+    CHECK(preview.report.kept_fraction == done.report.kept_fraction);
+    CHECK(preview.report.warnings.size() == done.report.warnings.size());
+    const auto direction = [](const std::vector<Vec3>& points) {
+        Vec3 area = Vec3::Zero();
+        for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+            area += (points[i] - points[0]).cross(points[i + 1] - points[0]);
+        }
+        return Vec3(area.normalized());
+    };
+    CHECK(direction(preview.lines[0].points())
+              .dot(direction(done.lines[0].kept.points(done.kept.mesh))) > 0.99);
+    // With the seed on the other side the lines run the other way.
+    CutPlane other = plane;
+    other.seed = Vec3(0, 2, 0);
+    CHECK(direction(preview_cut(cactus, other).lines[0].points())
+              .dot(direction(preview.lines[0].points())) < -0.99);
+    // All lines, of which none is left.
+    CHECK(preview_cut(cactus, plane, {.loops = CutLoops::all}).lines.size() ==
+          preview.others.size() + 1);
+    // Where the cut would fail, the line and the reason are shown.
+    const CutPlane through{{1, 0, 0}, {0, 0, 1}};
+    const CutPreview torus = preview_cut(make_torus(), through);
+    CHECK(torus.lines.size() == 1);
+    REQUIRE(!torus.report.warnings.empty());
+    CHECK(torus.report.warnings.back().concern == CutConcern::not_separating);
+    CHECK(code_of(make_torus(), through) == ErrorCode::boundary_conflict);
+    CHECK(test::error_of([&] {
+              (void)preview_cut(cactus, CutPlane{{0, 99, 0}, {0, 1, 0}});
+          }).code() == ErrorCode::invalid_argument);
 }

@@ -1,5 +1,8 @@
 #include "kernel/mesh/edit/append.h"
 
+#include <ctime>
+
+#include "kernel/mesh/label_adder.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
@@ -96,4 +99,42 @@ TEST_CASE("appending makes a new topology and an older region is recognised") {
     append(mesh, make_box());
     CHECK(test::error_of([&] { mesh.set_region("x", before); }).code() ==
           ErrorCode::topology_mismatch);
+}
+
+TEST_CASE("appending many labels takes a time that grows with their number") {
+    constexpr Index kCount = 100000;
+    std::vector<Vec3> positions;
+    FaceList faces;
+    FaceLabels labels;
+    for (Index f = 0; f < kCount; ++f) {
+        for (const double y : {0.0, 1.0, 2.0}) positions.emplace_back(f, y, y * y);
+        faces.add({3 * f, 3 * f + 1, 3 * f + 2});
+        labels.names.push_back("a group of one face " + std::to_string(f));
+        labels.of_face.push_back(f);
+    }
+    Mesh mesh(positions, faces), other = mesh;
+    mesh.attributes().labels()["group"] = labels;
+    for (Index f = 0; f < kCount; f += 2) labels.names[f] += " of the other";
+    other.attributes().labels()["group"] = labels;
+    const std::clock_t start = std::clock();
+    append(mesh, other);
+    // Looking for each name among those before took 20 times as long.
+    CHECK(double(std::clock() - start) / CLOCKS_PER_SEC < 3.0);
+    const FaceLabels& joined = mesh.attributes().labels().at("group");
+    CHECK(joined.names.size() == kCount + kCount / 2);
+    CHECK(joined.of_face[kCount] == kCount);
+    CHECK(joined.of_face[kCount + 1] == 1);
+    CHECK(joined.of_face[kCount + 2] == kCount + 1);
+}
+
+TEST_CASE("labels are added once, whoever adds them") {
+    FaceLabels labels;
+    LabelAdder adder(labels);
+    CHECK(adder.add("a") == 0);
+    CHECK(labels.add("b") == 1);
+    labels.names.push_back("a");
+    CHECK(adder.add("b") == 1);
+    CHECK(adder.add("c") == 3);
+    CHECK(adder.add("a") == 0);
+    CHECK(labels.names == std::vector<std::string>{"a", "b", "a", "c"});
 }

@@ -124,6 +124,59 @@ TEST_CASE("a triangle mesh is left as it is") {
     CHECK(mesh.shared_topology() == before);
 }
 
+namespace {
+
+// A lantern: `sides` polygons between two poles, with `between` corners on each of the lines that
+// join them. The poles are near each other, so that the diagonal between them is the shortest of
+// every polygon.
+Mesh lantern(Index sides, Index between) {
+    std::vector<Vec3> points{{0, 0.1, 0}, {0, -0.1, 0}};
+    const auto corner = [&](Index side, Index k) { return 2 + (side % sides) * between + k; };
+    for (Index side = 0; side < sides; ++side) {
+        const double angle = 2.0 * kPi * side / sides;
+        for (Index k = 0; k < between; ++k) {
+            const double t = kPi * (k + 1) / (between + 1), r = std::sin(t);
+            points.emplace_back(r * std::cos(angle), 0.1 * std::cos(t), r * std::sin(angle));
+        }
+    }
+    FaceList faces;
+    for (Index side = 0; side < sides; ++side) {
+        std::vector<Index> face{0};
+        for (Index k = 0; k < between; ++k) face.push_back(corner(side + 1, k));
+        face.push_back(1);
+        for (Index k = between; k > 0; --k) face.push_back(corner(side, k - 1));
+        faces.add(face);
+    }
+    return {std::move(points), std::move(faces)};
+}
+
+}  // namespace
+
+TEST_CASE("polygons that share a diagonal are split along others") {
+    for (const Index sides : {2, 3, 5, 12}) {
+        for (const Index between : {1, 2, 3, 7, 60, 140}) {
+            CAPTURE(sides);
+            CAPTURE(between);
+            Mesh mesh = lantern(sides, between);
+            triangulate(mesh);
+            CHECK(mesh.topology().is_triangle_mesh());
+            CHECK(mesh.topology().is_closed());
+            CHECK(mesh.face_count() == sides * 2 * between);
+        }
+    }
+}
+
+TEST_CASE("polygons are not split along an edge that the mesh has") {
+    for (const Index sides : {3, 4, 7}) {
+        Mesh mesh = lantern(sides, 1);
+        triangulate(mesh, std::vector<Index>{1});
+        const std::span<const Index> ring = mesh.topology().neighbors(0);
+        REQUIRE(std::find(ring.begin(), ring.end(), 1) != ring.end());
+        triangulate(mesh);
+        CHECK(mesh.face_count() == 2 * sides);
+    }
+}
+
 TEST_CASE("chosen faces alone are triangulated") {
     Mesh mesh = make_box();
     triangulate(mesh, std::vector<Index>{1, 4});

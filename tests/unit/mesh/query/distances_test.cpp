@@ -192,3 +192,29 @@ TEST_CASE("queries without sense are refused") {
     CHECK(code([&] { (void)solver.from(std::array{8}); }) == ErrorCode::out_of_range);
     CHECK(code([] { HeatDistances{Mesh()}; }) == ErrorCode::mesh_empty);
 }
+
+TEST_CASE("distances from a point of the surface that is no vertex") {
+    const Mesh sphere = make_sphere({.segments = 24});
+    const Vec3 at = Vec3(0.3, 0.8, 0.4).normalized();
+    const SurfacePoint from = SpatialTree(sphere).nearest(at);
+    const double radius = sphere.position(0).norm();
+    const auto exact = [&](const Vec3& p) {
+        return radius * std::atan2(p.cross(at).norm(), p.dot(at));
+    };
+    const std::vector<double> distance = HeatDistances(sphere).from_point(from);
+    CHECK(worst_error(sphere, distance, exact) < 0.02);
+    // Near the point it is as good as far from it.
+    for (const Index corner : from.triangle) {
+        CHECK(distance[corner] ==
+              Approx((sphere.position(corner) - from.position).norm()).epsilon(0.2));
+    }
+    const Region near = select_around(sphere, from, 0.5 * radius);
+    for (Index v = 0; v < sphere.vertex_count(); ++v) {
+        CHECK(near.contains(v) == (distance[v] <= 0.5 * radius));
+    }
+    Mesh two = make_grid();
+    append(two, test::tetrahedron());
+    const SurfacePoint on_grid = SpatialTree(two).nearest({0.21, 0, 0.13});
+    CHECK(HeatDistances(two).from_point(on_grid).back() == test::kInfinity);
+    CHECK(edge_distances(two, on_grid).back() == test::kInfinity);
+}

@@ -1,8 +1,11 @@
 #include "kernel/mesh/query/path.h"
 
 #include <array>
+#include <limits>
+#include <optional>
 
 #include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/query/path_smooth.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
@@ -107,6 +110,31 @@ TEST_CASE("smoothing a boundary moves its vertices and no others") {
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         if (!mesh.topology().is_boundary(v)) CHECK(mesh.position(v) == before.position(v));
     }
+}
+
+TEST_CASE("smoothing a path for ever can be cancelled, and then moves nothing") {
+    constexpr Index kForEver = std::numeric_limits<Index>::max();
+    const auto cancelled_smoothing = [](const auto& smooth) {
+        std::optional<Context> context;
+        int reports = 0;
+        ContextOptions options;
+        options.progress = [&](std::string_view, double) {
+            if (++reports == 3) context->cancel();
+        };
+        context.emplace(options);
+        return test::error_of([&] { smooth(*context); }).code();
+    };
+    Mesh mesh = make_grid();
+    const std::uint64_t before = hash(mesh);
+    CHECK(cancelled_smoothing([&](const Context& context) {
+              smooth_path(mesh, boundaries(mesh)[0], kForEver, 0.5, context);
+          }) == ErrorCode::cancelled);
+    CHECK(hash(mesh) == before);
+    Path path(kSquare, true);
+    CHECK(cancelled_smoothing([&](const Context& context) {
+              smooth_path(path, kForEver, 0.5, context);
+          }) == ErrorCode::cancelled);
+    CHECK(path.points() == kSquare);
 }
 
 TEST_CASE("paths that make no sense are refused") {

@@ -108,3 +108,37 @@ TEST_CASE("nonsense is refused") {
     CHECK(code([&] { (void)select_geodesic(mesh, {}, 1); }) == ErrorCode::invalid_argument);
     CHECK(code([&] { (void)select_geodesic(mesh, std::array{99}, 1); }) == ErrorCode::out_of_range);
 }
+
+TEST_CASE("a box in fractions of the bounds") {
+    Mesh mesh = make_grid({.size = {4, 2}, .segments = {8, 4}});
+    for (Vec3& p : mesh.edit_positions()) p += Vec3(0.1, 7.3, -0.7);
+    const Box box = bounds(mesh);
+    const auto vertices = [&](const Vec3& min, const Vec3& max) {
+        return select_fraction(mesh, Box{min, max}).size();
+    };
+    const double far = test::kInfinity;
+    CHECK(vertices({0, 0, 0}, {1, 1, 1}) == mesh.vertex_count());
+    CHECK(vertices({1, -far, -far}, {far, far, far}) == 5);
+    CHECK(vertices({-far, -far, -far}, {0, far, far}) == 5);
+    CHECK(vertices({0.45, -far, -far}, {0.55, far, far}) == 5);
+    CHECK(bounds(mesh, select_fraction(mesh, Box{{0.5, 0, 0}, {1, 1, 1}})).max == box.max);
+    CHECK(test::error_of([&] {
+              (void)vertices({1, 0, 0}, {0, 1, 1});
+          }).code() == ErrorCode::invalid_argument);
+}
+
+TEST_CASE("the part of a region that is connected with a point") {
+    const Mesh mesh = make_grid({.size = {4, 2}, .segments = {8, 4}});
+    const Region ends = select_box(mesh, Box{{-9, -9, -9}, {-1.4, 9, 9}})
+                            .united(select_box(mesh, Box{{1.4, -9, -9}, {9, 9, 9}}));
+    const Region right = connected_part(mesh, ends, {0.3, 5, 0});
+    CHECK(right == select_box(mesh, Box{{1.4, -9, -9}, {9, 9, 9}}));
+    CHECK(connected_part(ends, right.vertices().back()) == right);
+    const Index between = 4;
+    REQUIRE_FALSE(ends.contains(between));
+    CHECK(test::error_of([&] { (void)connected_part(ends, between); }).code() ==
+          ErrorCode::out_of_range);
+    CHECK(test::error_of([&] {
+              (void)connected_part(mesh, Region::none(mesh.shared_topology()), Vec3::Zero());
+          }).code() == ErrorCode::region_empty);
+}

@@ -106,8 +106,7 @@ TEST_CASE("grid field edits: removing an owner returns to before") {
     }
 }
 
-TEST_CASE(
-    "grid field edits: after 200 random edits the dual and cholesky solvers agree to 1e-8") {
+TEST_CASE("grid field edits: after 200 random edits the dual and cholesky solvers agree to 1e-8") {
     std::mt19937 random(33);
     for (const GridBoundary boundary : {GridBoundary::zero_flux, GridBoundary::thesis}) {
         GridFieldOptions dual, factored = cholesky_edits();

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "bindings/lua/reference/reference.h"
+#include "tests/unit/bindings/annotation_check.h"
 #include "tests/unit/bindings/lua_state.h"
 #include "tests/unit/viewer/picture_folder.h"
 
@@ -47,12 +49,64 @@ TEST_CASE("every example of the viewer's table runs") {
     }
 }
 
-TEST_CASE("the viewer's annotations and reference page are those of its table") {
-    const Library library = viewer_library();
-    const bool annotations_current = content("meta/lissom_viewer.lua") == annotations(library);
-    const bool reference_current = content("reference.md") == reference_page(library);
-    CHECK_MESSAGE(annotations_current, "run the build target `reference` and look at what changed");
-    CHECK_MESSAGE(reference_current, "run the build target `reference` and look at what changed");
+TEST_CASE("the viewer's annotations are those of its table") {
+    const bool current = content("meta/lissom_viewer.lua") == annotations(viewer_library());
+    CHECK_MESSAGE(current, "run the build target `reference` and look at what changed");
+}
+
+TEST_CASE("lua-language-server understands the viewer's annotations beside the kernel's") {
+    const std::string kernel = annotations(kernel_library()), text = annotations(viewer_library());
+    CHECK(text.starts_with("---@meta _\n"));
+    std::set<std::string> types = test::declared_types(kernel);
+    types.merge(test::declared_types(text));
+    for (const std::string& mistake : test::annotation_mistakes(text, types)) {
+        CHECK_MESSAGE(false, mistake);
+    }
+}
+
+TEST_CASE("one reference has all that scripts can call, a page a type, with contents") {
+    const std::vector<Page> pages = reference_pages(*with_viewer().registry);
+    std::string index;
+    std::set<std::string> files;
+    for (const Page& page : pages) {
+        CAPTURE(page.file);
+        CHECK_MESSAGE(content("../docs/lua/" + page.file) == page.text,
+                      "run the build target `reference` and look at what changed");
+        CHECK(files.insert(page.file).second);
+        if (page.file == "README.md") index = page.text;
+    }
+    for (const char* place : {"lissom.md#load", "lissom.md#render", "shapes.md#cactus", "mesh.md",
+                              "camera.md", "tables.md", "codes.md"}) {
+        CHECK_MESSAGE(index.find("](" + std::string(place) + ")") != std::string::npos, place);
+    }
+    const std::string folder = std::string(LISSOM_VIEWER_FOLDER) + "/../docs/lua";
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        CHECK_MESSAGE(files.count(entry.path().filename().string()) == 1, entry.path());
+    }
+}
+
+TEST_CASE("links within the reference lead to a place") {
+    const std::vector<Page> pages = reference_pages(*with_viewer().registry);
+    std::set<std::string> places;
+    for (const Page& page : pages) {
+        places.insert(page.file);
+        for (std::size_t at = 0; (at = page.text.find("<a id=\"", at)) != std::string::npos; ++at) {
+            const std::size_t begin = at + 7;
+            const std::string id = page.text.substr(begin, page.text.find('"', begin) - begin);
+            CHECK_MESSAGE(places.insert(page.file + "#" + id).second, page.file << "#" << id);
+        }
+    }
+    for (const Page& page : pages) {
+        for (std::size_t at = 0; (at = page.text.find("](", at)) != std::string::npos; ++at) {
+            // Code is no link.
+            Index fences = 0;
+            for (std::size_t f = 0; (f = page.text.find("```", f)) < at; f += 3) ++fences;
+            if (fences % 2 == 1) continue;
+            std::string place = page.text.substr(at + 2, page.text.find(')', at) - at - 2);
+            if (place.starts_with("#")) place = page.file + place;
+            CHECK_MESSAGE(places.count(place) == 1, page.file << ": " << place);
+        }
+    }
 }
 
 TEST_CASE("scripts draw pictures, one after the other") {

@@ -2,10 +2,10 @@
 
 #include <limits>
 
+#include "kernel/hair/strands/strand_place.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/strands/strand_support.h"
 #include "viewer/draw/projection.h"
-#include "viewer/strands/strand_place.h"
 
 using namespace lissom;
 using doctest::Approx;
@@ -41,6 +41,18 @@ Eigen::Array3f mean_color(const StrandLayer& layer) {
 }
 
 }  // namespace
+
+TEST_CASE("strand layer: drawing tells how far it is") {
+    const Strands hair = test::curtain(20000, 0.0, 0.0002);
+    std::vector<double> fractions;
+    ContextOptions options;
+    options.progress = [&](std::string_view, double fraction) { fractions.push_back(fraction); };
+    const Context context(options);
+    Progress progress(context, "render");
+    test::layer_of(test::drawing_of(hair), test::front_view(), test::small_options(), context);
+    CHECK(fractions.size() > 8);
+    CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+}
 
 TEST_CASE("strand layer: a strand covers its length times its width") {
     // One pixel is 1/48.
@@ -227,6 +239,18 @@ TEST_CASE("strand layer: it lies over the meshes without a seam") {
     }
     CHECK(lay_over(lines, beside, kWhite).color(1, 0).g ==
           Approx(linear_to_srgb(0.25)).epsilon(0.02));
+}
+
+TEST_CASE("strand place: hair on a mesh that is not in metres is doubted") {
+    const Strands hair = test::strands_of({{{0, 0, 0}, {0, 0.2, 0.2}}});
+    const auto head = [](double size) { return make_sphere({.radius = size, .segments = 8}); };
+    CHECK(doubt_about_unit(hair, head(0.1), 1.0).empty());
+    CHECK(doubt_about_unit(hair, head(0.9), 1.0).empty());
+    CHECK(doubt_about_unit(hair, head(10.0), 0.01).empty());
+    CHECK(doubt_about_unit(hair, head(10.0), 1.0).find("unit = 0.01 }") != std::string::npos);
+    CHECK(doubt_about_unit(hair, head(100.0), 1.0).find("millimetres") != std::string::npos);
+    CHECK(doubt_about_unit(hair, head(0.1), 0.001).find("unit = 1 }") != std::string::npos);
+    CHECK(doubt_about_unit(Strands(), head(100.0), 1.0).empty());
 }
 
 TEST_CASE("strand place: roots tell the unit of the mesh") {

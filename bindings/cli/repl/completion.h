@@ -1,0 +1,27 @@
+/// What may follow at the prompt: names of variables, fields, functions, methods and options, the
+/// last three from the registration table.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bindings/lua/core/state.h"
+
+namespace lissom::cli {
+
+struct Completions {
+    /// Where the word begins that they stand for.
+    std::size_t begin = 0;
+    /// Whole words, in order; names of options end with " = ".
+    std::vector<std::string> words;
+    /// The text ends inside a string: the name of a file may be meant.
+    bool in_string = false;
+};
+
+/// How `text`, all that was typed of a chunk up to the cursor, may go on. Runs no code of the
+/// script: reads variables and fields as they are, and takes the type of what a function returns
+/// from its description.
+Completions completions(lua_State* L, std::string_view text);
+
+}  // namespace lissom::cli

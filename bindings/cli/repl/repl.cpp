@@ -1,0 +1,207 @@
+// lissom repl
+#include <CLI/CLI.hpp>
+#include <cstring>
+#include <iostream>
+
+#include "bindings/cli/repl/completion.h"
+#include "bindings/cli/repl/display.h"
+#include "bindings/cli/script.h"
+#include "bindings/cli/terminal/line_editor.h"
+#include "bindings/cli/verbs.h"
+#include "bindings/lua/reference/reference.h"
+#include "kernel/core/nearest.h"
+#include "kernel/core/version.h"
+
+namespace lissom::cli {
+namespace {
+
+constexpr const char* kChunk = "=repl";
+
+bool load(lua_State* L, const std::string& text) {
+    return luaL_loadbufferx(L, text.data(), text.size(), kChunk, "t") == LUA_OK;
+}
+
+// Whether the message on top of the stack says that the chunk only lacks its end.
+bool is_incomplete(lua_State* L) {
+    std::size_t size = 0;
+    const char* message = lua_tolstring(L, -1, &size);
+    constexpr const char* kMark = "<eof>";
+    const std::size_t mark = std::strlen(kMark);
+    return message && size >= mark && std::strcmp(message + size - mark, kMark) == 0;
+}
+
+// ---- help
+
+// Pushes the help of what `help` was asked about, with no C++ object alive afterwards.
+template <typename Compose>
+int push_help(lua_State* L, const Compose& compose) {
+    lua::Failure failure;
+    const bool composed = failure.guard([&] {
+        const std::string text = compose();
+        lua_pushlstring(L, text.data(), text.size());
+    });
+    if (!composed) lua_pushstring(L, failure.message);
+    return 1;
+}
+
+std::string general_help(const lua::Registry& registry) {
+    return lua::help_overview(registry) +
+           "\nhelp(mesh.save), help(\"save\") or help(\"Mesh\") tells more. Tab completes names "
+           "and "
+           "options; Ctrl-C gives up a line or stops what runs; Ctrl-D ends.";
+}
+
+std::string named_help(const lua::Registry& registry, const std::string& name) {
+    const std::string text = lua::help_for(registry, name);
+    if (!text.empty()) return text;
+    const std::vector<std::string> names = lua::help_names(registry);
+    const std::vector<std::string_view> views(names.begin(), names.end());
+    const std::string_view nearest = nearest_name(name, views);
+    return "there is no help for '" + name + "'" +
+           (nearest.empty() ? "; help() lists everything"
+                            : ", did you mean '" + std::string(nearest) + "'?");
+}
+
+// help(), help(function), help(object), help(name)
+int help(lua_State* L) {
+    const lua::Registry& registry = *lua::find_state(L)->registry;
+    const lua::Entry* entry = lua_isnone(L, 1) ? nullptr : lua::find_entry(L, 1);
+    const lua::Type* type = lua_isnone(L, 1) ? nullptr : lua::find_type(L, 1);
+    const char* name = lua_type(L, 1) == LUA_TSTRING ? lua_tostring(L, 1) : nullptr;
+    return push_help(L, [&] {
+        if (entry) return lua::help_text(*entry);
+        if (type) return lua::help_text(*type);
+        if (name) return named_help(registry, name);
+        return general_help(registry);
+    });
+}
+
+// ---- Reading
+
+// What was typed: a chunk on the stack, a message there, a line given up, or the end of the input.
+enum class Typed { chunk, mistake, nothing, end };
+
+class Prompt {
+  public:
+    Prompt(Program& program, lua_State* L)
+        : L_(L),
+          editor_({[this](const std::string& line) { return completed(line); },
+                   [&program] { return program.interrupted(); }, history_file()}) {}
+
+    bool interactive() const { return editor_.interactive(); }
+
+    // An expression, or a statement over as many lines as it takes.
+    Typed read() {
+        before_.clear();
+        LineEditor::Read typed = editor_.read("> ");
+        if (typed.outcome == LineEditor::Outcome::end) return Typed::end;
+        if (typed.outcome == LineEditor::Outcome::interrupted) return Typed::nothing;
+        std::string chunk = typed.line;
+        if (load(L_, "return " + chunk)) {
+            editor_.remember(chunk);
+            return Typed::chunk;
+        }
+        lua_pop(L_, 1);
+        bool loaded;
+        while (!(loaded = load(L_, chunk)) && is_incomplete(L_)) {
+            before_ = chunk + "\n";
+            typed = editor_.read(">> ");
+            if (typed.outcome == LineEditor::Outcome::interrupted) return Typed::nothing;
+            if (typed.outcome == LineEditor::Outcome::end) break;
+            lua_pop(L_, 1);
+            chunk += "\n" + typed.line;
+        }
+        editor_.remember(chunk);
+        return loaded ? Typed::chunk : Typed::mistake;
+    }
+
+  private:
+    Completions completed(const std::string& line) {
+        Completions found = completions(L_, before_ + line);
+        found.begin -= std::min(found.begin, before_.size());
+        return found;
+    }
+
+    lua_State* L_;
+    // Lines of the chunk above the one that is typed.
+    std::string before_;
+    LineEditor editor_;
+};
+
+// ---- Running
+
+// On one line as `print` writes them, or below each other where one takes several.
+void show_results(lua_State* L) {
+    const int count = lua_gettop(L);
+    std::string text;
+    bool several_lines = false;
+    for (int i = 1; i <= count; ++i) {
+        const std::string one = display(L, i);
+        several_lines = several_lines || one.find('\n') != std::string::npos;
+        text += (i > 1 ? "\t" : "") + one;
+    }
+    if (several_lines) {
+        text.clear();
+        for (int i = 1; i <= count; ++i) text += (i > 1 ? "\n" : "") + display(L, i);
+    }
+    if (count > 0) std::cout << text << "\n";
+}
+
+ScriptResult run_chunk(Script& script, Typed typed) {
+    lua_State* L = script.lua();
+    if (typed == Typed::mistake) {
+        ScriptResult result;
+        result.status = kFailure;
+        result.message = lua_tostring(L, -1);
+        return result;
+    }
+    ScriptResult result = script.call_function();
+    if (result.status == kSuccess) show_results(L);
+    return result;
+}
+
+int evaluate_lines(Program& program, Script& script) {
+    int status = kSuccess;
+    Prompt prompt(program, script.lua());
+    if (prompt.interactive()) {
+        std::cout << "lissom " LISSOM_VERSION ", " LUA_RELEASE "; help() tells what there is\n";
+    }
+    while (true) {
+        program.wait_at_prompt(true);
+        const Typed typed = prompt.read();
+        program.wait_at_prompt(false);
+        program.forget_interrupt();
+        if (typed == Typed::end) break;
+        if (typed != Typed::nothing) {
+            const ScriptResult result = run_chunk(script, typed);
+            if (result.status != kSuccess) program.fail(result.message);
+            if (result.status != kSuccess && !prompt.interactive()) status = kFailure;
+        }
+        if (program.interrupted()) program.forget_interrupt();
+        lua_settop(script.lua(), 0);
+        std::cout << std::flush;
+    }
+    if (prompt.interactive()) std::cout << "\n";
+    return status;
+}
+
+}  // namespace
+
+int repl(Program& program, const std::vector<std::string>& words) {
+    CLI::App app(
+        "Reads Lua from the keyboard and runs it line by line. The module is in the global "
+        "variable `lissom`; help() lists what it has.",
+        "lissom repl");
+    int status = kSuccess;
+    if (!program.parse(app, words, status)) return status;
+    if (program.json()) program.output = Output::json_errors;
+    Script script(program, {});
+    lua_State* L = script.lua();
+    lua::open(L, {});
+    lua_setglobal(L, "lissom");
+    lua_pushcfunction(L, help);
+    lua_setglobal(L, "help");
+    return evaluate_lines(program, script);
+}
+
+}  // namespace lissom::cli

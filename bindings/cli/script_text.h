@@ -1,0 +1,23 @@
+/// What the text of a script tells before it runs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lissom::cli {
+
+struct ScriptTraits {
+    /// Whether it may declare parameters: it names `params`, or requires modules that could.
+    bool may_declare = false;
+    /// Whether it reads the words of the command line by itself: it names `arg`.
+    bool reads_words = false;
+};
+
+/// Looks for words, also in comments and strings: what is said is false only where it is so.
+ScriptTraits script_traits(std::string_view text);
+
+/// The text of a regular file, or of the standard input for "-"; nothing where it cannot be read.
+std::optional<std::string> script_text(const std::string& file);
+
+}  // namespace lissom::cli

@@ -1,0 +1,19 @@
+/// The name that someone probably meant.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lissom {
+
+/// The candidate with the fewest edits (letters changed, added, left out or swapped with their
+/// neighbour) from `name`, the first of equals; at most a third of the letters, and one in short
+/// names. Else the first candidate that begins with `name`. Empty where there is neither.
+std::string_view nearest_name(std::string_view name,
+                              const std::vector<std::string_view>& candidates);
+
+/// ", did you mean 'smooth'?" where a candidate is near, else "; there is: a, b, c".
+std::string name_hint(std::string_view name, const std::vector<std::string_view>& candidates);
+
+}  // namespace lissom

@@ -1,0 +1,100 @@
+#include "kernel/hair/strands/strand_place.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "kernel/hair/curve/length_text.h"
+#include "kernel/hair/strands/strand_measures.h"
+
+namespace lissom {
+namespace {
+
+// Roots that are looked at; they lie all over the scalp.
+constexpr std::size_t kLookedAt = 2000;
+// Ratio of the distances that may remain between both: else they are of another mesh.
+constexpr double kTolerance = 0.02;
+
+// Of the size of a mesh: hair is seldom smaller than that of a body's, or larger than a head's.
+constexpr double kSmallest = 0.05, kLargest = 20.0;
+
+struct UsualUnit {
+    double metres;
+    const char* name;
+};
+constexpr std::array<UsualUnit, 6> kUsualUnits = {{{1.0, "metres"},
+                                                   {0.3048, "feet"},
+                                                   {0.1, "decimetres"},
+                                                   {0.0254, "inches"},
+                                                   {0.01, "centimetres"},
+                                                   {0.001, "millimetres"}}};
+
+double spread(const std::vector<Vec3>& points) {
+    Vec3 center = Vec3::Zero();
+    for (const Vec3& p : points) center += p;
+    center /= static_cast<double>(points.size());
+    double sum = 0.0;
+    for (const Vec3& p : points) sum += (p - center).squaredNorm();
+    return std::sqrt(sum);
+}
+
+std::optional<Vec3> place_on(const Mesh& mesh, Index face, const Eigen::Vector3f& barycentric) {
+    if (face < 0 || face >= mesh.face_count() || mesh.topology().face(face).size() < 3) {
+        return std::nullopt;
+    }
+    const auto corners = mesh.topology().face(face);
+    Vec3 place = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+        place += static_cast<double>(barycentric[i]) *
+                 mesh.position(corners[static_cast<std::size_t>(i)]);
+    }
+    return place;
+}
+
+}  // namespace
+
+std::optional<double> unit_of_roots(const Strands& strands, const Mesh& mesh) {
+    const StrandRoots& roots = strands.roots();
+    std::vector<Vec3> places, points;
+    const std::size_t stride = std::max(roots.faces.size() / kLookedAt, std::size_t{1});
+    for (std::size_t s = 0; s < roots.faces.size(); s += stride) {
+        const auto place = place_on(mesh, roots.faces[s], roots.barycentrics[s]);
+        const Vec3 point = strands.root(static_cast<Index>(s)).cast<double>();
+        if (!place) return std::nullopt;
+        if (!point.allFinite()) continue;
+        places.push_back(*place);
+        points.push_back(point);
+    }
+    if (places.size() < 2) return std::nullopt;
+    const double unit = spread(points) / spread(places);
+    if (!std::isfinite(unit) || unit <= 0.0) return std::nullopt;
+    for (Vec3& place : places) place *= unit;
+    double off = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        off = std::max(off, (places[i] - points[i]).norm());
+    }
+    return off < kTolerance * spread(points) ? std::optional(unit) : std::nullopt;
+}
+
+std::string doubt_about_unit(const Strands& strands, const Mesh& mesh, double unit) {
+    Box box;
+    for (const Vec3& p : mesh.positions()) box.extend(p);
+    const double hair = bounds(strands).diagonal(), size = box.diagonal();
+    const double ratio = hair / (unit * size);
+    if (!(hair > 0.0) || !(size > 0.0) || (ratio > kSmallest && ratio < kLargest)) return {};
+    const UsualUnit* best = &kUsualUnits.front();
+    const auto miss = [&](const UsualUnit& one) {
+        return std::abs(std::log(hair / (one.metres * size)));
+    };
+    for (const UsualUnit& one : kUsualUnits) {
+        if (miss(one) < miss(*best)) best = &one;
+    }
+    return "the strands are " + length_text(hair) + " m large and the mesh " + length_text(size) +
+           " units, which count as " + length_text(unit) +
+           " m each: hair will hardly be seen on it; "
+           "give hair = { unit = " +
+           length_text(best->metres) + " } if the mesh is in " + best->name;
+}
+
+}  // namespace lissom

@@ -1,0 +1,170 @@
+#include "kernel/merge/loop/part_shape.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/query/spatial_tree.h"
+
+namespace lissom {
+namespace {
+
+// Vertices that are mirrored to judge a plane.
+constexpr Index kProbes = 400;
+// Planes along the boundary's axis that are tried.
+constexpr int kPlanes = 36;
+// Times that a plane is fitted to what it mirrors.
+constexpr int kFits = 8;
+// A part is its own mirror image where mirrored points are nearer to it than this, in its sizes.
+constexpr double kMirrored = 0.06;
+// No other plane may be nearly as good, by a factor and by a part of the size: a round part has
+// many. Planes at a smaller angle than this are one.
+constexpr double kOtherPlane = 25.0 * kPi / 180.0, kClearlyBetter = 1.4, kClearlyLess = 0.02;
+
+struct Plane {
+    Vec3 point = Vec3::Zero(), normal = Vec3::UnitX();
+
+    Vec3 mirrored(const Vec3& p) const { return p - 2.0 * normal.dot(p - point) * normal; }
+};
+
+Mesh component_at(const Mesh& mesh, Index vertex, const Context& context) {
+    const std::vector<Index>& part = mesh.topology().components();
+    std::vector<Index> faces;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (part[mesh.topology().face(f)[0]] == part[vertex]) faces.push_back(f);
+    }
+    const Mesh shape({mesh.positions().begin(), mesh.positions().end()}, mesh.shared_topology());
+    return extract_faces(shape, faces, context).mesh;
+}
+
+// A part with what planes are judged by.
+class MirrorSearch {
+  public:
+    MirrorSearch(const Mesh& part, const Context& context)
+        : tree_(part, context), center_(surface_centroid(part)), size_(surface_radius(part)) {
+        const Index step = std::max(Index{1}, part.vertex_count() / kProbes);
+        for (Index v = 0; v < part.vertex_count(); v += step) probes_.push_back(part.position(v));
+    }
+
+    const Vec3& center() const { return center_; }
+
+    // The eigenvectors of the probes' covariance.
+    Mat3 principal_axes() const {
+        Mat3 sum = Mat3::Zero();
+        for (const Vec3& p : probes_) sum += (p - center_) * (p - center_).transpose();
+        return Eigen::SelfAdjointEigenSolver<Mat3>(sum).eigenvectors();
+    }
+
+    double asymmetry(const Plane& plane) const {
+        double squares = 0.0;
+        for (const Vec3& p : probes_) squares += square(tree_.nearest(plane.mirrored(p)).distance);
+        return std::sqrt(squares / static_cast<double>(probes_.size())) / size_;
+    }
+
+    // The plane between points and what lies nearest to their mirror images.
+    Plane fitted(const Plane& plane) const {
+        Vec3 middle = Vec3::Zero();
+        std::vector<Vec3> images;
+        for (const Vec3& p : probes_) {
+            images.push_back(tree_.nearest(plane.mirrored(p)).position);
+            middle += 0.5 * (p + images.back()) / static_cast<double>(probes_.size());
+        }
+        // Of the mirrored points about the middle, and the points: the least squares of
+        // p' - mirror(p) over unit normals is an eigenvector.
+        Mat3 products = Mat3::Zero();
+        for (std::size_t i = 0; i < probes_.size(); ++i) {
+            const Vec3 a = probes_[i] - middle, b = images[i] - middle;
+            products += a * b.transpose() + b * a.transpose();
+        }
+        return {middle, Eigen::SelfAdjointEigenSolver<Mat3>(products).eigenvectors().col(0)};
+    }
+
+  private:
+    static double square(double x) { return x * x; }
+
+    SpatialTree tree_;
+    Vec3 center_;
+    double size_;
+    std::vector<Vec3> probes_;
+};
+
+std::vector<Plane> first_planes(const MirrorSearch& search, const Vec3& axis) {
+    std::vector<Plane> planes;
+    const Mat3 principal = search.principal_axes();
+    for (int k = 0; k < 3; ++k) planes.push_back({search.center(), principal.col(k)});
+    if (!(axis.norm() > 0.0)) return planes;
+    const Vec3 x = axis.unitOrthogonal(), y = axis.cross(x);
+    for (int k = 0; k < kPlanes; ++k) {
+        const double turn = kPi * k / kPlanes;
+        planes.push_back({search.center(), std::cos(turn) * x + std::sin(turn) * y});
+    }
+    return planes;
+}
+
+double angle_between_planes(const Vec3& a, const Vec3& b) {
+    return std::acos(std::clamp(std::abs(a.dot(b)), 0.0, 1.0));
+}
+
+struct JudgedPlane {
+    Plane plane;
+    double asymmetry = std::numeric_limits<double>::infinity();
+};
+
+// All first planes with their asymmetry; the best and the best of a different angle also fitted.
+std::vector<JudgedPlane> judged_planes(const MirrorSearch& search, const Vec3& axis,
+                                       const Context& context) {
+    std::vector<JudgedPlane> planes;
+    for (const Plane& plane : first_planes(search, axis)) {
+        context.checkpoint();
+        planes.push_back({plane, search.asymmetry(plane)});
+    }
+    const auto better = [](const JudgedPlane& a, const JudgedPlane& b) {
+        return a.asymmetry < b.asymmetry;
+    };
+    std::stable_sort(planes.begin(), planes.end(), better);
+    std::vector<Vec3> fitted;
+    for (std::size_t i = 0; i < planes.size() && fitted.size() < 3; ++i) {
+        const Vec3 normal = planes[i].plane.normal;
+        const bool again = std::any_of(fitted.begin(), fitted.end(), [&](const Vec3& other) {
+            return angle_between_planes(other, normal) < kOtherPlane;
+        });
+        if (again) continue;
+        fitted.push_back(normal);
+        for (int step = 0; step < kFits; ++step) {
+            const Plane next = search.fitted(planes[i].plane);
+            const double asymmetry = search.asymmetry(next);
+            if (!(asymmetry < planes[i].asymmetry)) break;
+            planes[i] = {next, asymmetry};
+        }
+    }
+    std::stable_sort(planes.begin(), planes.end(), better);
+    return planes;
+}
+
+}  // namespace
+
+PartShape part_shape(const Mesh& mesh, const Loop& loop, const Context& context) {
+    PartShape shape;
+    const Mesh part = component_at(mesh, loop.vertices().front(), context);
+    const MirrorSearch search(part, context);
+    const std::vector<JudgedPlane> planes = judged_planes(search, loop.axis(), context);
+    const JudgedPlane& best = planes.front();
+    shape.asymmetry = best.asymmetry;
+    shape.next_asymmetry = std::numeric_limits<double>::infinity();
+    for (const JudgedPlane& other : planes) {
+        if (angle_between_planes(other.plane.normal, best.plane.normal) < kOtherPlane) continue;
+        shape.next_asymmetry = std::min(shape.next_asymmetry, other.asymmetry);
+    }
+    const double others = std::max(kClearlyBetter * best.asymmetry, best.asymmetry + kClearlyLess);
+    if (best.asymmetry < kMirrored && shape.next_asymmetry > others) {
+        shape.mirror = best.plane.normal;
+    }
+    return shape;
+}
+
+}  // namespace lissom

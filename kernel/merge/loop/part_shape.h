@@ -1,0 +1,27 @@
+/// What the shape of a part says about which way round it belongs: the plane in which it is its own
+/// mirror image; private to kernel/merge.
+#pragma once
+
+#include "kernel/core/context.h"
+#include "kernel/merge/loop/loop.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// The part of a mesh behind one of its boundaries.
+struct PartShape {
+    /// Unit normal of the plane in which the part is its own mirror image; zero where there is none
+    /// or more than one.
+    Vec3 mirror = Vec3::Zero();
+    /// RMS distance of mirrored points from the surface, in sizes of the part: of the best plane,
+    /// and of the best of those that lie at another angle.
+    double asymmetry = 0.0, next_asymmetry = 0.0;
+};
+
+/// The shape of the component of `mesh` that `loop` bounds. The plane is sought among those through
+/// the part's centroid, starting from ones along the boundary's axis and from the part's principal
+/// axes; each is then fitted to pairs of points that it mirrors.
+/// Errors: memory_limit; cancelled.
+PartShape part_shape(const Mesh& mesh, const Loop& loop, const Context& context);
+
+}  // namespace lissom

@@ -1,0 +1,433 @@
+#include "kernel/merge/sew/seam_collar.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "kernel/merge/provenance.h"
+#include "kernel/merge/sew/seam_guard.h"
+#include "kernel/merge/sew/seam_sheet.h"
+
+namespace lissom {
+namespace {
+
+// A side whose edges are this many times as long as the seam's is sparse.
+constexpr double kSparse = 1.5;
+// How fast edges grow with the distance from the seam: 1.43 times a ring.
+constexpr double kGradation = 0.5;
+constexpr double kSharp = 20.0 * kDegree, kAllEdges = 1.0 * kDegree;
+// Dihedral angles up to these may arise.
+constexpr double kFlippedDihedral = 20.0 * kDegree, kRemeshedDihedral = 10.0 * kDegree;
+constexpr double kGoodSeamAngle = 15.0 * kDegree, kSameQuality = 1e-6;
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+// The length that edges should have around one seam: that of the seam's edges on it, growing with
+// the distance up to that of the side. Points of the seam in their order, in a tree of boxes.
+class SeamSizes {
+  public:
+    SeamSizes(std::vector<Vec3> seam, double greatest)
+        : seam_(std::move(seam)), greatest_(greatest) {
+        const std::size_t n = seam_.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            length_.push_back(0.5 * ((seam_[(k + 1) % n] - seam_[k]).norm() +
+                                     (seam_[(k + n - 1) % n] - seam_[k]).norm()));
+        }
+        build(0, n);
+    }
+
+    double at(const Vec3& p) const {
+        double best = greatest_;
+        search(0, p, best);
+        return best;
+    }
+
+  private:
+    static constexpr std::size_t kLeaf = 4;
+
+    struct Node {
+        Box box;
+        double least = std::numeric_limits<double>::infinity();
+        std::size_t begin = 0, end = 0, second = 0;
+    };
+
+    std::size_t build(std::size_t begin, std::size_t end) {
+        const std::size_t node = nodes_.size();
+        nodes_.emplace_back();
+        Node made{{}, std::numeric_limits<double>::infinity(), begin, end, 0};
+        for (std::size_t k = begin; k < end; ++k) {
+            made.box.extend(seam_[k]);
+            made.least = std::min(made.least, length_[k]);
+        }
+        if (end - begin > kLeaf) {
+            const std::size_t middle = (begin + end) / 2;
+            build(begin, middle);
+            made.second = build(middle, end);
+        }
+        nodes_[node] = made;
+        return node;
+    }
+
+    void search(std::size_t node, const Vec3& p, double& best) const {
+        const Node& at = nodes_[node];
+        const Vec3 outside = (at.box.min - p).cwiseMax(p - at.box.max).cwiseMax(Vec3::Zero());
+        if (at.least + kGradation * outside.norm() >= best) return;
+        if (at.second != 0) {
+            search(node + 1, p, best);
+            search(at.second, p, best);
+            return;
+        }
+        for (std::size_t k = at.begin; k < at.end; ++k) {
+            best = std::min(best, length_[k] + kGradation * (p - seam_[k]).norm());
+        }
+    }
+
+    std::vector<Vec3> seam_;
+    std::vector<double> length_;
+    double greatest_;
+    std::vector<Node> nodes_;
+};
+
+// One side of one seam.
+class CollarSide {
+  public:
+    CollarSide(const Sewn& sewn, std::size_t seam, SeamSide side)
+        : mesh_(sewn.mesh), sewn_(sewn), seam_(sewn.seams[seam]), side_(side) {}
+
+    double seam_edge() const {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < seam_.size(); ++k) {
+            sum += distance(seam_[k], seam_[(k + 1) % seam_.size()]);
+        }
+        return sum / static_cast<double>(seam_.size());
+    }
+
+    // The median edge of the first two rings beside the seam; where these have no edges, of those
+    // to the seam.
+    double side_edge() const {
+        const std::set<Index> on(seam_.begin(), seam_.end());
+        std::set<Index> near;
+        std::vector<double> inner, outer;
+        std::vector<Index> front(on.begin(), on.end());
+        for (int ring = 0; ring < 2; ++ring) {
+            std::vector<Index> next;
+            for (const Index v : front) {
+                for (const Index f : side_faces(v)) {
+                    for (const Index w : mesh_.topology().face(f)) {
+                        if (!on.contains(w) && near.insert(w).second) next.push_back(w);
+                    }
+                }
+            }
+            front = std::move(next);
+        }
+        for (const Index v : near) {
+            for (const Index w : mesh_.topology().neighbors(v)) {
+                if (near.contains(w) && v < w) inner.push_back(distance(v, w));
+                if (on.contains(w)) outer.push_back(distance(v, w));
+            }
+        }
+        if (!inner.empty()) return median(std::move(inner));
+        return outer.empty() ? 0.0 : median(std::move(outer));
+    }
+
+    // The faces of the side that touch the seam, or hang together with those that do by vertices
+    // where edges should be shorter than the side's.
+    std::vector<Index> faces(const SeamSizes& sizes, double side_edge) const {
+        std::set<Index> faces;
+        std::unordered_map<Index, char> seen;
+        std::vector<Index> open(seam_);
+        for (const Index v : seam_) seen.emplace(v, 1);
+        while (!open.empty()) {
+            const Index v = open.back();
+            open.pop_back();
+            for (const Index f : side_faces(v)) {
+                if (!faces.insert(f).second) continue;
+                for (const Index w : mesh_.topology().face(f)) {
+                    if (!seen.emplace(w, 1).second) continue;
+                    if (sizes.at(mesh_.position(w)) < side_edge) open.push_back(w);
+                }
+            }
+        }
+        return {faces.begin(), faces.end()};
+    }
+
+    std::vector<Vec3> points() const {
+        std::vector<Vec3> points;
+        for (const Index v : seam_) points.push_back(mesh_.position(v));
+        return points;
+    }
+
+  private:
+    double distance(Index a, Index b) const {
+        return (mesh_.position(a) - mesh_.position(b)).norm();
+    }
+
+    std::vector<Index> side_faces(Index v) const {
+        std::vector<Index> faces;
+        for (const Index f : mesh_.topology().faces_around(v)) {
+            if (sewn_.side_of_face[f] == side_) faces.push_back(f);
+        }
+        return faces;
+    }
+
+    const Mesh& mesh_;
+    const Sewn& sewn_;
+    const std::vector<Index>& seam_;
+    SeamSide side_;
+};
+
+// A sewn mesh with sheets in the place of some of its faces.
+class Remade {
+  public:
+    Remade(const Sewn& old, std::span<const SeamSheet> sheets, const Context& context)
+        : old_(old), sheets_(sheets) {
+        find_moved();
+        for (const SeamSheet& sheet : sheets) {
+            sheet_number_.emplace_back(static_cast<std::size_t>(sheet.vertex_count()), kNoIndex);
+        }
+        add_vertices();
+        add_faces();
+        sewn.mesh = derive(old.mesh, std::move(positions_), std::move(faces_), step, context);
+        sewn.map = composed(step, old.map);
+        sewn.report = old.report;
+        for (const std::vector<Index>& seam : old.seams) {
+            std::vector<Index>& renumbered = sewn.seams.emplace_back();
+            for (const Index v : seam) renumbered.push_back(number_[v]);
+        }
+    }
+
+    Sewn sewn;
+    // From the elements of the new mesh to those of the old one, and the faces made.
+    MeshMap step;
+    std::vector<Index> made;
+
+  private:
+    static constexpr Index kGone = -2;
+
+    SeamSide side_of(const SeamSheet& sheet) const {
+        return old_.side_of_face[sheet.faces().front()];
+    }
+
+    void find_moved() {
+        number_.assign(static_cast<std::size_t>(old_.mesh.vertex_count()), kNoIndex);
+        for (const SeamSheet& sheet : sheets_) {
+            for (Index v = 0; v < sheet.vertex_count(); ++v) {
+                const Index at = sheet.mesh_vertex(v);
+                if (at == kNoIndex) continue;
+                if (!sheet.is_used(v)) number_[at] = kGone;
+                if (sheet.has_moved(v)) moved_.emplace(at, std::pair(&sheet, v));
+            }
+        }
+    }
+
+    Index next_number() const { return static_cast<Index>(positions_.size()); }
+
+    // What was made on a side comes after the rest of it.
+    void add_vertices() {
+        for (Index v = 0; v < old_.mesh.vertex_count(); ++v) {
+            if (v == old_.first_source_vertex) begin_source_vertices();
+            if (number_[v] == kGone) continue;
+            number_[v] = next_number();
+            const auto moved = moved_.find(v);
+            if (moved != moved_.end()) {
+                add_vertex(*moved->second.first, moved->second.second);
+            } else {
+                positions_.push_back(old_.mesh.position(v));
+                step.vertices.add_copy(v);
+            }
+        }
+        add_made_vertices(SeamSide::source);
+        for (std::size_t s = 0; s < sheets_.size(); ++s) {
+            for (Index v = 0; v < sheets_[s].vertex_count(); ++v) {
+                const Index at = sheets_[s].mesh_vertex(v);
+                if (at != kNoIndex) sheet_number_[s][v] = number_[at];
+            }
+        }
+    }
+
+    void begin_source_vertices() {
+        add_made_vertices(SeamSide::target);
+        sewn.first_source_vertex = next_number();
+    }
+
+    void add_made_vertices(SeamSide side) {
+        for (std::size_t s = 0; s < sheets_.size(); ++s) {
+            const SeamSheet& sheet = sheets_[s];
+            for (Index v = 0; v < sheet.vertex_count() && side_of(sheet) == side; ++v) {
+                if (sheet.mesh_vertex(v) != kNoIndex || !sheet.is_used(v)) continue;
+                sheet_number_[s][v] = next_number();
+                add_vertex(sheet, v);
+            }
+        }
+    }
+
+    void add_vertex(const SeamSheet& sheet, Index v) {
+        positions_.push_back(sheet.position(v));
+        step.vertices.add_blend(sheet.vertex_sources(v));
+    }
+
+    void add_faces() {
+        std::vector<char> replaced(static_cast<std::size_t>(old_.mesh.face_count()), 0);
+        for (const SeamSheet& sheet : sheets_) {
+            for (const Index f : sheet.faces()) replaced[f] = 1;
+        }
+        bool at_source = false;
+        std::vector<Index> vertices;
+        for (Index f = 0; f < old_.mesh.face_count(); ++f) {
+            if (!at_source && old_.side_of_face[f] == SeamSide::source) {
+                add_made_faces(SeamSide::target);
+                at_source = true;
+            }
+            if (replaced[f]) continue;
+            vertices.clear();
+            Index corner = old_.mesh.topology().first_corner(f);
+            for (const Index v : old_.mesh.topology().face(f)) {
+                vertices.push_back(number_[v]);
+                step.corners.add_copy(corner++);
+            }
+            add_face(vertices, f);
+        }
+        add_made_faces(SeamSide::source);
+    }
+
+    void add_made_faces(SeamSide side) {
+        for (std::size_t s = 0; s < sheets_.size(); ++s) {
+            if (side_of(sheets_[s]) != side) continue;
+            for (const Triangle& t : sheets_[s].triangles()) {
+                std::array<Index, 3> vertices{};
+                for (std::size_t k = 0; k < 3; ++k) {
+                    vertices[k] = sheet_number_[s][t[k]];
+                    step.corners.add_blend(sheets_[s].corner_sources(t, k));
+                }
+                made.push_back(faces_.size());
+                add_face(vertices, sheets_[s].face_source(t));
+            }
+        }
+    }
+
+    void add_face(std::span<const Index> vertices, Index origin) {
+        faces_.add(vertices);
+        step.faces.add_copy(origin);
+        sewn.side_of_face.push_back(old_.side_of_face[origin]);
+    }
+
+    const Sewn& old_;
+    std::span<const SeamSheet> sheets_;
+    std::unordered_map<Index, std::pair<const SeamSheet*, Index>> moved_;
+    std::vector<Index> number_;
+    std::vector<std::vector<Index>> sheet_number_;
+    std::vector<Vec3> positions_;
+    FaceList faces_;
+};
+
+// Whether the seams are no worse for it, and nothing runs through anything that did not.
+// Nothing where the faces made anew do not fit those around them: a sheet does not see edges beyond
+// it.
+std::optional<Remade> remade_with(const Sewn& old, std::span<const SeamSheet> sheets,
+                                  const Context& context) {
+    try {
+        return std::optional<Remade>(std::in_place, old, sheets, context);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::nonmanifold_edge &&
+            error.code() != ErrorCode::nonmanifold_vertex &&
+            error.code() != ErrorCode::duplicate_face && error.code() != ErrorCode::face_index) {
+            throw;
+        }
+        return std::nullopt;
+    }
+}
+
+bool is_kept(const Sewn& old, const Remade& remade, const Context& context) {
+    const SeamQuality before = seam_quality(old.mesh, old.seams);
+    const SeamQuality after = seam_quality(remade.sewn.mesh, remade.sewn.seams);
+    const double least = std::min(before.smallest_angle, kGoodSeamAngle);
+    return after.greatest_dihedral <= before.greatest_dihedral + kSameQuality &&
+           after.greatest_near <= before.greatest_near + kSameQuality &&
+           after.smallest_angle >= least - kSameQuality &&
+           !adds_crossings(old.mesh, remade.sewn.mesh, remade.step, remade.made, context);
+}
+
+SheetLimits limits_of(const Sewn& sewn, double allowed) {
+    const SeamQuality now = seam_quality(sewn.mesh, sewn.seams);
+    return {std::min(allowed, now.greatest_dihedral), std::min(allowed, now.greatest_near)};
+}
+
+void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& context) {
+    const CollarSide at(sewn, seam, side);
+    const double side_edge = at.side_edge();
+    if (!(side_edge > kSparse * at.seam_edge())) return;
+    const SeamSizes sizes(at.points(), side_edge);
+    const std::vector<Index> faces = at.faces(sizes, side_edge);
+    const SheetLimits limits = limits_of(sewn, kRemeshedDihedral);
+    const SheetLimits flips = limits_of(sewn, kFlippedDihedral);
+    // Where sharp edges alone leave slivers, or faces that run through one another, all do better.
+    std::optional<Remade> best;
+    double least = 0.0;
+    for (const double sharp : {kSharp, kAllEdges}) {
+        SeamSheet sheet(sewn.mesh, faces, sewn.seams, sharp, context);
+        sheet.remesh([&](const Vec3& p) { return sizes.at(p); }, limits, flips, context);
+        std::optional<Remade> remade = remade_with(sewn, {&sheet, 1}, context);
+        if (!remade || !is_kept(sewn, *remade, context)) continue;
+        const double angle = seam_quality(remade->sewn.mesh, remade->sewn.seams).smallest_angle;
+        if (best && angle <= least) continue;
+        best.emplace(*std::move(remade));
+        least = angle;
+        if (least > kGoodSeamAngle) break;
+    }
+    if (!best) return;
+    best->sewn.report.collar_removed += static_cast<Index>(faces.size());
+    best->sewn.report.collar_added += static_cast<Index>(best->made.size());
+    sewn = std::move(best->sewn);
+}
+
+}  // namespace
+
+void make_collars(Sewn& sewn, const Context& context) {
+    for (std::size_t seam = 0; seam < sewn.seams.size(); ++seam) {
+        for (const SeamSide side : {SeamSide::target, SeamSide::source}) {
+            make_collar(sewn, seam, side, context);
+        }
+    }
+}
+
+void flip_near_seams(Sewn& sewn, const Context& context) {
+    const Topology& topology = sewn.mesh.topology();
+    std::set<Index> near;
+    for (const std::vector<Index>& seam : sewn.seams) {
+        for (const Index v : seam) {
+            near.insert(v);
+            near.insert(topology.neighbors(v).begin(), topology.neighbors(v).end());
+        }
+    }
+    std::set<Index> faces[2];
+    for (const Index v : near) {
+        for (const Index f : topology.faces_around(v)) {
+            if (topology.face(f).size() != 3) continue;
+            faces[sewn.side_of_face[f] == SeamSide::source ? 1 : 0].insert(f);
+        }
+    }
+    const SheetLimits limits = limits_of(sewn, kFlippedDihedral);
+    std::vector<SeamSheet> sheets;
+    sheets.reserve(2);
+    Index flips = 0;
+    for (const std::set<Index>& side : faces) {
+        if (side.empty()) continue;
+        SeamSheet& sheet = sheets.emplace_back(
+            sewn.mesh, std::vector<Index>(side.begin(), side.end()), sewn.seams, kPi, context);
+        flips += sheet.flip_edges(limits, context);
+    }
+    if (flips == 0) return;
+    std::optional<Remade> remade = remade_with(sewn, sheets, context);
+    if (!remade || !is_kept(sewn, *remade, context)) return;
+    sewn = std::move(remade->sewn);
+    sewn.report.flipped += flips;
+}
+
+}  // namespace lissom

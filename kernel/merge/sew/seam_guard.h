@@ -1,0 +1,83 @@
+/// The guard of a seam: what is done to it may not fold it; private to kernel/merge.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_set>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/merge/sew/seam_quality.h"
+#include "kernel/mesh/derive.h"
+#include "kernel/mesh/query/self_intersections.h"
+
+namespace lissom {
+
+/// Moves vertices around seams as far as that does no harm. Harm is a greater greatest dihedral
+/// angle across the seams or near them (SeamQuality), a smaller smallest angle where that is below
+/// 15 degrees, or a pair of faces that run through one another and did not.
+class SeamGuard {
+  public:
+    /// Takes the present shape of `mesh`; `moving` are the vertices that may move. Seams and
+    /// context must outlive the guard.
+    /// Errors: as seam_quality.
+    SeamGuard(const Mesh& mesh, std::span<const std::vector<Index>> seams,
+              std::vector<Index> moving, const Context& context);
+
+    /// Moves the vertices towards `to`, one place each: all of the way, or the first of a half, a
+    /// quarter and an eighth that does no harm. Where all of it does harm, each vertex is also
+    /// tried by itself, and what leaves the smaller angles is kept. Returns the part of the way
+    /// that was kept, of all vertices together: 0 where nothing moved. Errors: cancelled; the shape
+    /// is then as it was.
+    double move(std::span<const Vec3> to);
+
+    const std::vector<Index>& moving() const { return moving_; }
+    const Vec3& position(Index v) const { return shape_.position(v); }
+    std::span<const Vec3> positions() const { return shape_.positions(); }
+    const SeamQuality& quality() const { return now_.quality; }
+
+  private:
+    struct State {
+        std::vector<Vec3> places;
+        SeamQuality quality;
+        std::vector<FacePair> crossings;
+    };
+    // Of the faces around one vertex.
+    struct Star {
+        double seam = 0.0, other = 0.0, angle = kPi;
+        std::vector<Vec3> normals;
+    };
+
+    std::vector<Vec3> places() const;
+    void place(std::span<const Vec3> places);
+    bool is_harmless(State& state);
+    double move_all(std::span<const Vec3> to, State& state);
+    bool move_each(std::span<const Vec3> to, State& state);
+    Star star(Index v) const;
+    bool spares(const Star& before, const Star& after) const;
+
+    Mesh shape_;
+    std::span<const std::vector<Index>> seams_;
+    std::vector<Index> moving_, faces_;
+    std::unordered_set<std::uint64_t> seam_edges_;
+    State now_;
+    const Context& context_;
+};
+
+/// True where faces of `after` run through others and come from faces of `before` that did not.
+/// `map` leads from the elements of `after` to those of `before`; `made` are the faces of `after`
+/// that are not what they were.
+bool adds_crossings(const Mesh& before, const Mesh& after, const MeshMap& map,
+                    std::span<const Index> made, const Context& context);
+
+/// What the numbers of elements in a map are ahead of those of a mesh that was appended.
+struct MapShift {
+    Index faces = 0, corners = 0;
+};
+
+/// The faces that face `f` of a mesh comes from: its main source, and those that its corners are
+/// blended from; ascending. `map` leads from `made` to `old`, with numbers ahead by `shift`.
+std::vector<Index> origin_faces(const Topology& old, const Topology& made, const MeshMap& map,
+                                Index f, const MapShift& shift = {});
+
+}  // namespace lissom

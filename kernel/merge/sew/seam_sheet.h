@@ -1,0 +1,135 @@
+/// A part of one side of a seam while its triangles are changed; private to kernel/merge.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/mesh/derive.h"
+#include "kernel/mesh/query/spatial_tree.h"
+
+namespace lissom {
+
+/// Dihedral angles (radians) that a change may make even where there was none as great: across
+/// seams, and elsewhere.
+struct SheetLimits {
+    double seam = 0.0, other = 0.0;
+};
+
+/// Some faces of a mesh on one side of its seams, as triangles that can be split, collapsed,
+/// flipped and moved. The edges around them stay, and features do: edges that are sharp, and
+/// borders of charts and labels. A vertex between two feature edges in line slides along them.
+/// No change makes a dihedral angle greater than the limits and the greatest of the edges around
+/// it, or turns a triangle over.
+class SeamSheet {
+  public:
+    /// The edge length wanted at a point.
+    using Size = std::function<double(const Vec3&)>;
+
+    /// The faces `faces` of `mesh`. Edges with a dihedral angle above `sharp` are features. The
+    /// mesh must outlive the sheet.
+    SeamSheet(const Mesh& mesh, std::vector<Index> faces, std::span<const std::vector<Index>> seams,
+              double sharp, const Context& context);
+
+    /// Flips edges between triangles where that makes the smallest angle greater. Returns how many
+    /// flips there were.
+    Index flip_edges(const SheetLimits& limits, const Context& context);
+    /// Makes edges as long as `size` wants, in rounds of splits, collapses, flips and moves on the
+    /// surface (Botsch and Kobbelt 2004, with the sizes of Dunyach et al. 2013). Flips obey
+    /// `flips`, all else `limits`.
+    void remesh(const Size& size, const SheetLimits& limits, const SheetLimits& flips,
+                const Context& context);
+
+    const Mesh& mesh() const { return mesh_; }
+    /// The faces of the mesh that the sheet stands for.
+    const std::vector<Index>& faces() const { return faces_; }
+    Index vertex_count() const { return static_cast<Index>(x_.size()); }
+    /// The vertex of the mesh, or kNoIndex for one that was made.
+    Index mesh_vertex(Index v) const { return mesh_vertex_[v]; }
+    const Vec3& position(Index v) const { return x_[v]; }
+    /// False for a vertex that was collapsed.
+    bool is_used(Index v) const { return !around_[v].empty(); }
+    bool has_moved(Index v) const;
+    /// Triangles that are there now.
+    std::vector<Triangle> triangles() const;
+
+    /// What a vertex that was made or has moved is blended from: vertices of the mesh.
+    std::vector<ElementMap::Source> vertex_sources(Index v) const;
+    /// The face of the mesh that a triangle comes from.
+    Index face_source(const Triangle& triangle) const;
+    /// What the corner `k` of a triangle is blended from: corners of one face of the mesh.
+    std::vector<ElementMap::Source> corner_sources(const Triangle& triangle, std::size_t k) const;
+
+  private:
+    struct Star {
+        double seam = 0.0, other = 0.0, angle = kPi;
+    };
+
+    static std::uint64_t key(Index a, Index b) {
+        return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::min(a, b))) << 32) |
+               static_cast<std::uint32_t>(std::max(a, b));
+    }
+
+    void take_faces();
+    void mark_borders(std::span<const std::vector<Index>> seams);
+    void mark_features(double sharp);
+    bool same_values(Index p, Index q) const;
+    bool is_chart_border(Index left, Index right, Index a, Index c) const;
+    void make_rest(const Context& context);
+
+    Index left_of(Index a, Index b) const;
+    void enter(Index f, const Triangle& triangle);
+    void leave(Index f);
+    std::vector<Index> ring(Index v) const;
+    bool is_joined(Index a, Index b) const;
+    bool is_sliding(Index v, std::array<Index, 2>& along) const;
+
+    Vec3 normal(const Triangle& t, Index moved, const Vec3& to) const;
+    Star measure(std::span<const Triangle> triangles, std::span<const Index> instead_of,
+                 Index moved, const Vec3& to) const;
+    static bool is_allowed(const Star& before, const Star& after, const SheetLimits& limits,
+                           double good_angle);
+    bool turns(std::span<const Triangle> before, std::span<const Triangle> after, Index moved,
+               const Vec3& to, double greatest) const;
+
+    bool flip(Index a, Index c, const SheetLimits& limits);
+    bool split(Index a, Index c, const SheetLimits& limits);
+    bool collapse(Index gone, Index kept, const SheetLimits& limits);
+    void relax(Index v, const SheetLimits& limits);
+    // Inner edges whose length, over that wanted, is one to be changed.
+    std::vector<std::array<Index, 2>> edges_by_length(const std::function<bool(double)>& is_wanted,
+                                                      bool longest_first) const;
+    Index split_long(const SheetLimits& limits);
+    void collapse_short(const SheetLimits& limits);
+    double wanted(Index a, Index b) const { return 0.5 * (size_[a] + size_[b]); }
+
+    const Mesh& mesh_;
+    std::vector<Index> faces_;
+    std::vector<Vec3> x_;
+    std::vector<Index> mesh_vertex_;
+    // Vertices on the border stay.
+    std::vector<char> fixed_;
+    std::vector<Triangle> triangles_;
+    std::vector<std::vector<Index>> around_;
+    std::unordered_set<std::uint64_t> features_, seam_;
+    // Edges of the mesh between vertices of the border that are not of the sheet.
+    std::unordered_set<std::uint64_t> outer_edges_;
+    // Of border edges, along the normal of the face beyond.
+    std::unordered_map<std::uint64_t, Vec3> beyond_;
+    // The triangles at first: their faces, corners and vertices of the mesh.
+    std::vector<Index> rest_face_;
+    std::vector<Triangle> rest_corners_, rest_vertices_;
+    std::vector<Vec3> rest_points_;
+    std::optional<SpatialTree> rest_;
+    Size size_at_;
+    std::vector<double> size_;
+};
+
+}  // namespace lissom

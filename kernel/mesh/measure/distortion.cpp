@@ -1,0 +1,115 @@
+#include "kernel/mesh/measure/distortion.h"
+
+#include <cmath>
+#include <limits>
+
+#include "kernel/mesh/measure/measures.h"
+
+namespace lissom {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+void require_same_faces(const Mesh& mesh, const Mesh& rest) {
+    const FaceList &a = mesh.topology().faces(), &b = rest.topology().faces();
+    const bool same = mesh.vertex_count() == rest.vertex_count() && a.offsets == b.offsets &&
+                      a.vertices == b.vertices;
+    if (same) return;
+    throw Error(ErrorCode::topology_mismatch,
+                "the two meshes have different faces; compare a mesh with a copy of itself in "
+                "another shape");
+}
+
+// Of the edges at each vertex the ratio of lengths that is farthest from 1, as a factor.
+std::vector<double> edge_stretch(const Mesh& mesh, const Mesh& rest) {
+    std::vector<double> stretch(static_cast<std::size_t>(mesh.vertex_count()), kNone);
+    for (Index e = 0; e < mesh.topology().edge_count(); ++e) {
+        const auto [a, b] = mesh.topology().edge(e);
+        const double before = (rest.position(a) - rest.position(b)).norm();
+        if (!(before > 0.0)) continue;
+        const double ratio = (mesh.position(a) - mesh.position(b)).norm() / before;
+        for (const Index v : {a, b}) {
+            const double kept = std::isnan(stretch[v]) ? 0.0 : std::abs(std::log(stretch[v]));
+            if (std::isnan(stretch[v]) || std::abs(std::log(ratio)) > kept) stretch[v] = ratio;
+        }
+    }
+    return stretch;
+}
+
+std::vector<double> area_ratio(const Mesh& mesh, const Mesh& rest) {
+    const std::vector<double> now = face_areas(mesh), before = face_areas(rest);
+    std::vector<double> ratio(static_cast<std::size_t>(mesh.vertex_count()), kNone);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        double sum = 0.0, sum_before = 0.0;
+        for (const Index f : mesh.topology().faces_around(v)) {
+            sum += now[f];
+            sum_before += before[f];
+        }
+        if (sum_before > 0.0) ratio[v] = sum / sum_before;
+    }
+    return ratio;
+}
+
+double angle_at(const Mesh& mesh, std::span<const Index> face, std::size_t k, const Vec3& normal) {
+    const std::size_t n = face.size();
+    return corner_angle(mesh.position(face[(k + n - 1) % n]), mesh.position(face[k]),
+                        mesh.position(face[(k + 1) % n]), normal);
+}
+
+std::vector<double> angle_change(const Mesh& mesh, const Mesh& rest, std::span<const Vec3> now,
+                                 std::span<const Vec3> before) {
+    std::vector<double> change(static_cast<std::size_t>(mesh.vertex_count()), kNone);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (now[f].isZero(0.0) || before[f].isZero(0.0)) continue;
+        const std::span<const Index> face = mesh.topology().face(f);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const double by =
+                std::abs(angle_at(mesh, face, k, now[f]) - angle_at(rest, face, k, before[f]));
+            change[face[k]] = std::fmax(change[face[k]], by);
+        }
+    }
+    return change;
+}
+
+// Whether a face looks against the faces that it shares vertices with, each counting by its area.
+class Neighborhood {
+  public:
+    Neighborhood(const Mesh& mesh, std::span<const Vec3> normals)
+        : topology_(mesh.topology()), normals_(normals), area_(face_areas(mesh)) {}
+
+    bool opposes(Index f) const {
+        Vec3 sum = Vec3::Zero();
+        for (const Index v : topology_.face(f)) {
+            for (const Index g : topology_.faces_around(v)) {
+                if (g != f) sum += area_[g] * normals_[g];
+            }
+        }
+        return sum.dot(normals_[f]) < 0.0;
+    }
+
+  private:
+    const Topology& topology_;
+    std::span<const Vec3> normals_;
+    std::vector<double> area_;
+};
+
+}  // namespace
+
+Distortion distortion(const Mesh& mesh, const Mesh& rest, const Context& context) {
+    require_same_faces(mesh, rest);
+    Progress progress(context, "distortion");
+    const std::vector<Vec3> now = face_normals(mesh), before = face_normals(rest);
+    Distortion result{edge_stretch(mesh, rest), area_ratio(mesh, rest), {}, {}, {}};
+    progress.step(0.5);
+    result.angle = angle_change(mesh, rest, now, before);
+    result.flips.assign(static_cast<std::size_t>(mesh.vertex_count()), 0.0);
+    const Neighborhood around(mesh, now), around_before(rest, before);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (!around.opposes(f) || around_before.opposes(f)) continue;
+        result.flipped.push_back(f);
+        for (const Index v : mesh.topology().face(f)) result.flips[v] += 1.0;
+    }
+    return result;
+}
+
+}  // namespace lissom

@@ -1,0 +1,15 @@
+/// Smoothing of paths under a context.
+#pragma once
+
+#include "kernel/core/context.h"
+#include "kernel/mesh/query/path.h"
+
+namespace lissom {
+
+/// As the functions of the same name in path.h, with progress; errors: also cancelled, and then
+/// nothing was moved.
+void smooth_path(Mesh& mesh, const Path& path, Index iterations, double strength,
+                 const Context& context);
+void smooth_path(Path& path, Index iterations, double strength, const Context& context);
+
+}  // namespace lissom

@@ -1,0 +1,187 @@
+// lissom repl as a person meets it: on a terminal.
+#include <doctest/doctest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "bindings/cli/terminal/line_editor.h"
+#include "tests/unit/bindings/program_run.h"
+
+#if defined(__linux__) && defined(LISSOM_HAS_READLINE)
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lissom::cli {
+namespace {
+
+using Folder = test::ProgramFolder;
+
+// Run by Terminal: a fresh process has none of the threads that tests before it have started.
+TEST_CASE("a prompt for other tests" * doctest::skip()) {
+    std::string name = "lissom", verb = "repl";
+    char* argv[] = {name.data(), verb.data(), nullptr};
+    std::exit(run_program(2, argv, kernel_parts()));
+}
+
+// The program in a process of its own behind a terminal.
+class Terminal {
+  public:
+    explicit Terminal(const Folder& folder) {
+        process_ = forkpty(&terminal_, nullptr, nullptr, nullptr);
+        if (process_ != 0) return;
+        setenv("LISSOM_HISTORY", folder.path("state/history").c_str(), 1);
+        setenv("INPUTRC", "/dev/null", 1);
+        setenv("TERM", "dumb", 1);
+        execl("/proc/self/exe", "test", "--test-case=a prompt for other tests", "--no-skip",
+              nullptr);
+        _exit(kFailure);
+    }
+    Terminal(const Terminal&) = delete;
+    Terminal& operator=(const Terminal&) = delete;
+    ~Terminal() {
+        if (process_ > 0) {
+            kill(process_, SIGKILL);
+            waitpid(process_, nullptr, 0);
+        }
+        close(terminal_);
+    }
+
+    void type(const std::string& keys) const {
+        CHECK(write(terminal_, keys.data(), keys.size()) == static_cast<ssize_t>(keys.size()));
+    }
+
+    // Waits until `text` was written behind what was waited for before.
+    void wait_for(const std::string& text) {
+        constexpr int kMilliseconds = 10000;
+        std::size_t at;
+        while ((at = seen_.find(text)) == std::string::npos) {
+            pollfd output{terminal_, POLLIN, 0};
+            char piece[1000];
+            if (poll(&output, 1, kMilliseconds) <= 0) break;
+            const ssize_t size = read(terminal_, piece, sizeof piece);
+            if (size <= 0) break;
+            seen_.append(piece, static_cast<std::size_t>(size));
+        }
+        CHECK_MESSAGE(at != std::string::npos, text, " in ", seen_);
+        if (at != std::string::npos) seen_.erase(0, at + text.size());
+    }
+
+    // The exit status after Ctrl-D at the next prompt; -1 where the program goes on.
+    int end() {
+        wait_for("> ");
+        type("\x04");
+        wait_for("\n");
+        int status = -1;
+        for (int i = 0; i < 100 && waitpid(process_, &status, WNOHANG) == 0; ++i) usleep(100000);
+        if (!WIFEXITED(status)) return -1;
+        process_ = 0;
+        return WEXITSTATUS(status);
+    }
+
+  private:
+    int terminal_ = -1;
+    std::string seen_;
+    pid_t process_ = 0;
+};
+
+TEST_CASE("Ctrl-C clears the line and nothing else") {
+    const Folder folder;
+    Terminal terminal(folder);
+    terminal.wait_for("> ");
+    terminal.type("kept = 41\n");
+    terminal.wait_for("> ");
+    for (int i = 0; i < 3; ++i) {
+        terminal.type("kept = 'lost");
+        terminal.wait_for("lost");
+        terminal.type("\x03");
+        terminal.wait_for("^C\r\n> ");
+    }
+    terminal.type("for i = 1, 2 do\n");
+    terminal.wait_for(">> ");
+    terminal.type("\x03");
+    terminal.wait_for("^C\r\n> ");
+    terminal.type("kept + 1\n");
+    terminal.wait_for("\n42\r\n");
+    CHECK(terminal.end() == 0);
+}
+
+TEST_CASE("Ctrl-C stops what runs, and the prompt comes back") {
+    const Folder folder;
+    Terminal terminal(folder);
+    terminal.wait_for("> ");
+    terminal.type("while true do end\n");
+    terminal.wait_for("end\r\n");
+    usleep(100000);
+    terminal.type("\x03");
+    terminal.wait_for("cancelled");
+    terminal.wait_for("> ");
+    terminal.type("6 * 7\n");
+    terminal.wait_for("\n42\r\n");
+    CHECK(terminal.end() == 0);
+}
+
+TEST_CASE("Tab completes, and lines come back from the file of the history") {
+    const Folder folder;
+    {
+        Terminal terminal(folder);
+        terminal.wait_for("> ");
+        terminal.type("b = lissom.shapes.bo\t{ si\t2 }\n");
+        terminal.wait_for("> ");
+        terminal.type("b:vertex_c\t()\n");
+        terminal.wait_for("\n8\r\n");
+        CHECK(terminal.end() == 0);
+    }
+    std::ifstream file(folder.path("state/history"));
+    std::ostringstream lines;
+    lines << file.rdbuf();
+    CHECK(lines.str() == "b = lissom.shapes.box{ size = 2 }\nb:vertex_count()\n");
+    Terminal terminal(folder);
+    terminal.wait_for("> ");
+    terminal.type("b = lissom.shapes.box()\n");
+    terminal.wait_for("> ");
+    terminal.type("\x10\x10\n");
+    terminal.wait_for("\n8\r\n");
+    CHECK(terminal.end() == 0);
+}
+
+}  // namespace
+}  // namespace lissom::cli
+#endif
+
+namespace lissom::cli {
+namespace {
+
+test::Ended typed(const std::string& lines) {
+    std::istringstream input(lines);
+    std::streambuf* const old = std::cin.rdbuf(input.rdbuf());
+    const test::Ended ended = test::run_program({"repl"});
+    std::cin.rdbuf(old);
+    return ended;
+}
+
+TEST_CASE("help answers for functions, objects and names") {
+    CHECK(typed("help(lissom.load)\n").out.find("lissom.load(path, [{...}])\n") == 0);
+    CHECK(typed("m = lissom.shapes.box()\nhelp(m.save)\n").out.find("mesh:save(") == 0);
+    CHECK(typed("m = lissom.shapes.box()\nhelp(m)\n").out.find("lissom.Mesh\n") == 0);
+    CHECK(typed("help('save')\n").out.find("mesh:save(") != std::string::npos);
+    CHECK(typed("help('sav')\n").out.find("did you mean 'save'?") != std::string::npos);
+    CHECK(typed("help()\n").out.find("lissom.shapes.cactus") != std::string::npos);
+    CHECK(test::run_program({"help", "save"}).out.find("mesh:save(") != std::string::npos);
+    CHECK(test::run_program({"help", "sav"}).err.find("did you mean 'save'?") != std::string::npos);
+    CHECK(test::run_program({"help", "sav"}).status == kUsage);
+}
+
+TEST_CASE("results are shown with their content") {
+    CHECK(typed("{ a = 1 }\n").out == "{ a = 1 }\n");
+    CHECK(typed("1, 'x', nil\n").out == "1\tx\tnil\n");
+    CHECK(typed("lissom.load('none.obj')\n").out.find("nil\tnone.obj: there is no such file") == 0);
+    CHECK(typed("lissom.load('none.obj')\n").status == kSuccess);
+}
+
+}  // namespace
+}  // namespace lissom::cli

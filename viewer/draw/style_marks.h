@@ -1,0 +1,41 @@
+/// A hairstyle's curves, what they give its field, and the field itself, as lines of a picture.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kernel/hair/hairstyle.h"
+#include "viewer/draw/drawing.h"
+
+namespace lissom {
+
+/// Where a plane shows the field. Lengths and directions are those of the style: metres of the
+/// scalp's frame.
+struct FieldSlice {
+    Vec3 point = Vec3::Zero();
+    /// Of any length but 0; by default the plane is the middle of the head across.
+    Vec3 normal = Vec3::UnitX();
+    /// Between neighbouring arrows; absent: the step of the grid.
+    std::optional<double> spacing = std::nullopt;
+};
+
+/// What is shown of a style.
+struct StyleMarks {
+    /// Its curves: streams cyan, dividing curves red, spines and cross sections of ponytails
+    /// purple. Those that are not enabled are grey.
+    bool curves = true;
+    /// Arrows at the grid points that curves constrain, in the colours of Figures 4.4 and 4.5 of
+    /// the thesis: along streams, spines and partings blue; where hair ends or parts red; cross
+    /// sections purple; into the tie green; those of avoid_scalp grey.
+    bool constraints = false;
+    /// Arrows of the field; they are as long as it, and stand outside the head.
+    std::optional<FieldSlice> field = std::nullopt;
+    /// Of curves, in pixels; arrows have a third of it.
+    double width = 4.0;
+};
+
+/// The lines of a style that was solved, in the coordinates of its head. Errors: invalid_argument
+/// for a spacing or normal out of range, or one that gives more than a million arrows.
+std::vector<DrawnLine> style_lines(const Hairstyle& style, const StyleMarks& marks = {});
+
+}  // namespace lissom
