@@ -13,7 +13,7 @@ local params = lissom.params{
     bend = { type = "number", default = 90, min = 0, max = 170, unit = "degrees",
         help = "how far the cactus's top turns over" },
     size = { type = "integer", default = 330, min = 80, help = "height of the picture in pixels" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to" },
 }
 
 local bar = lissom.shapes.bar{ length = 5, width = 1, across = 10, along = 50 }

@@ -12,7 +12,7 @@ local params = lissom.params{
         help = "how far the upper end turns over" },
     around = { type = "integer", default = 64, min = 24, max = 200, help = "quads around the tube" },
     size = { type = "integer", default = 380, min = 80, help = "height of the picture in pixels" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to" },
 }
 
 local tube = lissom.shapes.cylinder{

@@ -11,7 +11,7 @@ local params = lissom.params{
     turn = { type = "number", default = 0, min = -180, max = 180, unit = "degrees",
         help = "how far the head looks to its left" },
     size = { type = "integer", default = 480, min = 64, max = 4096, unit = "pixels", help = "of a step" },
-    out = { type = "string", default = "out", help = "folder that the files go to" },
+    out = { type = "folder", default = "out", help = "folder that the files go to" },
 }
 
 -- 1. Two models.

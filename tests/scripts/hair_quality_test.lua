@@ -75,7 +75,7 @@ end
 
 -- Fraction of strands that lie on the skin beside an ear, or over it.
 local function over_ears(style, hair)
-    local scalp, count = style:scalp(), 0
+    local scalp, found = style:scalp(), 0
     local unit = scalp:unit()
     for i = 1, #hair do
         local strand = hair:strand(i)
@@ -85,12 +85,12 @@ local function over_ears(style, hair)
             local level = math.sqrt(p[1] ^ 2 + p[3] ^ 2)
             local azimuth, elevation = math.deg(math.acos(p[3] / level)), math.deg(math.atan(p[2] / level))
             if azimuth > 84 and azimuth < 112 and math.abs(elevation + 9) < 13 and level < 0.12 then
-                count = count + 1
+                found = found + 1
                 break
             end
         end
     end
-    return count / #hair
+    return found / #hair
 end
 
 for _, head in pairs(heads()) do
