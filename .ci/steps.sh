@@ -27,6 +27,7 @@ step() {
         printf -- '-- %s took %s s, allowed are %s s\n' "$name" $used "$allowed"
         failed=$((failed + 1))
     fi
+    printf '   %s s\n' $used
     ci_passed=$((ci_passed + passed)) ci_failed=$((ci_failed + failed))
     ci_table+=$(printf '%-16s %6s %8s %8s %8s' "$name" "$used" "$allowed" "$passed" "$failed")$'\n'
 }

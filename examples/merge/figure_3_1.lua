@@ -18,7 +18,7 @@ local head, body, options = merge_script.models(params, merging.schema, function
     return source, target, cuts
 end)
 
--- Collars are left out: they are remeshed in steps, and a step that is a tie may fall to either side by rounding.
+-- Collars are left out: they are remeshed in steps, and rounding may turn a step that is a tie.
 options.collar = false
 local mesh, report, parts = assert(merging.join(head, body, options))
 merge_script.finish(params, "figure_3_1", mesh, report, parts)

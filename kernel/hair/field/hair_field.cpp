@@ -22,15 +22,14 @@ std::vector<float> gradients_of(const DistanceGrid& distances, const Context& co
     context.parallel_for(0, ny * nz, 64, [&](Index begin, Index end) {
         for (Index row = begin; row < end; ++row) {
             for (Index x = 0; x < counts[0]; ++x) {
-                const std::array<Index, 3> at{x, row % counts[1], row / counts[1]};
+                const std::array<Index, 3> place{x, row % counts[1], row / counts[1]};
                 const Index here = row * counts[0] + x;
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    const Index low = at[axis] > 0 ? 1 : 0,
-                                high = at[axis] + 1 < counts[axis] ? 1 : 0;
-                    const auto from = static_cast<std::size_t>(here - low * strides[axis]),
-                               to = static_cast<std::size_t>(here + high * strides[axis]);
+                    const Index low = place[axis] > 0 ? 1 : 0,
+                                high = place[axis] + 1 < counts[axis] ? 1 : 0;
+                    const Index from = here - low * strides[axis], to = here + high * strides[axis];
                     gradients[4 * static_cast<std::size_t>(here) + axis] =
-                        (values[to] - values[from]) /
+                        (values[at(to)] - values[at(from)]) /
                         static_cast<float>((low + high) * distances.layout().step);
                 }
             }

@@ -62,7 +62,8 @@ bool flush_to_disk(std::FILE* file) {
 // A path with a zero byte would name another file: the system reads it up to there.
 void require_no_zero(ErrorCode code, const fs::path& path) {
     if (path.native().find(fs::path::value_type{}) == fs::path::string_type::npos) return;
-    throw Error(code, "the path has a zero byte after '" + std::string(display_name(path).c_str()) +
+    const std::string name = display_name(path);
+    throw Error(code, "the path has a zero byte after '" + name.substr(0, name.find('\0')) +
                           "'; remove it");
 }
 
