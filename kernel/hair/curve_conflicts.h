@@ -10,8 +10,11 @@ namespace lissom {
 /// The constraints of one curve.
 struct CurveClaim {
     std::vector<GridConstraint> constraints;
-    /// Claims of a higher rank leave those of a lower one nothing to say.
+    /// A higher rank overrides a lower one.
     int rank = 0;
+    ConstraintOwner owner = 0;
+    /// PlacedCurve::edit.
+    std::int64_t edit = 0;
 };
 
 /// Greatest angle between directions that agree, radians.

@@ -1,35 +1,21 @@
 #include "kernel/hair/hairstyle.h"
 
 #include <algorithm>
-#include <map>
 #include <sstream>
 #include <utility>
 
 #include "kernel/core/machine_memory.h"
 #include "kernel/core/memory_error.h"
-#include "kernel/hair/curve_conflicts.h"
-#include "kernel/hair/curve_derivation.h"
-#include "kernel/hair/scalp/root_uvs.h"
+#include "kernel/hair/derived_style.h"
+#include "kernel/hair/field_stage.h"
 #include "kernel/hair/scalp/surface_distance.h"
 #include "kernel/hair/style_roots.h"
 
 namespace lissom {
 namespace {
 
-// Owner of the constraints of the scalp step; those of curves are above it.
-constexpr ConstraintOwner kScalpOwner = 0;
-
 // Seconds for making and solving a large grid, about, on one thread of a common processor.
 constexpr double kSecondsAPoint = 1.5e-6;
-
-// Who yields to whom at a grid point.
-constexpr int kScalpRank = -1, kCurveRank = 0, kDividingRank = 1;
-
-struct PlacedCurve {
-    CurveId id;
-    StyleCurve curve;
-    DerivedCurve derived;
-};
 
 // The head in metres of its scalp's frame.
 Mesh placed_head(const Mesh& head, const Scalp& scalp, const Context& context) {
@@ -43,13 +29,6 @@ Affine placement_of(const Scalp& scalp) {
     return {scalp.unit() * scalp.scale() * scalp.frame().axes, scalp.unit() * scalp.frame().center};
 }
 
-bool same(const std::vector<GridConstraint>& a, const std::vector<GridConstraint>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const GridConstraint& x, const GridConstraint& y) {
-                          return x.point == y.point && x.value == y.value && x.weight == y.weight;
-                      });
-}
-
 GridLayout layout_of(const HairstyleOptions& options) {
     return fit_grid(options.volume.value_or(Scalp::default_volume()), options.resolution);
 }
@@ -59,7 +38,7 @@ std::size_t needed_bytes(const GridLayout& layout, const GridFieldOptions& field
     const auto points = static_cast<std::size_t>(layout.size());
     const auto [nx, ny, nz] = layout.counts;
     return GridField::predicted_bytes({nx, ny, nz}, 0, field) +
-           points * (9 * sizeof(float) + sizeof(std::uint8_t));
+           points * (13 * sizeof(float) + sizeof(std::uint8_t));
 }
 
 // Most hair is shorter than asked for reasons that are not the style's.
@@ -75,6 +54,18 @@ void warn_of_short_hair(const GrowthReport& report, Index strands, const Context
          "or make hair shorter");
     warn(StrandEnd::segments,
          "have as many segments as allowed before they are as long as asked; raise most_segments");
+}
+
+// Where strands are rooted and who tied them; after an error there are no strands.
+void label_strands(Strands& strands, const std::vector<Eigen::Vector2f>& uvs,
+                   const std::vector<Index>& ties, std::vector<std::string> names) try {
+    StrandRoots roots = strands.roots();
+    roots.uvs = uvs;
+    strands.set_roots(std::move(roots));
+    if (!names.empty()) strands.set_groups(ties, std::move(names));
+} catch (...) {
+    strands = Strands();
+    throw;
 }
 
 std::string quantity(double amount, const char* unit) {
@@ -93,14 +84,14 @@ void require_affordable(const HairstyleOptions& options, const Context& context)
     if (room == 0 || needed <= room) return;
     constexpr double kGigabyte = 1e9;
     const double points = layout.size(),
-                 share = static_cast<double>(room) / static_cast<double>(needed);
+                 fraction = static_cast<double>(room) / static_cast<double>(needed);
     throw Error(ErrorCode::memory_limit,
                 "a hairstyle of " + std::to_string(layout.size()) + " grid points needs about " +
                     quantity(static_cast<double>(needed) / kGigabyte, "GB") + " and " +
                     quantity(kSecondsAPoint * points, "seconds") + ", but there are " +
                     quantity(static_cast<double>(room) / kGigabyte, "GB") +
                     "; a resolution of at most " +
-                    std::to_string(static_cast<Index>(share * points)) +
+                    std::to_string(static_cast<Index>(fraction * points)) +
                     " would fit, and 50000 do for most styles");
 }
 
@@ -110,88 +101,39 @@ struct Hairstyle::State {
     State(const Mesh& mesh, std::shared_ptr<const Scalp> made_for, const HairstyleOptions& wanted,
           const Context& context)
         : original(mesh),
-          scalp_owner(std::move(made_for)),
-          scalp(*scalp_owner),
+          scalp(std::move(made_for)),
           options(wanted),
-          head(placed_head(mesh, scalp, context)),
-          field(DistanceGrid(head, layout_of(wanted), {}, context), wanted.field, context),
-          surface(scalp, field.distances(), head) {}
+          head(placed_head(mesh, *scalp, context)),
+          field(
+              HairField(DistanceGrid(head, layout_of(wanted), {}, context), wanted.field, context)),
+          surface(*scalp, field.field().distances(), head) {}
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    DerivedCurve derived(const StyleCurve& curve) const {
-        return derive(curve, scalp, field.distances());
+    // Takes these inputs, or throws and changes nothing.
+    void accept(StyleInputs inputs) {
+        style = with_memory_errors([&] {
+            return derive_style(std::move(inputs), style, *scalp, field.field().distances());
+        });
     }
-    PlacedCurve& at(CurveId id);
-    void constraints_changed();
-    void solve(const Context& context);
-    bool bare(const Root& root) const;
     bool over_scalp(const Vec3& point) const;
-    bool has_gaps() const;
-    void prepare_roots(const RootOptions& wanted, const Context& context);
+    std::vector<GridConstraint> scalp_step(const ScalpStepOptions& options) const;
     std::vector<HairTie> ties(std::vector<std::string>& names) const;
 
+    // The head, and what never changes of it.
     Mesh original;
-    std::shared_ptr<const Scalp> scalp_owner;
-    const Scalp& scalp;
+    std::shared_ptr<const Scalp> scalp;
     HairstyleOptions options;
     Mesh head;
-    HairField field;
-    SurfaceDistance surface;
 
-    // In their order.
-    std::vector<PlacedCurve> curves;
-    std::vector<CurveId> order;
+    DerivedStyle style;
     ConstraintOwner last_id = kScalpOwner;
-    std::vector<GridConstraint> scalp_step;
-    // What the field was given by each owner.
-    std::map<ConstraintOwner, std::vector<GridConstraint>> sent;
 
-    // Of the last growth; none where partings have changed since.
-    std::optional<RootOptions> root_options;
-    std::optional<StrandGrower> grower;
-    std::vector<Eigen::Vector2f> uvs;
+    // Results, each with what it was computed from.
+    FieldStage field;
+    SurfaceDistance surface;
+    std::optional<StyleRoots> roots;
 };
-
-PlacedCurve& Hairstyle::State::at(CurveId id) {
-    const auto found = std::find(order.begin(), order.end(), id);
-    if (found == order.end()) {
-        throw Error(ErrorCode::handle_removed, "the curve was removed from its hairstyle");
-    }
-    return curves[static_cast<std::size_t>(found - order.begin())];
-}
-
-// Gives the field what the curves say now. Owners whose constraints stay the same are left alone,
-// so that the next solve costs no more than what has changed.
-void Hairstyle::State::constraints_changed() {
-    order.clear();
-    std::map<ConstraintOwner, std::vector<GridConstraint>> said;
-    std::vector<ConstraintOwner> owners;
-    std::vector<CurveClaim> claims;
-    const auto claim = [&](ConstraintOwner owner, std::vector<GridConstraint> constraints,
-                           int rank) {
-        owners.push_back(owner);
-        claims.push_back({std::move(constraints), rank});
-    };
-    claim(kScalpOwner, scalp_step, kScalpRank);
-    for (const PlacedCurve& one : curves) {
-        order.push_back(one.id);
-        if (!one.curve.enabled) continue;
-        const bool divides = std::holds_alternative<DividingCurve>(one.curve.shape);
-        claim(one.id.value, one.derived.constraints, divides ? kDividingRank : kCurveRank);
-    }
-    settle_conflicts(claims);
-    for (std::size_t c = 0; c < claims.size(); ++c) said[owners[c]] = claims[c].constraints;
-    for (auto& [owner, constraints] : sent) {
-        if (!said.contains(owner)) field.set_constraints(owner, {});
-    }
-    for (auto& [owner, constraints] : said) {
-        const auto before = sent.find(owner);
-        if (before != sent.end() && same(before->second, constraints)) continue;
-        field.set_constraints(owner, constraints);
-    }
-    sent = std::move(said);
-}
 
 Hairstyle::Hairstyle(const Mesh& head, std::shared_ptr<const Scalp> scalp,
                      const HairstyleOptions& options, const Context& context) {
@@ -208,10 +150,10 @@ Hairstyle::Hairstyle(Hairstyle&&) noexcept = default;
 Hairstyle& Hairstyle::operator=(Hairstyle&&) noexcept = default;
 
 const Scalp& Hairstyle::scalp() const {
-    return state_->scalp;
+    return *state_->scalp;
 }
 const std::shared_ptr<const Scalp>& Hairstyle::shared_scalp() const {
-    return state_->scalp_owner;
+    return state_->scalp;
 }
 const HairstyleOptions& Hairstyle::options() const {
     return state_->options;
@@ -220,7 +162,7 @@ const Mesh& Hairstyle::head() const {
     return state_->head;
 }
 const HairField& Hairstyle::field() const {
-    return state_->field;
+    return state_->field.field();
 }
 double Hairstyle::surface_distance(const Vec3& point) const {
     return state_->surface(point);
@@ -229,21 +171,21 @@ double Hairstyle::surface_distance(const Vec3& point) const {
 // ---- Curves
 
 CurveId Hairstyle::add(StyleCurve curve) {
-    DerivedCurve derived = state_->derived(curve);
-    const CurveId id{++state_->last_id};
-    if (derived.line) state_->root_options.reset();
-    state_->curves.push_back({id, std::move(curve), std::move(derived)});
-    state_->constraints_changed();
+    StyleInputs wanted = inputs();
+    const CurveId id{state_->last_id + 1};
+    const std::int64_t edit = next_edit(wanted);
+    wanted.curves.push_back({id, std::move(curve), edit});
+    state_->accept(std::move(wanted));
+    state_->last_id = id.value;
     return id;
 }
 
 void Hairstyle::set(CurveId id, StyleCurve curve) {
-    PlacedCurve& placed = state_->at(id);
-    DerivedCurve derived = state_->derived(curve);
-    if (placed.derived.line || derived.line) state_->root_options.reset();
+    StyleInputs wanted = inputs();
+    PlacedCurve& placed = placed_curve(wanted, id);
     placed.curve = std::move(curve);
-    placed.derived = std::move(derived);
-    state_->constraints_changed();
+    placed.edit = next_edit(wanted);
+    state_->accept(std::move(wanted));
 }
 
 void Hairstyle::set_points(CurveId id, std::vector<Vec3> points) {
@@ -253,201 +195,155 @@ void Hairstyle::set_points(CurveId id, std::vector<Vec3> points) {
 }
 
 void Hairstyle::enable(CurveId id, bool on) {
-    PlacedCurve& placed = state_->at(id);
-    if (placed.curve.enabled == on) return;
-    placed.curve.enabled = on;
-    if (placed.derived.line) state_->root_options.reset();
-    state_->constraints_changed();
+    StyleCurve changed = curve(id);
+    if (changed.enabled == on) return;
+    changed.enabled = on;
+    set(id, std::move(changed));
 }
 
 void Hairstyle::remove(CurveId id) {
-    const PlacedCurve& placed = state_->at(id);
-    if (placed.derived.line) state_->root_options.reset();
-    state_->curves.erase(state_->curves.begin() + (&placed - state_->curves.data()));
-    state_->constraints_changed();
+    StyleInputs wanted = inputs();
+    wanted.curves.erase(wanted.curves.begin() + (&placed_curve(wanted, id) - wanted.curves.data()));
+    state_->accept(std::move(wanted));
 }
 
 void Hairstyle::reorder(CurveId id, Index place) {
-    const auto from = state_->curves.begin() + (&state_->at(id) - state_->curves.data());
-    const auto count = static_cast<Index>(state_->curves.size());
-    if (place < 0 || place >= count) {
-        throw Error(ErrorCode::out_of_range, "a hairstyle of " + std::to_string(count) +
-                                                 " curves has no place " + std::to_string(place));
-    }
-    const auto to = state_->curves.begin() + place;
-    if (from < to) {
-        std::rotate(from, from + 1, to + 1);
-    } else {
-        std::rotate(to, from, from + 1);
-    }
-    state_->constraints_changed();
+    StyleInputs wanted = inputs();
+    reorder_curve(wanted, id, place);
+    state_->accept(std::move(wanted));
 }
 
 std::span<const CurveId> Hairstyle::curves() const {
-    return state_->order;
+    return state_->style.ids;
 }
 
 bool Hairstyle::has(CurveId id) const {
-    return std::find(state_->order.begin(), state_->order.end(), id) != state_->order.end();
+    const std::span<const CurveId> ids = curves();
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
 const StyleCurve& Hairstyle::curve(CurveId id) const {
-    return state_->at(id).curve;
+    return placed_curve(inputs(), id).curve;
 }
 
 const std::vector<Vec3>& Hairstyle::course(CurveId id) const {
-    return state_->at(id).derived.course;
+    return state_->style.derived(id).course;
 }
 
 std::vector<StyleConstraint> Hairstyle::constraints() const {
-    const State& s = *state_;
-    std::vector<ConstraintOwner> owners = {kScalpOwner};
-    for (const CurveId id : s.order) owners.push_back(id.value);
-    struct Said {
-        ConstraintOwner owner;
-        const GridConstraint* constraint;
-    };
-    std::map<Index, Said> decisive;
-    const auto divides = [&](ConstraintOwner owner) {
-        return owner != kScalpOwner &&
-               std::holds_alternative<DividingCurve>(curve(CurveId{owner}).shape);
-    };
-    for (const ConstraintOwner owner : owners) {
-        const auto sent = s.sent.find(owner);
-        if (sent == s.sent.end()) continue;
-        for (const GridConstraint& one : sent->second) {
-            const auto [found, is_new] = decisive.try_emplace(one.point, Said{owner, &one});
-            if (is_new || (divides(found->second.owner) && !divides(owner))) continue;
-            found->second = {owner, &one};
-        }
-    }
+    std::vector<ConstraintOwner> owners;
+    const std::vector<GridConstraint> decisive = decisive_constraints(state_->style, owners);
     std::vector<StyleConstraint> result;
-    for (const auto& [point, said] : decisive) {
-        const GridConstraint& one = *said.constraint;
+    for (std::size_t i = 0; i < decisive.size(); ++i) {
+        const GridConstraint& one = decisive[i];
         StyleConstraint& listed = result.emplace_back();
-        listed.point = layout().point(point);
+        listed.point = layout().point(one.point);
         listed.vector = one.value;
         listed.kind = static_cast<ConstraintKind>(one.tag);
-        if (said.owner != kScalpOwner) listed.curve = CurveId{said.owner};
+        if (owners[i] != kScalpOwner) listed.curve = CurveId{owners[i]};
         listed.weight = one.weight;
     }
     return result;
 }
 
+const StyleInputs& Hairstyle::inputs() const {
+    return state_->style.inputs;
+}
+
+void Hairstyle::restore(StyleInputs inputs) {
+    require_inputs(inputs, field().grid().size());
+    ConstraintOwner last = state_->last_id;
+    for (const PlacedCurve& one : inputs.curves) last = std::max(last, one.id.value);
+    state_->accept(std::move(inputs));
+    state_->last_id = last;
+}
+
 // ---- The field
 
-void Hairstyle::solve(const Context& context) try {
-    if (!solved()) state_->field.solve(context);
-} catch (const std::bad_alloc&) {
-    throw_out_of_memory();
+void Hairstyle::solve(const Context& context) {
+    with_memory_errors([&] { state_->field.solve(state_->style.claims, context); });
 }
 
 bool Hairstyle::solved() const {
-    return state_->field.grid().solved();
+    return state_->field.solved(state_->style.claims);
 }
 
 bool Hairstyle::State::over_scalp(const Vec3& point) const {
-    return scalp.region().contains(scalp.tree().nearest(scalp.from_metres(point)).vertex);
+    return scalp->region().contains(scalp->tree().nearest(scalp->from_metres(point)).vertex);
+}
+
+std::vector<GridConstraint> Hairstyle::State::scalp_step(const ScalpStepOptions& wanted) const {
+    ScalpStepOptions all = wanted;
+    all.where = [&](const Vec3& point) {
+        return over_scalp(point) && (!wanted.where || wanted.where(point));
+    };
+    std::vector<GridConstraint> step = lissom::scalp_step(field.field(), all);
+    for (GridConstraint& one : step) one.tag = static_cast<int>(ConstraintKind::scalp);
+    return step;
 }
 
 void Hairstyle::avoid_scalp(const ScalpStepOptions& options, const Context& context) {
-    std::vector<GridConstraint> before = std::exchange(state_->scalp_step, {});
+    DerivedStyle before = state_->style;
+    std::vector<float> values(field().values().begin(), field().values().end());
     try {
-        state_->constraints_changed();
+        forget_scalp();
         solve(context);
-        ScalpStepOptions all = options;
-        all.where = [&](const Vec3& point) {
-            return state_->over_scalp(point) && (!options.where || options.where(point));
-        };
-        state_->scalp_step = scalp_step(state_->field, all);
-        for (GridConstraint& one : state_->scalp_step) {
-            one.tag = static_cast<int>(ConstraintKind::scalp);
-        }
-        state_->constraints_changed();
+        StyleInputs wanted = inputs();
+        wanted.scalp_step = state_->scalp_step(options);
+        wanted.scalp_edit = next_edit(wanted);
+        state_->accept(std::move(wanted));
         solve(context);
     } catch (...) {
-        state_->scalp_step = std::move(before);
-        state_->constraints_changed();
+        state_->style = std::move(before);
+        state_->field.put_back(std::move(values));
         throw;
     }
 }
 
 void Hairstyle::forget_scalp() {
-    state_->scalp_step.clear();
-    state_->constraints_changed();
+    StyleInputs wanted = inputs();
+    wanted.scalp_step.clear();
+    wanted.scalp_edit = 0;
+    state_->accept(std::move(wanted));
 }
 
 bool Hairstyle::avoids_scalp() const {
-    return !state_->scalp_step.empty();
+    return !inputs().scalp_step.empty();
 }
 
 // ---- Hair
 
-bool Hairstyle::State::has_gaps() const {
-    return std::any_of(curves.begin(), curves.end(), [](const PlacedCurve& one) {
-        return one.curve.enabled && one.derived.line && one.derived.gap > 0.0;
-    });
-}
-
-bool Hairstyle::State::bare(const Root& root) const {
-    const Vec3 p = scalp.to_metres(root.position);
-    return std::any_of(curves.begin(), curves.end(), [&](const PlacedCurve& one) {
-        return one.curve.enabled && one.derived.line &&
-               one.derived.line->skin_distance(p) < 0.5 * one.derived.gap;
-    });
-}
-
-// Prepares growth from `wanted` roots; keeps what is there where nothing has changed.
-void Hairstyle::State::prepare_roots(const RootOptions& wanted, const Context& context) {
-    if (root_options && *root_options == wanted) return;
-    root_options.reset();
-    std::function<bool(const Root&)> on_gap;
-    if (has_gaps()) on_gap = [this](const Root& root) { return bare(root); };
-    std::vector<Root> roots = roots_but_for(original, scalp, wanted, on_gap, context);
-    uvs = root_uvs(original, scalp, roots);
-    for (Root& root : roots) {
-        root.position = scalp.to_metres(root.position);
-        root.normal = scalp.frame().axes.transpose() * root.normal;
-    }
-    grower.emplace(head, roots, context);
-    root_options = wanted;
-}
-
 std::vector<HairTie> Hairstyle::State::ties(std::vector<std::string>& names) const {
     std::vector<HairTie> result;
-    for (const PlacedCurve& one : curves) {
-        if (!one.curve.enabled || !one.derived.tie) continue;
-        result.push_back(*one.derived.tie);
-        names.push_back(one.curve.name.empty() ? "ponytail " + std::to_string(result.size())
-                                               : one.curve.name);
+    for (std::size_t c = 0; c < style.ids.size(); ++c) {
+        const StyleCurve& one = style.inputs.curves[c].curve;
+        if (!one.enabled || !style.curves[c]->tie) continue;
+        result.push_back(*style.curves[c]->tie);
+        names.push_back(one.name.empty() ? "ponytail " + std::to_string(result.size()) : one.name);
     }
     return result;
 }
 
-GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands,
-                             const Context& context) try {
+GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands, const Context& context) {
     State& s = *state_;
-    const bool any = std::any_of(s.curves.begin(), s.curves.end(),
-                                 [](const PlacedCurve& one) { return one.curve.enabled; });
-    if (!any) {
+    const std::vector<PlacedCurve>& all = inputs().curves;
+    if (std::none_of(all.begin(), all.end(),
+                     [](const PlacedCurve& one) { return one.curve.enabled; })) {
         throw Error(ErrorCode::invalid_argument,
                     "a hairstyle without curves says nothing of hair; add a curve, or enable one");
     }
-    solve(context);
-    s.prepare_roots(options.roots, context);
-    GrowthOptions growth = options.growth;
-    growth.placement = placement_of(s.scalp);
-    std::vector<std::string> names;
-    growth.ties = s.ties(names);
-    GrowthReport report = s.grower->grow(s.field, growth, strands, context);
-    warn_of_short_hair(report, strands.size(), context);
-    StrandRoots roots = strands.roots();
-    roots.uvs = s.uvs;
-    strands.set_roots(std::move(roots));
-    if (!names.empty()) strands.set_groups(std::move(report.ties), std::move(names));
-    return report;
-} catch (const std::bad_alloc&) {
-    throw_out_of_memory();
+    return with_memory_errors([&] {
+        solve(context);
+        update_roots(s.roots, {s.original, s.head, *s.scalp}, options.roots, s.style, context);
+        GrowthOptions growth = options.growth;
+        growth.placement = placement_of(*s.scalp);
+        std::vector<std::string> names;
+        growth.ties = s.ties(names);
+        GrowthReport report = s.roots->grower.grow(field(), growth, strands, context);
+        label_strands(strands, s.roots->uvs, report.ties, std::move(names));
+        warn_of_short_hair(report, strands.size(), context);
+        return report;
+    });
 }
 
 Strands Hairstyle::grow(const HairOptions& options, const Context& context) {
@@ -459,15 +355,16 @@ Strands Hairstyle::grow(const HairOptions& options, const Context& context) {
 std::size_t Hairstyle::memory_bytes() const {
     const State& s = *state_;
     std::size_t constraints = 0;
-    for (const auto& [owner, list] : s.sent) constraints += list.size();
+    for (const CurveClaim& claim : s.style.claims) constraints += claim.constraints.size();
     const auto vertices = static_cast<std::size_t>(s.head.vertex_count());
     const auto points = static_cast<std::size_t>(layout().size());
-    return GridField::predicted_bytes(s.field.grid().size(), constraints, s.options.field) +
-           9 * points * sizeof(float) + 4 * vertices * sizeof(Vec3) + s.uvs.size() * 64;
+    const std::size_t roots = s.roots ? s.roots->uvs.size() : 0;
+    return GridField::predicted_bytes(field().grid().size(), constraints, s.options.field) +
+           13 * points * sizeof(float) + 4 * vertices * sizeof(Vec3) + roots * 64;
 }
 
 const GridLayout& Hairstyle::layout() const {
-    return state_->field.layout();
+    return field().layout();
 }
 
 }  // namespace lissom

@@ -16,13 +16,13 @@
 
 #include "kernel/core/context.h"
 #include "kernel/hair/curve/constraint_kind.h"
-#include "kernel/hair/curve/style_curve.h"
 #include "kernel/hair/field/hair_field.h"
 #include "kernel/hair/field/scalp_step.h"
 #include "kernel/hair/growth/growth.h"
 #include "kernel/hair/scalp/roots.h"
 #include "kernel/hair/scalp/scalp.h"
 #include "kernel/hair/strands/strands.h"
+#include "kernel/hair/style_inputs.h"
 
 namespace lissom {
 
@@ -33,12 +33,6 @@ struct HairstyleOptions {
     /// Where hair may be; strands end at its faces. Absent: Scalp::default_volume.
     std::optional<Box> volume = std::nullopt;
     GridFieldOptions field = HairField::default_options();
-};
-
-/// Names a curve of a hairstyle, for as long as that lives.
-struct CurveId {
-    ConstraintOwner value = 0;
-    bool operator==(const CurveId&) const = default;
 };
 
 /// A vector that the style gives the field at a grid point.
@@ -61,6 +55,9 @@ struct HairOptions {
 /// Where curves say different things of a grid point, dividing curves count before the others;
 /// among equals the curve that is later in the order counts, together with those that agree with it
 /// within 60 degrees (curve_conflicts.h).
+///
+/// A hairstyle is its inputs; field, roots and strands follow from them, and what has been computed
+/// is used again where its own inputs are the same. After an error the inputs are as they were.
 class Hairstyle {
   public:
     /// Takes the present shape of `head`, which may change or die afterwards; `scalp` must have
@@ -107,6 +104,13 @@ class Hairstyle {
     /// order of the grid's points.
     std::vector<StyleConstraint> constraints() const;
 
+    /// All that the style is made of: a copy given to `restore` later is an undo.
+    const StyleInputs& inputs() const;
+    /// Takes the inputs of a style on this head with the same options. Ids are not given again.
+    /// Errors: as set, for every curve; invalid_argument for ids that are not distinct, or a scalp
+    /// step of another grid.
+    void restore(StyleInputs inputs);
+
     /// Brings the field up to date with the curves; does nothing where none has changed. Without
     /// curves it is zero. After an error the field is that of the last solve.
     /// Errors: as HairField::solve.
@@ -118,8 +122,8 @@ class Hairstyle {
     /// Turns the field along the head where it points into it, by constraints at all grid points
     /// near the head that no curve constrains (section 4.6). To be done once, when the curves are
     /// as wanted: the constraints stay as they are until it is called again. Solves. Points over
-    /// the scalp alone count, besides what `options` say. Errors: as scalp_step and solve; then
-    /// nothing has changed.
+    /// the scalp alone count, besides what `options` say. After an error the constraints are as
+    /// they were, and the field is that of the last solve. Errors: as scalp_step and solve.
     void avoid_scalp(const ScalpStepOptions& options = {}, const Context& context = {});
     /// Takes back what `avoid_scalp` added.
     void forget_scalp();
@@ -127,7 +131,8 @@ class Hairstyle {
 
     /// Grows hair into `strands`, whose memory is used again; solves first where needed. Groups are
     /// named after the ponytails through whose tie strands pass. The first n strands of a larger
-    /// count are those of count n.
+    /// count are those of count n. After an error `strands` are as they were, or empty if growth
+    /// itself had begun: it reuses their memory.
     /// Errors: invalid_argument without an enabled curve; as make_roots, grow and solve.
     GrowthReport grow(const HairOptions& options, Strands& strands, const Context& context = {});
     Strands grow(const HairOptions& options = {}, const Context& context = {});

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "kernel/hair/scalp/root_uvs.h"
 
 namespace lissom {
 namespace {
@@ -11,7 +14,56 @@ namespace {
 constexpr double kSpare = 0.02;
 constexpr double kMore = 4.0;
 
+// Calls `visit` with each dividing curve that leaves bare skin.
+template <typename Visit>
+void for_gaps(const DerivedStyle& style, const Visit& visit) {
+    for (std::size_t c = 0; c < style.ids.size(); ++c) {
+        const DerivedCurve& derived = *style.curves[c];
+        if (style.inputs.curves[c].curve.enabled && derived.line && derived.gap > 0.0) {
+            visit(derived);
+        }
+    }
+}
+
+RootKey key_of(const RootOptions& options, const DerivedStyle& style) {
+    RootKey key{options, {}};
+    for_gaps(style, [&](const DerivedCurve& one) { key.gaps.push_back({one.course, one.gap}); });
+    return key;
+}
+
+StyleRoots made_roots(RootKey key, const HeadShapes& head, const DerivedStyle& style,
+                      const Context& context) {
+    std::function<bool(const Root&)> on_gap;
+    if (!key.gaps.empty()) {
+        on_gap = [&](const Root& root) {
+            const Vec3 p = head.scalp.to_metres(root.position);
+            bool bare = false;
+            for_gaps(style, [&](const DerivedCurve& one) {
+                bare = bare || one.line->skin_distance(p) < 0.5 * one.gap;
+            });
+            return bare;
+        };
+    }
+    std::vector<Root> roots =
+        roots_but_for(head.original, head.scalp, key.options, on_gap, context);
+    std::vector<Eigen::Vector2f> uvs = root_uvs(head.original, head.scalp, roots);
+    for (Root& root : roots) {
+        root.position = head.scalp.to_metres(root.position);
+        root.normal = head.scalp.frame().axes.transpose() * root.normal;
+    }
+    return {std::move(key), std::move(uvs), StrandGrower(head.placed, roots, context)};
+}
+
 }  // namespace
+
+void update_roots(std::optional<StyleRoots>& roots, const HeadShapes& head,
+                  const RootOptions& options, const DerivedStyle& style, const Context& context) {
+    RootKey key = key_of(options, style);
+    if (roots && roots->key == key) return;
+    // Before the new ones are made: both may not fit into memory.
+    roots.reset();
+    roots.emplace(made_roots(std::move(key), head, style, context));
+}
 
 std::vector<Root> roots_but_for(const Mesh& head, const Scalp& scalp, const RootOptions& options,
                                 const std::function<bool(const Root&)>& bare,

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/io/stream/file.h"
 #include "kernel/io/stream/text_writer.h"
 
@@ -323,29 +324,7 @@ StyleContent content_from(const StyleJson& json) {
     return content;
 }
 
-}  // namespace
-
-StyleContent content_of(const Hairstyle& style, std::string head) {
-    StyleContent content{std::move(head), style.options(), {}, style.avoids_scalp()};
-    for (const CurveId id : style.curves()) content.curves.push_back(style.curve(id));
-    return content;
-}
-
-Hairstyle make_style(const StyleContent& content, const Mesh& head,
-                     std::shared_ptr<const Scalp> scalp, const Context& context) {
-    Hairstyle style(head, std::move(scalp), content.options, context);
-    for (std::size_t i = 0; i < content.curves.size(); ++i) {
-        try {
-            style.add(content.curves[i]);
-        } catch (const Error& error) {
-            throw Error(error.code(), "curve " + std::to_string(i + 1) + ": " + error.what());
-        }
-    }
-    if (content.avoids_scalp) style.avoid_scalp({}, context);
-    return style;
-}
-
-std::string encode_style(const StyleContent& content) {
+std::string text_of(const StyleContent& content) {
     // Described as what can be changed.
     StyleContent copy = content;
     StyleJson json = {{"format", kFormat}, {"version", kStyleVersion}};
@@ -367,6 +346,34 @@ std::string encode_style(const StyleContent& content) {
     return text + "\n";
 }
 
+}  // namespace
+
+StyleContent content_of(const Hairstyle& style, std::string head) {
+    return with_memory_errors([&] {
+        StyleContent content{std::move(head), style.options(), {}, style.avoids_scalp()};
+        for (const CurveId id : style.curves()) content.curves.push_back(style.curve(id));
+        return content;
+    });
+}
+
+Hairstyle make_style(const StyleContent& content, const Mesh& head,
+                     std::shared_ptr<const Scalp> scalp, const Context& context) {
+    Hairstyle style(head, std::move(scalp), content.options, context);
+    for (std::size_t i = 0; i < content.curves.size(); ++i) {
+        try {
+            style.add(content.curves[i]);
+        } catch (const Error& error) {
+            throw Error(error.code(), "curve " + std::to_string(i + 1) + ": " + error.what());
+        }
+    }
+    if (content.avoids_scalp) style.avoid_scalp({}, context);
+    return style;
+}
+
+std::string encode_style(const StyleContent& content) {
+    return with_memory_errors([&] { return text_of(content); });
+}
+
 StyleContent decode_style(std::string_view bytes) {
     // Deep nesting would exhaust the stack of the parser.
     constexpr int kDeepest = 16;
@@ -386,7 +393,7 @@ StyleContent decode_style(std::string_view bytes) {
 
 void save_style(const StyleContent& content, const std::filesystem::path& path,
                 const Context& context) {
-    write_file_atomically(path, encode_style(content), context);
+    with_memory_errors([&] { write_file_atomically(path, encode_style(content), context); });
 }
 
 StyleContent load_style(const std::filesystem::path& path, const Context& context) {

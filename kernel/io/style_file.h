@@ -39,7 +39,7 @@ struct StyleContent {
     bool avoids_scalp = false;
 };
 
-/// The content of a hairstyle.
+/// The content of a hairstyle. Errors: memory_limit.
 StyleContent content_of(const Hairstyle& style, std::string head = {});
 
 /// A hairstyle of this content on a head. Errors: as Hairstyle's constructor and add, naming the
@@ -47,7 +47,8 @@ StyleContent content_of(const Hairstyle& style, std::string head = {});
 Hairstyle make_style(const StyleContent& content, const Mesh& head,
                      std::shared_ptr<const Scalp> scalp, const Context& context = {});
 
-/// Writes a style, whole or not at all. Errors: file_write_failed; file_is_directory; cancelled.
+/// Writes a style, whole or not at all. Errors: file_write_failed; file_is_directory; memory_limit;
+/// cancelled.
 void save_style(const StyleContent& content, const std::filesystem::path& path,
                 const Context& context = {});
 

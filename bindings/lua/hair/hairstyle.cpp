@@ -552,7 +552,9 @@ std::vector<Parameter> growth_fields() {
         integer("most_segments", "A strand has no more segments.")
             .defaults(static_cast<int>(defaults.most_segments))
             .at_least(1),
-        object("into", "lissom.Strands", "Strands whose place the new ones take.")
+        object("into", "lissom.Strands",
+               "Strands whose place the new ones take. After an error they are as they were, or "
+               "empty if growth had begun.")
             .optional("new strands")};
 }
 

@@ -17,6 +17,8 @@ struct DividingOptions {
     /// -pi / 2 to pi / 2, at its two ends; between them it changes evenly with the arc length.
     struct Tilt {
         double start = 0.0, end = 0.0;
+
+        bool operator==(const Tilt&) const = default;
     };
     /// Sides as seen from outside by one who looks along the curve with the normal up. Equal tilts
     /// are mirror images.
@@ -40,6 +42,8 @@ struct DividingOptions {
     std::optional<double> ramp = std::nullopt;
     /// omega of equation (4.2).
     double weight = 100.0;
+
+    bool operator==(const DividingOptions&) const = default;
 };
 
 /// Where a point lies as seen from the nearest point of a dividing curve.

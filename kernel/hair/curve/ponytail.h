@@ -50,6 +50,8 @@ struct PonytailOptions {
     double stop_length = 0.04;
     /// omega of equation (4.2).
     double weight = 100.0;
+
+    bool operator==(const PonytailOptions&) const = default;
 };
 
 /// A circle around the spine.

@@ -17,6 +17,8 @@ struct StreamOptions {
     double stop_length = 0.04;
     /// omega of equation (4.2).
     double weight = 100.0;
+
+    bool operator==(const StreamOptions&) const = default;
 };
 
 /// The constraints of a stream curve of segments about as long as the grid's step, from root to

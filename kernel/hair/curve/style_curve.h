@@ -21,6 +21,8 @@ struct StreamCurve {
     StreamOptions options = {};
     /// The curve is moved outward to this height above the head.
     double clearance = 0.004;
+
+    bool operator==(const StreamCurve&) const = default;
 };
 
 /// Hair parts along it.
@@ -30,6 +32,8 @@ struct DividingCurve {
     DividingOptions options = {};
     /// Width of the bare skin along the line, on which no hair is rooted.
     double gap = kPartingGap;
+
+    bool operator==(const DividingCurve&) const = default;
 };
 
 /// Hair gathers in a tie and goes on along a spine.
@@ -41,6 +45,8 @@ struct Ponytail {
     /// strand to strand, up to `ragged`, is missing at the tips.
     std::optional<double> tail_length = std::nullopt;
     double ragged = 0.45;
+
+    bool operator==(const Ponytail&) const = default;
 };
 
 struct StyleCurve {
@@ -49,6 +55,8 @@ struct StyleCurve {
     std::string name = {};
     /// Curves that are not have no effect.
     bool enabled = true;
+
+    bool operator==(const StyleCurve&) const = default;
 };
 
 /// "stream", "dividing" or "ponytail".

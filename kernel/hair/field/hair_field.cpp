@@ -50,19 +50,32 @@ HairField::HairField(DistanceGrid distances, const GridFieldOptions& options,
                      const Context& context)
     : distances_(std::move(distances)), field_(size_of(layout()), options, context) {
     const std::size_t count = distances_.values().size();
-    charge_ = context.charge(8 * count * sizeof(float), "the direction field of a hairstyle");
+    charge_ = context.charge(12 * count * sizeof(float), "the direction field of a hairstyle");
     gradients_ = gradients_of(distances_, context);
     values_.assign(4 * count, 0.0f);
     for (std::size_t i = 0; i < count; ++i) values_[4 * i + 3] = distances_.values()[i];
+    next_ = values_;
 }
 
 void HairField::set_constraints(ConstraintOwner owner, std::vector<GridConstraint> constraints) {
     field_.set_constraints(owner, std::move(constraints));
 }
 
+void HairField::clear_constraints() {
+    field_.clear();
+}
+
 void HairField::solve(const Context& context) {
+    if (!field_.solved()) stale_ = true;
     field_.solve(context);
-    field_.evaluate(values_, context);
+    field_.evaluate(next_, context);
+    values_.swap(next_);
+    stale_ = false;
+}
+
+void HairField::put_back(std::vector<float> values) {
+    values_ = std::move(values);
+    stale_ = true;
 }
 
 bool HairField::contains(const Vec3& point) const {

@@ -28,12 +28,18 @@ class HairField {
     /// Replaces the constraints of one curve; none removes it. Takes effect with the next solve.
     /// Errors: as GridField::set_constraints.
     void set_constraints(ConstraintOwner owner, std::vector<GridConstraint> constraints);
-    /// Errors: as GridField::solve.
+    /// Removes the constraints of all curves. Takes effect with the next solve.
+    void clear_constraints();
+    /// After an error `values` are those of the last solve. Errors: as GridField::solve.
     void solve(const Context& context = {});
+    /// Whether `values` are those of the constraints as they are.
+    bool solved() const { return !stale_ && field_.solved(); }
     const GridField& grid() const { return field_; }
 
     /// For each grid point, x fastest: the vector of the last solve, and the signed distance.
     std::span<const float> values() const { return values_; }
+    /// Puts back values that were read earlier, until the next solve.
+    void put_back(std::vector<float> values);
 
     /// For each grid point the gradient of the signed distance, by differences between neighbours,
     /// and 0 as a fourth number.
@@ -52,7 +58,9 @@ class HairField {
   private:
     DistanceGrid distances_;
     GridField field_;
-    std::vector<float> values_, gradients_;
+    // Values are computed beside those that are shown.
+    std::vector<float> values_, next_, gradients_;
+    bool stale_ = false;
     MemoryCharge charge_;
 };
 

@@ -99,6 +99,8 @@ void BorderedCholesky::reserve(Index size, const Context& context) {
 
 void BorderedCholesky::extend(Index size, const Fill& fill, const Context& context) {
     if (size <= size_) return;
+    // Sums end where panels do: with the same panels as in a factor from nothing they are the same.
+    truncate(size_ / kPanelColumns * kPanelColumns);
     reserve(size, context);
     fill_rows(size, fill, context);
     border_old_columns(size, context);

@@ -11,6 +11,7 @@ namespace lissom {
 
 /// The factor L of a dense symmetric positive definite matrix, M = L L^T. Rows that stay at the
 /// front keep their part of the factor: m new rows below k old ones cost k^2 m, not (k + m)^3 / 3.
+/// The factor is the same to the bit whatever rows there were before.
 class BorderedCholesky {
   public:
     /// Writes the entries of column `column` of M in the rows [begin, end) to `entries`, the first
@@ -23,7 +24,8 @@ class BorderedCholesky {
 
     /// Forgets all rows from `size` on, and their columns.
     void truncate(Index size);
-    /// Adds rows until there are `size`. After an error the old rows are still there, alone.
+    /// Adds rows until there are `size`. After an error no new row is there, and of the old ones
+    /// those of whole panels.
     /// Errors: not_positive_definite; memory_limit; cancelled.
     void extend(Index size, const Fill& fill, const Context& context);
     /// Solves M x = b in place for four right-hand sides, four numbers a row.

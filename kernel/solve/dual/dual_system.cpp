@@ -49,9 +49,8 @@ void DualSystem::update_dense(const ConstraintRows& rows, const Context& context
 }
 
 DualSolution DualSystem::solve(std::span<const Vec3> g, const Vec3& total,
-                               std::span<const Vec3> start, FieldWorkspace& workspace,
-                               const Context& context) const {
-    if (iterative_) return iterative_->solve(g, total, start, workspace, context);
+                               FieldWorkspace& workspace, const Context& context) const {
+    if (iterative_) return iterative_->solve(g, total, workspace, context);
     return solve_dense(g, total);
 }
 

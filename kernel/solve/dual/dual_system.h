@@ -34,10 +34,9 @@ class DualSystem {
     /// Changes the rows. After an error only rows that both have in common at the front are left.
     /// Errors: not_positive_definite, memory_limit, cancelled.
     void update(const ConstraintRows& rows, const Context& context);
-    /// Solves for the rows of the last update. `start`, empty or one vector a row, is where an
-    /// iteration begins.
-    DualSolution solve(std::span<const Vec3> g, const Vec3& total, std::span<const Vec3> start,
-                       FieldWorkspace& workspace, const Context& context) const;
+    /// Solves for the rows of the last update.
+    DualSolution solve(std::span<const Vec3> g, const Vec3& total, FieldWorkspace& workspace,
+                       const Context& context) const;
 
   private:
     void update_dense(const ConstraintRows& rows, const Context& context);

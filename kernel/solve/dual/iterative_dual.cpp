@@ -69,15 +69,12 @@ void IterativeDual::multiply(const Vectors& x, Vectors& y, FieldWorkspace& works
 }
 
 DualSolution IterativeDual::solve(std::span<const Vec3> g, const Vec3& total,
-                                  std::span<const Vec3> start, FieldWorkspace& workspace,
-                                  const Context& context) const {
+                                  FieldWorkspace& workspace, const Context& context) const {
     const std::size_t count = g.size();
     DualSolution solution;
     Vectors& x = solution.multiplier;
-    x.assign(count, Vec3::Zero());
-    if (!start.empty()) std::copy(start.begin(), start.end(), x.begin());
-    const Vec3 missing = (total - sum_of(x)) / static_cast<double>(count);
-    for (Vec3& v : x) v += missing;
+    // Not from the last solution, or this one would depend on what was there before.
+    x.assign(count, total / static_cast<double>(count));
 
     Vectors product(count), r(g.begin(), g.end()), z(count), p(count, Vec3::Zero());
     multiply(x, product, workspace, context);

@@ -30,8 +30,8 @@ class IterativeDual {
     /// Errors: cancelled, memory_limit; then it is as before.
     void update(const ConstraintRows& rows, const Context& context);
     /// As DualSystem::solve. Errors: not_positive_definite where it does not converge; cancelled.
-    DualSolution solve(std::span<const Vec3> g, const Vec3& total, std::span<const Vec3> start,
-                       FieldWorkspace& workspace, const Context& context) const;
+    DualSolution solve(std::span<const Vec3> g, const Vec3& total, FieldWorkspace& workspace,
+                       const Context& context) const;
 
   private:
     void multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y, FieldWorkspace& workspace,

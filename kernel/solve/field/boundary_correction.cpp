@@ -76,7 +76,7 @@ class Correction {
         for (const GridPoint& p : rows.point) {
             g.push_back(vector_at(step_.get(), size_, size_.index(p)));
         }
-        const DualSolution dual = problem_.dual.solve(g, total, {}, workspace_, context_);
+        const DualSolution dual = problem_.dual.solve(g, total, workspace_, context_);
         FieldSink sink;
         sink.components = workspace_.second.get();
         sink.constant = dual.constant;

@@ -95,7 +95,6 @@ struct GridField::State {
     void solve_dual(std::span<const MergedConstraint> merged, const Context& context);
     void refine(const ConstraintRows& rows, std::span<const Vec3> known, DualSolution& next,
                 const Context& context);
-    std::vector<Vec3> start_for(const ConstraintRows& rows) const;
     void solve_cholesky(std::span<const MergedConstraint> merged, const Context& context);
     void write(const FieldSink& sink, const Context& context);
 
@@ -113,25 +112,9 @@ struct GridField::State {
     ConstraintRows rows;
     DualSolution solution;
     FieldBuffer stored;
-    /// Version and stamp of the constraints that it belongs to.
-    std::uint64_t version = 0, stamp = 0;
+    /// Version of the constraints that it belongs to.
+    std::uint64_t version = 0;
 };
-
-// The multipliers of the last solution where the same points are still there, and else zero.
-std::vector<Vec3> GridField::State::start_for(const ConstraintRows& next) const {
-    if (!dual->iterates() || rows.size() == 0) return {};
-    std::vector<std::pair<Index, std::size_t>> places;
-    for (std::size_t i = 0; i < rows.size(); ++i) places.push_back({size.index(rows.point[i]), i});
-    std::sort(places.begin(), places.end());
-    std::vector<Vec3> start(next.size(), Vec3::Zero());
-    for (std::size_t i = 0; i < next.size(); ++i) {
-        const Index point = size.index(next.point[i]);
-        const auto at =
-            std::lower_bound(places.begin(), places.end(), std::pair{point, std::size_t{0}});
-        if (at != places.end() && at->first == point) start[i] = solution.multiplier[at->second];
-    }
-    return start;
-}
 
 // One more solve for what the equations lack: known - U't - W^-2 lambda, and a sum that is not
 // zero.
@@ -149,14 +132,14 @@ void GridField::State::refine(const ConstraintRows& next, std::span<const Vec3> 
                        result.multiplier[i] / (next.weight[i] * next.weight[i]);
         excess += result.multiplier[i];
     }
-    const DualSolution more = dual->solve(residual, -excess, {}, workspace, context);
+    const DualSolution more = dual->solve(residual, -excess, workspace, context);
     for (std::size_t i = 0; i < residual.size(); ++i) result.multiplier[i] += more.multiplier[i];
     result.constant += more.constant;
 }
 
 void GridField::State::solve_dual(std::span<const MergedConstraint> merged,
                                   const Context& context) {
-    const std::vector<Index> order = arrange_rows(dual->rows(), size, merged, stamp);
+    const std::vector<Index> order = arrange_rows(merged);
     ConstraintRows next = rows_in_order(size, merged, order);
     std::vector<Vec3> known;
     known.reserve(order.size());
@@ -166,7 +149,7 @@ void GridField::State::solve_dual(std::span<const MergedConstraint> merged,
     progress.step(0.7);
     dual->update(next, context);
     progress.step(0.3);
-    DualSolution result = dual->solve(known, Vec3::Zero(), start_for(next), workspace, context);
+    DualSolution result = dual->solve(known, Vec3::Zero(), workspace, context);
     for (int i = 0; i < options.refinements; ++i) refine(next, known, result, context);
     if (options.boundary == GridBoundary::thesis) {
         FieldBuffer field = make_field(size);
@@ -286,7 +269,6 @@ void GridField::solve(const Context& context) {
         state.solve_dual(merged, context);
     }
     state.version = state.constraints.version();
-    state.stamp = state.constraints.stamp();
 }
 
 bool GridField::solved() const {

@@ -16,7 +16,10 @@ namespace lissom {
 /// (4.2):
 ///     sum over the points of |D t|^2  +  sum over the constraints of w^2 |t_i - c_i|^2,
 /// three components at every point of a grid. Constraints belong to owners; replacing those of one
-/// owner and solving costs what that change costs, most of all if the same owner was edited last.
+/// owner and solving costs what that change costs, least of all if the same owner was edited last.
+/// The field follows, to the bit, from the constraints and from the order in which owners last
+/// changed their points or weights, whatever was there in between; with the cholesky solver, up to
+/// rounding.
 /// Without any constraint the field is zero; one constraint alone, or several equal ones, give a
 /// constant field. For use by one thread at a time; it works on the threads of the context given,
 /// and results do not depend on their number.

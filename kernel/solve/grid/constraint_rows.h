@@ -20,12 +20,11 @@ struct ConstraintRows {
     Index common(const ConstraintRows& other) const;
 };
 
-/// The order of `merged` (ascending by point) for a system that holds `old` so far: order[i] is
-/// where row i stands in merged. Where every old row is still there, new ones are put behind them.
-/// Else the rows of owners edited after `stamp` come last, so that the next edit of the same owner
-/// leaves all rows before them alone.
-std::vector<Index> arrange_rows(const ConstraintRows& old, const GridSize& size,
-                                std::span<const MergedConstraint> merged, std::uint64_t stamp);
+/// The order of `merged` (ascending by point) in a system: order[i] is where row i stands in
+/// merged. Rows ascend by stamp, then by point: those of the owner that was edited last come last,
+/// so that its next edit leaves all rows before them alone. The order follows from the constraints
+/// and not from what the system held before.
+std::vector<Index> arrange_rows(std::span<const MergedConstraint> merged);
 
 /// The rows of `merged` in that order.
 ConstraintRows rows_in_order(const GridSize& size, std::span<const MergedConstraint> merged,

@@ -21,6 +21,8 @@ struct GridConstraint {
     double weight = 100.0;
     /// For the caller to tell constraints apart; the field does not read it.
     int tag = 0;
+
+    bool operator==(const GridConstraint&) const = default;
 };
 
 /// All constraints at one grid point as one.
@@ -52,8 +54,6 @@ class GridConstraints {
 
     /// One constraint a point, ascending by point.
     std::vector<MergedConstraint> merged() const;
-    /// Grows with every change of a point or weight.
-    std::uint64_t stamp() const { return stamp_; }
     /// Grows with every change.
     std::uint64_t version() const { return version_; }
 

@@ -7,6 +7,7 @@
 
 #include "kernel/hair/strands/strand_measures.h"
 #include "kernel/mesh/shapes/head.h"
+#include "tests/unit/deform/failing_memory.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -165,4 +166,22 @@ TEST_CASE("a curve of a style that does not fit the head is named") {
     CHECK(error.code() == ErrorCode::out_of_range);
     CHECK(error.message().find("curve 2") != std::string::npos);
     CHECK(error_of([] { load_style("no/such/style.json"); }).code() == ErrorCode::file_not_found);
+}
+
+TEST_CASE("style files: memory that runs out anywhere in saving is an error of the kernel") {
+    const StyleContent content = everything();
+    int refused = 0;
+    for (long n = 0;; ++n) {
+        allocations_left = n;
+        try {
+            encode_style(content);
+            allocations_left = -1;
+            break;
+        } catch (const Error& error) {
+            allocations_left = -1;
+            REQUIRE(error.code() == ErrorCode::memory_limit);
+            ++refused;
+        }
+    }
+    CHECK(refused > 20);
 }

@@ -1,0 +1,50 @@
+/// Methods of lissom.Strands, a list a file; private to the binding.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/hair/strands_object.h"
+
+namespace lissom::lua {
+
+/// strand_content.cpp: numbers of strands, points, roots, measures.
+std::vector<Function> strand_content_methods();
+/// strand_files.cpp.
+Function strands_save_method();
+Function load_strands_function();
+/// strand_edit.cpp: parts and copies, transforms, widths, colours.
+std::vector<Function> strand_edit_methods();
+/// strand_operators.cpp: clump, noise, taper, trim, smooth.
+std::vector<Function> strand_operator_methods();
+
+/// The strands of a method.
+inline const Strands& strands_of(const Call& call) {
+    return call.self<StrandsObject>()->strands;
+}
+
+/// Runs work(Strands&), which changes the strands of a method in place, and returns them.
+template <typename Work>
+int change_strands(Call& call, const Work& work) {
+    const auto strands = call.self<StrandsObject>();
+    if (!call.attempt([&] { work(strands->strands); })) return call.fail();
+    call.charge(strands);
+    return call.push_argument();
+}
+
+/// Start of examples: two strands.
+inline const std::string kTwoStrands =
+    "local hair = lissom.strands{\n"
+    "    points = { { 0, 0, 0 }, { 0, 0.1, 0 }, { 0, 0.2, 0 }, { 0.01, 0, 0 }, { 0.02, 0.1, 0 } "
+    "},\n"
+    "    counts = { 3, 2 },\n}\n";
+
+inline const std::vector<Result> kSelfStrands = {
+    {"lissom.Strands", "strands", "The strands themselves."}};
+
+inline Parameter meters(const std::string& name, const std::string& help) {
+    return number(name, help).in("metres");
+}
+
+}  // namespace lissom::lua

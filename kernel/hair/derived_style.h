@@ -1,0 +1,38 @@
+/// DerivedStyle: what follows from the curves of a hairstyle on its head; private to kernel/hair.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kernel/hair/curve_conflicts.h"
+#include "kernel/hair/curve_derivation.h"
+#include "kernel/hair/style_inputs.h"
+
+namespace lissom {
+
+/// Owner of the constraints of the scalp step; those of curves are above it.
+inline constexpr ConstraintOwner kScalpOwner = 0;
+
+/// Inputs and what they say. A value: made whole, and never changed.
+struct DerivedStyle {
+    StyleInputs inputs;
+    /// Of the curves, in their order.
+    std::vector<CurveId> ids;
+    std::vector<std::shared_ptr<const DerivedCurve>> curves;
+    /// Constraints of the scalp step and of the curves that are enabled, in their order: conflicts
+    /// are settled.
+    std::vector<CurveClaim> claims;
+
+    const DerivedCurve& derived(CurveId id) const;
+};
+
+/// Derives the curves of `inputs`; those whose shape is that of `before` are taken from there.
+/// Errors: as derive.
+DerivedStyle derive_style(StyleInputs inputs, const DerivedStyle& before, const Scalp& scalp,
+                          const DistanceGrid& distances);
+
+/// What the field is given, one a grid point, ascending by point.
+std::vector<GridConstraint> decisive_constraints(const DerivedStyle& style,
+                                                 std::vector<ConstraintOwner>& owners);
+
+}  // namespace lissom

@@ -1,0 +1,65 @@
+#include "kernel/hair/field_stage.h"
+
+#include <algorithm>
+
+namespace lissom {
+namespace {
+
+// Claims that say something, in the order of edits.
+std::vector<const CurveClaim*> in_edit_order(const std::vector<CurveClaim>& claims) {
+    std::vector<const CurveClaim*> order;
+    for (const CurveClaim& claim : claims) {
+        if (!claim.constraints.empty()) order.push_back(&claim);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [](const CurveClaim* a, const CurveClaim* b) { return a->edit < b->edit; });
+    return order;
+}
+
+bool has_rows_of(const CurveClaim& a, const CurveClaim& b) {
+    return a.owner == b.owner &&
+           std::equal(a.constraints.begin(), a.constraints.end(), b.constraints.begin(),
+                      b.constraints.end(), [](const GridConstraint& x, const GridConstraint& y) {
+                          return x.point == y.point && x.weight == y.weight;
+                      });
+}
+
+}  // namespace
+
+bool FieldStage::solved(const std::vector<CurveClaim>& claims) const {
+    const std::vector<const CurveClaim*> now = in_edit_order(claims);
+    return field_.solved() && std::equal(given_.begin(), given_.end(), now.begin(), now.end(),
+                                         [](const CurveClaim& a, const CurveClaim* b) {
+                                             return a.owner == b->owner &&
+                                                    a.constraints == b->constraints;
+                                         });
+}
+
+// All from the first owner on whose rows differ is given anew.
+void FieldStage::give(const std::vector<CurveClaim>& claims) {
+    std::vector<CurveClaim> now;
+    for (const CurveClaim* claim : in_edit_order(claims)) now.push_back(*claim);
+    std::size_t kept = 0;
+    const std::size_t most = std::min(given_.size(), now.size());
+    while (kept < most && has_rows_of(given_[kept], now[kept])) ++kept;
+    for (std::size_t i = kept; i < given_.size(); ++i) field_.set_constraints(given_[i].owner, {});
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (i < kept && given_[i].constraints == now[i].constraints) continue;
+        field_.set_constraints(now[i].owner, now[i].constraints);
+    }
+    given_ = std::move(now);
+}
+
+void FieldStage::solve(const std::vector<CurveClaim>& claims, const Context& context) {
+    if (solved(claims)) return;
+    try {
+        give(claims);
+    } catch (...) {
+        field_.clear_constraints();
+        given_.clear();
+        throw;
+    }
+    field_.solve(context);
+}
+
+}  // namespace lissom

@@ -1,0 +1,35 @@
+/// FieldStage: the field of a hairstyle, as its claims have it; private to kernel/hair.
+#pragma once
+
+#include <vector>
+
+#include "kernel/hair/curve_conflicts.h"
+#include "kernel/hair/field/hair_field.h"
+
+namespace lissom {
+
+/// Remembers which claims its field was given, so that a solve costs no more than what has changed
+/// since. The field follows from the claims alone, to the bit.
+class FieldStage {
+  public:
+    explicit FieldStage(HairField field) : field_(std::move(field)) {}
+
+    const HairField& field() const { return field_; }
+    /// Whether the field is that of these claims.
+    bool solved(const std::vector<CurveClaim>& claims) const;
+    /// After an error the values of the field are those of the last solve.
+    /// Errors: as HairField::solve.
+    void solve(const std::vector<CurveClaim>& claims, const Context& context);
+    /// As HairField::put_back.
+    void put_back(std::vector<float> values) { field_.put_back(std::move(values)); }
+
+  private:
+    // Owners are given in the order of their edits: then that is the order of the rows.
+    void give(const std::vector<CurveClaim>& claims);
+
+    HairField field_;
+    // In the order of edits; without those that say nothing.
+    std::vector<CurveClaim> given_;
+};
+
+}  // namespace lissom
