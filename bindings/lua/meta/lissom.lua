@@ -1388,7 +1388,7 @@ function Hairstyle:forget_scalp() end
 ---@field least_speed? number A strand ends where the field is shorter than this. Default: 0.05.
 ---@field greatest_turn? number A strand ends before a segment that turns by more than this, as about a sink of the field; 180 lets strands turn as they like. In degrees. Default: 88.
 ---@field most_segments? integer A strand has no more segments. Default: 400.
----@field into? lissom.Strands Strands whose place the new ones take. Default: new strands.
+---@field into? lissom.Strands Strands whose place the new ones take. After an error they are as they were, or empty if growth had begun. Default: new strands.
 
 ---Grows hair that follows the field from its roots on the scalp. Lengths are those of a style, in metres of an average head. Strands that pass through the tie of a ponytail are in the group of its name.
 ---@param options? lissom.Hairstyle.GrowOptions
