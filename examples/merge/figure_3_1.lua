@@ -18,8 +18,6 @@ local head, body, options = merge_script.models(params, merging.schema, function
     return source, target, cuts
 end)
 
--- Collars are left out: they are remeshed in steps, and rounding may turn a step that is a tie.
-options.collar = false
 local mesh, report, parts = assert(merging.join(head, body, options))
 merge_script.finish(params, "figure_3_1", mesh, report, parts)
 figures.claim(report.seam.after.greatest_dihedral < 20, "the seam is hidden")
@@ -29,7 +27,7 @@ figures.claim(#mesh:boundaries() == #parts.source:boundaries() + #parts.targets[
 -- The parts as they are cut, the source elsewhere; keys are vertices, so that they stay what they are.
 local others, worst = {}, 0
 for number = 1, 5 do
-    local options_alone = { collar = false, seam = options.seam, transition = options.transition }
+    local options_alone = { seam = options.seam, transition = options.transition }
     local difference, other = merging.configuration_error(mesh, parts, number, options_alone)
     others[number], worst = other, math.max(worst, difference)
 end

@@ -11,8 +11,11 @@
 namespace lissom {
 
 Merge::Merge(const Mesh& source, std::span<const Mesh* const> targets, std::vector<Join> joins,
-             const MergeOptions& options, const Context& context)
-    : state_(std::make_unique<State>(source, targets, std::move(joins), options, context)) {}
+             const MergeOptions& options, const Context& context) try
+    : state_(std::make_unique<State>(source, targets, std::move(joins), options, context)) {
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
 
 Merge::~Merge() = default;
 Merge::Merge(Merge&&) noexcept = default;

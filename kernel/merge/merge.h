@@ -127,6 +127,7 @@ struct MergeReport {
     /// Bands of the transition region, where there is one.
     TransitionReport transition;
     /// Pairs of faces of the result that run through one another and come from faces that did not.
+    /// Where separate parts of the source did, the faces next to those count as well.
     std::vector<FacePair> intersections;
     /// Wall-clock seconds of preparation and of the last solve.
     double prepare_seconds = 0.0, solve_seconds = 0.0;

@@ -36,6 +36,19 @@ void note_narrow_bands(std::span<const TransitionWidths> asked, MergeReport& now
     }
 }
 
+// A transition that went less than this part of its way is told.
+constexpr double kHardly = 0.1;
+
+void note_refused_bands(MergeReport& now) {
+    const double kept = now.transition.kept;
+    if (!(kept < kHardly)) return;
+    now.warnings.push_back(
+        (kept > 0.0 ? "the transition went only " + short_number(100.0 * kept) + " % of its way"
+                    : std::string("the transition was left out")) +
+        ": more of it would have folded the surface at a seam; choose other widths, or cut where "
+        "the parts are smoother");
+}
+
 // A seam whose greatest dihedral angle is above this shows.
 constexpr double kVisible = 20.0 * kPi / 180.0;
 // A seam without a collar must be this much better than one with it.
@@ -64,7 +77,7 @@ Sewn Merge::State::sew_sides(const Mesh& moved, const std::vector<LoopPair>& pai
     const auto sew_with = [&](bool collar, MergeReport& told) {
         Sewn sewn = sew(target, moved, pairs, sewing(collar), context);
         finish_seams(sewn, thesis, told, context);
-        require_sound(sewn, target, moved, pairs.size());
+        require_sound(sewn, target, moved, pairs);
         return sewn;
     };
     Sewn sewn = sew_with(options.collar && !options.thesis, now);
@@ -97,6 +110,7 @@ void Merge::State::finish_seams(Sewn& sewn, const std::optional<ThesisMerge>& th
             options.suit_transition ? suitable_widths(sewn, context) : asked_widths(now);
         now.transition = blend_transition(sewn, widths, {}, context);
         note_narrow_bands(widths, now);
+        note_refused_bands(now);
     } else if (options.seam == SeamKind::fair) {
         fair_seam(sewn.mesh, sewn.seams, {}, context);
         flip_near_seams(sewn, context);
@@ -147,20 +161,48 @@ std::vector<FacePair> Merge::State::new_intersections(const Sewn& sewn,
         for (Index& face : faces) face += old.face_count();
         return faces;
     };
+    // Where two parts of the source run through one another, one that is loose moves as a whole and
+    // the other bends: the line along which they cross slides over to the next faces.
+    const auto part = [&](Index f) {
+        return other.components()[other.face(f - old.face_count())[0]];
+    };
+    const auto slides = [&](Index a, Index b) {
+        return a >= old.face_count() && b >= old.face_count() && part(a) != part(b);
+    };
+    const auto around = [&](Index f) {
+        std::vector<Index> faces;
+        for (const Index v : other.face(f - old.face_count())) {
+            for (const Index g : other.faces_around(v)) faces.push_back(g + old.face_count());
+        }
+        return faces;
+    };
     std::vector<Index> concerned;
     for (const FacePair& pair : pairs) {
-        for (const Index f : origins(pair.first)) concerned.push_back(f);
-        for (const Index f : origins(pair.second)) concerned.push_back(f);
+        const std::vector<Index> first = origins(pair.first), second = origins(pair.second);
+        for (const std::vector<Index>& faces : {first, second}) {
+            concerned.insert(concerned.end(), faces.begin(), faces.end());
+            if (!slides(first.front(), second.front())) continue;
+            for (const Index f : faces) {
+                const std::vector<Index> near = around(f);
+                concerned.insert(concerned.end(), near.begin(), near.end());
+            }
+        }
     }
     const std::vector<FacePair> before = own_intersections(concerned, context);
-    std::erase_if(pairs, [&](const FacePair& pair) {
-        for (const Index a : origins(pair.first)) {
-            for (const Index b : origins(pair.second)) {
+    const auto was = [&](std::span<const Index> first, std::span<const Index> second) {
+        for (const Index a : first) {
+            for (const Index b : second) {
                 const FacePair own{std::min(a, b), std::max(a, b)};
                 if (std::binary_search(before.begin(), before.end(), own)) return true;
             }
         }
         return false;
+    };
+    std::erase_if(pairs, [&](const FacePair& pair) {
+        const std::vector<Index> first = origins(pair.first), second = origins(pair.second);
+        if (was(first, second)) return true;
+        return slides(first.front(), second.front()) &&
+               was(around(first.front()), around(second.front()));
     });
     return pairs;
 }

@@ -275,9 +275,24 @@ local _, of_wide = lissom.merge{
 }
 expect.equal(#of_wide.warnings, 1)
 expect.truthy(of_wide.warnings[1]:find("in place of 29", 1, true))
+expect.truthy(of_suited.transition_kept > 0.9)
+-- One that would fold the surface is left out, and that is said.
+local function bent_tube(segments, bend)
+    local tube = lissom.shapes.cylinder{ radius = 1, height = 2, segments = segments, rings = 6, caps = false }
+    for v = 1, #tube do
+        local x, y, z = tube:position(v)
+        tube:set_position(v, x + bend * math.sin(2 * y), y, z)
+    end
+    return tube
+end
+local _, of_refused = lissom.merge{ collar = false, transition = { source = 1.5, target = 1.5 },
+    joins = { { source = bent_tube(64, 0):boundaries()[1], target = bent_tube(4, 0.5):boundaries()[1] } } }
+expect.equal(of_refused.transition_kept, 0)
+expect.truthy(table.concat(of_refused.warnings, "\n"):find("the transition was left out", 1, true))
 local without, of_without = lissom.merge{ joins = { join{ { from, to } } }, transition = false }
 same(without, mesh, 0)
 expect.equal(#of_without.transition, 0)
+expect.equal(of_without.transition_kept, nil)
 expect.error("table of options or true expected", function()
     lissom.merge{ joins = { join() }, transition = 3 }
 end)

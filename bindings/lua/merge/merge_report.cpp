@@ -216,7 +216,7 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     call.charge(provenance);
     lua_pushvalue(call.lua(), first);
     call.remember(owner.get());
-    lua_createtable(call.lua(), 0, 19);
+    lua_createtable(call.lua(), 0, 20);
     push_joins(call, result.report.joins);
     call.set_field("joins");
     call.set_field("ok", call.push(result.report.ok));
@@ -230,6 +230,9 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     call.set_field("seam");
     push_transition(call, result.report.transition);
     call.set_field("transition");
+    if (!result.report.transition.source.empty()) {
+        call.set_field("transition_kept", call.push(result.report.transition.kept));
+    }
     push_intersections(call, result.report.intersections);
     call.set_field("intersections");
     push_times(call, result.report);
@@ -334,6 +337,9 @@ std::vector<Record> merge_records() {
           {"table[]", "transition",
            "For each seam source and target: width, vertices, and flipped and unmapped ones, of "
            "its bands."},
+          {"number|nil", "transition_kept",
+           "The part of the way that the bands of a transition went: 0 where it was left out, since "
+           "it would have folded the surface."},
           {"integer[][]", "intersections",
            "Pairs of faces that run through one another and come from faces that did not."},
           {"lissom.Path[]", "seams", "The seams on the merged mesh."},

@@ -20,6 +20,19 @@ inline Vec3 area_vector(const Mesh& mesh, Index face) {
     return sum;
 }
 
+/// The same, but zero for a face without area, whose normal would be one of rounding errors.
+inline Vec3 clear_area_vector(const Mesh& mesh, Index face) {
+    constexpr double kClear = 1e-10;
+    const std::span<const Index> vertices = mesh.topology().face(face);
+    double longest = 0.0;
+    for (std::size_t k = 1; k < vertices.size(); ++k) {
+        const Vec3 side = mesh.position(vertices[k]) - mesh.position(vertices[0]);
+        longest = std::max(longest, side.squaredNorm());
+    }
+    const Vec3 area = area_vector(mesh, face);
+    return area.norm() > kClear * longest ? area : Vec3(Vec3::Zero());
+}
+
 /// In radians, 0 to pi.
 inline double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -43,7 +56,7 @@ inline double edge_dihedral(const Mesh& mesh, Index a, Index b) {
     const Index left = face_left_of(mesh.topology(), a, b);
     const Index right = face_left_of(mesh.topology(), b, a);
     if (left == kNoIndex || right == kNoIndex) return 0.0;
-    const Vec3 n = area_vector(mesh, left), m = area_vector(mesh, right);
+    const Vec3 n = clear_area_vector(mesh, left), m = clear_area_vector(mesh, right);
     return n.squaredNorm() > 0.0 && m.squaredNorm() > 0.0 ? angle_between(n, m) : 0.0;
 }
 

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/merge/sew/seam_guard.h"
 #include "kernel/merge/sew/seam_sheet.h"
@@ -22,6 +23,8 @@ constexpr double kSharp = 20.0 * kDegree, kAllEdges = 1.0 * kDegree;
 // Dihedral angles up to these may arise.
 constexpr double kFlippedDihedral = 20.0 * kDegree, kRemeshedDihedral = 10.0 * kDegree;
 constexpr double kGoodSeamAngle = 15.0 * kDegree, kSameQuality = 1e-6;
+// Lengths that are this much greater are greater, so that rounding does not decide.
+constexpr double kClearlyLonger = 1.0 + 1e-9;
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -243,6 +246,8 @@ class Remade {
                 step.vertices.add_copy(v);
             }
         }
+        // The source may have no vertices but those of the seam.
+        if (old_.first_source_vertex == old_.mesh.vertex_count()) begin_source_vertices();
         add_made_vertices(SeamSide::source);
         for (std::size_t s = 0; s < sheets_.size(); ++s) {
             for (Index v = 0; v < sheets_[s].vertex_count(); ++v) {
@@ -337,7 +342,7 @@ std::optional<Remade> remade_with(const Sewn& old, std::span<const SeamSheet> sh
     } catch (const Error& error) {
         if (error.code() != ErrorCode::nonmanifold_edge &&
             error.code() != ErrorCode::nonmanifold_vertex &&
-            error.code() != ErrorCode::duplicate_face && error.code() != ErrorCode::face_index) {
+            error.code() != ErrorCode::duplicate_face) {
             throw;
         }
         return std::nullopt;
@@ -354,6 +359,21 @@ bool is_kept(const Sewn& old, const Remade& remade, const Context& context) {
            !adds_crossings(old.mesh, remade.sewn.mesh, remade.step, remade.made, context);
 }
 
+// The smallest angle of the triangles made that touch a seam.
+double least_angle_beside(const Remade& remade, std::size_t seam) {
+    const Mesh& mesh = remade.sewn.mesh;
+    const std::set<Index> on(remade.sewn.seams[seam].begin(), remade.sewn.seams[seam].end());
+    double least = kPi;
+    for (const Index f : remade.made) {
+        const std::span<const Index> face = mesh.topology().face(f);
+        if (std::none_of(face.begin(), face.end(), [&](Index v) { return on.contains(v); })) {
+            continue;
+        }
+        least = std::min(least, smallest_face_angle(mesh, f));
+    }
+    return least;
+}
+
 SheetLimits limits_of(const Sewn& sewn, double allowed) {
     const SeamQuality now = seam_quality(sewn.mesh, sewn.seams);
     return {std::min(allowed, now.greatest_dihedral), std::min(allowed, now.greatest_near)};
@@ -362,7 +382,7 @@ SheetLimits limits_of(const Sewn& sewn, double allowed) {
 void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& context) {
     const CollarSide at(sewn, seam, side);
     const double side_edge = at.side_edge();
-    if (!(side_edge > kSparse * at.seam_edge())) return;
+    if (!(side_edge > kClearlyLonger * kSparse * at.seam_edge())) return;
     const SeamSizes sizes(at.points(), side_edge);
     const std::vector<Index> faces = at.faces(sizes, side_edge);
     const SheetLimits limits = limits_of(sewn, kRemeshedDihedral);
@@ -375,8 +395,8 @@ void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& con
         sheet.remesh([&](const Vec3& p) { return sizes.at(p); }, limits, flips, context);
         std::optional<Remade> remade = remade_with(sewn, {&sheet, 1}, context);
         if (!remade || !is_kept(sewn, *remade, context)) continue;
-        const double angle = seam_quality(remade->sewn.mesh, remade->sewn.seams).smallest_angle;
-        if (best && angle <= least) continue;
+        const double angle = least_angle_beside(*remade, seam);
+        if (best && angle <= least + kSameQuality) continue;
         best.emplace(*std::move(remade));
         least = angle;
         if (least > kGoodSeamAngle) break;

@@ -23,32 +23,63 @@ constexpr double kLengthStep = 1e-6;
 
 }  // namespace
 
-bool SeamSheet::flip(Index a, Index c, const SheetLimits& limits) {
-    const Index left = left_of(a, c), right = left_of(c, a);
-    if (left == kNoIndex || right == kNoIndex || features_.contains(key(a, c))) return false;
+// The triangles on the left and right of an inner edge from a to c, and what a flip makes of them.
+bool SeamSheet::find_quad(Index a, Index c, Quad& quad) const {
+    quad.left = left_of(a, c);
+    quad.right = left_of(c, a);
+    if (quad.left == kNoIndex || quad.right == kNoIndex) return false;
     const auto apex = [&](Index f) {
         for (const Index v : triangles_[f]) {
             if (v != a && v != c) return v;
         }
         return kNoIndex;
     };
-    const Index d = apex(left), b = apex(right);
-    if (b == d || is_joined(b, d)) return false;
-    const std::array<Triangle, 2> before{{{a, c, d}, {c, a, b}}}, after{{{a, b, d}, {b, c, d}}};
-    const std::array<Index, 2> faces{left, right};
-    const Star now = measure(before, faces, kNoIndex, Vec3::Zero());
-    const Star then = measure(after, faces, kNoIndex, Vec3::Zero());
-    if (!(then.angle > now.angle * (1.0 + kFlipGain) + kFlipGain)) return false;
+    quad.d = apex(quad.left);
+    quad.b = apex(quad.right);
+    quad.before = {{{a, c, quad.d}, {c, a, quad.b}}};
+    quad.after = {{{a, quad.b, quad.d}, {quad.b, c, quad.d}}};
+    return true;
+}
+
+// Whether a flip makes the smallest angle greater.
+bool SeamSheet::is_rounder(const Quad& quad) const {
+    const auto least = [&](const std::array<Triangle, 2>& pair) {
+        double angle = kPi;
+        for (const Triangle& t : pair) angle = std::min(angle, least_angle(t));
+        return angle;
+    };
+    return least(quad.after) > least(quad.before) * (1.0 + kFlipGain) + kFlipGain;
+}
+
+void SeamSheet::turn_diagonal(const Quad& quad) {
+    leave(quad.left);
+    leave(quad.right);
+    enter(quad.left, quad.after[0]);
+    enter(quad.right, quad.after[1]);
+}
+
+// Flips edge `k` of a triangle where that is of use. Most are of none, and are not measured again
+// until one of the two triangles has changed.
+bool SeamSheet::flip(Index f, std::size_t k, const SheetLimits& limits) {
+    const Index a = triangles_[f][k], c = triangles_[f][(k + 1) % 3];
+    Quad quad;
+    if (features_.contains(key(a, c)) || !find_quad(a, c, quad)) return false;
+    if (tried_[f][k] >= std::max(changed_[f], changed_[quad.right])) return false;
+    if (!is_rounder(quad)) {
+        tried_[f][k] = clock_;
+        return false;
+    }
+    if (quad.b == quad.d || is_joined(quad.b, quad.d)) return false;
+    const std::array<Index, 2> faces{quad.left, quad.right};
+    const Star now = measure(quad.before, faces, kNoIndex, Vec3::Zero());
+    const Star then = measure(quad.after, faces, kNoIndex, Vec3::Zero());
     if (!is_allowed(now, then, limits, kPi)) return false;
-    const Vec3 mean =
-        normal(before[0], kNoIndex, Vec3::Zero()) + normal(before[1], kNoIndex, Vec3::Zero());
-    for (const Triangle& t : after) {
+    const Vec3 mean = normal(quad.before[0], kNoIndex, Vec3::Zero()) +
+                      normal(quad.before[1], kNoIndex, Vec3::Zero());
+    for (const Triangle& t : quad.after) {
         if (!(normal(t, kNoIndex, Vec3::Zero()).dot(mean) > 0.0)) return false;
     }
-    leave(left);
-    leave(right);
-    enter(left, after[0]);
-    enter(right, after[1]);
+    turn_diagonal(quad);
     return true;
 }
 
@@ -57,9 +88,9 @@ Index SeamSheet::flip_edges(const SheetLimits& limits, const Context& context) {
     for (int pass = 0; pass < kFlipPasses; ++pass) {
         context.checkpoint();
         const Index before = flips;
-        for (std::size_t f = 0; f < triangles_.size(); ++f) {
+        for (Index f = 0; f < static_cast<Index>(triangles_.size()); ++f) {
             for (std::size_t k = 0; k < 3 && triangles_[f][0] != kNoIndex; ++k) {
-                if (flip(triangles_[f][k], triangles_[f][(k + 1) % 3], limits)) ++flips;
+                if (flip(f, k, limits)) ++flips;
             }
         }
         if (flips == before) break;
@@ -91,7 +122,7 @@ bool SeamSheet::split(Index a, Index c, const SheetLimits& limits) {
         features_.insert(key(m, c));
     } else {
         const std::array<Index, 2> faces{left, right};
-        const Vec3 on_surface = rest_->nearest(middle).position;
+        const Vec3 on_surface = nearest_at_first(middle).position;
         const Star now = measure(before, faces, kNoIndex, Vec3::Zero());
         const Star flat = measure(after, faces, kNoIndex, Vec3::Zero());
         const Star then = measure(after, faces, m, on_surface);
@@ -101,7 +132,7 @@ bool SeamSheet::split(Index a, Index c, const SheetLimits& limits) {
     size_.push_back(size_at_(x_[m]));
     leave(left);
     leave(right);
-    triangles_.resize(triangles_.size() + 2, {kNoIndex, kNoIndex, kNoIndex});
+    add_empty(2);
     const auto next = static_cast<Index>(triangles_.size()) - 2;
     enter(left, after[0]);
     enter(next, after[1]);
@@ -190,11 +221,13 @@ void SeamSheet::relax(Index v, const SheetLimits& limits) {
     const Star now = measure(star, around_[v], kNoIndex, Vec3::Zero());
     for (const double part : {1.0, 0.5}) {
         Vec3 to = x_[v] + part * way;
-        if (free) to = rest_->nearest(to).position;
+        if (free) to = nearest_at_first(to).position;
         if (turns(star, star, v, to, kOver)) continue;
         if (!is_allowed(now, measure(star, around_[v], v, to), limits, kMovedAngle)) continue;
         x_[v] = to;
         size_[v] = size_at_(to);
+        ++clock_;
+        for (const Index f : around_[v]) changed_[f] = clock_;
         return;
     }
 }

@@ -17,8 +17,12 @@ const double kInLine = std::cos(15.0 * kPi / 180.0);
 constexpr double kSheetAngle = 1e-7;
 // How far towards its triangle a corner is read, and weights that do not count.
 constexpr double kTowards = 1e-4, kNoWeight = 1e-7;
+// Triangles whose height is a smaller part of their length have no normal but that of rounding.
+constexpr double kFlatShape = 1e-10;
+// How far points are put aside to ask what is nearest, in edges.
+constexpr double kAside = 1e-8;
 
-double least_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+double smallest_angle_of(const Vec3& a, const Vec3& b, const Vec3& c) {
     return std::min(
         {angle_between(b - a, c - a), angle_between(c - b, a - b), angle_between(a - c, b - c)});
 }
@@ -69,22 +73,70 @@ void SeamSheet::take_faces() {
             mesh_vertex_.push_back(v);
             around_.emplace_back();
         }
-        triangles_.push_back({kNoIndex, kNoIndex, kNoIndex});
+        add_empty(1);
         enter(static_cast<Index>(t), triangle);
         rest_face_.push_back(parts.face[t]);
         rest_corners_.push_back(parts.corners[t]);
         rest_vertices_.push_back(parts.triangles[t]);
     }
     fixed_.assign(x_.size(), 0);
-    // Only edges that the sheet has not, so that the sheet's own may go and come back.
+    find_outer_edges();
+    separate_diagonals();
+}
+
+// Edges none of whose faces are in the sheet, so that the sheet's own may go and come back.
+void SeamSheet::find_outer_edges() {
+    const Topology& topology = mesh_.topology();
+    std::unordered_map<Index, Index> local;
+    for (Index v = 0; v < vertex_count(); ++v) local.emplace(mesh_vertex_[v], v);
+    std::vector<Index> sorted = faces_;
+    std::sort(sorted.begin(), sorted.end());
+    const auto is_of_sheet = [&](Index f) {
+        return f != kNoIndex && std::binary_search(sorted.begin(), sorted.end(), f);
+    };
     for (Index v = 0; v < vertex_count(); ++v) {
-        for (const Index w : mesh_.topology().neighbors(mesh_vertex_[v])) {
+        for (const Index w : topology.neighbors(mesh_vertex_[v])) {
             const auto other = local.find(w);
             if (other == local.end() || other->second < v) continue;
-            if (left_of(v, other->second) != kNoIndex || left_of(other->second, v) != kNoIndex) {
+            if (is_of_sheet(face_left_of(topology, mesh_vertex_[v], w)) ||
+                is_of_sheet(face_left_of(topology, w, mesh_vertex_[v]))) {
                 continue;
             }
             outer_edges_.insert(key(v, other->second));
+        }
+    }
+}
+
+// Diagonals of the sheet's polygons that join vertices which an edge of the mesh joins too.
+void SeamSheet::separate_diagonals() {
+    for (std::size_t f = 0; f < triangles_.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = triangles_[f][k], c = triangles_[f][(k + 1) % 3];
+            Quad quad;
+            if (!find_quad(a, c, quad) || rest_face_[quad.left] != rest_face_[quad.right]) continue;
+            const auto joined = mesh_.topology().neighbors(mesh_vertex_[a]);
+            if (std::find(joined.begin(), joined.end(), mesh_vertex_[c]) == joined.end()) continue;
+            if (is_joined(quad.b, quad.d)) continue;
+            turn_diagonal(quad);
+            keep_at_first(quad);
+        }
+    }
+}
+
+// After a flip that the sheet begins with.
+void SeamSheet::keep_at_first(const Quad& quad) {
+    std::array<std::pair<Index, Index>, 6> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = {rest_vertices_[quad.left][k], rest_corners_[quad.left][k]};
+        corners[3 + k] = {rest_vertices_[quad.right][k], rest_corners_[quad.right][k]};
+    }
+    for (const Index f : {quad.left, quad.right}) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index v = mesh_vertex_[triangles_[f][k]];
+            const auto at = std::find_if(corners.begin(), corners.end(),
+                                         [&](const auto& corner) { return corner.first == v; });
+            rest_vertices_[f][k] = v;
+            rest_corners_[f][k] = at->second;
         }
     }
 }
@@ -96,7 +148,7 @@ void SeamSheet::mark_borders(std::span<const std::vector<Index>> seams) {
             if (left_of(b, a) != kNoIndex) continue;
             fixed_[a] = fixed_[b] = 1;
             const Index beyond = face_left_of(mesh_.topology(), mesh_vertex_[b], mesh_vertex_[a]);
-            if (beyond != kNoIndex) beyond_.emplace(key(a, b), area_vector(mesh_, beyond));
+            if (beyond != kNoIndex) beyond_.emplace(key(a, b), clear_area_vector(mesh_, beyond));
         }
     }
     // A vertex with faces outside the sheet that touches it in one point stays as well.
@@ -155,7 +207,8 @@ void SeamSheet::mark_features(double sharp) {
             if (other == kNoIndex || other < f) continue;
             const Vec3 n = normal(triangles_[f], kNoIndex, Vec3::Zero()),
                        m = normal(triangles_[other], kNoIndex, Vec3::Zero());
-            const bool is_sharp = !n.isZero(0.0) && !m.isZero(0.0) && angle_between(n, m) > sharp;
+            const bool is_sharp =
+                !n.isZero(0.0) && !m.isZero(0.0) && angle_between(n, m) > sharp + kSheetAngle;
             if (is_sharp || is_chart_border(f, other, a, c)) features_.insert(key(a, c));
         }
     }
@@ -170,6 +223,25 @@ void SeamSheet::make_rest(const Context& context) {
         list.add({first, first + 1, first + 2});
     }
     rest_.emplace(Mesh(rest_points_, std::move(list)), context);
+    for (std::size_t t = 0; t + 2 < rest_points_.size() && aside_.isZero(0.0); t += 3) {
+        const Vec3 u = rest_points_[t + 1] - rest_points_[t],
+                   w = rest_points_[t + 2] - rest_points_[t];
+        const Vec3 n = u.cross(w);
+        if (n.norm() > kFlatShape * u.squaredNorm()) {
+            aside_ = kAside * (0.37 * u + 0.61 * w + 0.53 * u.norm() * n.normalized());
+        }
+    }
+}
+
+SurfacePoint SeamSheet::nearest_at_first(const Vec3& p) const {
+    return rest_->nearest(p + aside_);
+}
+
+void SeamSheet::add_empty(std::size_t count) {
+    const std::size_t size = triangles_.size() + count;
+    triangles_.resize(size, {kNoIndex, kNoIndex, kNoIndex});
+    changed_.resize(size, 0);
+    tried_.resize(size, {0, 0, 0});
 }
 
 Index SeamSheet::left_of(Index a, Index b) const {
@@ -184,6 +256,7 @@ Index SeamSheet::left_of(Index a, Index b) const {
 
 void SeamSheet::enter(Index f, const Triangle& triangle) {
     triangles_[f] = triangle;
+    changed_[f] = ++clock_;
     for (const Index v : triangle) around_[v].push_back(f);
 }
 
@@ -224,7 +297,13 @@ bool SeamSheet::is_sliding(Index v, std::array<Index, 2>& along) const {
 
 Vec3 SeamSheet::normal(const Triangle& t, Index moved, const Vec3& to) const {
     const auto at = [&](std::size_t k) -> const Vec3& { return t[k] == moved ? to : x_[t[k]]; };
-    return (at(1) - at(0)).cross(at(2) - at(0));
+    const Vec3 u = at(1) - at(0), w = at(2) - at(0), n = u.cross(w);
+    const double longest = std::max(u.squaredNorm(), w.squaredNorm());
+    return n.norm() > kFlatShape * longest ? n : Vec3(Vec3::Zero());
+}
+
+double SeamSheet::least_angle(const Triangle& t) const {
+    return smallest_angle_of(x_[t[0]], x_[t[1]], x_[t[2]]);
 }
 
 // The angles of triangles that are there or would be, in place of others, with a vertex at `to`.
@@ -256,7 +335,7 @@ SeamSheet::Star SeamSheet::measure(std::span<const Triangle> triangles,
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
         const auto at = [&](std::size_t k) -> const Vec3& { return t[k] == moved ? to : x_[t[k]]; };
-        star.angle = std::min(star.angle, least_angle(at(0), at(1), at(2)));
+        star.angle = std::min(star.angle, smallest_angle_of(at(0), at(1), at(2)));
         for (std::size_t k = 0; k < 3; ++k) {
             Vec3 other;
             if (!across(t[k], t[(k + 1) % 3], other)) continue;
@@ -300,7 +379,7 @@ std::vector<Triangle> SeamSheet::triangles() const {
 }
 
 std::vector<ElementMap::Source> SeamSheet::vertex_sources(Index v) const {
-    const SurfacePoint point = rest_->nearest(x_[v]);
+    const SurfacePoint point = nearest_at_first(x_[v]);
     const auto at = static_cast<std::size_t>(point.face);
     const Vec3 weights = weights_near(rest_points_[3 * at], rest_points_[3 * at + 1],
                                       rest_points_[3 * at + 2], point.position);
@@ -308,13 +387,13 @@ std::vector<ElementMap::Source> SeamSheet::vertex_sources(Index v) const {
 }
 
 Index SeamSheet::face_source(const Triangle& t) const {
-    return rest_face_[rest_->nearest((x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0).face];
+    return rest_face_[nearest_at_first((x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0).face];
 }
 
 // Read a little towards the middle of the triangle, so that it is its own chart's where two meet.
 std::vector<ElementMap::Source> SeamSheet::corner_sources(const Triangle& t, std::size_t k) const {
     const Vec3 middle = (x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0, &x = x_[t[k]];
-    const auto at = static_cast<std::size_t>(rest_->nearest(x + kTowards * (middle - x)).face);
+    const auto at = static_cast<std::size_t>(nearest_at_first(x + kTowards * (middle - x)).face);
     const Vec3 weights =
         weights_near(rest_points_[3 * at], rest_points_[3 * at + 1], rest_points_[3 * at + 2], x);
     return weighted_sources(rest_corners_[at], weights);

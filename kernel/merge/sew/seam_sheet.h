@@ -78,13 +78,16 @@ class SeamSheet {
     }
 
     void take_faces();
+    void find_outer_edges();
     void mark_borders(std::span<const std::vector<Index>> seams);
     void mark_features(double sharp);
     bool same_values(Index p, Index q) const;
     bool is_chart_border(Index left, Index right, Index a, Index c) const;
     void make_rest(const Context& context);
+    SurfacePoint nearest_at_first(const Vec3& p) const;
 
     Index left_of(Index a, Index b) const;
+    void add_empty(std::size_t count);
     void enter(Index f, const Triangle& triangle);
     void leave(Index f);
     std::vector<Index> ring(Index v) const;
@@ -99,7 +102,17 @@ class SeamSheet {
     bool turns(std::span<const Triangle> before, std::span<const Triangle> after, Index moved,
                const Vec3& to, double greatest) const;
 
-    bool flip(Index a, Index c, const SheetLimits& limits);
+    struct Quad {
+        Index left = kNoIndex, right = kNoIndex, b = kNoIndex, d = kNoIndex;
+        std::array<Triangle, 2> before{}, after{};
+    };
+    bool find_quad(Index a, Index c, Quad& quad) const;
+    void separate_diagonals();
+    void keep_at_first(const Quad& quad);
+    double least_angle(const Triangle& t) const;
+    bool is_rounder(const Quad& quad) const;
+    void turn_diagonal(const Quad& quad);
+    bool flip(Index f, std::size_t k, const SheetLimits& limits);
     bool split(Index a, Index c, const SheetLimits& limits);
     bool collapse(Index gone, Index kept, const SheetLimits& limits);
     void relax(Index v, const SheetLimits& limits);
@@ -118,6 +131,11 @@ class SeamSheet {
     std::vector<char> fixed_;
     std::vector<Triangle> triangles_;
     std::vector<std::vector<Index>> around_;
+    // When a triangle last changed, and when a flip of each of its edges was last found to be of
+    // no use to the two triangles beside it.
+    std::vector<std::uint32_t> changed_;
+    std::vector<std::array<std::uint32_t, 3>> tried_;
+    std::uint32_t clock_ = 0;
     std::unordered_set<std::uint64_t> features_, seam_;
     // Edges of the mesh between vertices of the border that are not of the sheet.
     std::unordered_set<std::uint64_t> outer_edges_;
@@ -128,6 +146,9 @@ class SeamSheet {
     std::vector<Triangle> rest_corners_, rest_vertices_;
     std::vector<Vec3> rest_points_;
     std::optional<SpatialTree> rest_;
+    // Added to points whose nearest triangle is asked for: it turns with the mesh and lies in no
+    // plane of symmetry, so that of two equally near triangles rounding does not choose.
+    Vec3 aside_ = Vec3::Zero();
     Size size_at_;
     std::vector<double> size_;
 };

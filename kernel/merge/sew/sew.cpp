@@ -1,5 +1,6 @@
 #include "kernel/merge/sew/sew.h"
 
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "kernel/merge/sew/seam_loop.h"
 #include "kernel/merge/sew/seam_skin.h"
 #include "kernel/merge/sew/seam_work.h"
+#include "kernel/mesh/measure/measures.h"
 
 namespace lissom {
 namespace {
@@ -40,6 +42,26 @@ std::vector<Index> loop_vertices(std::span<const LoopPair> joins, Index first_so
     return vertices;
 }
 
+// Of two meshes that are sewn to one.
+Index joined_components(const Topology& target, const Topology& source,
+                        std::span<const LoopPair> joins) {
+    const Index targets = target.component_count();
+    Index count = targets + source.component_count();
+    std::vector<Index> root(static_cast<std::size_t>(count));
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](Index part) {
+        while (root[part] != part) part = root[part];
+        return part;
+    };
+    for (const LoopPair& join : joins) {
+        const Index a = find(target.components()[join.target.front()]);
+        const Index b = find(targets + source.components()[join.source.front()]);
+        count -= a == b ? 0 : 1;
+        root[b] = a;
+    }
+    return count;
+}
+
 }  // namespace
 
 Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
@@ -70,11 +92,12 @@ Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins
     if (options.flip) work.report.flipped = work.patch.flip_edges(kAllowedDihedral, context);
     Sewn sewn = finish(work, options, context);
     if (const auto skinned = skinned_side(target, source)) extend_skin(sewn, *skinned, context);
-    require_sound(sewn, target, source, joins.size());
+    require_sound(sewn, target, source, joins);
     return sewn;
 }
 
-void require_sound(const Sewn& sewn, const Mesh& target, const Mesh& source, std::size_t joins) {
+void require_sound(const Sewn& sewn, const Mesh& target, const Mesh& source,
+                   std::span<const LoopPair> joins) {
     const auto fail = [](const std::string& what, Elements elements) {
         throw Error(ErrorCode::internal,
                     "sewing went wrong: " + what +
@@ -85,8 +108,17 @@ void require_sound(const Sewn& sewn, const Mesh& target, const Mesh& source, std
     const std::size_t before =
         isolated_vertices(target.topology()).count + isolated_vertices(source.topology()).count;
     if (isolated.count > before) fail("vertices lost their faces", isolated);
+    const Index whole = euler_characteristic(sewn.mesh.topology());
+    if (whole !=
+        euler_characteristic(target.topology()) + euler_characteristic(source.topology())) {
+        fail("its Euler characteristic is " + std::to_string(whole), {ElementKind::vertex, 0, {}});
+    }
+    const Index parts = sewn.mesh.topology().component_count();
+    if (parts != joined_components(target.topology(), source.topology(), joins)) {
+        fail("it fell into " + std::to_string(parts) + " components", {ElementKind::vertex, 0, {}});
+    }
     const auto loops = [](const Mesh& mesh) { return mesh.topology().boundary_loops().size(); };
-    if (loops(sewn.mesh) + 2 * joins != loops(target) + loops(source)) {
+    if (loops(sewn.mesh) + 2 * joins.size() != loops(target) + loops(source)) {
         fail("it left " + std::to_string(loops(sewn.mesh)) + " open boundaries",
              {ElementKind::vertex, 0, {}});
     }

@@ -112,8 +112,10 @@ struct Sewn {
 Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
          const SewOptions& options = {}, const Context& context = {});
 
-/// Throws internal where a sewn mesh is not what two sound meshes and `joins` joins make: a vertex
-/// has lost all of its faces, or it has more or fewer open boundaries.
-void require_sound(const Sewn& sewn, const Mesh& target, const Mesh& source, std::size_t joins);
+/// Throws internal where a sewn mesh is not what two sound meshes and `joins` make: a vertex has
+/// lost all of its faces, or it has another Euler characteristic, or more or fewer components or
+/// open boundaries.
+void require_sound(const Sewn& sewn, const Mesh& target, const Mesh& source,
+                   std::span<const LoopPair> joins);
 
 }  // namespace lissom

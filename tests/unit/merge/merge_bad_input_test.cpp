@@ -239,11 +239,12 @@ TEST_CASE("merge: the smallest meshes") {
                 for (const SeamKind seam : {SeamKind::conform, SeamKind::fair}) {
                     CAPTURE(source.vertex_count());
                     CAPTURE(target.vertex_count());
+                    // The large ones take long.
+                    const bool large = std::max(source.vertex_count(), target.vertex_count()) > 200;
+                    if (large && (c != Configuration::free || seam != SeamKind::conform)) continue;
                     MergeOptions options;
                     options.configuration = c;
                     options.seam = seam;
-                    // A collar of hundreds of faces within one takes seconds.
-                    options.collar = source.vertex_count() < 200 && target.vertex_count() < 200;
                     const MergeResult result = merged_badly(source, target, options);
                     CHECK(finite(result.mesh));
                     CHECK(result.mesh.topology().boundary_loops().empty());

@@ -437,6 +437,8 @@ TEST_CASE("loose parts that move along are told") {
     const Mesh target = bowl(50, 20);
     const MergeReport report = merged(source, target, {}, {{Vec3(1, 0, 0), Vec3(2, 0, 0)}}).report;
     CHECK(report.loose_parts == 2);
+    // The eyes stick in the surface before and after; that is not new.
+    CHECK(report.ok);
     REQUIRE(!report.warnings.empty());
     CAPTURE(report.warnings.back());
     CHECK(std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& told) {
