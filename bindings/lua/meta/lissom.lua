@@ -241,6 +241,7 @@
 ---@field flipped table source and targets: what was inside out and has been turned over.
 ---@field seam lissom.SeamReport What was done to sew, and how well.
 ---@field transition table[] For each seam source and target: width, vertices, and flipped and unmapped ones, of its bands.
+---@field transition_kept number|nil The part of the way that the bands of a transition went: 0 where it was left out, since it would have folded the surface.
 ---@field intersections integer[][] Pairs of faces that run through one another and come from faces that did not.
 ---@field seams lissom.Path[] The seams on the merged mesh.
 ---@field source lissom.Region The vertices of the merged mesh that are the source's.
