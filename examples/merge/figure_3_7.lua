@@ -40,6 +40,7 @@ print(string.format("mean angle between faces within eight edges of the seam: %.
     bends(mesh, report), bends(plain, plain_report)))
 figures.claim(#mesh:boundaries() == #plain:boundaries() and mesh:genus() == plain:genus(),
     "the seam is closed")
+figures.claim(report.transition_kept > 0.9, "the transition is made")
 figures.claim(report.seam.after.greatest_dihedral < math.max(20, plain_report.seam.after.greatest_dihedral),
     "the seam is hidden")
 

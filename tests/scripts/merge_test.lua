@@ -286,7 +286,7 @@ local function bent_tube(segments, bend)
     return tube
 end
 local _, of_refused = lissom.merge{ collar = false, transition = { source = 1.5, target = 1.5 },
-    joins = { { source = bent_tube(64, 0):boundaries()[1], target = bent_tube(4, 0.5):boundaries()[1] } } }
+    joins = { { source = bent_tube(3, 0):boundaries()[1], target = bent_tube(40, 0.5):boundaries()[1] } } }
 expect.equal(of_refused.transition_kept, 0)
 expect.truthy(table.concat(of_refused.warnings, "\n"):find("the transition was left out", 1, true))
 local without, of_without = lissom.merge{ joins = { join{ { from, to } } }, transition = false }

@@ -111,7 +111,7 @@ void BandSystem::write(Mesh& mesh) const {
 }
 
 double BandSystem::write_guarded(Mesh& mesh, std::span<const std::vector<Index>> seams,
-                                 const Context& context) const {
+                                 const SeamQuality& allowed, const Context& context) const {
     std::vector<std::pair<Index, Vec3>> wanted;
     for (Index i = 0; i < vertex_count(); ++i) {
         if (moves(i)) wanted.emplace_back(mesh_vertex(i), x_[i] + patch_.origin);
@@ -124,7 +124,7 @@ double BandSystem::write_guarded(Mesh& mesh, std::span<const std::vector<Index>>
         moving.push_back(v);
         to.push_back(place);
     }
-    SeamGuard guard(mesh, seams, std::move(moving), context);
+    SeamGuard guard(mesh, seams, std::move(moving), context, allowed);
     const double kept = guard.move(to);
     const DirectionCarrier directions(mesh);
     mesh.set_positions({guard.positions().begin(), guard.positions().end()});

@@ -8,6 +8,7 @@
 #include "kernel/core/context.h"
 #include "kernel/deform/patch/operators.h"
 #include "kernel/deform/patch/patch.h"
+#include "kernel/merge/sew/seam_quality.h"
 #include "kernel/mesh/region.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
@@ -58,12 +59,12 @@ class BandSystem {
     /// Errors: not_positive_definite; memory_limit; cancelled: the shape is then as before.
     void bend(std::span<const Vec3> wanted, const Context& context);
 
-    /// Gives the mesh the positions of the band as far as that does no harm to `seams` (SeamGuard);
-    /// all others stay to the bit. "normal" attributes turn with the surface. Returns the part of
-    /// the way that was kept.
+    /// Gives the mesh the positions of the band as far as that does no harm to `seams`, with
+    /// dihedral angles as great as those of `allowed` (SeamGuard); all others stay to the bit.
+    /// "normal" attributes turn with the surface. Returns the part of the way that was kept.
     /// Errors: cancelled; the mesh is then unchanged.
     double write_guarded(Mesh& mesh, std::span<const std::vector<Index>> seams,
-                         const Context& context) const;
+                         const SeamQuality& allowed, const Context& context) const;
     /// The same without a guard: all of the way.
     void write(Mesh& mesh) const;
 

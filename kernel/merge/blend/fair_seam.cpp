@@ -37,7 +37,7 @@ std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> sea
         progress.update(static_cast<double>(pass) / options.passes);
         band.bend(core.relaxed(band, band.curvatures(), context), context);
     }
-    band.write_guarded(mesh, seams, context);
+    band.write_guarded(mesh, seams, {}, context);
     return region.vertices();
 }
 

@@ -284,7 +284,7 @@ TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> 
     for (Index pass = 0; pass < options.passes; ++pass) {
         band.bend(core.relaxed(band, blended, context), context);
     }
-    report.kept = band.write_guarded(sewn.mesh, sewn.seams, context);
+    report.kept = band.write_guarded(sewn.mesh, sewn.seams, sewn.report.before, context);
     return report;
 }
 

@@ -37,12 +37,13 @@ double greatest_sum(const SeamQuality& quality) {
 }  // namespace
 
 SeamGuard::SeamGuard(const Mesh& mesh, std::span<const std::vector<Index>> seams,
-                     std::vector<Index> moving, const Context& context)
+                     std::vector<Index> moving, const Context& context, const SeamQuality& allowed)
     : shape_(std::vector<Vec3>(mesh.positions().begin(), mesh.positions().end()),
              mesh.shared_topology()),
       seams_(seams),
       moving_(std::move(moving)),
       faces_(faces_at(mesh.topology(), moving_)),
+      allowed_(allowed),
       context_(context) {
     for (const std::vector<Index>& seam : seams) {
         for (std::size_t k = 0; k < seam.size(); ++k) {
@@ -64,13 +65,21 @@ void SeamGuard::place(std::span<const Vec3> places) {
     for (std::size_t i = 0; i < moving_.size(); ++i) positions[moving_[i]] = places[i];
 }
 
+double SeamGuard::seam_limit() const {
+    return std::max(now_.quality.greatest_dihedral, allowed_.greatest_dihedral);
+}
+
+double SeamGuard::near_limit() const {
+    return std::max(now_.quality.greatest_near, allowed_.greatest_near);
+}
+
 // Measures the shape, and compares it with that of before.
 bool SeamGuard::is_harmless(State& state) {
     const SeamQuality& before = now_.quality;
     state.quality = seam_quality(shape_, seams_);
     const double least = std::min(before.smallest_angle, kGoodAngle);
-    if (state.quality.greatest_dihedral > before.greatest_dihedral + kEqualAngles ||
-        state.quality.greatest_near > before.greatest_near + kEqualAngles ||
+    if (state.quality.greatest_dihedral > seam_limit() + kEqualAngles ||
+        state.quality.greatest_near > near_limit() + kEqualAngles ||
         state.quality.smallest_angle < least - kEqualAngles) {
         return false;
     }
@@ -112,8 +121,8 @@ SeamGuard::Star SeamGuard::star(Index v) const {
 }
 
 bool SeamGuard::spares(const Star& before, const Star& after) const {
-    const double seam = std::max(before.seam, now_.quality.greatest_dihedral);
-    const double other = std::max(before.other, now_.quality.greatest_near);
+    const double seam = std::max(before.seam, seam_limit());
+    const double other = std::max(before.other, near_limit());
     if (after.seam > seam + kEqualAngles || after.other > other + kEqualAngles) return false;
     if (after.angle < std::min(before.angle, kGoodAngle) - kEqualAngles) return false;
     for (std::size_t k = 0; k < before.normals.size(); ++k) {
@@ -146,7 +155,7 @@ double SeamGuard::move(std::span<const Vec3> to) {
         State* best = way > 0.0 ? &all : nullptr;
         if (way < 1.0) {
             const double limit =
-                best ? greatest_sum(all.quality) : greatest_sum(before.quality) + kEqualAngles;
+                best ? greatest_sum(all.quality) : seam_limit() + near_limit() + kEqualAngles;
             const bool better = move_each(to, each) && each.places != before.places &&
                                 greatest_sum(each.quality) < limit;
             if (better) best = &each;

@@ -18,11 +18,12 @@ namespace lissom {
 /// 15 degrees, or a pair of faces that run through one another and did not.
 class SeamGuard {
   public:
-    /// Takes the present shape of `mesh`; `moving` are the vertices that may move. Seams and
-    /// context must outlive the guard.
+    /// Takes the present shape of `mesh`; `moving` are the vertices that may move. Dihedral angles
+    /// as great as those of `allowed` do no harm, even where there are none now. Seams and context
+    /// must outlive the guard.
     /// Errors: as seam_quality.
     SeamGuard(const Mesh& mesh, std::span<const std::vector<Index>> seams,
-              std::vector<Index> moving, const Context& context);
+              std::vector<Index> moving, const Context& context, const SeamQuality& allowed = {});
 
     /// Moves the vertices towards `to`, one place each: all of the way, or the first of a half, a
     /// quarter and an eighth that does no harm. Where all of it does harm, each vertex is also
@@ -55,10 +56,14 @@ class SeamGuard {
     bool move_each(std::span<const Vec3> to, State& state);
     Star star(Index v) const;
     bool spares(const Star& before, const Star& after) const;
+    // The greatest dihedral angles that do no harm: across the seams, near them.
+    double seam_limit() const;
+    double near_limit() const;
 
     Mesh shape_;
     std::span<const std::vector<Index>> seams_;
     std::vector<Index> moving_, faces_;
+    SeamQuality allowed_;
     std::unordered_set<std::uint64_t> seam_edges_;
     State now_;
     const Context& context_;
