@@ -61,8 +61,8 @@ compiled() {
 # tidy REGEX : clang-tidy, with the checks of .clang-tidy, over the units that match, as clang built them.
 tidy() {
     local units
-    units=$(compiled build/clang "$1") || { echo "no source matches $1"; return 1; }
-    printf '%s\n' "$units" | xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/clang
+    units=$(compiled build/asan "$1") || { echo "no source matches $1"; return 1; }
+    printf '%s\n' "$units" | xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/asan
 }
 
 # unit_tests PRESET : builds and runs the unit tests of a preset.

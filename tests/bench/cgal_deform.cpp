@@ -117,18 +117,4 @@ std::vector<Vec3> CgalDeformer::positions() const {
     return implementation_->positions();
 }
 
-CgalTimes time_cgal(const Mesh& mesh, CgalMethod method, const std::vector<Index>& still,
-                    const std::vector<Index>& moved, int frames,
-                    const std::function<Affine(int)>& move) {
-    CgalDeformer deformer(mesh, method, still, moved);
-    CgalTimes times;
-    times.preprocess = seconds([&] { deformer.preprocess(); });
-    int frame = 0;
-    times.frame = median_seconds(frames, [&] {
-        deformer.move(move(frame++));
-        deformer.deform();
-    });
-    return times;
-}
-
 }  // namespace lissom::bench

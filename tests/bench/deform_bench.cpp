@@ -18,6 +18,7 @@
 #include "kernel/mesh/edit/subdivide.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "tests/bench/limits.h"
 #include "tests/bench/report.h"
 #ifdef LISSOM_BENCH_CGAL
 #include "tests/bench/cgal_deform.h"
@@ -57,7 +58,6 @@ struct Task {
 
 struct Times {
     double preprocess = 0, first_factor = 0, second_factor = 0, preview = 0, frame = 0, polar = 0;
-    double solve = 0, far_frame = 0, basis_error = 0;
     Index free = 0, displaced = 0;
 };
 
@@ -67,41 +67,70 @@ Context context_with(int threads) {
     return Context(options);
 }
 
-/// A frame is one of a drag; `solve` is what ends the drag.
+/// A deformer of a task, whose upper handle is dragged.
+class Drag {
+  public:
+    Drag(const Task& task, const DeformOptions& options, const Context& context)
+        : task_(task),
+          context_(context),
+          deformer_(task.mesh, Region::all(task.mesh.shared_topology()), options, context) {
+        deformer_.add_handle({task.mesh.shared_topology(), task.low});
+        high_ = deformer_.add_handle({task.mesh.shared_topology(), task.high});
+        deformer_.prepare(context);
+    }
+
+    Deformer& deformer() { return deformer_; }
+    /// Seconds of the two factorisations of the last preparation.
+    double factorizations() const {
+        return deformer_.stats().first_factor_seconds + deformer_.stats().second_factor_seconds;
+    }
+    /// Each returns the seconds of the next frame: of the first system alone, of a drag, at the end
+    /// of a drag, and of a drag beyond half a turn.
+    double preview() {
+        deformer_.set_transform(high_, task_.move(frame_++));
+        return seconds([&] { deformer_.preview(context_); });
+    }
+    double frame() {
+        deformer_.set_transform(high_, task_.move(frame_++));
+        return seconds([&] { deformer_.solve_draft(context_); });
+    }
+    double solve() {
+        deformer_.set_transform(high_, task_.move(frame_++));
+        return seconds([&] { deformer_.solve(context_); });
+    }
+    double far_frame() {
+        deformer_.set_transform(high_, task_.far_move(frame_++));
+        return seconds([&] { deformer_.solve_draft(context_); });
+    }
+
+  private:
+    const Task& task_;
+    const Context& context_;
+    Deformer deformer_;
+    HandleId high_;
+    int frame_ = 0;
+};
+
+template <typename Frame>
+double median_of(int repeats, const Frame& frame) {
+    std::vector<double> times;
+    for (int i = 0; i < repeats; ++i) times.push_back(frame());
+    return quantile(times, 0.5);
+}
+
 Times time_deformer(const Task& task, const DeformOptions& options, int frames,
                     const Context& context = {}) {
     Times times;
-    std::optional<Deformer> deformer;
-    HandleId high;
-    times.preprocess = seconds([&] {
-        deformer.emplace(task.mesh, Region::all(task.mesh.shared_topology()), options, context);
-        deformer->add_handle({task.mesh.shared_topology(), task.low});
-        high = deformer->add_handle({task.mesh.shared_topology(), task.high});
-        deformer->prepare(context);
-    });
-    int frame = 0;
-    times.preview = median_seconds(4 * frames, [&] {
-        deformer->set_transform(high, task.move(frame++));
-        deformer->preview(context);
-    });
-    times.frame = median_seconds(frames, [&] {
-        deformer->set_transform(high, task.move(frame++));
-        deformer->solve_draft(context);
-    });
-    times.solve = median_seconds(std::min(frames, 9), [&] {
-        deformer->set_transform(high, task.move(frame++));
-        deformer->solve(context);
-    });
-    times.far_frame = median_seconds(std::min(frames, 9), [&] {
-        deformer->set_transform(high, task.far_move(frame++));
-        deformer->solve_draft(context);
-    });
-    const std::vector<Mat3> gradients = deformer->gradients();
+    std::optional<Drag> drag;
+    times.preprocess = seconds([&] { drag.emplace(task, options, context); });
+    times.preview = median_of(4 * frames, [&] { return drag->preview(); });
+    times.frame = median_of(frames, [&] { return drag->frame(); });
+    const std::vector<Mat3> gradients = drag->deformer().gradients();
     double sink = 0.0;
     times.polar = median_seconds(5, [&] {
         for (const Mat3& m : gradients) sink += nearest_rotation(m)(0, 0);
     });
-    const DeformStats& stats = deformer->stats();
+    const DeformStats& stats = drag->deformer().stats();
     times.first_factor = stats.first_factor_seconds;
     times.second_factor = stats.second_factor_seconds;
     times.free = sink != 0.0 ? stats.free_vertices : 0;
@@ -196,46 +225,67 @@ double peak_gigabytes() {
 #endif
 }
 
-/// What is to be reached, one and two threads: seconds, then milliseconds.
-struct Targets {
-    double preprocess[2], preview, frame[2], error;
-};
+/// Bytes that a preview reads and writes: four weights and the rest position a free vertex, and its
+/// result.
+double preview_bytes(const DeformStats& stats) {
+    return (4.0 + 3.0 + 3.0) * sizeof(double) * stats.free_vertices;
+}
 
-Times run_size(Report& report, const Task& task, const Targets& targets, int frames) {
+void run_size(Report& report, const Task& task, int threads, int rounds) {
     const std::string name = "armadillo " + std::to_string(task.mesh.vertex_count() / 1000) + "K: ";
-    Times first;
-    for (const int threads : {1, 2}) {
-        const std::string on = threads == 1 ? ", 1 thread" : ", 2 threads";
-        const Times t = time_deformer(task, {}, frames, context_with(threads));
-        if (threads == 1) first = t;
-        report.add({name + "preprocess" + on, t.preprocess, "s", targets.preprocess[threads - 1]});
-        report.add({name + "preview frame" + on, 1e3 * t.preview, "ms", targets.preview});
-        report.add({name + "full frame" + on, 1e3 * t.frame, "ms", targets.frame[threads - 1]});
-        report.add({name + "solve at the end of a drag" + on, 1e3 * t.solve, "ms"});
-        report.add({name + "full frame beyond half a turn" + on, 1e3 * t.far_frame, "ms"});
-    }
+    const std::string on = threads == 1 ? ", 1 thread" : ", 2 threads";
+    const Context context = context_with(threads);
+    std::optional<Drag> drag;
+    const Quotient preparation = quotient_of(
+        3, [&] { return seconds([&] { drag.emplace(task, DeformOptions{}, context); }); },
+        [&] { return drag->factorizations(); });
+    report.add({name + "preparation" + on, preparation.above, "s"});
+    report.add_ratio(name + "preparation / its two factorisations" + on, "factorisations",
+                     preparation, 1.4);
+    MemoryLimit memory;
+    const double bytes = preview_bytes(drag->deformer().stats());
+    const Quotient preview = quotient_of(
+        rounds, [&] { return drag->preview(); }, [&] { return memory.seconds_to_read(bytes); });
+    report.add({name + "preview" + on, 1e3 * preview.above, "ms"});
+    report.add_ratio(name + "preview / reading its bytes on one thread" + on, "bandwidth", preview,
+                     2.0);
+    const Quotient solve = quotient_of(
+        rounds, [&] { return drag->solve(); }, [&] { return drag->frame(); });
+    report.add({name + "full frame" + on, 1e3 * solve.below, "ms"});
+    report.add_ratio(name + "solve at the end of a drag / full frame" + on, "full frame", solve,
+                     1.3);
+    Drag far(task, {}, context);
+    const Quotient beyond = quotient_of(
+        rounds, [&] { return far.far_frame(); }, [&] { return drag->frame(); });
+    report.add_ratio(name + "frame beyond half a turn / full frame" + on, "full frame", beyond,
+                     1.3);
+}
+
+/// What does not depend on the machine's speed.
+void run_limits(Report& report, const Task& task) {
+    const std::string name = "armadillo " + std::to_string(task.mesh.vertex_count() / 1000) + "K: ";
     report.add({name + "peak memory of the process", peak_gigabytes(), "GB", 4.5});
-    if (targets.error > 0.0) {
-        report.add(
-            {name + "basis against direct solve", basis_error(task), "diagonals", targets.error});
-    }
-    return first;
+    report.add({name + "basis against direct solve", basis_error(task), "diagonals", 1e-11});
 }
 
 #ifdef LISSOM_BENCH_CGAL
-void run_cgal(Report& report, const Task& task, double ours) {
-    const auto move = [&](int frame) { return task.move(frame); };
-    const CgalTimes sre = time_cgal(task.mesh, CgalMethod::sre_arap, task.low, task.high, 5, move);
-    const CgalTimes original =
-        time_cgal(task.mesh, CgalMethod::original_arap, task.low, task.high, 5, move);
-    const double frame = std::min(ours, time_deformer(task, {}, 21).frame);
-    report.add({"armadillo: CGAL SRE_ARAP preprocess", sre.preprocess, "s"});
-    report.add({"armadillo: CGAL SRE_ARAP frame", 1e3 * sre.frame, "ms"});
-    report.add({"armadillo: CGAL ORIGINAL_ARAP preprocess", original.preprocess, "s"});
-    report.add({"armadillo: CGAL ORIGINAL_ARAP frame", 1e3 * original.frame, "ms"});
-    report.add(
-        {"armadillo: CGAL SRE_ARAP frame / ours", sre.frame / frame, "x", 25.0, Better::more});
-    report.add({"armadillo: CGAL ORIGINAL_ARAP frame / ours", original.frame / frame, "x"});
+void run_cgal(Report& report, const Task& task) {
+    CgalDeformer sre(task.mesh, CgalMethod::sre_arap, task.low, task.high);
+    report.add({"armadillo: CGAL SRE_ARAP preprocess", seconds([&] { sre.preprocess(); }), "s"});
+    int frame = 0;
+    const auto theirs = [&] {
+        sre.move(task.move(frame++));
+        return seconds([&] { sre.deform(); });
+    };
+    for (const int threads : {1, 2}) {
+        const Context context = context_with(threads);
+        Drag drag(task, {}, context);
+        const Quotient ratio = quotient_of(5, theirs, [&] { return drag.frame(); });
+        report.add({"armadillo: CGAL SRE_ARAP frame", 1e3 * ratio.above, "ms"});
+        report.add_ratio("armadillo: CGAL SRE_ARAP frame / ours" +
+                             std::string(threads == 1 ? ", 1 thread" : ", 2 threads"),
+                         "CGAL SRE_ARAP", ratio, threads == 1 ? 40.0 : 70.0, Better::more);
+    }
 }
 #endif
 
@@ -304,18 +354,18 @@ void run_armadillo(Report& report) {
         report.title("Armadillo: skipped, models/armadillo_43k.obj is absent");
         return;
     }
-    report.title("Armadillo, both ends as handles; larger ones by Loop subdivision");
+    report.title("Armadillo, both ends as handles; a larger one by Loop subdivision");
     const Task small(*mesh);
-    const Times ours = run_size(report, small, {{1.0, 0.7}, 0.15, {10.0, 5.0}, 1e-11}, 41);
+    for (const int threads : {1, 2}) run_size(report, small, threads, 21);
+    run_limits(report, small);
 #ifdef LISSOM_BENCH_CGAL
-    run_cgal(report, small, ours.frame);
+    run_cgal(report, small);
 #else
     report.title("  CGAL: skipped, it is not installed");
 #endif
     *mesh = smoother(*mesh);
-    run_size(report, Task(*mesh), {{4.0, 4.0}, 0.5, {45.0, 23.0}, 1e-11}, 15);
+    for (const int threads : {1, 2}) run_size(report, Task(*mesh), threads, 9);
     *mesh = smoother(*mesh);
-    run_size(report, Task(*mesh), {{25.0, 25.0}, 2.0, {190.0, 100.0}, 0.0}, 7);
     run_small_region(report, *mesh);
 }
 

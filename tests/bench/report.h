@@ -1,4 +1,8 @@
 /// Rows of a benchmark, printed as a table or as JSON.
+///
+/// Machines differ by three times, so that a time alone says little: what is to be reached is a
+/// ratio of two things timed in turns in one run, ours and a peer's, or ours and a limit of the
+/// machine. Times are shown without a target.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +18,23 @@ namespace lissom::bench {
 /// Whether smaller or greater values are better.
 enum class Better { less, more };
 
+/// Quotients of two measurements taken in turns: their median and quartiles, and the median of
+/// either.
+struct Quotient {
+    double value = 0.0, low = 0.0, high = 0.0;
+    double above = 0.0, below = 0.0;
+};
+
 struct Row {
     std::string name;
     double value = 0.0;
     std::string unit;
-    /// The value to reach; negative where the row is for comparison only.
+    /// The value to reach; negative where the row is shown only.
     double target = -1.0;
     Better better = Better::less;
+    /// What a ratio is taken against, with quartiles of the ratio; empty for other values.
+    std::string peer = {};
+    double low = 0.0, high = 0.0;
 
     bool reached() const { return better == Better::less ? value <= target : value >= target; }
 };
@@ -41,6 +55,11 @@ class Report {
         if (!json_) print(row);
         rows_.push_back(std::move(row));
     }
+    /// A ratio of ours and `peer`, or of `peer` and ours.
+    void add_ratio(const std::string& name, const std::string& peer, const Quotient& quotient,
+                   double target = -1.0, Better better = Better::less) {
+        add({name, quotient.value, "x", target, better, peer, quotient.low, quotient.high});
+    }
     /// A row of the JSON alone; the table shows its value in another way.
     void add_to_json(Row row) { rows_.push_back(std::move(row)); }
     /// A line between rows of the table; not part of the JSON.
@@ -56,6 +75,7 @@ class Report {
   private:
     static void print(const Row& row) {
         std::printf("  %-58s %10.4g %-8s", row.name.c_str(), row.value, row.unit.c_str());
+        if (!row.peer.empty()) std::printf(" (%.3g .. %.3g)", row.low, row.high);
         if (row.target >= 0.0) {
             std::printf(" target %s %g: %s", row.better == Better::less ? "<=" : ">=", row.target,
                         row.reached() ? "reached" : "MISSED");
@@ -63,16 +83,33 @@ class Report {
         std::printf("\n");
         std::fflush(stdout);
     }
+    // "key": value, or null where there is none.
+    static void print_number(const char* key, double value, bool present) {
+        std::printf(", \"%s\": ", key);
+        if (present) {
+            std::printf("%.6g", value);
+        } else {
+            std::printf("null");
+        }
+    }
+    static void print_object(const Row& row) {
+        const bool ratio = !row.peer.empty();
+        std::printf("{\"name\": \"%s\", \"unit\": \"%s\", \"peer\": ", row.name.c_str(),
+                    row.unit.c_str());
+        std::printf(ratio ? "\"%s\"" : "null%s", row.peer.c_str());
+        print_number("value", row.value, true);
+        print_number("ratio", row.value, ratio);
+        print_number("low", row.low, ratio);
+        print_number("high", row.high, ratio);
+        print_number("target", row.target, row.target >= 0.0);
+        std::printf(", \"better\": \"%s\"}", row.better == Better::less ? "less" : "more");
+    }
     void print_json() const {
         std::printf("[\n");
         for (std::size_t i = 0; i < rows_.size(); ++i) {
-            const Row& row = rows_[i];
-            std::printf("  {\"name\": \"%s\", \"value\": %.6g, \"unit\": \"%s\", \"target\": ",
-                        row.name.c_str(), row.value, row.unit.c_str());
-            if (row.target >= 0.0) std::printf("%g", row.target);
-            if (row.target < 0.0) std::printf("null");
-            std::printf(", \"better\": \"%s\"}%s\n", row.better == Better::less ? "less" : "more",
-                        i + 1 < rows_.size() ? "," : "");
+            std::printf("  ");
+            print_object(rows_[i]);
+            std::printf(i + 1 < rows_.size() ? ",\n" : "\n");
         }
         std::printf("]\n");
     }
@@ -80,6 +117,14 @@ class Report {
     bool json_ = false;
     std::vector<Row> rows_;
 };
+
+/// The value below which `part` of the values lie.
+inline double quantile(std::vector<double> values, double part) {
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
 
 /// Seconds that `action` takes once.
 template <typename Action>
@@ -94,8 +139,28 @@ template <typename Action>
 double median_seconds(int repeats, const Action& action) {
     std::vector<double> times;
     for (int i = 0; i < repeats; ++i) times.push_back(seconds(action));
-    std::nth_element(times.begin(), times.begin() + repeats / 2, times.end());
-    return times[static_cast<std::size_t>(repeats / 2)];
+    return quantile(times, 0.5);
+}
+
+/// Quotients of what `above` and `below` return, called in turns `repeats` times: what else the
+/// machine does then meets both alike.
+template <typename Above, typename Below>
+Quotient quotient_of(int repeats, const Above& above, const Below& below) {
+    std::vector<double> quotients, aboves, belows;
+    for (int i = 0; i < repeats; ++i) {
+        aboves.push_back(above());
+        belows.push_back(below());
+        quotients.push_back(aboves.back() / belows.back());
+    }
+    return {quantile(quotients, 0.5), quantile(quotients, 0.25), quantile(quotients, 0.75),
+            quantile(aboves, 0.5), quantile(belows, 0.5)};
+}
+
+/// The same of the seconds of two actions.
+template <typename Above, typename Below>
+Quotient seconds_quotient(int repeats, const Above& above, const Below& below) {
+    return quotient_of(
+        repeats, [&] { return seconds(above); }, [&] { return seconds(below); });
 }
 
 }  // namespace lissom::bench

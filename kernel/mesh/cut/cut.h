@@ -38,7 +38,7 @@ struct CutPlane {
     Vec3 normal = Vec3::UnitY();
     /// A point on or near the part to keep, instead of the side that the normal points to.
     std::optional<Vec3> seed{};
-    /// What the nearest line is nearest to; `point` where absent.
+    /// Reference point that selects the line; `point` where absent.
     std::optional<Vec3> near{};
 };
 

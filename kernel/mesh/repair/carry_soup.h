@@ -7,7 +7,7 @@
 #include "kernel/core/context.h"
 #include "kernel/mesh/corner_faces.h"
 #include "kernel/mesh/mesh.h"
-#include "kernel/mesh/repair/gluing.h"
+#include "kernel/mesh/repair/welding.h"
 #include "kernel/mesh/soup.h"
 
 namespace lissom {

@@ -8,8 +8,8 @@
 #include "kernel/mesh/measure/orientation.h"
 #include "kernel/mesh/repair/carry_soup.h"
 #include "kernel/mesh/repair/face_cleaning.h"
-#include "kernel/mesh/repair/gluing.h"
 #include "kernel/mesh/repair/quality.h"
+#include "kernel/mesh/repair/welding.h"
 #include "kernel/mesh/topology_check.h"
 #include "kernel/mesh/value_pool.h"
 
@@ -221,22 +221,23 @@ Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Rep
         points.set_report(std::move(report));
         return points;
     }
-    Gluing gluing(soup.positions, work);
-    if (!gluing.glue_regular_edges()) {
+    Welding welding(soup.positions, work);
+    if (!welding.weld_regular_edges()) {
         drop_duplicates(vertex_count, work, report);
         orient_faces(soup.positions, work, report);
-        gluing = Gluing(soup.positions, work);
-        gluing.glue_edges(report);
+        welding = Welding(soup.positions, work);
+        welding.weld_edges(report);
     }
     progress.update(0.5);
 
-    if (options.weld == Weld::seams && !gluing.is_closed()) gluing.glue_seams(object_labels(soup));
-    FanVertices fans = gluing.number_fans();
+    if (options.weld == Weld::seams && !welding.is_closed())
+        welding.weld_seams(object_labels(soup));
+    FanVertices fans = welding.number_fans();
     VertexFindings(soup, file_corners, work, fans).add_to(report);
     progress.update(0.8);
 
     Mesh mesh = carry_soup(std::move(soup), file_corners, std::move(work), std::move(fans),
-                           gluing.twin(), context);
+                           welding.twin(), context);
     if (!options.repair) require_area(mesh);
     flag_quality(mesh, report);
     mesh.set_report(std::move(report));

@@ -1,4 +1,4 @@
-#include "kernel/mesh/repair/gluing.h"
+#include "kernel/mesh/repair/welding.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -30,41 +30,41 @@ double opening(const Wing& from, const Wing& to) {
 
 }  // namespace
 
-Gluing::Gluing(std::span<const Vec3> positions, const CornerFaces& work)
+Welding::Welding(std::span<const Vec3> positions, const CornerFaces& work)
     : positions_(positions),
       work_(&work),
       twin_(work.faces.vertices.size(), kNoIndex),
       is_seam_(twin_.size(), 0),
       attempts_(static_cast<std::size_t>(work.faces.size()), 0) {}
 
-void Gluing::glue(Index a, Index b) {
+void Welding::weld(Index a, Index b) {
     twin_[a] = b;
     twin_[b] = a;
 }
 
-void Gluing::open(Index corner) {
+void Welding::open(Index corner) {
     const Index other = std::exchange(twin_[corner], kNoIndex);
     if (other != kNoIndex) twin_[other] = kNoIndex;
 }
 
-bool Gluing::is_closed() const {
+bool Welding::is_closed() const {
     return std::none_of(twin_.begin(), twin_.end(), [](Index t) { return t == kNoIndex; });
 }
 
-bool Gluing::glue_regular_edges() {
+bool Welding::weld_regular_edges() {
     regular_ = true;
     const DirectedEdges edges(static_cast<Index>(positions_.size()), work_->faces);
     edges.for_each_edge([&](std::span<const Index> corners) {
         if (corners.size() == 1) return;
         const bool pair = corners.size() == 2;
         if (pair && edges.ascending(corners[0]) != edges.ascending(corners[1]))
-            return glue(corners[0], corners[1]);
+            return weld(corners[0], corners[1]);
         regular_ = false;
     });
     return regular_;
 }
 
-void Gluing::glue_edges(Report& report) {
+void Welding::weld_edges(Report& report) {
     Finding crowded{FindingKind::edges_nonmanifold, ElementKind::edge, true, 0, {}, {}};
     Finding one_sided{FindingKind::edges_unorientable, ElementKind::edge, true, 0, {}, {}};
     const DirectedEdges edges(static_cast<Index>(positions_.size()), work_->faces);
@@ -72,11 +72,11 @@ void Gluing::glue_edges(Report& report) {
         if (corners.size() == 1) return;
         const Index low = edges.low(corners[0]), high = edges.high(corners[0]);
         if (corners.size() == 2 && edges.ascending(corners[0]) != edges.ascending(corners[1]))
-            return glue(corners[0], corners[1]);
+            return weld(corners[0], corners[1]);
         if (corners.size() > 2) {
             std::vector<DirectedCorner> directed;
             for (const Index c : corners) directed.push_back({c, edges.ascending(c)});
-            glue_around_edge(directed, (positions_[high] - positions_[low]).normalized());
+            weld_around_edge(directed, (positions_[high] - positions_[low]).normalized());
         }
         Finding& finding = corners.size() > 2 ? crowded : one_sided;
         ++finding.count;
@@ -86,7 +86,7 @@ void Gluing::glue_edges(Report& report) {
     if (one_sided.count > 0) report.add(std::move(one_sided));
 }
 
-void Gluing::glue_around_edge(std::span<const DirectedCorner> corners, const Vec3& axis) {
+void Welding::weld_around_edge(std::span<const DirectedCorner> corners, const Vec3& axis) {
     // So many faces at one edge bound no solid; they stay apart.
     constexpr std::size_t kMost = 64;
     if (corners.size() > kMost) return;
@@ -107,18 +107,18 @@ void Gluing::glue_around_edge(std::span<const DirectedCorner> corners, const Vec
     }
     std::sort(candidates.begin(), candidates.end());
     for (const auto& [angle, back, front] : candidates) {
-        if (twin_[back] == kNoIndex && twin_[front] == kNoIndex) glue(back, front);
+        if (twin_[back] == kNoIndex && twin_[front] == kNoIndex) weld(back, front);
     }
 }
 
-bool Gluing::back_to_back(Index a, Index b) const {
+bool Welding::back_to_back(Index a, Index b) const {
     const Vec3 one = vector_area(positions_, work_->faces[work_->face_of_corner[a]]);
     const Vec3 other = vector_area(positions_, work_->faces[work_->face_of_corner[b]]);
     constexpr double kOpposite = -0.99985;  // cosine of 179 degrees
     return one.dot(other) < kOpposite * one.norm() * other.norm();
 }
 
-void Gluing::glue_seams(std::span<const Index> label_of_face) {
+void Welding::weld_seams(std::span<const Index> label_of_face) {
     ValuePool<3> places;
     std::vector<Index> place(positions_.size(), kNoIndex);
     const auto place_of = [&](Index v) {
@@ -142,30 +142,30 @@ void Gluing::glue_seams(std::span<const Index> label_of_face) {
     });
     for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
         while (end < edges.size() && edges[end].same_place(edges[i])) ++end;
-        glue_seam(std::span(edges).subspan(i, end - i));
+        weld_seam(std::span(edges).subspan(i, end - i));
     }
 }
 
 // Open edges at one place: a pair is a seam. Where more lie there, as in copies of a torn surface,
 // those that bound the same piece of space belong together, if none is left over.
-void Gluing::glue_seam(std::span<const OpenEdge> edges) {
+void Welding::weld_seam(std::span<const OpenEdge> edges) {
     const auto ascending =
         std::count_if(edges.begin(), edges.end(), [](const OpenEdge& e) { return e.ascending; });
     if (2 * static_cast<std::size_t>(ascending) != edges.size()) return;
     if (edges.size() == 2) {
-        if (!back_to_back(edges[0].corner, edges[1].corner)) glue(edges[0].corner, edges[1].corner);
+        if (!back_to_back(edges[0].corner, edges[1].corner)) weld(edges[0].corner, edges[1].corner);
     } else {
         std::vector<DirectedCorner> directed;
         for (const OpenEdge& e : edges) directed.push_back({e.corner, e.ascending});
         const Index c = edges[0].corner;
         const Vec3 along = positions_[work_->faces.vertices[work_->next(c)]] -
                            positions_[work_->faces.vertices[c]];
-        glue_around_edge(directed, (edges[0].ascending ? along : Vec3(-along)).normalized());
+        weld_around_edge(directed, (edges[0].ascending ? along : Vec3(-along)).normalized());
     }
     for (const OpenEdge& e : edges) is_seam_[e.corner] = twin_[e.corner] != kNoIndex;
 }
 
-FanVertices Gluing::fans() const {
+FanVertices Welding::fans() const {
     const auto corner_count = static_cast<Index>(twin_.size());
     FanVertices result;
     result.of_corner.assign(twin_.size(), kNoIndex);
@@ -223,7 +223,7 @@ FanVertices Gluing::fans() const {
     return result;
 }
 
-void Gluing::open_seams_at(Index corner) {
+void Welding::open_seams_at(Index corner) {
     for (const bool clockwise : {true, false}) {
         Index at = corner;
         do {
@@ -238,7 +238,7 @@ void Gluing::open_seams_at(Index corner) {
 
 // First the seams at both ends of a doubled edge are opened; where that does not help, the edge
 // itself; and in the end the face stands alone, so that there is an end.
-void Gluing::open_around(Index corner) {
+void Welding::open_around(Index corner) {
     const Index f = work_->face_of_corner[corner];
     if (attempts_[f] == 1) {
         open_seams_at(corner);
@@ -250,7 +250,7 @@ void Gluing::open_around(Index corner) {
     }
 }
 
-std::vector<Index> Gluing::doubled_edges(const FanVertices& vertices) {
+std::vector<Index> Welding::doubled_edges(const FanVertices& vertices) {
     FaceList faces;
     faces.offsets = work_->faces.offsets;
     faces.vertices = vertices.of_corner;
@@ -259,7 +259,7 @@ std::vector<Index> Gluing::doubled_edges(const FanVertices& vertices) {
     edges.for_each_edge([&](std::span<const Index> corners) {
         if (corners.size() == 1) return;
         if (corners.size() == 2 && edges.ascending(corners[0]) != edges.ascending(corners[1]))
-            return glue(corners[0], corners[1]);
+            return weld(corners[0], corners[1]);
         doubled.insert(doubled.end(), corners.begin(), corners.end());
     });
     // A face that a fan passes twice is joined to itself.
@@ -272,7 +272,7 @@ std::vector<Index> Gluing::doubled_edges(const FanVertices& vertices) {
     return doubled;
 }
 
-FanVertices Gluing::number_fans() {
+FanVertices Welding::number_fans() {
     // So many rounds are not needed for anything but input made to take long.
     constexpr int kMostRounds = 100;
     FanVertices vertices = fans();

@@ -1,4 +1,4 @@
-/// Gluing: which faces are joined along which edges while polygons are made a manifold, and the
+/// Welding: which faces are joined along which edges while polygons are made a manifold, and the
 /// vertices that follow from it; private to kernel/mesh.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace lissom {
 
-/// Vertices of a manifold: one for each fan of glued corners.
+/// Vertices of a manifold: one for each fan of welded corners.
 struct FanVertices {
     std::vector<Index> of_corner;
     /// The lowest vertex of the soup at the fan's corners.
@@ -19,20 +19,20 @@ struct FanVertices {
     bool unchanged = false;
 };
 
-class Gluing {
+class Welding {
   public:
     /// `positions` and `work` must live as long.
-    Gluing(std::span<const Vec3> positions, const CornerFaces& work);
+    Welding(std::span<const Vec3> positions, const CornerFaces& work);
 
-    /// Glues faces where exactly two meet in opposite directions. False where other edges exist.
-    bool glue_regular_edges();
-    /// Glues faces along the edges where they share vertices: the two of a regular edge; where more
+    /// Welds faces where exactly two meet in opposite directions. False where other edges exist.
+    bool weld_regular_edges();
+    /// Welds faces along the edges where they share vertices: the two of a regular edge; where more
     /// meet, those that bound the same piece of space. Adds the edges left open to `report`.
-    void glue_edges(Report& report);
-    /// Glues pairs of open edges that lie at the same place in opposite directions, but not faces
+    void weld_edges(Report& report);
+    /// Welds pairs of open edges that lie at the same place in opposite directions, but not faces
     /// that are back to back, nor those with different `label_of_face` (empty: no labels). Where
     /// more than two lie there, those that bound the same piece of space are pairs.
-    void glue_seams(std::span<const Index> label_of_face);
+    void weld_seams(std::span<const Index> label_of_face);
     /// Numbers the fans: in the order of the soup's vertices, further fans of a vertex last. Opens
     /// what would join the same two vertices by more than one edge.
     FanVertices number_fans();
@@ -57,12 +57,12 @@ class Gluing {
         }
     };
 
-    void glue(Index a, Index b);
+    void weld(Index a, Index b);
     void open(Index corner);
-    // Glues faces at one edge in pairs that bound the same piece of space; the axis runs along the
+    // Welds faces at one edge in pairs that bound the same piece of space; the axis runs along the
     // ascending ones.
-    void glue_around_edge(std::span<const DirectedCorner> corners, const Vec3& axis);
-    void glue_seam(std::span<const OpenEdge> edges);
+    void weld_around_edge(std::span<const DirectedCorner> corners, const Vec3& axis);
+    void weld_seam(std::span<const OpenEdge> edges);
     bool back_to_back(Index a, Index b) const;
     FanVertices fans() const;
     // Corners on edges that join the same two vertices as another edge does.
@@ -73,7 +73,7 @@ class Gluing {
     std::span<const Vec3> positions_;
     const CornerFaces* work_;
     std::vector<Index> twin_;
-    // Corners whose edges were glued as seams.
+    // Corners whose edges were welded as seams.
     std::vector<char> is_seam_;
     bool regular_ = false;
     // How often an edge of each face was found doubled.

@@ -1,0 +1,153 @@
+/// Our sparse Cholesky factor beside CHOLMOD's supernodal one with the same ordering, on the
+/// squared Laplacian of a mesh, and beside the rate at which this machine multiplies matrices.
+
+#include <cholmod.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "kernel/io/mesh_file.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "kernel/solve/sparse/cholmod_view.h"
+#include "kernel/solve/sparse/sparse_system.h"
+#include "tests/bench/limits.h"
+#include "tests/bench/report.h"
+
+namespace lissom::bench {
+namespace {
+
+constexpr int kRounds = 7;
+constexpr Index kColumns = 3;
+
+// Armadillo of 43K vertices where it is there, else a generated mesh of that size.
+Mesh test_mesh() {
+    const auto path = std::filesystem::path(LISSOM_BENCH_DATA) / "models/armadillo_43k.obj";
+    if (std::filesystem::exists(path)) return load_mesh(path);
+    CactusOptions options;
+    options.vertices = 43000;
+    return make_cactus(options);
+}
+
+// L L + a little of the identity, with L the Laplacian of the mesh's edges.
+SymmetricMatrix squared_laplacian(const Mesh& mesh) {
+    std::vector<std::map<Index, double>> rows(at(mesh.vertex_count()));
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const auto corners = mesh.topology().face(f);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const Index a = corners[i], b = corners[(i + 1) % corners.size()];
+            rows[at(a)][b] = rows[at(b)][a] = -1.0;
+        }
+    }
+    for (Index v = 0; v < mesh.vertex_count(); ++v)
+        rows[at(v)][v] = static_cast<double>(rows[at(v)].size());
+    std::vector<Triplet> entries;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        entries.push_back({v, v, 1e-3});
+        for (const auto& [i, a] : rows[at(v)]) {
+            for (const auto& [j, b] : rows[at(v)]) entries.push_back({i, j, a * b});
+        }
+    }
+    return symmetric_from_triplets(mesh.vertex_count(), entries);
+}
+
+// CHOLMOD's supernodal factor by approximate minimum degree, as ours is ordered.
+class Cholmod {
+  public:
+    explicit Cholmod(const SymmetricMatrix& matrix) : view_(cholmod_view(matrix)) {
+        cholmod_start(&common_);
+        common_.supernodal = CHOLMOD_SUPERNODAL;
+        common_.nmethods = 1;
+        common_.method[0].ordering = CHOLMOD_AMD;
+        common_.postorder = 1;
+        factor_ = cholmod_analyze(&view_, &common_);
+        flops_ = common_.fl;
+    }
+    ~Cholmod() {
+        cholmod_free_factor(&factor_, &common_);
+        cholmod_finish(&common_);
+    }
+    Cholmod(const Cholmod&) = delete;
+    Cholmod& operator=(const Cholmod&) = delete;
+
+    /// Operations of the factorisation, by the pattern of its columns.
+    double flops() const { return flops_; }
+    void factor() { cholmod_factorize(&view_, factor_, &common_); }
+    void solve(std::vector<double>& b) {
+        cholmod_dense right{};
+        right.nrow = right.d = view_.nrow;
+        right.ncol = kColumns;
+        right.nzmax = b.size();
+        right.x = b.data();
+        right.xtype = CHOLMOD_REAL;
+        right.dtype = CHOLMOD_DOUBLE;
+        cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor_, &right, &common_);
+        cholmod_free_dense(&x, &common_);
+    }
+
+  private:
+    cholmod_common common_{};
+    cholmod_sparse view_;
+    cholmod_factor* factor_ = nullptr;
+    double flops_ = 0.0;
+};
+
+Context context_with(int threads) {
+    ContextOptions options;
+    options.threads = threads;
+    return Context(options);
+}
+
+void run_peer(Report& report, const SymmetricMatrix& matrix, SparseSystem& ours, Cholmod& theirs,
+              int threads) {
+    const Context context = context_with(threads);
+    const std::string blas = std::string("CHOLMOD with ") + set_blas_threads(threads);
+    const std::string on = threads == 1 ? ", 1 thread" : ", 2 threads";
+    const Quotient factor = seconds_quotient(
+        kRounds, [&] { theirs.factor(); }, [&] { ours.factor(matrix, context); });
+    report.add({"ours: factor" + on, 1e3 * factor.below, "ms"});
+    report.add_ratio(blas + " / ours: factor" + on, blas, factor, threads == 1 ? 4.0 : 7.0,
+                     Better::more);
+    std::vector<double> b(at(kColumns * matrix.size()), 1.0), x(b.size());
+    const Quotient solve = seconds_quotient(
+        3 * kRounds, [&] { theirs.solve(b); }, [&] { ours.solve(b, x, kColumns); });
+    report.add({"ours: solve, three right-hand sides" + on, 1e3 * solve.below, "ms"});
+    report.add_ratio(blas + " / ours: solve" + on, blas, solve, threads == 1 ? 2.0 : 3.0,
+                     Better::more);
+}
+
+void run(Report& report) {
+    const SymmetricMatrix matrix = squared_laplacian(test_mesh());
+    SparseSystem ours;
+    ours.analyze(matrix);
+    Cholmod theirs(matrix);
+    report.title("Squared Laplacian of " + std::to_string(matrix.size()) + " vertices");
+    for (const int threads : {1, 2}) run_peer(report, matrix, ours, theirs, threads);
+
+    const Context one = context_with(1), two = context_with(2);
+    report.add_ratio(
+        "factor on 1 thread / on 2", "1 thread",
+        seconds_quotient(
+            kRounds, [&] { ours.factor(matrix, one); }, [&] { ours.factor(matrix, two); }),
+        1.8, Better::more);
+    ProductLimit product;
+    report.add_ratio(
+        "factor: share of the matrix product's rate, 1 thread", "matrix product",
+        quotient_of(
+            kRounds, [&] { return theirs.flops() / seconds([&] { ours.factor(matrix, one); }); },
+            [&] { return product.rate(); }),
+        0.5, Better::more);
+    report.add_ratio("analysis / factor, 1 thread", "factor",
+                     seconds_quotient(
+                         3, [&] { ours.analyze(matrix); }, [&] { ours.factor(matrix, one); }));
+}
+
+}  // namespace
+}  // namespace lissom::bench
+
+int main(int argc, char** argv) {
+    lissom::bench::Report report(argc, argv);
+    lissom::bench::run(report);
+    return 0;
+}
