@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "kernel/core/error.h"
 #include "viewer/draw/legend.h"
@@ -42,16 +43,10 @@ void add_framed(const DrawnStrands& drawn, std::vector<Vec3>& points) {
 }
 
 // Everything that a standard view frames.
-std::vector<Vec3> framed_points(const Drawing& drawing) {
+std::vector<Vec3> framed_points(const Snapshot& snapshot) {
     std::vector<Vec3> points;
-    for (const DrawnMesh& drawn : drawing.meshes) {
-        for (const Vec3& p : drawn.mesh->positions()) points.push_back(drawn.transform(p));
-    }
-    for (const DrawnLine& line : drawing.lines) {
-        points.insert(points.end(), line.points.begin(), line.points.end());
-    }
-    for (const DrawnPoint& point : drawing.points) points.push_back(point.position);
-    for (const DrawnStrands& drawn : drawing.strands) add_framed(drawn, points);
+    for_each_point(snapshot, [&](const Vec3& p) { points.push_back(p); });
+    for (const DrawnStrands& drawn : snapshot.strands) add_framed(drawn, points);
     return points;
 }
 
@@ -93,18 +88,22 @@ std::vector<DrawnStrands> strands_of(const Picture& picture, std::optional<std::
     return result;
 }
 
+// All in one space.
+Snapshot whole(const Picture& picture, const ValueRange& range) {
+    return {picture.meshes,
+            strands_of(picture, std::nullopt),
+            {std::make_shared<const Overlay>(picture.marks)},
+            range};
+}
+
 // What every cell shows; only the first where all is in one space.
-std::vector<Drawing> drawings_of(const Picture& picture, const ValueRange& range) {
-    const std::vector<DrawnStrands> strands = strands_of(picture, std::nullopt);
-    if (picture.columns == 0) {
-        return {{picture.meshes, picture.lines, picture.points, strands, range}};
-    }
-    std::vector<Drawing> drawings;
+std::vector<Snapshot> cells_of(const Picture& picture, const Snapshot& all) {
+    if (picture.columns == 0) return {all};
+    std::vector<Snapshot> cells;
     for (std::size_t i = 0; i < picture.meshes.size(); ++i) {
-        drawings.push_back(
-            {{picture.meshes[i]}, picture.lines, picture.points, strands_of(picture, i), range});
+        cells.push_back({{picture.meshes[i]}, strands_of(picture, i), all.overlays, all.range});
     }
-    return drawings;
+    return cells;
 }
 
 ValueRange range_of(const Picture& picture, const std::optional<ValueRange>& of_values) {
@@ -141,14 +140,11 @@ void draw_caption(Image& image, const std::string& caption, const Cells& cells, 
     draw_text(image, caption, x, base, text, ink);
 }
 
-Camera camera_for(const Picture& picture, const Drawing& drawing, double aspect) {
+Camera camera_for(const Picture& picture, const Snapshot& framed, double aspect) {
     if (picture.camera) return *picture.camera;
     FramingOptions framing = picture.framing;
     framing.aspect = aspect;
-    const Drawing everything{
-        picture.meshes, picture.lines, picture.points, strands_of(picture, std::nullopt), {}};
-    const bool alone = picture.fit_each && picture.columns > 0;
-    return frame_points(picture.view, framed_points(alone ? drawing : everything), framing);
+    return frame_points(picture.view, framed_points(framed), framing);
 }
 
 }  // namespace
@@ -168,15 +164,16 @@ Image draw_picture(Renderer& renderer, const Picture& picture, const Context& co
     const bool has_legend = picture.legend && of_values;
     const int strip = has_legend ? legend_width(legend, options.height) : 0;
     const Cells cells(picture, options.width - strip, options.height);
-    const std::vector<Drawing> drawings = drawings_of(picture, legend.range);
+    const Snapshot all = whole(picture, legend.range);
+    const std::vector<Snapshot> snapshots = cells_of(picture, all);
 
     Image image(options.width, options.height);
     if (options.background) {
         fill_rectangle(image, 0, 0, image.width, image.height, *options.background);
     }
     Progress progress(context, "render");
-    for (std::size_t i = 0; i < drawings.size(); ++i) {
-        progress.step(1.0 / static_cast<double>(drawings.size()));
+    for (std::size_t i = 0; i < snapshots.size(); ++i) {
+        progress.step(1.0 / static_cast<double>(snapshots.size()));
         const int cell = static_cast<int>(i);
         RenderOptions part = options;
         part.width = cells.width(cell);
@@ -184,8 +181,8 @@ Image draw_picture(Renderer& renderer, const Picture& picture, const Context& co
         const double aspect = picture.captions.empty()
                                   ? cells.aspect()
                                   : static_cast<double>(part.width) / part.height;
-        const Camera camera = camera_for(picture, drawings[i], aspect);
-        image.paste(renderer.render(drawings[i], camera, part, context), cells.left(cell),
+        const Camera camera = camera_for(picture, picture.fit_each ? snapshots[i] : all, aspect);
+        image.paste(renderer.render(snapshots[i], camera, part, context), cells.left(cell),
                     cells.top(cell));
         if (!picture.captions.empty()) {
             draw_caption(image, picture.captions[i], cells, cell, ink_on(options.background));

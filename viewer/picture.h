@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/draw/drawing.h"
+#include "viewer/draw/snapshot.h"
 #include "viewer/renderer.h"
 
 namespace lissom {
@@ -20,8 +20,7 @@ struct PictureStrands {
 struct Picture {
     std::vector<DrawnMesh> meshes = {};
     /// Drawn with every mesh, in the world of the camera.
-    std::vector<DrawnLine> lines = {};
-    std::vector<DrawnPoint> points = {};
+    Overlay marks = {};
     /// In cells, those that name a mesh are drawn with that mesh, others with every mesh.
     std::vector<PictureStrands> strands = {};
 

@@ -1,15 +1,15 @@
-/// Renderer: draws meshes, lines and points into pictures with OpenGL, into a framebuffer of its
-/// own: no window, no display; strands over them without OpenGL.
+/// Renderer: pictures of snapshots, drawn with OpenGL into framebuffers of its own: no window, no
+/// display; strands over them without OpenGL. A picture is one update of a GpuScene and one
+/// draw_scene; whoever draws a scene again and again keeps it and calls these.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "kernel/sketch/camera.h"
-#include "viewer/draw/drawing.h"
 #include "viewer/draw/image.h"
 #include "viewer/draw/render_options.h"
+#include "viewer/draw/snapshot.h"
 #include "viewer/gl/platform.h"
 
 namespace lissom {
@@ -22,12 +22,11 @@ class Renderer {
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// The picture of `drawing` as `camera` sees it. The same input gives the same pixels on the
+    /// The picture of `snapshot` as `camera` sees it. The same input gives the same pixels on the
     /// same driver. May be called on any thread, by one at a time. Errors: invalid_argument and
-    /// out_of_range for options; not_finite for a transform, line or point; those of build_surface
-    /// and view_strands; memory_limit; no_display where the context is in use on another thread;
-    /// cancelled.
-    Image render(const Drawing& drawing, const Camera& camera, const RenderOptions& options = {},
+    /// out_of_range for options; those of GpuScene::update and view_strands; memory_limit;
+    /// no_display where the context is in use on another thread; cancelled.
+    Image render(const Snapshot& snapshot, const Camera& camera, const RenderOptions& options = {},
                  const Context& context = {});
 
     /// Throws where `options` cannot be drawn: invalid_argument, out_of_range.

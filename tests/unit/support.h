@@ -12,8 +12,15 @@
 
 namespace lissom::test {
 
+/// Says that a test does nothing because `what` is absent; a failure where the environment has
+/// `requirement`, as where everything that tests need is known to be there.
+inline void skip(const char* requirement, const std::string& what) {
+    if (std::getenv(requirement)) FAIL(requirement << " is set, and this is absent: " << what);
+    MESSAGE("skipped: " << what);
+}
+
 /// Path of a real mesh below the test data, or nothing where the data is absent: the test then says
-/// so and returns.
+/// so and returns, or fails where LISSOM_REQUIRE_DATA is set.
 ///
 ///     const auto path = data_file("models/lion.off");
 ///     if (!path) return;
@@ -21,7 +28,7 @@ inline std::optional<std::filesystem::path> data_file(const std::string& name) {
     const char* root = std::getenv("LISSOM_TEST_DATA");
     const std::filesystem::path path = std::filesystem::path(root ? root : ".") / name;
     if (root && std::filesystem::exists(path)) return path;
-    MESSAGE("skipped: test data " << name << " is absent");
+    skip("LISSOM_REQUIRE_DATA", "test data " + path.string());
     return std::nullopt;
 }
 

@@ -1,9 +1,9 @@
-/// Drawing: what a picture shows. Plain data, without OpenGL and without names of a script.
+/// What is drawn, and how it looks. Plain data, without OpenGL and without names of a script.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "kernel/hair/strands/strands.h"
@@ -49,18 +49,21 @@ struct MeshStyle {
     std::vector<double> values = {};
 };
 
-/// A mesh in the picture. The mesh must live until the picture is drawn.
+/// A mesh in the picture, which must not change while it is shared.
 struct DrawnMesh {
-    const Mesh* mesh = nullptr;
+    std::shared_ptr<const Mesh> mesh;
     MeshStyle style = {};
     /// From the mesh to the world of the camera.
     Affine transform = {};
+    /// The same from snapshot to snapshot of a scene, so that what did not change stays on the
+    /// graphics card. Several with one number are told apart by their order.
+    std::uint64_t object = 0;
 };
 
-/// Strands in the picture. They must live until the picture is drawn. They hide lines and points,
+/// Strands in the picture, which must not change while they are shared. They hide lines and points,
 /// also those before them.
 struct DrawnStrands {
-    const Strands* strands = nullptr;
+    std::shared_ptr<const Strands> strands;
     StrandStyle style = {};
     /// From the mesh that they grow on to the world of the camera.
     Affine transform = {};
@@ -85,15 +88,14 @@ struct DrawnPoint {
 struct ValueRange {
     double low = 0.0;
     double high = 1.0;
+
+    bool operator==(const ValueRange&) const = default;
 };
 
-struct Drawing {
-    std::vector<DrawnMesh> meshes = {};
+/// Marks that belong together, for instance the curves of a hairstyle or the axes of a gizmo.
+struct Overlay {
     std::vector<DrawnLine> lines = {};
     std::vector<DrawnPoint> points = {};
-    std::vector<DrawnStrands> strands = {};
-    /// The scale for the values of all meshes.
-    ValueRange range = {};
 };
 
 /// The smallest range that holds all finite values of `meshes`; nothing where there are none.

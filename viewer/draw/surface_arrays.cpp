@@ -3,10 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "kernel/core/error.h"
-#include "kernel/mesh/measure/triangulation.h"
 #include "viewer/draw/colormap.h"
 #include "viewer/draw/shading_normals.h"
 
@@ -103,13 +103,6 @@ std::uint32_t edge_flags(const Triangle& corners, Index first_corner, Index side
     return flags;
 }
 
-std::vector<Vec3> transformed(std::span<const Vec3> positions, const Affine& transform) {
-    std::vector<Vec3> result;
-    result.reserve(positions.size());
-    for (const Vec3& p : positions) result.push_back(transform(p));
-    return result;
-}
-
 // A normal for every corner, towards the outside.
 std::vector<Vec3> normals_for(const Topology& topology, std::span<const Vec3> positions,
                               const MeshStyle& style, const Context& context) {
@@ -130,56 +123,139 @@ float place_on_scale(double value, const ValueRange& range) {
     return static_cast<float>(extent > 0.0 ? (value - range.low) / extent : 0.5);
 }
 
-// Turns a triangle round, so that it is seen from its other side.
-void turn_round(SurfaceVertex* triangle) {
+// Calls `write(triangle, corner of it, corner of the mesh)` for all; a mirrored triangle goes round
+// the other way.
+template <typename Write>
+void for_each_corner(const SurfaceTriangles& triangles, const Context& context,
+                     const Write& write) {
+    const int second = triangles.mirrored ? 2 : 1;
+    const Index count = static_cast<Index>(triangles.faces->triangles.size());
+    context.parallel_for(0, count, kGrain, [&](Index begin, Index end) {
+        for (Index t = begin; t < end; ++t) {
+            write(t, 0, 0);
+            write(t, 1, second);
+            write(t, 2, 3 - second);
+        }
+    });
+}
+
+std::size_t entry(Index triangle, int corner) {
+    return 3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(corner);
+}
+
+std::array<float, 3> turned_if(bool mirrored, const std::array<float, 3>& v) {
+    return mirrored ? std::array<float, 3>{-v[0], -v[1], -v[2]} : v;
+}
+
+// Flags of a triangle that goes round the other way.
+std::uint32_t turned_round(std::uint32_t flags) {
     constexpr std::uint32_t kSwapped = 6;
-    std::swap(triangle[1], triangle[2]);
-    for (int i = 0; i < 3; ++i) {
-        std::uint32_t& flags = triangle[i].flags;
-        flags = (flags & ~kSwapped) | ((flags & 2) << 1) | ((flags & 4) >> 1);
-        for (float& part : triangle[i].normal) part = -part;
-    }
+    return (flags & ~kSwapped) | ((flags & 2) << 1) | ((flags & 4) >> 1);
+}
+
+// The same bits: NaN, which stands for no value, equals itself.
+bool same_numbers(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+bool same_attribute(const Attribute* a, const Attribute* b) {
+    if (!a || !b) return a == b;
+    return a->domain == b->domain && a->width == b->width && same_numbers(a->values, b->values);
+}
+
+bool same_positions(const DrawnMesh& a, const DrawnMesh& b) {
+    return a.mesh == b.mesh && a.transform == b.transform;
 }
 
 }  // namespace
 
-std::vector<SurfaceVertex> build_surface(const Mesh& mesh, const MeshStyle& style,
-                                         const Affine& to_picture, const ValueRange& range,
-                                         const Context& context) {
-    require_values(mesh, style.values);
-    const Topology& topology = mesh.topology();
-    const SurfaceColors colors(mesh, style);
-    const std::vector<Vec3> positions = transformed(mesh.positions(), to_picture);
-    const Triangulation triangulation = triangulate_faces(topology, positions);
-    const std::vector<Vec3> normals = normals_for(topology, positions, style, context);
-    const bool mirrored = to_picture.linear.determinant() < 0.0;
+bool SurfaceTriangles::same_as(const SurfaceTriangles& other) const {
+    return mirrored == other.mirrored &&
+           (faces == other.faces || faces->corners == other.faces->corners);
+}
 
-    const Index count = static_cast<Index>(triangulation.triangles.size());
-    std::vector<SurfaceVertex> vertices(3 * static_cast<std::size_t>(count));
-    context.parallel_for(0, count, kGrain, [&](Index begin, Index end) {
-        for (Index t = begin; t < end; ++t) {
-            const Index face = triangulation.face[t];
-            const Triangle& corners = triangulation.corners[t];
-            const Index sides = static_cast<Index>(topology.face(face).size());
-            const std::uint32_t flags = edge_flags(corners, topology.first_corner(face), sides) |
-                                        (colors.has_values(face) ? kValueFlag : 0u);
-            SurfaceVertex* const triangle = vertices.data() + 3 * static_cast<std::size_t>(t);
-            for (int i = 0; i < 3; ++i) {
-                const Index v = triangulation.triangles[t][i];
-                const float value =
-                    style.values.empty() ? 0.0f : place_on_scale(style.values[v], range);
-                triangle[i] = {to_floats(positions[v]), to_floats(normals[corners[i]]),
-                               colors.at(face, corners[i], v), value, flags};
-            }
-            if (mirrored) turn_round(triangle);
-        }
+std::vector<Vec3> picture_positions(const Mesh& mesh, const Affine& to_picture) {
+    std::vector<Vec3> result;
+    result.reserve(mesh.positions().size());
+    for (const Vec3& p : mesh.positions()) result.push_back(to_picture(p));
+    return result;
+}
+
+SurfaceTriangles surface_triangles(const Mesh& mesh, std::span<const Vec3> positions,
+                                   const Affine& to_picture, const SurfaceTriangles* known) {
+    const bool keep = known && mesh.topology().is_triangle_mesh();
+    return {
+        keep ? known->faces
+             : std::make_shared<const Triangulation>(triangulate_faces(mesh.topology(), positions)),
+        to_picture.linear.determinant() < 0.0};
+}
+
+std::vector<SurfaceVertex> surface_vertices(const Mesh& mesh, const MeshStyle& style,
+                                            std::span<const Vec3> positions,
+                                            const SurfaceTriangles& triangles,
+                                            const Context& context) {
+    const Triangulation& faces = *triangles.faces;
+    const std::vector<Vec3> normals = normals_for(mesh.topology(), positions, style, context);
+    std::vector<SurfaceVertex> vertices(3 * faces.triangles.size());
+    for_each_corner(triangles, context, [&](Index t, int to, int from) {
+        vertices[entry(t, to)] = {
+            to_floats(positions[faces.triangles[t][from]]),
+            turned_if(triangles.mirrored, to_floats(normals[faces.corners[t][from]]))};
     });
     return vertices;
 }
 
+std::vector<SurfaceColor> surface_colors(const Mesh& mesh, const MeshStyle& style,
+                                         const ValueRange& range, const SurfaceTriangles& triangles,
+                                         const Context& context) {
+    require_values(mesh, style.values);
+    const Topology& topology = mesh.topology();
+    const SurfaceColors colors(mesh, style);
+    const Triangulation& faces = *triangles.faces;
+    const auto flags_of = [&](Index t) {
+        const Index face = faces.face[t];
+        const Index sides = static_cast<Index>(topology.face(face).size());
+        const std::uint32_t edges =
+            edge_flags(faces.corners[t], topology.first_corner(face), sides);
+        return (triangles.mirrored ? turned_round(edges) : edges) |
+               (colors.has_values(face) ? kValueFlag : 0u);
+    };
+    std::vector<SurfaceColor> result(3 * faces.triangles.size());
+    for_each_corner(triangles, context, [&](Index t, int to, int from) {
+        const Index v = faces.triangles[t][from];
+        const float value = style.values.empty() ? 0.0f : place_on_scale(style.values[v], range);
+        result[entry(t, to)] = {colors.at(faces.face[t], faces.corners[t][from], v), value,
+                                flags_of(t)};
+    });
+    return result;
+}
+
+bool same_vertices(const DrawnMesh& a, const DrawnMesh& b) {
+    return same_positions(a, b) && a.style.shading == b.style.shading &&
+           a.style.crease == b.style.crease;
+}
+
+bool same_colors(const DrawnMesh& a, const DrawnMesh& b) {
+    const MeshStyle &s = a.style, &t = b.style;
+    const bool same_attributes =
+        a.mesh == b.mesh || !s.vertex_colors ||
+        same_attribute(a.mesh->attributes().find("color"), b.mesh->attributes().find("color"));
+    return same_attributes && s.vertex_colors == t.vertex_colors && s.color == t.color &&
+           s.region == t.region && s.region_color == t.region_color && s.handles == t.handles &&
+           s.handle_color == t.handle_color && same_numbers(s.values, t.values);
+}
+
+bool same_marks(const DrawnMesh& a, const DrawnMesh& b) {
+    const MeshStyle &s = a.style, &t = b.style;
+    if (s.boundaries != t.boundaries || s.handles != t.handles) return false;
+    if (!s.boundaries && s.handles.empty()) return true;
+    return same_positions(a, b) && s.handle_color == t.handle_color && s.line_width == t.line_width;
+}
+
 namespace {
 
-void add_boundaries(const DrawnMesh& drawn, SurfaceMarks& marks) {
+void add_boundaries(const DrawnMesh& drawn, Overlay& marks) {
     const auto& loops = drawn.mesh->topology().boundary_loops();
     for (std::size_t i = 0; i < loops.size(); ++i) {
         DrawnLine line{{}, true, category_color(i), drawn.style.line_width};
@@ -190,7 +266,7 @@ void add_boundaries(const DrawnMesh& drawn, SurfaceMarks& marks) {
     }
 }
 
-void add_loose_vertices(const DrawnMesh& drawn, const Region& handle, SurfaceMarks& marks) {
+void add_loose_vertices(const DrawnMesh& drawn, const Region& handle, Overlay& marks) {
     const Topology& topology = drawn.mesh->topology();
     std::vector<char> held(static_cast<std::size_t>(topology.vertex_count()), 0);
     for (const Index f : handle.faces()) {
@@ -205,8 +281,8 @@ void add_loose_vertices(const DrawnMesh& drawn, const Region& handle, SurfaceMar
 
 }  // namespace
 
-SurfaceMarks build_marks(const DrawnMesh& drawn) {
-    SurfaceMarks marks;
+Overlay build_marks(const DrawnMesh& drawn) {
+    Overlay marks;
     if (drawn.style.boundaries) add_boundaries(drawn, marks);
     for (const Region& handle : drawn.style.handles) add_loose_vertices(drawn, handle, marks);
     return marks;

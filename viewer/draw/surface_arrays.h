@@ -3,17 +3,23 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
+#include "kernel/mesh/measure/triangulation.h"
 #include "viewer/draw/drawing.h"
 
 namespace lissom {
 
-/// One corner of a triangle, as it lies in the vertex buffer.
+/// One corner of a triangle, as it lies in the vertex buffers: what changes when vertices move, and
+/// what does not.
 struct SurfaceVertex {
     std::array<float, 3> position;
     std::array<float, 3> normal;
-    /// Colour in sRGB.
+};
+struct SurfaceColor {
+    /// In sRGB.
     std::array<std::uint8_t, 4> color;
     /// Place on the colour scale: 0 is its low end, 1 the high.
     float value;
@@ -26,21 +32,45 @@ inline constexpr std::uint32_t kEdgeFlags = 7;
 /// The triangle has the colours of the scale.
 inline constexpr std::uint32_t kValueFlag = 8;
 
-/// Three entries a triangle, in the mesh's order of faces; `to_picture` maps the mesh to the space
-/// that is drawn. Where it mirrors, triangles are turned round so that the outside stays outside.
-/// Errors: topology_mismatch for a region or handle of another mesh; invalid_argument where the
-/// number of values is not that of vertices.
-std::vector<SurfaceVertex> build_surface(const Mesh& mesh, const MeshStyle& style,
-                                         const Affine& to_picture, const ValueRange& range,
-                                         const Context& context = {});
+/// The triangles that a mesh is drawn as.
+struct SurfaceTriangles {
+    std::shared_ptr<const Triangulation> faces;
+    /// The space that is drawn is the mesh's in a mirror: triangles are turned round, so that the
+    /// outside stays outside.
+    bool mirrored = false;
 
-/// Lines and points that the style asks for, in the world of the camera.
-struct SurfaceMarks {
-    std::vector<DrawnLine> lines;
-    std::vector<DrawnPoint> points;
+    /// Whether both have the same corners in the same order.
+    bool same_as(const SurfaceTriangles& other) const;
 };
 
-/// Boundary loops, and the vertices of handles that hold no face.
-SurfaceMarks build_marks(const DrawnMesh& drawn);
+/// Vertices where the picture has them.
+std::vector<Vec3> picture_positions(const Mesh& mesh, const Affine& to_picture);
+
+/// Triangles of `mesh` at `positions`. `known`, of the same topology, is taken over where vertices
+/// that move cannot change it; may be null.
+SurfaceTriangles surface_triangles(const Mesh& mesh, std::span<const Vec3> positions,
+                                   const Affine& to_picture, const SurfaceTriangles* known);
+
+/// Three entries a triangle, in the mesh's order of faces.
+std::vector<SurfaceVertex> surface_vertices(const Mesh& mesh, const MeshStyle& style,
+                                            std::span<const Vec3> positions,
+                                            const SurfaceTriangles& triangles,
+                                            const Context& context = {});
+
+/// The same of colours. Errors: topology_mismatch for a region or handle of another mesh;
+/// invalid_argument where the number of values is not that of vertices.
+std::vector<SurfaceColor> surface_colors(const Mesh& mesh, const MeshStyle& style,
+                                         const ValueRange& range, const SurfaceTriangles& triangles,
+                                         const Context& context = {});
+
+/// Whether surface_vertices gives the same of both; likewise surface_colors, where the triangles
+/// are the same; likewise build_marks.
+bool same_vertices(const DrawnMesh& a, const DrawnMesh& b);
+bool same_colors(const DrawnMesh& a, const DrawnMesh& b);
+bool same_marks(const DrawnMesh& a, const DrawnMesh& b);
+
+/// Lines and points that the style asks for, in the world of the camera: boundary loops, and the
+/// vertices of handles that hold no face.
+Overlay build_marks(const DrawnMesh& drawn);
 
 }  // namespace lissom

@@ -22,9 +22,9 @@ Occlusion::Occlusion()
       blur_("blur", shaders::kCommon, shaders::kCoverVertex, shaders::kOcclusionBlurFragment),
       no_vertices_(gl::make_vertex_array()) {}
 
-gl::Framebuffer Occlusion::compute(const GpuDrawing& drawing, const ViewParameters& view,
+gl::Framebuffer Occlusion::compute(const GpuScene& scene, const ViewParameters& view,
                                    const OcclusionOptions& options) const {
-    const gl::Framebuffer geometry = draw_geometry(drawing, view, options.extent);
+    const gl::Framebuffer geometry = draw_geometry(scene, view, options.extent);
     gl::Framebuffer openness = gl::Framebuffer::texture(options.extent, kOpennessFormat, false);
     const gl::Framebuffer half = gl::Framebuffer::texture(options.extent, kOpennessFormat, false);
 
@@ -51,7 +51,7 @@ gl::Framebuffer Occlusion::none() const {
     return openness;
 }
 
-gl::Framebuffer Occlusion::draw_geometry(const GpuDrawing& drawing, const ViewParameters& view,
+gl::Framebuffer Occlusion::draw_geometry(const GpuScene& scene, const ViewParameters& view,
                                          gl::Extent extent) const {
     gl::Framebuffer target = gl::Framebuffer::texture(extent, kGeometryFormat, true);
     target.bind();
@@ -63,7 +63,7 @@ gl::Framebuffer Occlusion::draw_geometry(const GpuDrawing& drawing, const ViewPa
     geometry_.use();
     geometry_.set("u_view", view.view);
     geometry_.set("u_projection", view.projection);
-    for (const GpuSurface& surface : drawing.surfaces) surface.draw();
+    scene.draw_surfaces();
     return target;
 }
 

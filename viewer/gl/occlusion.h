@@ -3,7 +3,7 @@
 #pragma once
 
 #include "viewer/draw/view_parameters.h"
-#include "viewer/gl/gpu_drawing.h"
+#include "viewer/gl/gpu_scene.h"
 
 namespace lissom {
 
@@ -21,13 +21,13 @@ class Occlusion {
 
     /// Texture with the openness (1: nothing near) and the depth of every pixel; depth 0 is
     /// background.
-    gl::Framebuffer compute(const GpuDrawing& drawing, const ViewParameters& view,
+    gl::Framebuffer compute(const GpuScene& scene, const ViewParameters& view,
                             const OcclusionOptions& options) const;
     /// The same where nothing darkens: one texel.
     gl::Framebuffer none() const;
 
   private:
-    gl::Framebuffer draw_geometry(const GpuDrawing& drawing, const ViewParameters& view,
+    gl::Framebuffer draw_geometry(const GpuScene& scene, const ViewParameters& view,
                                   gl::Extent extent) const;
     void blur(const gl::Framebuffer& from, const gl::Framebuffer& to,
               const gl::Framebuffer& geometry, bool along_y, double radius) const;

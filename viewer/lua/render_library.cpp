@@ -69,19 +69,24 @@ MeshStyle read_style(const Call& call) {
     return style;
 }
 
+// Shares the mesh with the script, which does nothing else while its picture is drawn.
+std::shared_ptr<const Mesh> mesh_of(const std::shared_ptr<MeshObject>& object) {
+    return {object, &object->mesh};
+}
+
 // A style without a mesh or strands is drawn on its head.
 void add_meshes(const Call& call, Picture& picture) {
     const MeshStyle style = read_style(call);
     if (call.has("style") && !call.has("mesh") && !call.has("meshes") && !call.has("strands")) {
-        picture.meshes.push_back({&call.object<HairstyleObject>("style")->head->mesh, style});
+        picture.meshes.push_back({mesh_of(call.object<HairstyleObject>("style")->head), style});
     }
     if (!call.has("mesh") && !call.has("meshes")) return;
     if (call.has("mesh")) {
-        picture.meshes.push_back({&call.object<MeshObject>("mesh")->mesh, style});
+        picture.meshes.push_back({mesh_of(call.object<MeshObject>("mesh").share()), style});
         return;
     }
     for (std::size_t i = 0; i < call.object_count("meshes"); ++i) {
-        picture.meshes.push_back({&call.object_at<MeshObject>("meshes", i)->mesh, style});
+        picture.meshes.push_back({mesh_of(call.object_at<MeshObject>("meshes", i).share()), style});
     }
 }
 
@@ -123,9 +128,11 @@ StrandStyle read_hair(const Call& call) {
 
 // Several strands and several meshes: one for each. Else the strands grow on the only mesh, or the
 // only strands on the first.
-PictureStrands placed_strands(const Call& call, const Strands& strands, std::size_t number,
-                              const StrandStyle& style, const Picture& picture) {
-    PictureStrands result{{&strands, style, {}}, std::nullopt};
+PictureStrands placed_strands(const Call& call, const Ref<StrandsObject>& object,
+                              std::size_t number, const StrandStyle& style,
+                              const Picture& picture) {
+    const Strands& strands = object->strands;
+    PictureStrands result{{{object.share(), &strands}, style, {}}, std::nullopt};
     const std::vector<DrawnMesh>& meshes = picture.meshes;
     if (meshes.empty()) return result;
     const std::size_t mesh = meshes.size() == 1 ? 0 : number;
@@ -147,14 +154,14 @@ void add_strands(const Call& call, Picture& picture) {
     if (!call.has("strands")) return;
     const StrandStyle style = read_hair(call);
     if (call.kind("strands") == Kind::object) {
-        const Strands& strands = call.object<StrandsObject>("strands")->strands;
+        const auto strands = call.object<StrandsObject>("strands");
         picture.strands.push_back(placed_strands(call, strands, 0, style, picture));
         return;
     }
     const std::size_t count = call.object_count("strands");
     if (picture.meshes.size() > 1) require_count(count, picture.meshes.size(), "strands");
     for (std::size_t i = 0; i < count; ++i) {
-        const Strands& strands = call.object_at<StrandsObject>("strands", i)->strands;
+        const auto strands = call.object_at<StrandsObject>("strands", i);
         picture.strands.push_back(placed_strands(call, strands, i, style, picture));
     }
 }
@@ -229,7 +236,7 @@ void read_scale(const Call& call, Picture& picture) {
 // Paths are drawn where their meshes are drawn.
 Affine place_of(const Picture& picture, const Mesh& mesh) {
     for (const DrawnMesh& drawn : picture.meshes) {
-        if (drawn.mesh == &mesh) return drawn.transform;
+        if (drawn.mesh.get() == &mesh) return drawn.transform;
     }
     return {};
 }
@@ -243,14 +250,14 @@ void add_paths(const Call& call, Picture& picture) {
         DrawnLine line{object->current().points(mesh), object->current().closed(),
                        category_color(i), width};
         for (Vec3& point : line.points) point = place(point);
-        picture.lines.push_back(std::move(line));
+        picture.marks.lines.push_back(std::move(line));
     }
 }
 
 void add_points(const Call& call, Picture& picture) {
     if (!call.has("points")) return;
     for (const Vec3& point : call.points("points")) {
-        picture.points.push_back({point, kHandleColor, 1.5 * line_width(call)});
+        picture.marks.points.push_back({point, kHandleColor, 1.5 * line_width(call)});
     }
 }
 
@@ -284,7 +291,7 @@ void add_style(const Call& call, Picture& picture) {
     const Affine place = place_of(picture, head);
     for (DrawnLine& line : style_lines(style, marks)) {
         for (Vec3& point : line.points) point = place(point);
-        picture.lines.push_back(std::move(line));
+        picture.marks.lines.push_back(std::move(line));
     }
 }
 

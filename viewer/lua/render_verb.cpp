@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 
 #include "bindings/cli/json.h"
 #include "kernel/io/mesh_file.h"
@@ -152,14 +153,11 @@ void options_of(Request& request) {
     request.style.crease = request.crease * kDegree;
 }
 
-std::vector<Mesh> load_meshes(const Request& request, const Context& context) {
-    std::vector<Mesh> meshes;
-    for (const std::string& path : request.meshes) meshes.push_back(load_mesh(path, {}, context));
-    return meshes;
-}
-
-void add_loaded(Request& request, const std::vector<Mesh>& meshes) {
-    for (const Mesh& mesh : meshes) request.picture.meshes.push_back({&mesh, request.style});
+void add_meshes(Request& request, const Context& context) {
+    for (const std::string& path : request.meshes) {
+        request.picture.meshes.push_back(
+            {std::make_shared<const Mesh>(load_mesh(path, {}, context)), request.style});
+    }
     if (!request.region.empty()) paint_region(request.picture, request.region);
     for (const std::string& name : request.handles) paint_handle(request.picture, name);
     if (!request.scalars.empty()) paint_values(request.picture, request.scalars);
@@ -180,8 +178,7 @@ int render(Program& program, const std::vector<std::string>& words) {
     require_picture_path(request.out);
     make_folder(std::filesystem::path(request.out).parent_path());
     options_of(request);
-    const std::vector<Mesh> meshes = load_meshes(request, program.context());
-    add_loaded(request, meshes);
+    add_meshes(request, program.context());
     Renderer renderer;
     const Image image = draw_picture(renderer, request.picture, program.context());
     save_picture(image, request.out, program.context());

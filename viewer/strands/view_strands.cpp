@@ -62,7 +62,7 @@ ViewStrands in_view(const DrawnStrands& drawn, const Affine& to_view) {
     require_style(drawn.style);
     const Affine map = to_view * drawn.transform;
     ViewStrands result;
-    result.strands = drawn.strands;
+    result.strands = drawn.strands.get();
     result.style = &drawn.style;
     result.count = drawn_count(drawn.style, drawn.strands->size());
     result.linear = (map.linear / drawn.style.unit).cast<float>();
@@ -89,18 +89,18 @@ Index drawn_count(const StrandStyle& style, Index size) {
     return std::clamp(count, Index{1}, size);
 }
 
-std::vector<ViewStrands> view_strands(const Drawing& drawing, const Mat4& view,
+std::vector<ViewStrands> view_strands(const Snapshot& snapshot, const Mat4& view,
                                       const Vec3& origin) {
     const Affine to_view = affine(view, origin);
     std::vector<ViewStrands> result;
-    for (const DrawnStrands& drawn : drawing.strands) result.push_back(in_view(drawn, to_view));
+    for (const DrawnStrands& drawn : snapshot.strands) result.push_back(in_view(drawn, to_view));
     return result;
 }
 
-std::vector<ViewTriangle> view_triangles(const Drawing& drawing, const Mat4& view,
+std::vector<ViewTriangle> view_triangles(const Snapshot& snapshot, const Mat4& view,
                                          const Vec3& origin) {
     std::vector<ViewTriangle> result;
-    for (const DrawnMesh& drawn : drawing.meshes) {
+    for (const DrawnMesh& drawn : snapshot.meshes) {
         const Affine map = affine(view, origin) * drawn.transform;
         std::vector<Eigen::Vector3f> points;
         for (const Vec3& p : drawn.mesh->positions()) points.push_back(map(p).cast<float>());

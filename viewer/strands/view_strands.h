@@ -7,7 +7,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/hair/strands/strands.h"
-#include "viewer/draw/drawing.h"
+#include "viewer/draw/snapshot.h"
 
 namespace lissom {
 
@@ -37,12 +37,13 @@ struct ViewStrands {
 
 using ViewTriangle = std::array<Eigen::Vector3f, 3>;
 
-/// The strands of `drawing`; `view` maps its world, moved so that `origin` is at zero, to view
+/// The strands of `snapshot`; `view` maps its world, moved so that `origin` is at zero, to view
 /// space. Errors: out_of_range for a style; invalid_argument for a unit.
-std::vector<ViewStrands> view_strands(const Drawing& drawing, const Mat4& view, const Vec3& origin);
+std::vector<ViewStrands> view_strands(const Snapshot& snapshot, const Mat4& view,
+                                      const Vec3& origin);
 
 /// The triangles of its meshes.
-std::vector<ViewTriangle> view_triangles(const Drawing& drawing, const Mat4& view,
+std::vector<ViewTriangle> view_triangles(const Snapshot& snapshot, const Mat4& view,
                                          const Vec3& origin);
 
 /// Linear colour of a point, without tones.

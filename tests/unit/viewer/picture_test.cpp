@@ -9,7 +9,7 @@ namespace {
 
 Picture picture_of(const Mesh& mesh, int width = 120, int height = 90) {
     Picture picture;
-    picture.meshes = {{&mesh}};
+    picture.meshes = {{test::shared(mesh)}};
     picture.options = test::small_options(width, height);
     return picture;
 }
@@ -46,7 +46,7 @@ TEST_CASE("cells show their meshes side by side at one scale") {
     if (!renderer) return;
     const Mesh large = make_sphere(), small = make_sphere({.radius = 0.5});
     Picture picture = picture_of(large, 200, 100);
-    picture.meshes.push_back({&small});
+    picture.meshes.push_back({test::shared(small)});
     picture.columns = 2;
     picture.framing.ortho = true;
     const Image image = draw_picture(*renderer, picture);
@@ -67,7 +67,7 @@ TEST_CASE("cells fill rows, and cells without a mesh stay empty") {
     if (!renderer) return;
     const Mesh sphere = make_sphere();
     Picture picture = picture_of(sphere, 100, 100);
-    picture.meshes.resize(3, {&sphere});
+    picture.meshes.resize(3, {test::shared(sphere)});
     picture.columns = 2;
     const Image image = draw_picture(*renderer, picture);
     CHECK(image.pixel(25, 75)[3] == 255);
@@ -80,7 +80,7 @@ TEST_CASE("captions stand below their cells, and meshes make room for them") {
     if (!renderer) return;
     const Mesh sphere = make_sphere();
     Picture picture = picture_of(sphere, 400, 200);
-    picture.meshes.resize(2, {&sphere});
+    picture.meshes.resize(2, {test::shared(sphere)});
     picture.columns = 2;
     picture.captions = {"before", ""};
     const Image image = draw_picture(*renderer, picture);
@@ -124,7 +124,7 @@ TEST_CASE("lines and points are framed and drawn without any mesh") {
     const auto renderer = test::make_renderer();
     if (!renderer) return;
     Picture picture;
-    picture.lines = {{{Vec3(0, 0, 0), Vec3(1, 1, 0)}}};
+    picture.marks.lines = {{{Vec3(0, 0, 0), Vec3(1, 1, 0)}}};
     picture.options = test::small_options();
     CHECK(test::covered(draw_picture(*renderer, picture)) > 100.0);
 }

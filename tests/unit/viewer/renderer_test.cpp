@@ -13,8 +13,8 @@ using test::small_options;
 
 namespace {
 
-Drawing drawing_of(const Mesh& mesh, const MeshStyle& style = {}) {
-    return {.meshes = {{&mesh, style}}};
+Snapshot drawing_of(const Mesh& mesh, const MeshStyle& style = {}) {
+    return {.meshes = {{test::shared(mesh), style}}};
 }
 
 // The colour where a world point is seen.
@@ -61,12 +61,12 @@ TEST_CASE("strands change what is near them, and shade the rest") {
         offsets.push_back(offsets.back() + 2);
     }
     const Strands strands(points, offsets);
-    Drawing drawing = drawing_of(square);
+    Snapshot drawing = drawing_of(square);
     const Image bare = renderer->render(drawing, front_camera(2.4), small_options());
     StrandStyle clear;
     clear.shadow = 0.0;
     clear.scalp_tint = 0.0;
-    drawing.strands.push_back({&strands, clear, {}});
+    drawing.strands.push_back({test::shared(strands), clear, {}});
     const Image haired = renderer->render(drawing, front_camera(2.4), small_options());
     CHECK(test::difference(test::crop(bare, 0, 0, 60, 96), test::crop(haired, 0, 0, 60, 96)) <= 1);
     CHECK(test::difference(bare, haired) > 5);
@@ -168,19 +168,22 @@ TEST_CASE("lines have their width in pixels, are hidden by surfaces and cut at t
     const Mesh square = test::make_square();
     const Color red{1.0, 0.0, 0.0};
     const DrawnLine across{{Vec3(-5, 0, 0), Vec3(5, 0, 0)}, false, red, 8.0};
-    const Image line = renderer->render({.lines = {across}}, front_camera(2.0), small_options());
+    const Image line = renderer->render({.overlays = test::marks({.lines = {across}})},
+                                        front_camera(2.0), small_options());
     CHECK(test::covered(line) == doctest::Approx(96.0 * 8.0).epsilon(0.01));
 
     DrawnLine behind = across;
     for (Vec3& p : behind.points) p.z() = -1.0;
-    const Image hidden = renderer->render({.meshes = {{&square}}, .lines = {behind}},
-                                          front_camera(4.0), small_options());
+    const Image hidden = renderer->render(
+        {.meshes = {{test::shared(square)}}, .overlays = test::marks({.lines = {behind}})},
+        front_camera(4.0), small_options());
     CHECK(test::is_gray(hidden.color(48, 48)));
     CHECK(hidden.color(5, 48).r > 0.9);
 
     const Camera inside({.eye = Vec3(0, 0, 0), .target = Vec3(0, 0, -1)});
     const DrawnLine past{{Vec3(0.1, -0.1, -9), Vec3(0.1, -0.1, 2)}, false, red, 4.0};
-    const Image cut = renderer->render({.lines = {past}}, inside, small_options());
+    const Image cut =
+        renderer->render({.overlays = test::marks({.lines = {past}})}, inside, small_options());
     CHECK(test::covered(cut) > 100.0);
     CHECK(cut.color(95, 95).r > 0.9);
     CHECK(cut.pixel(10, 10)[3] == 0);
@@ -191,10 +194,12 @@ TEST_CASE("points have their radius in pixels and stand before the surface they 
     if (!renderer) return;
     const Mesh square = test::make_square();
     const DrawnPoint point{Vec3::Zero(), kHandleColor, 10.0};
-    const Image alone = renderer->render({.points = {point}}, front_camera(2.0), small_options());
+    const Image alone = renderer->render({.overlays = test::marks({.points = {point}})},
+                                         front_camera(2.0), small_options());
     CHECK(test::covered(alone) == doctest::Approx(kPi * 100.0).epsilon(0.02));
-    const Image image = renderer->render({.meshes = {{&square}}, .points = {point}},
-                                         front_camera(2.5), small_options(97, 97));
+    const Image image = renderer->render(
+        {.meshes = {{test::shared(square)}}, .overlays = test::marks({.points = {point}})},
+        front_camera(2.5), small_options(97, 97));
     CHECK(test::is_purple(image.color(48, 48)));
     CHECK(test::is_gray(image.color(48, 70)));
 }
@@ -286,7 +291,7 @@ TEST_CASE("a mirrored mesh gives the mirrored silhouette, lit from outside") {
     const auto renderer = test::make_renderer();
     if (!renderer) return;
     const Mesh cactus = make_cactus({.vertices = 2000});
-    DrawnMesh mirrored{&cactus};
+    DrawnMesh mirrored{test::shared(cactus)};
     mirrored.transform = scaling(Vec3(-1, 1, 1), Vec3::Zero());
     const Camera camera({.eye = Vec3(0, 1, 10), .target = Vec3(0, 1, 0), .ortho = 2.4});
     const Image plain = renderer->render(drawing_of(cactus), camera, small_options());
@@ -306,7 +311,7 @@ TEST_CASE("a mesh far from the origin is drawn as well as one at it") {
     const Vec3 far_away(1e7, -2e7, 3e7);
     const Vec3 eye(2, 3, 2);
     const Image near = renderer->render(drawing_of(torus), Camera({.eye = eye}), small_options());
-    DrawnMesh moved{&torus};
+    DrawnMesh moved{test::shared(torus)};
     moved.transform = translation(far_away);
     const Camera camera({.eye = far_away + eye, .target = far_away});
     const Image image = renderer->render({.meshes = {moved}}, camera, small_options());
@@ -382,14 +387,14 @@ TEST_CASE("NaN in a drawing is refused") {
     if (!renderer) return;
     const Mesh square = test::make_square();
     const Vec3 nan = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-    DrawnMesh drawn{&square};
+    DrawnMesh drawn{test::shared(square)};
     drawn.transform.translation = nan;
-    const auto code = [&](const Drawing& drawing) {
+    const auto code = [&](const Snapshot& drawing) {
         return test::error_of([&] { renderer->render(drawing, front_camera(1.0)); }).code();
     };
     CHECK(code({.meshes = {drawn}}) == ErrorCode::not_finite);
-    CHECK(code({.lines = {{{nan, nan}}}}) == ErrorCode::not_finite);
-    CHECK(code({.points = {{nan}}}) == ErrorCode::not_finite);
+    CHECK(code({.overlays = test::marks({.lines = {{{nan, nan}}}})}) == ErrorCode::not_finite);
+    CHECK(code({.overlays = test::marks({.points = {{nan}}})}) == ErrorCode::not_finite);
 }
 
 TEST_CASE("a cancel ends drawing, and the renderer draws again afterwards") {

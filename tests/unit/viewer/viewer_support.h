@@ -1,9 +1,12 @@
 /// Helpers shared by the tests of the renderer.
 #pragma once
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "kernel/mesh/mesh.h"
@@ -12,15 +15,57 @@
 
 namespace lissom::test {
 
-/// A renderer, or null where this machine has none: the test then says so and returns.
-inline std::unique_ptr<Renderer> make_renderer() {
+/// A context whose driver's complaints are failures of the test.
+class StrictPlatform : public Platform {
+  public:
+    explicit StrictPlatform(std::unique_ptr<Platform> inner) : inner_(std::move(inner)) {}
+
+    void enter() override {
+        inner_->enter();
+        if (!epoxy_has_gl_extension("GL_KHR_debug")) return;
+        glEnable(GL_DEBUG_OUTPUT);
+        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+        glDebugMessageCallback(&report, nullptr);
+    }
+    void leave() noexcept override { inner_->leave(); }
+
+  private:
+    static void EPOXY_CALLSPEC report(GLenum, GLenum type, GLuint, GLenum, GLsizei,
+                                      const GLchar* message, const void*) {
+        if (type == GL_DEBUG_TYPE_PERFORMANCE || type == GL_DEBUG_TYPE_OTHER) return;
+        ADD_FAIL_CHECK_AT(__FILE__, __LINE__, "OpenGL says: " << message);
+    }
+
+    std::unique_ptr<Platform> inner_;
+};
+
+/// A context, or null where this machine has none: the test then says so and returns, or fails
+/// where LISSOM_REQUIRE_GL is set.
+inline std::unique_ptr<Platform> make_platform() {
     try {
-        return std::make_unique<Renderer>();
+        return std::make_unique<StrictPlatform>(make_egl_platform());
     } catch (const Error& error) {
         if (error.code() != ErrorCode::no_display) throw;
-        MESSAGE("skipped: " << error.message());
+        skip("LISSOM_REQUIRE_GL", error.message());
         return nullptr;
     }
+}
+
+/// The same for a renderer.
+inline std::unique_ptr<Renderer> make_renderer() {
+    std::unique_ptr<Platform> platform = make_platform();
+    return platform ? std::make_unique<Renderer>(std::move(platform)) : nullptr;
+}
+
+/// As a snapshot holds meshes and strands. Copies share the topology, so that regions stay valid.
+template <typename T>
+std::shared_ptr<const T> shared(T content) {
+    return std::make_shared<const T>(std::move(content));
+}
+
+/// One overlay.
+inline std::vector<std::shared_ptr<const Overlay>> marks(Overlay overlay) {
+    return {shared(std::move(overlay))};
 }
 
 /// The square [-1, 1] x [-1, 1] in the xy plane, which faces +z, as one quad.

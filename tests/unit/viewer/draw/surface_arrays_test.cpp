@@ -11,12 +11,22 @@ using namespace lissom;
 
 namespace {
 
-std::vector<SurfaceVertex> build(const Mesh& mesh, const MeshStyle& style = {},
-                                 const Affine& transform = {}) {
-    return build_surface(mesh, style, transform, {0.0, 1.0});
+// A corner with all that is drawn of it.
+struct Corner : SurfaceVertex, SurfaceColor {};
+
+std::vector<Corner> build(const Mesh& mesh, const MeshStyle& style = {},
+                          const Affine& transform = {}) {
+    const std::vector<Vec3> positions = picture_positions(mesh, transform);
+    const SurfaceTriangles triangles = surface_triangles(mesh, positions, transform, nullptr);
+    const auto vertices = surface_vertices(mesh, style, positions, triangles);
+    const auto colors = surface_colors(mesh, style, {0.0, 1.0}, triangles);
+    REQUIRE(vertices.size() == colors.size());
+    std::vector<Corner> corners;
+    for (std::size_t i = 0; i < vertices.size(); ++i) corners.push_back({vertices[i], colors[i]});
+    return corners;
 }
 
-std::array<std::uint8_t, 4> color_of(const SurfaceVertex& vertex) {
+std::array<std::uint8_t, 4> color_of(const Corner& vertex) {
     return vertex.color;
 }
 
@@ -29,7 +39,7 @@ Vec3 to_vec(const std::array<float, 3>& v) {
 }
 
 // Normal of triangle `t` by its winding.
-Vec3 winding(const std::vector<SurfaceVertex>& vertices, std::size_t t) {
+Vec3 winding(const std::vector<Corner>& vertices, std::size_t t) {
     const Vec3 a = to_vec(vertices[3 * t].position), b = to_vec(vertices[3 * t + 1].position);
     return (b - a).cross(to_vec(vertices[3 * t + 2].position) - a).normalized();
 }
@@ -42,7 +52,7 @@ TEST_CASE("the diagonal of a quad is no edge, all sides of a triangle are") {
     CHECK(sides(quad[0].flags) == 2);
     CHECK(sides(quad[3].flags) == 2);
     const auto triangles = build(make_sphere({.segments = 2, .kind = SphereKind::triangles}));
-    for (const SurfaceVertex& vertex : triangles) CHECK(sides(vertex.flags) == 3);
+    for (const Corner& vertex : triangles) CHECK(sides(vertex.flags) == 3);
 }
 
 TEST_CASE("a polygon of n sides has n edges") {
@@ -100,7 +110,7 @@ TEST_CASE(
     style.region = Region(bar.shared_topology(), upper);
     style.handles = {Region(bar.shared_topology(), top)};
     int regions = 0, handles = 0;
-    for (const SurfaceVertex& vertex : build(bar, style)) {
+    for (const Corner& vertex : build(bar, style)) {
         regions += color_of(vertex) == to_bytes(kRegionColor);
         handles += color_of(vertex) == to_bytes(kHandleColor);
     }
@@ -117,7 +127,7 @@ TEST_CASE(
     style.values[0] = std::numeric_limits<double>::quiet_NaN();
     style.handles = {*box.find_region("top")};
     int on_scale = 0, without = 0, handle = 0;
-    for (const SurfaceVertex& vertex : build(box, style)) {
+    for (const Corner& vertex : build(box, style)) {
         if (vertex.flags & kValueFlag) {
             ++on_scale;
             CHECK(vertex.value == 0.5f);
@@ -139,19 +149,19 @@ TEST_CASE(
         Mesh square = test::make_square();
         square.attributes().add({"color", domain, 3, ScalarType::float32, red_first});
         bool red = false, own = false;
-        for (const SurfaceVertex& vertex : build(square)) {
+        for (const Corner& vertex : build(square)) {
             red = red || color_of(vertex) == to_bytes({1, 0, 0});
             own = own || color_of(vertex) == to_bytes(kClayColor);
         }
         CHECK(red);
         CHECK(own);
-        for (const SurfaceVertex& vertex : build(square, {.vertex_colors = false})) {
+        for (const Corner& vertex : build(square, {.vertex_colors = false})) {
             CHECK(color_of(vertex) == to_bytes(kClayColor));
         }
     }
     Mesh square = test::make_square();
     square.attributes().add({"color", Domain::face, 4, ScalarType::float32, {0, 1, 0, 1}});
-    for (const SurfaceVertex& vertex : build(square)) {
+    for (const Corner& vertex : build(square)) {
         CHECK(color_of(vertex) == to_bytes({0, 1, 0}));
     }
 }
@@ -173,7 +183,7 @@ TEST_CASE("boundary loops become lines of different colours, lone handle vertice
     style.boundaries = true;
     style.handles = {Region(tube.shared_topology(), {3})};
     const Affine moved = translation(Vec3(1, 2, 3));
-    const SurfaceMarks marks = build_marks({&tube, style, moved});
+    const Overlay marks = build_marks({test::shared(tube), style, moved});
     REQUIRE(marks.lines.size() == 2);
     CHECK(marks.lines[0].points.size() == 8);
     CHECK(marks.lines[0].closed);
@@ -184,7 +194,7 @@ TEST_CASE("boundary loops become lines of different colours, lone handle vertice
 
 TEST_CASE("the range of values leaves out NaN and is nothing without values") {
     const Mesh square = test::make_square();
-    DrawnMesh drawn{&square};
+    DrawnMesh drawn{test::shared(square)};
     CHECK_FALSE(range_of_values({drawn}));
     drawn.style.values = {3.0, std::numeric_limits<double>::quiet_NaN(), -1.0, 2.0};
     const auto range = range_of_values({drawn, drawn});

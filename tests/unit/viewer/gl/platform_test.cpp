@@ -25,7 +25,8 @@ TEST_CASE("drawing leaves no context current") {
     const auto renderer = test::make_renderer();
     if (!renderer) return;
     const Mesh square = test::make_square();
-    renderer->render({.meshes = {{&square}}}, test::front_camera(3.0), test::small_options());
+    renderer->render({.meshes = {{test::shared(square)}}}, test::front_camera(3.0),
+                     test::small_options());
     CHECK(eglGetCurrentContext() == EGL_NO_CONTEXT);
 }
 
@@ -37,7 +38,8 @@ TEST_CASE("the context of a host is current again after drawing") {
     const EGLContext context = eglGetCurrentContext();
     REQUIRE(context != EGL_NO_CONTEXT);
     const Mesh square = test::make_square();
-    renderer->render({.meshes = {{&square}}}, test::front_camera(3.0), test::small_options());
+    renderer->render({.meshes = {{test::shared(square)}}}, test::front_camera(3.0),
+                     test::small_options());
     CHECK(eglGetCurrentContext() == context);
 }
 
@@ -45,7 +47,7 @@ TEST_CASE("renderers may come, go and live side by side") {
     const auto first = test::make_renderer();
     if (!first) return;
     const Mesh box = make_box();
-    const Drawing drawing{.meshes = {{&box}}};
+    const Snapshot drawing{.meshes = {{test::shared(box)}}};
     const Camera camera = test::front_camera(2.0);
     const Image image = first->render(drawing, camera, test::small_options());
     for (int i = 0; i < 5; ++i) {

@@ -108,8 +108,8 @@ TEST_CASE("strand layer: meshes hide what is behind them, strands what is behind
     for (Vec3& p : square.edit_positions()) p *= 0.5;
     const Strands behind = curtain(100, -0.5, 0.01), before = curtain(100, 0.5, 0.01);
     const auto with_square = [&](const Strands& strands) {
-        Drawing drawing = drawing_of(strands);
-        drawing.meshes.push_back({&square});
+        Snapshot drawing = drawing_of(strands);
+        drawing.meshes.push_back({test::shared(square)});
         return layer_of(drawing, front_view());
     };
     const StrandLayer hidden = with_square(behind), shown = with_square(before);
@@ -134,8 +134,8 @@ TEST_CASE("strand layer: the same to the bit for any number of threads") {
     Mesh sphere = make_sphere({.segments = 16});
     for (Vec3& p : sphere.edit_positions()) p *= 0.4;
     const Strands strands = curtain(3000, 0.3, 0.001);
-    Drawing drawing = drawing_of(strands);
-    drawing.meshes.push_back({&sphere});
+    Snapshot drawing = drawing_of(strands);
+    drawing.meshes.push_back({test::shared(sphere)});
     const auto with = [&](int threads) {
         ContextOptions options;
         options.threads = threads;

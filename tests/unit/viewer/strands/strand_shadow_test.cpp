@@ -92,7 +92,7 @@ TEST_CASE("strand shadow: strands shade what is below them, more strands more") 
     };
     const auto light_below = [&](Index count, const StrandStyle& style) {
         const Strands strands = mat(count);
-        const Drawing drawing = test::drawing_of(strands, style);
+        const Snapshot drawing = test::drawing_of(strands, style);
         const auto scene = view_strands(drawing, Mat4::Identity(), Vec3::Zero());
         return StrandShadow(scene, {}).light({0.0f, -0.03f, 0.0f});
     };
@@ -108,8 +108,8 @@ TEST_CASE("strand shadow: strands shade what is below them, more strands more") 
     StrandStyle part;
     part.count = 4000;
     const Strands all = test::curtain(8000, 0.0, 5e-4);
-    const Drawing whole = test::drawing_of(all), half = test::drawing_of(all, part);
-    const auto light = [](const Drawing& drawing) {
+    const Snapshot whole = test::drawing_of(all), half = test::drawing_of(all, part);
+    const auto light = [](const Snapshot& drawing) {
         const auto scene = view_strands(drawing, Mat4::Identity(), Vec3::Zero());
         return StrandShadow(scene, {}).light({0.1f, 0.0f, -0.03f});
     };
@@ -122,8 +122,8 @@ TEST_CASE("strand shadow: a mesh shades strands behind it, not those on it") {
     const Strands strands =
         test::strands_of({{Vec3(0, 0, 0.004), Vec3(0.01, 0, 0.004)},
                           {Vec3(0.03, -0.03, -0.05), Vec3(0.04, -0.03, -0.05)}});
-    Drawing drawing = test::drawing_of(strands);
-    drawing.meshes.push_back({&square});
+    Snapshot drawing = test::drawing_of(strands);
+    drawing.meshes.push_back({test::shared(square)});
     const auto drawn = view_strands(drawing, Mat4::Identity(), Vec3::Zero());
     const auto triangles = view_triangles(drawing, Mat4::Identity(), Vec3::Zero());
     const StrandShadow shadow(drawn, triangles);
@@ -142,7 +142,7 @@ TEST_CASE("strand shadow: the scalp takes the hair's colour where many roots are
     lines.push_back({Vec3(0.12, 0, 0), Vec3(0.12, 0, 0.05)});
     Strands strands = test::strands_of(lines);
     strands.set_colors({Eigen::Vector3f(0.5f, 0.25f, 0.125f)});
-    const Drawing drawing = test::drawing_of(strands);
+    const Snapshot drawing = test::drawing_of(strands);
     const auto drawn = view_strands(drawing, Mat4::Identity(), Vec3::Zero());
     const StrandShadow shadow(drawn, {});
     const auto tint = [&](const Vector3f& p) {
@@ -162,7 +162,7 @@ TEST_CASE("strand shadow: no strands, or only broken ones, are no shade") {
     const double nan = std::nan("");
     const Strands broken = test::strands_of({{Vec3(nan, 0, 0), Vec3(0, nan, 0)}, {Vec3(0, 0, 0)}});
     for (const Strands* strands : {&nothing, &broken}) {
-        const Drawing drawing = test::drawing_of(*strands);
+        const Snapshot drawing = test::drawing_of(*strands);
         const auto drawn = view_strands(drawing, Mat4::Identity(), Vec3::Zero());
         const StrandShadow shadow(drawn, {});
         CHECK(shadow.light({0, 0, 0}).key == Approx(1.0));

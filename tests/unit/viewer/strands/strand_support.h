@@ -49,13 +49,13 @@ inline ViewParameters front_view() {
     return view;
 }
 
-inline Drawing drawing_of(const Strands& strands, const StrandStyle& style = {}) {
-    Drawing drawing;
-    drawing.strands.push_back({&strands, style, {}});
+inline Snapshot drawing_of(const Strands& strands, const StrandStyle& style = {}) {
+    Snapshot drawing;
+    drawing.strands.push_back({shared(strands), style, {}});
     return drawing;
 }
 
-inline StrandLayer layer_of(const Drawing& drawing, const ViewParameters& view,
+inline StrandLayer layer_of(const Snapshot& drawing, const ViewParameters& view,
                             const RenderOptions& options = small_options(),
                             const Context& context = {}) {
     const StrandScene scene{view_strands(drawing, view.view, Vec3::Zero()),

@@ -1,0 +1,324 @@
+#include "viewer/gl/gpu_scene.h"
+
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/hair/strands/strand_measures.h"
+
+namespace lissom {
+namespace {
+
+// How far the origin may be from the center, as a multiple of the size: positions are floats about
+// it.
+constexpr double kOriginReach = 4.0;
+
+using Floats = std::array<float, 3>;
+using Bytes = std::array<std::uint8_t, 4>;
+
+struct LineSegment {
+    Floats begin, end;
+    Bytes color;
+    float width;
+};
+
+struct Ball {
+    Floats position;
+    Bytes color;
+    float radius;
+};
+
+Floats floats_of(const Vec3& v) {
+    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+// One attribute of a vertex buffer's entries.
+struct Field {
+    GLuint location;
+    GLint parts;
+    GLenum type;
+    std::size_t offset;
+};
+
+void read_field(const Field& field, std::size_t stride) {
+    const void* const offset = reinterpret_cast<const void*>(field.offset);
+    const GLsizei step = static_cast<GLsizei>(stride);
+    glEnableVertexAttribArray(field.location);
+    if (field.type == GL_UNSIGNED_INT) {
+        glVertexAttribIPointer(field.location, field.parts, field.type, step, offset);
+    } else {
+        glVertexAttribPointer(field.location, field.parts, field.type,
+                              field.type == GL_UNSIGNED_BYTE, step, offset);
+    }
+}
+
+void read_fields(const gl::Buffer& buffer, std::initializer_list<Field> fields,
+                 std::size_t stride) {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+    for (const Field& field : fields) read_field(field, stride);
+}
+
+// Makes what a snapshot needs of what the scene before it has.
+class Upload {
+  public:
+    Upload(const Vec3& origin, const ValueRange& range, const Context& context)
+        : origin_(origin), range_(range), context_(context) {}
+
+    const Uploads& total() const { return total_; }
+
+    // `before` is the same object in the scene before, drawn about the same origin with `known`
+    // for a range; may be null.
+    std::shared_ptr<const GpuSurface> surface(const DrawnMesh& drawn,
+                                              const std::shared_ptr<const GpuSurface>& before,
+                                              const ValueRange& known);
+    std::shared_ptr<const GpuMarks> marks(const Overlay& overlay);
+
+  private:
+    template <typename Entry>
+    gl::Buffer buffer(const std::vector<Entry>& entries, std::size_t Uploads::*kind) {
+        const std::span<const std::byte> bytes = std::as_bytes(std::span(entries));
+        gl::Buffer result = gl::make_vertex_buffer(bytes);
+        total_.*kind += bytes.size();
+        ++total_.calls;
+        return result;
+    }
+    template <typename Entry>
+    GpuMarks::Array instances(const std::vector<Entry>& entries,
+                              std::initializer_list<Field> fields);
+    void fill(GpuSurface& surface, const GpuSurface* before, bool same_range);
+
+    Vec3 origin_;
+    ValueRange range_;
+    const Context& context_;
+    Uploads total_;
+};
+
+// What a surface has in common with the one before it.
+struct Kept {
+    bool vertices = false, colors = false, marks = false;
+};
+
+// `a` and `b` have one topology.
+Kept kept(const GpuSurface& a, const GpuSurface& b, bool same_range) {
+    const bool unmoved = a.revision == b.revision;
+    return {unmoved && same_vertices(a.drawn, b.drawn),
+            same_colors(a.drawn, b.drawn) && (same_range || a.drawn.style.values.empty()),
+            unmoved && same_marks(a.drawn, b.drawn)};
+}
+
+bool same_wire(const MeshStyle& a, const MeshStyle& b) {
+    return a.wire == b.wire && a.wire_width == b.wire_width && a.wire_color == b.wire_color;
+}
+
+std::shared_ptr<const GpuSurface> Upload::surface(const DrawnMesh& drawn,
+                                                  const std::shared_ptr<const GpuSurface>& before,
+                                                  const ValueRange& known) {
+    auto result = std::make_shared<GpuSurface>();
+    result->drawn = drawn;
+    result->revision = drawn.mesh->revision();
+    const bool same_topology =
+        before && before->drawn.mesh->shared_topology() == drawn.mesh->shared_topology();
+    const bool same_range = known == range_;
+    if (same_topology && same_wire(before->drawn.style, drawn.style)) {
+        const Kept keep = kept(*before, *result, same_range);
+        if (keep.vertices && keep.colors && keep.marks) return before;
+    }
+    fill(*result, same_topology ? before.get() : nullptr, same_range);
+    return result;
+}
+
+void Upload::fill(GpuSurface& surface, const GpuSurface* before, bool same_range) {
+    const auto& [mesh, style, transform, object] = surface.drawn;
+    const MemoryCharge charge = context_.charge(
+        3 * (sizeof(SurfaceVertex) + sizeof(SurfaceColor)) * mesh->topology().corner_count(),
+        "the geometry of the picture");
+    const Kept keep = before ? kept(*before, surface, same_range) : Kept{};
+    if (keep.vertices) {
+        surface.triangles = before->triangles;
+        surface.vertices = before->vertices;
+    } else {
+        const Affine to_picture = translation(-origin_) * transform;
+        const std::vector<Vec3> positions = picture_positions(*mesh, to_picture);
+        surface.triangles =
+            surface_triangles(*mesh, positions, to_picture, before ? &before->triangles : nullptr);
+        surface.vertices = std::make_shared<const gl::Buffer>(
+            buffer(surface_vertices(*mesh, style, positions, surface.triangles, context_),
+                   &Uploads::vertices));
+    }
+    const bool keep_colors = keep.colors && surface.triangles.same_as(before->triangles);
+    surface.colors = keep_colors
+                         ? before->colors
+                         : std::make_shared<const gl::Buffer>(buffer(
+                               surface_colors(*mesh, style, range_, surface.triangles, context_),
+                               &Uploads::colors));
+    surface.marks = keep.marks ? before->marks : marks(build_marks(surface.drawn));
+    surface.layout = gl::make_vertex_array();
+    glBindVertexArray(surface.layout.id());
+    read_fields(*surface.vertices,
+                {{0, 3, GL_FLOAT, offsetof(SurfaceVertex, position)},
+                 {1, 3, GL_FLOAT, offsetof(SurfaceVertex, normal)}},
+                sizeof(SurfaceVertex));
+    read_fields(*surface.colors,
+                {{2, 4, GL_UNSIGNED_BYTE, offsetof(SurfaceColor, color)},
+                 {3, 1, GL_FLOAT, offsetof(SurfaceColor, value)},
+                 {4, 1, GL_UNSIGNED_INT, offsetof(SurfaceColor, flags)}},
+                sizeof(SurfaceColor));
+    gl::check_errors("the geometry of the picture");
+}
+
+template <typename Entry>
+GpuMarks::Array Upload::instances(const std::vector<Entry>& entries,
+                                  std::initializer_list<Field> fields) {
+    GpuMarks::Array array;
+    if (entries.empty()) return array;
+    array.count = static_cast<GLsizei>(entries.size());
+    array.layout = gl::make_vertex_array();
+    glBindVertexArray(array.layout.id());
+    array.buffer = buffer(entries, &Uploads::marks);
+    read_fields(array.buffer, fields, sizeof(Entry));
+    for (const Field& field : fields) glVertexAttribDivisor(field.location, 1);
+    gl::check_errors("the lines and points of the picture");
+    return array;
+}
+
+void add_segments(const DrawnLine& line, const Vec3& origin, std::vector<LineSegment>& segments) {
+    const std::size_t count = line.points.size();
+    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < count; ++i) {
+        segments.push_back({floats_of(line.points[i] - origin),
+                            floats_of(line.points[(i + 1) % count] - origin), to_bytes(line.color),
+                            static_cast<float>(line.width)});
+    }
+}
+
+std::shared_ptr<const GpuMarks> Upload::marks(const Overlay& overlay) {
+    std::vector<LineSegment> segments;
+    for (const DrawnLine& line : overlay.lines) add_segments(line, origin_, segments);
+    std::vector<Ball> balls;
+    for (const DrawnPoint& point : overlay.points) {
+        balls.push_back({floats_of(point.position - origin_), to_bytes(point.color),
+                         static_cast<float>(point.radius)});
+    }
+    auto result = std::make_shared<GpuMarks>();
+    result->lines = instances(segments, {{0, 3, GL_FLOAT, offsetof(LineSegment, begin)},
+                                         {1, 3, GL_FLOAT, offsetof(LineSegment, end)},
+                                         {2, 4, GL_UNSIGNED_BYTE, offsetof(LineSegment, color)},
+                                         {3, 1, GL_FLOAT, offsetof(LineSegment, width)}});
+    result->points = instances(balls, {{0, 3, GL_FLOAT, offsetof(Ball, position)},
+                                       {1, 4, GL_UNSIGNED_BYTE, offsetof(Ball, color)},
+                                       {2, 1, GL_FLOAT, offsetof(Ball, radius)}});
+    return result;
+}
+
+// The corners of boxes around the strands: they hold all of their points that are finite.
+std::vector<Vec3> corners_of(const std::vector<DrawnStrands>& strands) {
+    std::vector<Vec3> corners;
+    for (const DrawnStrands& drawn : strands) {
+        const Box box = bounds(*drawn.strands);
+        for (int i = 0; !box.empty() && i < 8; ++i) {
+            const Vec3 corner(i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
+                              i & 4 ? box.max.z() : box.min.z());
+            corners.push_back(drawn.transform(corner / drawn.style.unit));
+        }
+    }
+    return corners;
+}
+
+Placement place(const Snapshot& snapshot) {
+    Placement result;
+    result.strand_corners = corners_of(snapshot.strands);
+    const auto for_all = [&](const auto& visit) {
+        for_each_point(snapshot, visit);
+        for (const Vec3& p : result.strand_corners) visit(p);
+    };
+    double count = 0.0, square = 0.0;
+    Vec3 sum = Vec3::Zero();
+    for_all([&](const Vec3& p) {
+        require(p.allFinite(), "a transform, line or point of the drawing is NaN or infinite",
+                ErrorCode::not_finite);
+        sum += p;
+        ++count;
+    });
+    if (count == 0.0) return result;
+    result.center = sum / count;
+    for_all([&](const Vec3& p) { square += (p - result.center).squaredNorm(); });
+    result.size = std::sqrt(square / count);
+    return result;
+}
+
+// Surfaces of a scene by their objects; each is taken once, in their order.
+class Known {
+  public:
+    explicit Known(const std::vector<std::shared_ptr<const GpuSurface>>& surfaces) {
+        for (const auto& surface : surfaces) by_object_.emplace(surface->drawn.object, surface);
+    }
+    std::shared_ptr<const GpuSurface> take(std::uint64_t object) {
+        const auto found = by_object_.lower_bound(object);
+        if (found == by_object_.end() || found->first != object) return nullptr;
+        const auto result = found->second;
+        by_object_.erase(found);
+        return result;
+    }
+
+  private:
+    std::multimap<std::uint64_t, std::shared_ptr<const GpuSurface>> by_object_;
+};
+
+}  // namespace
+
+void GpuMarks::Array::draw() const {
+    if (count == 0) return;
+    glBindVertexArray(layout.id());
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+}
+
+void GpuSurface::draw() const {
+    glBindVertexArray(layout.id());
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * triangles.faces->triangles.size()));
+}
+
+Uploads GpuScene::update(const Snapshot& snapshot, const Context& context) {
+    if (snapshot.revision != 0 && snapshot.revision == shown_.snapshot.revision) return {};
+    Shown next{snapshot, place(snapshot), {}, {}, {}};
+    const bool anything = !shown_.surfaces.empty() || !shown_.overlays.empty();
+    const double apart = (next.placement.center - shown_.origin).norm();
+    const bool same_origin = anything && apart <= kOriginReach * next.placement.size;
+    next.origin = same_origin ? shown_.origin : next.placement.center;
+
+    Upload upload(next.origin, snapshot.range, context);
+    Known known(same_origin ? shown_.surfaces : decltype(shown_.surfaces){});
+    for (const DrawnMesh& drawn : snapshot.meshes) {
+        next.surfaces.push_back(
+            upload.surface(drawn, known.take(drawn.object), shown_.snapshot.range));
+    }
+    std::map<const Overlay*, std::shared_ptr<const GpuMarks>> marks;
+    for (std::size_t i = 0; same_origin && i < shown_.overlays.size(); ++i) {
+        marks.emplace(shown_.snapshot.overlays[i].get(), shown_.overlays[i]);
+    }
+    for (const auto& overlay : snapshot.overlays) {
+        auto& known_marks = marks[overlay.get()];
+        if (!known_marks) known_marks = upload.marks(*overlay);
+        next.overlays.push_back(known_marks);
+    }
+    shown_ = std::move(next);
+    return upload.total();
+}
+
+void GpuScene::draw_surfaces() const {
+    for (const auto& surface : shown_.surfaces) surface->draw();
+}
+
+void GpuScene::draw_lines() const {
+    for (const auto& marks : shown_.overlays) marks->lines.draw();
+    for (const auto& surface : shown_.surfaces) surface->marks->lines.draw();
+}
+
+void GpuScene::draw_points() const {
+    for (const auto& marks : shown_.overlays) marks->points.draw();
+    for (const auto& surface : shown_.surfaces) surface->marks->points.draw();
+}
+
+}  // namespace lissom

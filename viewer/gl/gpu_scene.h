@@ -1,0 +1,96 @@
+/// GpuScene: a snapshot on the graphics card. All of it needs a current context, also to end.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "viewer/draw/snapshot.h"
+#include "viewer/draw/surface_arrays.h"
+#include "viewer/gl/gl_objects.h"
+
+namespace lissom {
+
+/// Bytes that an update sent to the graphics card, and the calls that it took.
+struct Uploads {
+    /// Positions and normals.
+    std::size_t vertices = 0;
+    /// Colours, values and edges of surfaces.
+    std::size_t colors = 0;
+    /// Lines and points, of overlays and of meshes.
+    std::size_t marks = 0;
+    int calls = 0;
+
+    std::size_t bytes() const { return vertices + colors + marks; }
+};
+
+/// Lines, one instance a segment, and points, one instance each.
+struct GpuMarks {
+    struct Array {
+        gl::VertexArray layout;
+        gl::Buffer buffer;
+        GLsizei count = 0;
+
+        void draw() const;
+    };
+    Array lines, points;
+};
+
+/// Triangles of one mesh, and its marks. Never changes; what stays is shared with the next one.
+struct GpuSurface {
+    DrawnMesh drawn;
+    /// Of the mesh, when it was uploaded.
+    std::uint64_t revision = 0;
+    SurfaceTriangles triangles;
+    std::shared_ptr<const gl::Buffer> vertices, colors;
+    gl::VertexArray layout;
+    std::shared_ptr<const GpuMarks> marks;
+
+    void draw() const;
+};
+
+/// Where the points of a snapshot are and how far they reach.
+struct Placement {
+    Vec3 center = Vec3::Zero();
+    /// RMS distance to the center.
+    double size = 0.0;
+    /// Corners of boxes around the strands, in the world.
+    std::vector<Vec3> strand_corners;
+};
+
+class GpuScene {
+  public:
+    /// Becomes what `snapshot` shows. Uploads what differs from the snapshot before: nothing for
+    /// the same revision or the same contents, positions and normals only where a mesh of the same
+    /// topology moved. What vanished is freed. After an error the scene is as it was.
+    /// Errors: not_finite for a transform, line or point; those of surface_colors; memory_limit;
+    /// cancelled.
+    Uploads update(const Snapshot& snapshot, const Context& context = {});
+
+    const Snapshot& snapshot() const { return shown_.snapshot; }
+    const Placement& placement() const { return shown_.placement; }
+    /// The point of the world that is at zero on the card. Stays while what is drawn is about it.
+    const Vec3& origin() const { return shown_.origin; }
+    const std::vector<std::shared_ptr<const GpuSurface>>& surfaces() const {
+        return shown_.surfaces;
+    }
+
+    void draw_surfaces() const;
+    void draw_lines() const;
+    void draw_points() const;
+
+  private:
+    struct Shown {
+        Snapshot snapshot;
+        Placement placement;
+        Vec3 origin = Vec3::Zero();
+        std::vector<std::shared_ptr<const GpuSurface>> surfaces;
+        /// One for each overlay of the snapshot.
+        std::vector<std::shared_ptr<const GpuMarks>> overlays;
+    };
+    Shown shown_;
+};
+
+}  // namespace lissom

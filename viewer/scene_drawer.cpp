@@ -1,0 +1,236 @@
+#include "viewer/scene_drawer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "viewer/draw/colormap.h"
+#include "viewer/gl/shaders.h"
+#include "viewer/strands/strand_layer.h"
+
+namespace lissom {
+namespace {
+
+// Pixels that are drawn at one time; larger pictures are drawn in parts.
+constexpr int kTileSize = 2048;
+// Longest side on which occlusion is computed; larger pictures read it between its pixels.
+constexpr int kOcclusionSize = 2048;
+constexpr int kColormapSize = 256;
+
+gl::Texture make_colormap() {
+    std::vector<float> texels;
+    for (int i = 0; i < kColormapSize; ++i) {
+        const Color color = colormap(i / (kColormapSize - 1.0));
+        for (const double part : {color.r, color.g, color.b, 1.0}) {
+            texels.push_back(static_cast<float>(srgb_to_linear(part)));
+        }
+    }
+    gl::Texture texture = gl::make_texture(kColormapSize, 1, GL_RGBA32F, true);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kColormapSize, 1, GL_RGBA, GL_FLOAT, texels.data());
+    return texture;
+}
+
+Vec3 linear(const Color& color) {
+    return {srgb_to_linear(color.r), srgb_to_linear(color.g), srgb_to_linear(color.b)};
+}
+
+// Parts that cover a picture, none larger than `size`.
+std::vector<Tile> split(int width, int height, int size) {
+    std::vector<Tile> tiles;
+    for (int y = 0; y < height; y += size) {
+        for (int x = 0; x < width; x += size) {
+            tiles.push_back({x, y, std::min(size, width - x), std::min(size, height - y)});
+        }
+    }
+    return tiles;
+}
+
+Image read_pixels(const gl::Framebuffer& from) {
+    Image image(from.extent().width, from.extent().height);
+    from.bind();
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+    return image;
+}
+
+}  // namespace
+
+SceneTools::SceneTools()
+    : surface("surface", shaders::kCommon, shaders::kSurfaceVertex, shaders::kSurfaceFragment),
+      line("line", shaders::kCommon, shaders::kLineVertex, shaders::kLineFragment),
+      point("point", shaders::kCommon, shaders::kPointVertex, shaders::kPointFragment),
+      output("output", shaders::kCommon, shaders::kCoverVertex, shaders::kOutputFragment),
+      colormap(make_colormap()),
+      no_vertices(gl::make_vertex_array()) {}
+
+Target::Target(gl::Extent extent, const RenderOptions& options) {
+    const gl::Extent fine{extent.width * options.supersample, extent.height * options.supersample};
+    const int count = options.samples > 1 ? options.samples : 0;
+    samples = gl::Framebuffer::multisampled(fine, GL_RGBA16F, count);
+    picture = gl::Framebuffer::texture(fine, GL_RGBA16F, false);
+    output = gl::Framebuffer::texture(extent, GL_RGBA8, false);
+}
+
+SceneDrawer::SceneDrawer(const SceneTools& tools, const GpuScene& scene, const GpuHairShade& hair,
+                         const SceneView& view, const RenderOptions& options)
+    : tools_(tools),
+      scene_(scene),
+      hair_(hair),
+      view_(view),
+      options_(options),
+      openness_(compute_occlusion()) {}
+
+gl::Framebuffer SceneDrawer::compute_occlusion() const {
+    if (options_.occlusion == 0.0) return tools_.occlusion.none();
+    const double longest = std::max(options_.width, options_.height);
+    const double scale = std::min(1.0, kOcclusionSize / longest);
+    const gl::Extent extent{static_cast<int>(std::ceil(scale * options_.width)),
+                            static_cast<int>(std::ceil(scale * options_.height))};
+    return tools_.occlusion.compute(scene_, view_.parameters,
+                                    {extent, view_.occlusion_radius, options_.occlusion});
+}
+
+Image SceneDrawer::picture(Progress& progress) const {
+    Image image(options_.width, options_.height);
+    const std::vector<Tile> tiles =
+        split(options_.width, options_.height, kTileSize / options_.supersample);
+    std::unique_ptr<Target> target;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const Tile& tile = tiles[i];
+        const gl::Extent extent{tile.width, tile.height};
+        if (!target || !(target->output.extent() == extent)) {
+            target.reset();
+            target = std::make_unique<Target>(extent, options_);
+        }
+        draw(tile, *target);
+        image.paste(read_pixels(target->output), tile.x, options_.height - tile.y - tile.height);
+        progress.update(static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
+    }
+    return image;
+}
+
+void SceneDrawer::draw(const Tile& tile, const Target& target) const {
+    target.samples.bind();
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    draw_surfaces(tile);
+    draw_marks(tile);
+    target.samples.resolve_to(target.picture);
+    draw_output(target);
+    gl::check_errors("drawing the picture");
+}
+
+Mat4 SceneDrawer::projection(const Tile& tile) const {
+    return tile_matrix(tile, options_.width, options_.height) * view_.parameters.projection;
+}
+
+void SceneDrawer::draw_surfaces(const Tile& tile) const {
+    const gl::Program& program = tools_.surface;
+    const Vec2 texels(openness_.extent().width, openness_.extent().height);
+    const Vec2 per_pixel = texels.cwiseQuotient(Vec2(options_.width, options_.height));
+    program.use();
+    program.set("u_view", view_.parameters.view);
+    program.set("u_projection", projection(tile));
+    program.set("u_perspective", view_.parameters.perspective ? 1.0f : 0.0f);
+    program.set_texture("u_colormap", 0, tools_.colormap.id());
+    program.set_texture("u_openness_depth", 1, openness_.color());
+    program.set("u_openness_scale", Vec2(per_pixel / options_.supersample));
+    program.set("u_openness_offset", Vec2(per_pixel.cwiseProduct(Vec2(tile.x, tile.y))));
+    program.set_volume("u_hair", 2, hair_.volume.id());
+    program.set("u_hair_scale", hair_.scale);
+    program.set("u_hair_offset", hair_.offset);
+    program.set("u_hair_step", static_cast<float>(hair_.step));
+    program.set("u_scalp_color", hair_.scalp_color);
+    for (const auto& surface : scene_.surfaces()) {
+        const MeshStyle& style = surface->drawn.style;
+        const double wire_width = style.wire ? style.wire_width : 0.0;
+        program.set("u_wire_width", static_cast<float>(wire_width * options_.supersample));
+        program.set("u_wire_color", linear(style.wire_color));
+        surface->draw();
+    }
+}
+
+// Lines don't write depths, so that their soft edges hide nothing.
+void SceneDrawer::draw_marks(const Tile& tile) const {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    use_for_marks(tools_.line, tile);
+    scene_.draw_lines();
+    glDepthMask(GL_TRUE);
+    use_for_marks(tools_.point, tile);
+    scene_.draw_points();
+    glDisable(GL_BLEND);
+}
+
+void SceneDrawer::use_for_marks(const gl::Program& program, const Tile& tile) const {
+    const int scale = options_.supersample;
+    program.use();
+    program.set("u_view", view_.parameters.view);
+    program.set("u_projection", projection(tile));
+    program.set("u_size", Vec2(tile.width * scale, tile.height * scale));
+    program.set("u_pixel", static_cast<float>(2.0 * view_.parameters.half_extent.y() /
+                                              (options_.height * scale)));
+    program.set("u_perspective", view_.parameters.perspective ? 1.0f : 0.0f);
+    program.set("u_near", static_cast<float>(view_.parameters.near));
+    program.set("u_scale", static_cast<float>(scale));
+}
+
+void SceneDrawer::draw_output(const Target& target) const {
+    const gl::Program& program = tools_.output;
+    target.output.bind();
+    glDisable(GL_DEPTH_TEST);
+    program.use();
+    program.set_texture("u_picture", 0, target.picture.color());
+    program.set("u_block", options_.supersample);
+    program.set("u_height", target.output.extent().height);
+    program.set("u_background", linear(options_.background.value_or(Color{})));
+    program.set("u_background_alpha", options_.background ? 1.0f : 0.0f);
+    glBindVertexArray(tools_.no_vertices.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+namespace {
+
+// The picture without strands, which `shadow` stands for; may be null.
+Image draw_meshes(const SceneTools& tools, const GpuScene& scene, const SceneView& view,
+                  const RenderOptions& options, const StrandShadow* shadow,
+                  const Context& context) {
+    Progress progress(context, "render");
+    progress.step(0.3);
+    const GpuHairShade hair = upload_shade(shadow);
+    const SceneDrawer drawer(tools, scene, hair, view, options);
+    progress.step(0.7);
+    return drawer.picture(progress);
+}
+
+}  // namespace
+
+Image draw_scene(const SceneTools& tools, const GpuScene& scene, const Camera& camera,
+                 const RenderOptions& options, const Context& context) {
+    const double aspect = static_cast<double>(options.width) / options.height;
+    const SceneView view = see(scene, camera, aspect);
+    const Snapshot& snapshot = scene.snapshot();
+    if (snapshot.strands.empty()) {
+        return draw_meshes(tools, scene, view, options, nullptr, context);
+    }
+    Progress progress(context, "render");
+    progress.step(0.3);
+    const Mat4& to_view = view.parameters.view;
+    const StrandScene strands{view_strands(snapshot, to_view, scene.origin()),
+                              view_triangles(snapshot, to_view, scene.origin()), view.parameters};
+    const StrandShadow shadow(strands.strands, strands.triangles, context);
+    progress.step(0.3);
+    RenderOptions on_nothing = options;
+    on_nothing.background = std::nullopt;
+    const Image meshes = draw_meshes(tools, scene, view, on_nothing, &shadow, context);
+    progress.step(0.4);
+    return lay_over(meshes, draw_strands(strands, shadow, options, context), options.background);
+}
+
+}  // namespace lissom

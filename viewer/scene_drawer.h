@@ -1,0 +1,67 @@
+/// Draws a scene that is on the graphics card into a picture. All of it needs a current context.
+#pragma once
+
+#include "viewer/draw/image.h"
+#include "viewer/draw/projection.h"
+#include "viewer/draw/render_options.h"
+#include "viewer/gl/gpu_scene.h"
+#include "viewer/gl/hair_shade.h"
+#include "viewer/gl/occlusion.h"
+#include "viewer/scene_view.h"
+
+namespace lissom {
+
+/// What is made once for all pictures.
+struct SceneTools {
+    Occlusion occlusion;
+    gl::Program surface, line, point, output;
+    /// The colour scale in linear values, one row.
+    gl::Texture colormap;
+    gl::VertexArray no_vertices;
+
+    SceneTools();
+};
+
+/// Framebuffers that a part of a picture passes through; the finished pixels are in `output`, rows
+/// from the top.
+struct Target {
+    gl::Framebuffer samples, picture, output;
+
+    /// `extent` in pixels of the picture. Errors: memory_limit.
+    Target(gl::Extent extent, const RenderOptions& options);
+};
+
+/// Draws the meshes and overlays of a scene as one camera sees them.
+class SceneDrawer {
+  public:
+    /// All arguments must outlive the drawer.
+    SceneDrawer(const SceneTools& tools, const GpuScene& scene, const GpuHairShade& hair,
+                const SceneView& view, const RenderOptions& options);
+
+    /// A part of the picture, whose size is that of `target`.
+    void draw(const Tile& tile, const Target& target) const;
+    /// All of it; large pictures are drawn in parts. Errors: memory_limit; cancelled.
+    Image picture(Progress& progress) const;
+
+  private:
+    gl::Framebuffer compute_occlusion() const;
+    void draw_surfaces(const Tile& tile) const;
+    void draw_marks(const Tile& tile) const;
+    void use_for_marks(const gl::Program& program, const Tile& tile) const;
+    void draw_output(const Target& target) const;
+    Mat4 projection(const Tile& tile) const;
+
+    const SceneTools& tools_;
+    const GpuScene& scene_;
+    const GpuHairShade& hair_;
+    const SceneView& view_;
+    const RenderOptions& options_;
+    gl::Framebuffer openness_;
+};
+
+/// The picture of a scene with all that it has, strands too. Errors: those of view_strands;
+/// memory_limit; cancelled.
+Image draw_scene(const SceneTools& tools, const GpuScene& scene, const Camera& camera,
+                 const RenderOptions& options, const Context& context = {});
+
+}  // namespace lissom
