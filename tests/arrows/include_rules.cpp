@@ -1,6 +1,7 @@
 #include "tests/arrows/include_rules.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -245,6 +246,23 @@ std::vector<std::string> quoted_includes(std::string_view source) {
     for (const Include& include : includes_of(source))
         if (include.quoted) headers.push_back(include.header);
     return headers;
+}
+
+std::vector<std::string_view> known_modules(std::string_view module) {
+    const Rule* rule = rule_for(module);
+    std::vector<std::string_view> known;
+    if (rule)
+        std::remove_copy(rule->project.begin(), rule->project.end(), std::back_inserter(known),
+                         module);
+    return known;
+}
+
+std::vector<std::string_view> rooms_of(std::string_view module) {
+    for (const Names& order : room_orders()) {
+        const std::string_view first = order.front();
+        if (first == module || inside(first, module)) return order;
+    }
+    return {};
 }
 
 }  // namespace lissom::test

@@ -22,4 +22,11 @@ std::vector<std::string> include_violations(std::string_view path, std::string_v
 /// Project headers that `source` includes, as written between the quotes.
 std::vector<std::string> quoted_includes(std::string_view source);
 
+/// The modules that files of `module` may include, from the lowest, without itself.
+std::vector<std::string_view> known_modules(std::string_view module);
+
+/// The rooms of a module in their order: folders, the module's own among them, and single files
+/// without their extension.
+std::vector<std::string_view> rooms_of(std::string_view module);
+
 }  // namespace lissom::test
