@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernel/io/mesh_file.h"
+#include "tests/unit/support.h"
 
 namespace lissom::test {
 
@@ -21,7 +22,7 @@ inline constexpr const char* kMeshFolders[] = {"models", "heads", "nasty", "gltf
 inline std::filesystem::path data_root() {
     const char* root = std::getenv("LISSOM_TEST_DATA");
     if (root && std::filesystem::exists(root)) return root;
-    MESSAGE("skipped: the folder of real files is absent");
+    skip("LISSOM_REQUIRE_DATA", std::string("the folder of real files ") + (root ? root : ""));
     return {};
 }
 
@@ -41,6 +42,7 @@ inline std::vector<std::string> mesh_files(const std::filesystem::path& root) {
                 files.push_back(std::filesystem::relative(entry.path(), root).generic_string());
         }
     }
+    if (files.empty()) skip("LISSOM_REQUIRE_DATA", "meshes below " + root.string());
     std::sort(files.begin(), files.end());
     return files;
 }

@@ -11,7 +11,7 @@ local function heads()
     local data = os.getenv("LISSOM_TEST_DATA") or ""
     for _, name in ipairs{ "ict_head.obj", "makehuman_head.obj", "LeePerrySmith.glb" } do
         list[name] = lissom.load(data .. "/heads/" .. name)
-        if not list[name] then print("skipped: no " .. name) end
+        if not list[name] then expect.skip(name) end
     end
     return list
 end

@@ -22,7 +22,7 @@ std::unique_ptr<Platform> make_platform() {
         return make_egl_platform();
     } catch (const Error& error) {
         if (error.code() != ErrorCode::no_display) throw;
-        MESSAGE("skipped: " << error.message());
+        skip("LISSOM_REQUIRE_GL", error.message());
         return nullptr;
     }
 }

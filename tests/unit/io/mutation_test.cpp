@@ -51,13 +51,15 @@ std::vector<Sample> samples() {
             {"stl", encode_mesh(mesh, "stl", {.binary = false})}};
 }
 
-// True where the bytes were read or refused as they should be.
-bool is_handled(const std::string& bytes, const std::string& extension) {
+// Checks that the bytes are read or refused as they should be; whether they were read.
+bool is_read(const std::string& bytes, const std::string& extension) {
     try {
         decode_mesh(bytes, extension);
         return true;
     } catch (const Error& error) {
-        return error.code() != ErrorCode::internal && !error.message().empty();
+        CHECK(error.code() != ErrorCode::internal);
+        CHECK_FALSE(error.message().empty());
+        return false;
     }
 }
 
@@ -93,7 +95,7 @@ TEST_CASE("a file that is cut short anywhere is read or refused") {
         CAPTURE(sample.extension);
         for (std::size_t size = 0; size < sample.bytes.size(); size += 7) {
             CAPTURE(size);
-            CHECK(is_handled(sample.bytes.substr(0, size), sample.extension));
+            is_read(sample.bytes.substr(0, size), sample.extension);
         }
     }
 }
@@ -102,10 +104,14 @@ TEST_CASE("a file with damaged bytes is read or refused") {
     std::mt19937 random(7);
     for (const Sample& sample : samples()) {
         CAPTURE(sample.extension);
+        int read = 0;
         for (int i = 0; i < 200; ++i) {
             CAPTURE(i);
-            CHECK(is_handled(mutated(sample.bytes, random), sample.extension));
+            read += is_read(mutated(sample.bytes, random), sample.extension);
         }
+        // Some damage does no harm: what is undamaged is read.
+        CHECK(is_read(sample.bytes, sample.extension));
+        CHECK(read >= 5);
     }
 }
 
@@ -115,7 +121,7 @@ TEST_CASE("noise is refused or read, under every extension") {
         for (int i = 0; i < 50; ++i) {
             std::string bytes(random() % 300, '\0');
             for (char& c : bytes) c = static_cast<char>(random());
-            CHECK(is_handled(bytes, extension));
+            is_read(bytes, extension);
         }
     }
 }
