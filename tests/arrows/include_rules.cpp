@@ -55,7 +55,7 @@ const std::vector<Rule>& rules() {
         {"examples/engine", {"bindings/engine"}, {"platform"}},
         {"tests/bench",
          {"kernel", "bindings", "tests"},
-         {"Eigen", "CGAL", "OpenMesh", "tinygltf", "JSON", "printing", "platform"}},
+         {"Eigen", "CGAL", "OpenMesh", "tinygltf", "JSON", "CHOLMOD", "printing", "platform"}},
         {"tests",
          {"kernel", "bindings", "viewer", "tests"},
          {"Eigen", "Lua", "CLI11", "JSON", "stb", "OpenGL", "doctest", "printing", "platform"}},
