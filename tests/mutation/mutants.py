@@ -237,6 +237,8 @@ def main():
     options = parser.parse_args()
     modules = options.modules.split(",")
     os.nice(19)
+    # As an exception, so that what runs is ended and the copy restored.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("mutants: ended from outside"))
     WORK.mkdir(parents=True, exist_ok=True)
     state = f"{copy_tree()} {options.seed} {options.modules}"
     known = known_results(state)
