@@ -50,7 +50,8 @@ SIGN = re.compile(r"(?:(?<=[(,{\[] )|(?<=[(,{\[])|(?<=return )|(?<== )|(?<=[?:] 
 NOT = re.compile(r"(?<=[( ])!(?=[\w(])")
 # Lines whose numbers and order no result depends on: how work is divided, progress, memory, messages.
 NO_RESULT = re.compile(
-    r"[Gg]rain|progress|reserve\(|charge\(|memory|\.log\(|require\(|static_assert|^\s*(#|using |template)")
+    r"[Gg]rain|parallel_for|progress|reserve\(|charge\(|memory|\.log\(|require\(|static_assert|"
+    r"^\s*(#|using |template)")
 
 
 def sources(module):

@@ -104,6 +104,27 @@ TEST_CASE("vertex constraints: with handles that move, and with gradients alone"
     for (const Index v : scene.low) CHECK(d.positions()[v] == scene.mesh.position(v));
 }
 
+TEST_CASE("vertex constraints: where the surface lies by itself they hardly bend it") {
+    const Scene scene = bar_scene();
+    Edit free = make_edit(scene), held = make_edit(scene);
+    const Index middle = scene.mesh.vertex_count() / 2;
+    const Vec3 shift(0.3, 0, 0.1);
+    // Up to where the field of turns takes over.
+    for (const double angle : {0.5, 1.0, 1.5, 2.0}) {
+        CAPTURE(angle);
+        const Vec3 center = free.deformer.handle_center(free.high);
+        const Affine move = translation(shift) * rotation(scene.mesh.position(scene.high.back()) -
+                                                              scene.mesh.position(scene.low.back()),
+                                                          angle, center);
+        free.deformer.set_transform(free.high, move);
+        held.deformer.set_transform(held.high, move);
+        const std::vector<Vec3> expected = free.deformer.solve();
+        held.deformer.constrain({middle, expected[middle], {}});
+        const double off = greatest_distance(held.deformer.solve(), expected) / scene.size;
+        CHECK(off < 0.03);
+    }
+}
+
 TEST_CASE("several handles: each holds, in any order of adding") {
     const Scene scene = bar_scene();
     const Region low = scene.region(scene.low), high = scene.region(scene.high);
