@@ -110,6 +110,38 @@ local function tie_of(scalp, tail)
         radius = math.sqrt(dot(center, center)) }
 end
 
+-- Whether the ring of a tail's tie is at least `distance` from the head, in metres.
+local function ring_is_free(scalp, tail, distance)
+    local tie, a = tie_of(scalp, tail), math.rad(tail.azimuth)
+    local side = { math.cos(a), 0, -math.sin(a) }
+    local up = { tie.out[2] * side[3] - tie.out[3] * side[2], tie.out[3] * side[1] - tie.out[1] * side[3],
+        tie.out[1] * side[2] - tie.out[2] * side[1] }
+    for turn = 0, 330, 30 do
+        local p, c, s = {}, math.cos(math.rad(turn)), math.sin(math.rad(turn))
+        for k = 1, 3 do p[k] = tie.center[k] + tail.radius * (c * side[k] + s * up[k]) end
+        local q = scalp:to_metres(scalp:head():nearest(scalp:from_metres(p)).position)
+        local off = { p[1] - q[1], p[2] - q[2], p[3] - q[3] }
+        if dot(off, off) < distance ^ 2 then return false end
+    end
+    return true
+end
+
+-- Moves a tie that would lie on an ear back along its height, by at most 30 degrees, to where its ring is free:
+-- no hair gets into a ring that an ear fills.
+function hairdo.keep_off_ears(scalp, tail)
+    local azimuth = (tail.azimuth + 180) % 360 - 180
+    local sign = azimuth < 0 and -1 or 1
+    for back = 0, 30, 2 do
+        if math.abs(azimuth) + back > 180 then return end
+        local moved = { azimuth = azimuth + sign * back, elevation = tail.elevation, lift = tail.lift,
+            radius = tail.radius }
+        if ring_is_free(scalp, moved, 0.4 * tail.lift) then
+            tail.azimuth = moved.azimuth
+            return
+        end
+    end
+end
+
 -- A stream through directions over the head, {azimuth, elevation, lift}, and on into the rim of a tie, where
 -- it comes from.
 local function lead_into(style, tail, tie, places, name)

@@ -7,6 +7,7 @@
 #include "kernel/core/machine_memory.h"
 #include "kernel/core/memory_error.h"
 #include "kernel/hair/derived_style.h"
+#include "kernel/hair/field/thin_parts.h"
 #include "kernel/hair/field_stage.h"
 #include "kernel/hair/scalp/surface_distance.h"
 #include "kernel/hair/style_roots.h"
@@ -95,6 +96,12 @@ void require_affordable(const HairstyleOptions& options, const Context& context)
                     " would fit, and 50000 do for most styles");
 }
 
+HairField hair_field(const Mesh& head, const HairstyleOptions& options, const Context& context) {
+    DistanceGrid distances(head, layout_of(options), {}, context);
+    const std::vector<float> collision = collision_distances(distances, head, context);
+    return HairField(std::move(distances), collision, options.field, context);
+}
+
 }  // namespace
 
 struct Hairstyle::State {
@@ -104,8 +111,7 @@ struct Hairstyle::State {
           scalp(std::move(made_for)),
           options(wanted),
           head(placed_head(mesh, *scalp, context)),
-          field(
-              HairField(DistanceGrid(head, layout_of(wanted), {}, context), wanted.field, context)),
+          field(hair_field(head, wanted, context)),
           surface(*scalp, field.field().distances(), head) {}
     State(const State&) = delete;
     State& operator=(const State&) = delete;

@@ -89,6 +89,9 @@ function ponytail.style(head, values, options)
     local tie = { azimuth = 180 - 75 * values.side, elevation = values.height, lift = values.lift,
         length = values.length, droop = values.droop >= 0 and values.droop or droop_at(values.height),
         radius = 0.016 + 0.010 * (1 - values.tightness) }
+    hairdo.keep_off_ears(all.scalp, tie)
+    -- Towards the end of its spine a tail narrows to a wick: hair ends before.
+    tie.length = 1.1 * values.length
     local spine = hairdo.tail_spine(all.scalp, tie)
     -- What leaves the volume is cut off flat at its faces.
     local room = 0.02 + 1.2 * tie.radius * (1 + values.fullness)
@@ -108,6 +111,9 @@ function ponytail.style(head, values, options)
         spine = spine,
         radius = tie.radius,
         fullness = values.fullness,
+        share = 0.85,
+        -- Hair that enters at the lower edge of the tie is sparse: spread more, it would part from the tail.
+        spread = 0.5,
         tail_length = values.length,
         name = "ponytail",
     }

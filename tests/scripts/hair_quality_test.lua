@@ -16,9 +16,9 @@ local function heads()
     return list
 end
 
--- Nothing deeper inside the head than `depth`, usually half a millimetre; no damage, no sharp turn.
-local function expect_sound(style, hair, depth)
-    local stats = hair:stats{ style = style, depth = depth }
+-- Nothing deeper inside the head than half a millimetre; no damage, no sharp turn.
+local function expect_sound(style, hair)
+    local stats = hair:stats{ style = style }
     expect.truthy(stats.penetrating <= 0.001 * #hair)
     expect.equal(stats.not_finite, 0)
     expect.equal(stats.zero_segments, 0)
@@ -30,6 +30,7 @@ local settings = {
     { height = 50, length = 0.34, tightness = 0.8, fullness = 0.9, droop = 0.11 },
     { height = -12, length = 0.26, tightness = 0.4, droop = 0.02 },
     { height = 6, side = 0.75, length = 0.28, tightness = 0.5, droop = 0.035 },
+    { height = -5, side = 0.75, length = 0.25, tightness = 0 },
     { height = 30, length = 0.15, tightness = 0.6, fullness = 0.9, droop = 0.065 },
 }
 
@@ -111,7 +112,5 @@ for _, head in pairs(heads()) do
     local style = parted(head)
     local hair = style:grow{ count = count, length = 0.2 }
     expect.truthy(crossing_share(style, hair) < 0.005)
-    -- Ears are thinner than the steps of this grid.
-    expect_sound(style, hair, 0.004)
-    expect.truthy(hair:stats{ style = style }.penetrating < 0.06 * #hair)
+    expect_sound(style, hair)
 end

@@ -17,6 +17,8 @@
 namespace lissom {
 namespace {
 
+// Hair is led into the tie from this many steps in front of it, within this fraction of its radius.
+constexpr double kLeading = 1.0, kLeadingCore = 0.7;
 constexpr double kDefaultRadius = 1.5;     // in steps
 constexpr double kDefaultRing = 2.5;       // in steps
 constexpr double kDefaultClearance = 1.5;  // in steps
@@ -274,6 +276,22 @@ class Tail {
         return (direction + slope / radius * outward).normalized();
     }
 
+    // Into C1 from just in front of it. Streams from all sides cancel out on its axis, where hair
+    // would stop. Not in the thesis.
+    std::optional<Vec3> leading(const Vec3& point) const {
+        const PonytailSection& tie = shape_.tie();
+        const Vec3 from = point - tie.center;
+        const double height = from.dot(tie.direction);
+        if (!(options_.grip > 0.0) || height >= 0.0 || height < -kLeading * layout_.step) {
+            return std::nullopt;
+        }
+        const Vec3 outward = from - height * tie.direction;
+        if (outward.norm() > kLeadingCore * tie.radius || distances_.inside(point)) {
+            return std::nullopt;
+        }
+        return (tie.direction - outward / tie.radius).normalized();
+    }
+
     // To the center of C1 (green).
     std::optional<Vec3> centripetal(const Vec3& point) const {
         if (!(options_.tightness > 0.0) || distances_.inside(point)) return std::nullopt;
@@ -385,6 +403,7 @@ std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
         });
     };
     at_points(ConstraintKind::section, [&](const Vec3& point) { return tail.longitudinal(point); });
+    at_points(ConstraintKind::section, [&](const Vec3& point) { return tail.leading(point); });
     VectorSplat spine(layout);
     if (!tail.splat_spine(spine) && vectors.empty()) {
         throw Error(ErrorCode::out_of_range,

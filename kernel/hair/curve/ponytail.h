@@ -83,7 +83,9 @@ PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
 /// The constraints of a ponytail, ascending by point: near the cross sections the directions of the
 /// surface of revolution, between its spine and its outline (purple in the figure); along the rest
 /// of the spine those of a stream curve (blue); around C1, outside the head, vectors of length
-/// `tightness` to its center (green). Where kinds meet at a point the first of these counts.
+/// `tightness` to its center (green). Where kinds meet at a point the first of these counts. With
+/// `grip`, points up to a step in front of C1 and near its axis lead into it, which is not in the
+/// thesis.
 /// Errors: invalid_argument for options out of range, for a tie that is wider than the grid or has
 /// its center inside the head; out_of_range where the whole spine lies outside the grid.
 std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "kernel/core/error.h"
+
 namespace lissom {
 namespace {
 
@@ -14,10 +16,10 @@ GridSize size_of(const GridLayout& layout) {
     return {layout.counts[0], layout.counts[1], layout.counts[2]};
 }
 
-std::vector<float> gradients_of(const DistanceGrid& distances, const Context& context) {
-    const auto [nx, ny, nz] = distances.layout().counts;
+std::vector<float> gradients_of(std::span<const float> values, const GridLayout& layout,
+                                const Context& context) {
+    const auto [nx, ny, nz] = layout.counts;
     const std::array<Index, 3> counts{nx, ny, nz}, strides{1, nx, nx * ny};
-    const std::span<const float> values = distances.values();
     std::vector<float> gradients(4 * values.size(), 0.0f);
     context.parallel_for(0, ny * nz, 64, [&](Index begin, Index end) {
         for (Index row = begin; row < end; ++row) {
@@ -30,7 +32,7 @@ std::vector<float> gradients_of(const DistanceGrid& distances, const Context& co
                     const Index from = here - low * strides[axis], to = here + high * strides[axis];
                     gradients[4 * static_cast<std::size_t>(here) + axis] =
                         (values[at(to)] - values[at(from)]) /
-                        static_cast<float>((low + high) * distances.layout().step);
+                        static_cast<float>((low + high) * layout.step);
                 }
             }
         }
@@ -48,12 +50,18 @@ GridFieldOptions HairField::default_options() {
 
 HairField::HairField(DistanceGrid distances, const GridFieldOptions& options,
                      const Context& context)
+    : HairField(std::move(distances), {}, options, context) {}
+
+HairField::HairField(DistanceGrid distances, std::span<const float> collision,
+                     const GridFieldOptions& options, const Context& context)
     : distances_(std::move(distances)), field_(size_of(layout()), options, context) {
     const std::size_t count = distances_.values().size();
     charge_ = context.charge(12 * count * sizeof(float), "the direction field of a hairstyle");
-    gradients_ = gradients_of(distances_, context);
+    const std::span<const float> kept_out = collision.empty() ? distances_.values() : collision;
+    require(kept_out.size() == count, "the distances of a field must be one a grid point");
+    gradients_ = gradients_of(kept_out, layout(), context);
     values_.assign(4 * count, 0.0f);
-    for (std::size_t i = 0; i < count; ++i) values_[4 * i + 3] = distances_.values()[i];
+    for (std::size_t i = 0; i < count; ++i) values_[4 * i + 3] = kept_out[i];
     next_ = values_;
 }
 
@@ -105,12 +113,13 @@ HairField::Sample HairField::sample(const Vec3& point) const {
             slope[axis] = (up ? 1.0 : -1.0) / grid.step;
         }
         const float* v = values_.data() + 4 * grid.index(index[0], index[1], index[2]);
+        const double distance = distances_.at(index[0], index[1], index[2]);
         const double w = weight[0] * weight[1] * weight[2];
         result.direction += w * Vec3(v[0], v[1], v[2]);
-        result.distance += w * v[3];
+        result.distance += w * distance;
         result.gradient +=
-            v[3] * Vec3(slope[0] * weight[1] * weight[2], weight[0] * slope[1] * weight[2],
-                        weight[0] * weight[1] * slope[2]);
+            distance * Vec3(slope[0] * weight[1] * weight[2], weight[0] * slope[1] * weight[2],
+                            weight[0] * weight[1] * slope[2]);
     }
     return result;
 }

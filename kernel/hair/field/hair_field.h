@@ -18,6 +18,9 @@ class HairField {
     /// Errors: as GridField::GridField.
     HairField(DistanceGrid distances, const GridFieldOptions& options = default_options(),
               const Context& context = {});
+    /// With distances of its own to keep hair out of the head (thin_parts.h), one a grid point.
+    HairField(DistanceGrid distances, std::span<const float> collision,
+              const GridFieldOptions& options = default_options(), const Context& context = {});
 
     /// Zero-flux boundary and a tension of 0.03, against overshoot far from the curves.
     static GridFieldOptions default_options();
@@ -36,18 +39,19 @@ class HairField {
     bool solved() const { return !stale_ && field_.solved(); }
     const GridField& grid() const { return field_; }
 
-    /// For each grid point, x fastest: the vector of the last solve, and the signed distance.
+    /// For each grid point, x fastest: the vector of the last solve, and the signed distance that
+    /// keeps hair out of the head.
     std::span<const float> values() const { return values_; }
     /// Puts back values that were read earlier, until the next solve.
     void put_back(std::vector<float> values);
 
-    /// For each grid point the gradient of the signed distance, by differences between neighbours,
-    /// and 0 as a fourth number.
+    /// For each grid point the gradient of that distance, by differences between neighbours, and 0
+    /// as a fourth number.
     std::span<const float> gradients() const { return gradients_; }
 
     struct Sample {
         Vec3 direction = Vec3::Zero();
-        /// Signed distance to the head, negative inside, and its derivative.
+        /// Signed distance to the head as the grid has it, negative inside, and its derivative.
         double distance = 0.0;
         Vec3 gradient = Vec3::Zero();
     };

@@ -66,7 +66,8 @@ std::vector<GridConstraint> scalp_step(const HairField& field, const ScalpStepOp
     std::vector<GridConstraint> result;
     for (Index point = 0; point < layout.size(); ++point) {
         const float* quad = field.values().data() + 4 * static_cast<std::size_t>(point);
-        if (!(std::abs(quad[3]) < band) || constrained[static_cast<std::size_t>(point)]) continue;
+        const double distance = field.distances().values()[static_cast<std::size_t>(point)];
+        if (!(std::abs(distance) < band) || constrained[static_cast<std::size_t>(point)]) continue;
         const GridPoint at = field.grid().size().point(point);
         if (options.where && !options.where(layout.point(at.x, at.y, at.z))) continue;
         const Vec3 normal = outward(field.distances(), {at.x, at.y, at.z});
