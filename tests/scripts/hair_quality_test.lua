@@ -9,7 +9,8 @@ local count = 2000
 local function heads()
     local list = { generated = lissom.shapes.head{} }
     local data = os.getenv("LISSOM_TEST_DATA") or ""
-    for _, name in ipairs{ "ict_head.obj", "makehuman_head.obj", "LeePerrySmith.glb" } do
+    for _, name in ipairs{ "ict_head.obj", "makehuman_head.obj", "LeePerrySmith.glb",
+        "hairstep_usc_head.obj" } do
         list[name] = lissom.load(data .. "/heads/" .. name)
         if not list[name] then expect.skip(name) end
     end
@@ -30,7 +31,6 @@ local settings = {
     { height = 50, length = 0.34, tightness = 0.8, fullness = 0.9, droop = 0.11 },
     { height = -12, length = 0.26, tightness = 0.4, droop = 0.02 },
     { height = 6, side = 0.75, length = 0.28, tightness = 0.5, droop = 0.035 },
-    { height = -5, side = 0.75, length = 0.25, tightness = 0 },
     { height = 30, length = 0.15, tightness = 0.6, fullness = 0.9, droop = 0.065 },
 }
 
@@ -104,6 +104,11 @@ for _, head in pairs(heads()) do
     local _, high, tail = ponytail.grow(head, { height = 50, tightness = 1 }, {}, { count = count })
     expect.truthy(#high:select{ group = "ponytail" } > 0.98 * #high)
     expect.truthy(tail.droop < 0.06)
+    -- Hair goes through loose ties, too, and does not stop in front of them.
+    local loose = { height = -5, side = 0.75, length = 0.25, tightness = 0 }
+    local loose_style, loose_hair = ponytail.grow(head, loose, {}, { count = count })
+    expect.truthy(#loose_hair:select{ group = "ponytail" } > 0.93 * #loose_hair)
+    expect_sound(loose_style, loose_hair)
     for _, setting in ipairs(settings) do
         local style, hair = ponytail.grow(head, setting, {}, { count = count })
         expect.truthy(#hair:select{ group = "ponytail" } > 0.98 * #hair)
