@@ -1,6 +1,5 @@
 #include "kernel/deform/deformer.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,18 +7,10 @@
 
 #include "kernel/core/memory_error.h"
 #include "kernel/deform/deformer_state.h"
-#include "kernel/deform/holds/mirror.h"
-#include "kernel/deform/rotation/polar.h"
-#include "kernel/deform/rotation/winding.h"
+#include "kernel/deform/frame_steps.h"
 
 namespace lissom {
 namespace {
-
-// A transform that moves no point of the region by more than this fraction of its size is the
-// identity, so that a drag there and back returns to rest to the bit.
-constexpr double kIdentityTolerance = 1e-12;
-
-constexpr double kSingularRatio = 1e-12;
 
 void require_options(const DeformOptions& o) {
     const auto require = [](bool condition, const char* message) {
@@ -60,23 +51,6 @@ void require_applicable(const DeformOptions& o) {
     refuse(o.method == DeformMethod::geodesic && o.weights != defaults.weights, "weights");
 }
 
-// For what only the first system of the implicit method has.
-void require_implicit(const DeformOptions& options, const std::string& what) {
-    if (options.method == DeformMethod::implicit) return;
-    throw Error(ErrorCode::unsupported, what + " exists for method implicit only, not for method " +
-                                            std::string(method_name(options.method)));
-}
-
-void require_regular(const Affine& transform, const Vec3& about) {
-    const double scale = transform.linear.norm();
-    if (transform.is_finite() && about.allFinite() &&
-        std::abs(transform.linear.determinant()) > kSingularRatio * scale * scale * scale) {
-        return;
-    }
-    throw Error(ErrorCode::singular_transform,
-                "the transform flattens space or is not finite; scale by factors other than zero");
-}
-
 }  // namespace
 
 std::string_view method_name(DeformMethod method) {
@@ -111,260 +85,154 @@ Deformer::Deformer(Deformer&&) noexcept = default;
 Deformer& Deformer::operator=(Deformer&&) noexcept = default;
 
 const Region& Deformer::region() const {
-    return state_->region;
+    return state_->rest->region();
 }
 const DeformOptions& Deformer::options() const {
-    return state_->options;
+    return state_->options();
 }
 const Context& Deformer::context() const {
-    return state_->own_context;
+    return state_->context;
 }
 
-std::vector<HandleId> Deformer::handles() const {
-    std::vector<HandleId> ids;
-    for (std::size_t h = 0; h < state_->handles.size(); ++h) {
-        if (!state_->handles[h].removed) ids.push_back({static_cast<Index>(h)});
+// One factor at a time is kept: what is shown is completed before its own is let go.
+const std::shared_ptr<const Preparation>& Deformer::State::prepare(const Context& given) {
+    if (!preparation || preparation->rest != rest || preparation->holds != holds) {
+        complete();
+        preparation.reset();
+        auto next = prepare_deformation(rest, holds, given);
+        const Index count = costs.factorizations;
+        costs = next->costs;
+        costs.factorizations += count;
+        preparation = std::move(next);
     }
-    return ids;
+    return preparation;
 }
 
-const Region& Deformer::handle_region(HandleId id) const {
-    return state_->handle(id).region;
-}
-const HandleOptions& Deformer::handle_options(HandleId id) const {
-    return state_->handle(id).options;
-}
-Vec3 Deformer::handle_center(HandleId id) const {
-    return state_->handle(id).center;
-}
-const Affine& Deformer::transform(HandleId id) const {
-    return state_->handle(id).transform;
+void Deformer::State::show(DeformFrame frame) {
+    std::swap(shown, frame);
+    scratch.recycle(std::move(frame));
 }
 
-std::shared_ptr<const HandlePoses> Deformer::poses() const {
-    return std::make_shared<HandlePoses>(
-        HandlePoses{state_->handles, state_->rest_patch->patch.origin});
-}
-
-void Deformer::restore(const HandlePoses& poses) {
-    std::vector<HandleState>& handles = state_->handles;
-    const bool same_origin = poses.origin == state_->rest_patch->patch.origin;
-    for (std::size_t h = 0; h < poses.handles.size() && h < handles.size(); ++h) {
-        if (handles[h].removed) continue;
-        handles[h].transform = poses.handles[h].transform;
-        handles[h].in_patch = poses.handles[h].in_patch;
-        handles[h].turn = poses.handles[h].turn;
-        if (!same_origin) state_->place(handles[h], handles[h].transform, Vec3::Zero());
-    }
-}
-
-void Deformer::set_transform(HandleId id, const Affine& transform) {
-    set_transform(id, transform, Vec3::Zero());
-}
-
-void Deformer::set_transform(HandleId id, const Affine& transform, const Vec3& about) {
-    set_transform(id, transform, about, turn(id));
-}
-
-void Deformer::set_transform(HandleId id, const Affine& transform, const Vec3& about,
-                             const Vec3& turn) {
-    HandleState& handle = state_->handle(id);
-    require_regular(transform, about);
-    if (!turn.allFinite()) {
-        throw Error(ErrorCode::not_finite, "the turn of a handle must be finite");
-    }
-    handle.turn = turn_near(nearest_rotation(transform.linear), turn);
-    state_->place(handle, transform, about);
-    const Affine& moved = handle.in_patch;
-    const double change = (moved.linear - Mat3::Identity()).cwiseAbs().maxCoeff();
-    const double shift = moved.translation.cwiseAbs().maxCoeff();
-    const bool still = change < kIdentityTolerance && shift <= kIdentityTolerance * state_->size;
-    if (still) {
-        handle.transform = handle.in_patch = {};
-        handle.turn = turn_near(Mat3::Identity(), handle.turn);
-    }
-    if (handle.partner != kNoIndex) {
-        state_->reflect(handle, handle.mirror, state_->handles[handle.partner]);
-    }
-}
-
-Vec3 Deformer::turn(HandleId id) const {
-    return state_->handle(id).turn;
-}
-
-Affine Deformer::transform_about(HandleId id, const Vec3& about) const {
-    const Affine& map = state_->handle(id).in_patch;
-    const Vec3 arm = about - state_->rest_patch->patch.origin;
-    return {map.linear, map.translation + (map.linear - Mat3::Identity()) * arm};
+const DeformFrame& Deformer::State::complete() {
+    if (!shown.gradients) shown.gradients = frame_gradients(shown, scratch);
+    shown.preparation.reset();
+    return shown;
 }
 
 void Deformer::prepare(const Context& context) {
-    with_memory_errors([&] { state_->prepare(context); });
+    (void)preparation(context);
+}
+
+std::shared_ptr<const Preparation> Deformer::preparation(const Context& context) {
+    return with_memory_errors([&] {
+        const auto& prepared = state_->prepare(context);
+        (void)asked_part(prepared, state_->poses.targets, state_->scratch.state().asked);
+        return prepared;
+    });
 }
 
 const std::vector<Vec3>& Deformer::preview(const Context& context) {
-    with_memory_errors([&] { state_->preview(context); });
-    return state_->positions;
+    State& s = *state_;
+    with_memory_errors(
+        [&] { s.show(preview_frame(s.prepare(context), s.poses, s.scratch, context)); });
+    return positions();
 }
 
 const std::vector<Vec3>& Deformer::solve(const Context& context) {
-    with_memory_errors([&] { state_->solve(false, context); });
-    return state_->positions;
+    State& s = *state_;
+    with_memory_errors([&] {
+        s.show(solve_frame(s.prepare(context), s.poses, s.scratch, FrameQuality::full, context));
+    });
+    return positions();
 }
 
 const std::vector<Vec3>& Deformer::solve_draft(const Context& context) {
-    with_memory_errors([&] { state_->solve(true, context); });
-    return state_->positions;
-}
-
-// Solves for the deviation from the base transform of the rest shape, which the system maps to
-// itself: the rounding of its entries then acts on the deviation only.
-std::vector<Vec3> Deformer::solve_first_directly(const Context& context) {
     State& s = *state_;
-    require_implicit(s.options, "the first system");
-    s.prepare(context);
-    const Mat4 base = s.base_transform();
-    const Mat3 base_gradient = base.topLeftCorner<3, 3>();
-    std::vector<Vec3> x(static_cast<std::size_t>(s.prepared->work->patch.vertex_count),
-                        Vec3::Zero());
-    for (Index v = 0; v < s.prepared->work->patch.vertex_count; ++v) {
-        if (s.prepared->known.position[v]) x[v] = s.known_deviation(v);
-    }
-    const std::vector<Index>& free = s.prepared->first->free_vertices();
-    const std::size_t rows = free.size();
-    std::vector<long double> b(3 * rows);
-    for (int d = 0; d < 3; ++d) {
-        s.prepared->first->right_hand_side(
-            [&](Index k) { return x[k][d]; },
-            [&](Index k) -> Vec3 {
-                return (s.known_gradient(k) - base_gradient).row(d).transpose();
-            },
-            b.data() + static_cast<std::size_t>(d) * rows);
-    }
-    if (rows > 0) {
-        std::vector<double> y = s.prepared->first->solve(b, 3);
-        for (int d = 0; d < 3; ++d) {
-            s.prepared->first->enforce_ties([&](Index k) { return x[k][d]; },
-                                            std::span(y).subspan(d * rows, rows));
-        }
-        for (std::size_t r = 0; r < rows; ++r) x[free[r]] = {y[r], y[rows + r], y[2 * rows + r]};
-    }
-    return s.pulled_back(x);
+    with_memory_errors([&] {
+        s.show(solve_frame(s.prepare(context), s.poses, s.scratch, FrameQuality::draft, context));
+    });
+    return positions();
 }
 
 const std::vector<Vec3>& Deformer::positions() const {
-    return state_->positions;
+    return state_->shown.positions;
 }
 const std::vector<Vec3>& Deformer::rest_positions() const {
-    return state_->rest;
+    return state_->rest->positions;
 }
 
 void Deformer::apply_to(Mesh& mesh) const {
-    const State& s = *state_;
-    require_surroundings(mesh);
-    const std::vector<Mat3> alone = s.turns_without_faces();
-    const std::span<Vec3> out = mesh.edit_positions();
-    for (Index row = 0; row < s.region.size(); ++row)
-        out[s.region.vertices()[row]] = s.positions[row];
-    s.directions.apply_to(mesh, alone);
+    with_memory_errors([&] { write_frame(*state_->rest, state_->shown, mesh); });
 }
 
 void Deformer::require_surroundings(const Mesh& mesh) const {
-    require_same_topology(mesh, state_->region.topology(), "the deformer");
-    state_->require_surroundings(mesh);
+    require_same_topology(mesh, region().topology(), "the deformer");
+    lissom::require_surroundings(*state_->rest, mesh);
 }
 
 void Deformer::apply_rest_to(Mesh& mesh) const {
-    const State& s = *state_;
-    require_surroundings(mesh);
-    const std::span<Vec3> out = mesh.edit_positions();
-    for (Index row = 0; row < s.region.size(); ++row) out[s.region.vertices()[row]] = s.rest[row];
-    s.directions.apply_to(mesh,
-                          std::vector<Mat3>(s.directions.without_faces().size(), Mat3::Identity()));
+    with_memory_errors([&] { write_rest(*state_->rest, mesh); });
 }
 
 std::shared_ptr<const ShownResult> Deformer::result() {
-    State& s = *state_;
-    s.find_gradients();
-    return std::make_shared<ShownResult>(
-        ShownResult{s.positions, s.inserted, s.shown_patch, s.shown, s.gradients});
+    return with_memory_errors(
+        [&] { return std::make_shared<const DeformFrame>(state_->complete()); });
 }
 
 void Deformer::show(const ShownResult& result) {
-    State& s = *state_;
-    s.positions = result.positions;
-    s.inserted = result.inserted;
-    s.shown_patch = result.patch;
-    s.shown = result.transforms;
-    s.gradients = result.gradients;
-    s.gradients_current = true;
+    if (result.positions.size() != positions().size()) {
+        throw Error(ErrorCode::invalid_argument, "the result belongs to another deformation");
+    }
+    with_memory_errors([&] { state_->show(result); });
+}
+
+const std::vector<Mat3>& Deformer::gradients() {
+    return with_memory_errors(
+        [&]() -> const std::vector<Mat3>& { return *state_->complete().gradients; });
+}
+
+DeformStats Deformer::stats() const {
+    const RestShape& rest = *state_->rest;
+    const auto& handles = state_->holds->handles;
+    DeformStats stats = state_->costs;
+    stats.region_vertices = rest.region().size();
+    stats.zero_area_faces = rest.patch().zero_area_faces;
+    stats.inserted_vertices = rest.patch().vertex_count - rest.patch().real_count;
+    stats.handles = static_cast<Index>(
+        std::count_if(handles.begin(), handles.end(), [](const auto& h) { return h != nullptr; }));
+    return stats;
 }
 
 void Deformer::reset() {
     State& s = *state_;
-    for (HandleState& handle : s.handles) handle.set_at_rest();
-    if (!s.constraints.empty() || !s.points.empty()) s.prepared.reset();
-    s.constraints.clear();
-    s.points.clear();
-    s.to_rest();
+    with_memory_errors([&] {
+        DeformFrame frame = rest_frame(*s.rest);
+        Poses poses{std::vector<HandlePose>(s.holds->handles.size()), {}};
+        auto holds = s.holds;
+        if (!holds->targets.empty()) {
+            Holds next = *holds;
+            next.targets.clear();
+            holds = std::make_shared<const Holds>(std::move(next));
+        }
+        s.holds = std::move(holds);
+        s.poses = std::move(poses);
+        s.show(std::move(frame));
+    });
 }
 
-const std::vector<Mat3>& Deformer::gradients() {
-    state_->find_gradients();
-    return state_->gradients;
-}
-
-// Weights and fixed part leave the coordinates of the patch: for a transform [L t] of the mesh's
-// space the patch sees [L, L o + t - o].
-HandleBasis Deformer::basis(const Context& context) {
+// Whatever a target holds stays where it is now.
+void Deformer::rebase() {
     State& s = *state_;
-    require_implicit(s.options, "the handle basis");
-    s.prepare(context);
-    HandleBasis basis;
-    basis.vertices = s.region.vertices();
-    basis.handles = handles();
-    const std::size_t rows = basis.vertices.size();
-    const Vec3& o = s.rest_patch->patch.origin;
-    basis.fixed.assign(rows, Vec3::Zero());
-    basis.weights.assign(basis.handles.size(), std::vector<Vec4>(rows, Vec4::Zero()));
-    const auto weights_of = [&](Index handle) -> std::vector<Vec4>& {
-        const auto at = std::find(basis.handles.begin(), basis.handles.end(), HandleId{handle});
-        return basis.weights[static_cast<std::size_t>(at - basis.handles.begin())];
-    };
-    for (Index row = 0; row < s.region.size(); ++row) {
-        const Index v = s.rest_patch->patch.of_region[row], owner = s.prepared->owner[v];
-        if (!s.prepared->known.position[v]) continue;
-        if (owner >= 0) {
-            weights_of(owner)[row] = homogeneous(s.rest[row]);
-        } else {
-            basis.fixed[row] = s.known_position(v) + o;
-        }
-    }
-    if (!s.prepared->solution) return basis;
-    const LinearSolution& solution = *s.prepared->solution;
-    const std::vector<Index>& free = s.prepared->first->free_vertices();
-    for (std::size_t f = 0; f < free.size(); ++f) {
-        const Index row = s.prepared->frame_row[f];
-        if (row == kNoIndex || row >= s.region.size()) continue;
-        Vec4 rest_part = homogeneous(s.prepared->work->patch.rest[free[f]] + o);
-        for (std::size_t h = 0; h < solution.handles().size(); ++h) {
-            Vec4 w = solution.weight(h, static_cast<Index>(f));
-            w.head<3>() += w[3] * o;
-            weights_of(solution.handles()[h])[row] = w;
-            rest_part -= w;
-        }
-        basis.fixed[row] = solution.fixed(static_cast<Index>(f));
-        if (solution.base() == kNoIndex) {
-            basis.fixed[row] += rest_part.head<3>();
-        } else {
-            weights_of(solution.base())[row] = rest_part;
-        }
-    }
-    return basis;
-}
-
-const DeformStats& Deformer::stats() const {
-    return state_->stats;
+    with_memory_errors([&] {
+        const auto rest = rebased(*s.rest, s.shown);
+        auto holds = std::make_shared<const Holds>(moved_to(*rest, *s.holds));
+        Poses poses = resting_poses(*rest, *holds);
+        DeformFrame frame = rest_frame(*rest);
+        s.rest = rest;
+        s.holds = std::move(holds);
+        s.poses = std::move(poses);
+        s.show(std::move(frame));
+    });
 }
 
 void deform(Mesh& mesh, const Region& region, std::span<const HandleMove> handles,

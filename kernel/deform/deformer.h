@@ -21,25 +21,12 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/deform/options.h"
+#include "kernel/deform/pipeline.h"
+#include "kernel/deform/stats.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 
 namespace lissom {
-
-/// Sizes and times of the last preparation. Times are in seconds, sizes in bytes.
-struct DeformStats {
-    Index region_vertices = 0, free_vertices = 0, constrained_vertices = 0, handles = 0;
-    /// Degenerate vertices displaced, vertices inserted at corners of the boundary, zero-area
-    /// faces.
-    Index displaced_vertices = 0, inserted_vertices = 0, zero_area_faces = 0;
-    /// Vertices that a refinement of coarse borders added.
-    Index refined_vertices = 0;
-    std::size_t first_nonzeros = 0, second_nonzeros = 0, factor_bytes = 0;
-    double assemble_seconds = 0, first_factor_seconds = 0, second_factor_seconds = 0;
-    double basis_seconds = 0;
-    /// Factorisations since construction: dragging adds none.
-    Index factorizations = 0;
-};
 
 /// The first system's solution as a linear function of the handles' transforms:
 /// x_v = fixed_v + sum_h [linear_h translation_h] * weight(h, v), with `weight` a 4-vector.
@@ -59,11 +46,19 @@ struct HandlePoses;
 
 /// What a Deformer shows: positions, and all that apply_to, refined_mesh, gradients and rebase take
 /// from the last solve or preview; see Deformer::result.
-struct ShownResult;
+using ShownResult = DeformFrame;
+
+/// All that was asked of a Deformer. A copy is cheap, and putting it back is an undo.
+struct DeformSetup {
+    std::shared_ptr<const RestShape> rest;
+    std::shared_ptr<const Holds> holds;
+    Poses poses;
+};
 
 /// Deforms one region of one mesh. Vertices outside the region never move and keep the identity as
 /// gradient. Factors are kept: a new transform costs no factorisation, a new handle does, at the
-/// next solve. Accepts polygon meshes of any genus, with or without boundary.
+/// next solve. Accepts polygon meshes of any genus, with or without boundary. It keeps one of each
+/// of the values of pipeline.h; after an error all of them are as they were.
 class Deformer {
   public:
     /// Takes the present shape of `mesh` as rest shape; the mesh may change or die afterwards.
@@ -134,6 +129,13 @@ class Deformer {
     std::shared_ptr<const HandlePoses> poses() const;
     /// Handles that were removed since, or added, are left as they are.
     void restore(const HandlePoses& poses);
+    /// What was asked so far: handles, their transforms, constraints, stiffness and the rest shape.
+    DeformSetup setup() const;
+    /// Puts a setup of this deformer back, to the bit: handles and constraints added since are
+    /// gone, and those removed since are there again, under the ids that they had; an id that was
+    /// used in between names what it named before. What is shown stays until the next solve.
+    /// Errors: invalid_argument for a setup of another deformer.
+    void restore(const DeformSetup& setup);
     /// The map f with which p goes to about + f(p - about): what to compose moves with.
     Affine transform_about(HandleId handle, const Vec3& about) const;
 
@@ -158,6 +160,10 @@ class Deformer {
     /// what a comparison method cannot hold.
     void prepare() { prepare(context()); }
     void prepare(const Context& context);
+
+    /// What `prepare` makes, for frames of the host's own; see pipeline.h. Errors: as prepare.
+    std::shared_ptr<const Preparation> preparation() { return preparation(context()); }
+    std::shared_ptr<const Preparation> preparation(const Context& context);
 
     /// Solves the first system only (Eq 2.8), by the handle basis; as `solve` for a comparison
     /// method. Errors: as prepare.
@@ -191,7 +197,8 @@ class Deformer {
     void require_surroundings(const Mesh& mesh) const;
     /// What is shown, to be put back by `show`, to the bit, whatever was solved in between.
     std::shared_ptr<const ShownResult> result();
-    /// Shows a result of this deformer again. The handles stay where they are; see `restore`.
+    /// Shows a result of this deformer again, or a frame of its preparation. The handles stay where
+    /// they are; see `restore`. Errors: invalid_argument for one of another region.
     void show(const ShownResult& result);
     /// `mesh` as apply_to leaves it, with the vertices that a refinement of coarse borders
     /// inserted: behind its own, where the last result has them. Faces that they lie on become
@@ -221,7 +228,7 @@ class Deformer {
     /// Computes the basis if needed. Errors: as prepare; unsupported for a comparison method.
     HandleBasis basis() { return basis(context()); }
     HandleBasis basis(const Context& context);
-    const DeformStats& stats() const;
+    DeformStats stats() const;
 
   private:
     struct State;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernel/core/memory_error.h"
 #include "kernel/deform/deformer_state.h"
 #include "kernel/mesh/derive.h"
 
@@ -95,21 +96,24 @@ class RefinedMesh {
 
 Mesh Deformer::refined_mesh(const Mesh& mesh, const Context& context) {
     State& s = *state_;
-    Mesh deformed = mesh;
-    apply_to(deformed);
-    if (!s.shown_patch) s.prepare(context);
-    const Patch& patch = s.shown_patch ? s.shown_patch->patch : s.prepared->work->patch;
-    if (patch.inserted.empty()) return deformed;
-    const std::span<const Vec3> own = deformed.positions();
-    std::vector<Vec3> positions(own.begin(), own.end());
-    if (s.shown_patch) {
-        positions.insert(positions.end(), s.inserted.begin(), s.inserted.end());
-    } else {
-        for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
-            positions.push_back(patch.rest[v] + patch.origin);
+    return with_memory_errors([&] {
+        Mesh deformed = mesh;
+        apply_to(deformed);
+        const std::shared_ptr<const WorkingPatch> work =
+            s.shown.patch ? s.shown.patch : s.prepare(context)->work;
+        const Patch& patch = work->patch;
+        if (patch.inserted.empty()) return deformed;
+        const std::span<const Vec3> own = deformed.positions();
+        std::vector<Vec3> positions(own.begin(), own.end());
+        if (s.shown.patch) {
+            positions.insert(positions.end(), s.shown.inserted.begin(), s.shown.inserted.end());
+        } else {
+            for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
+                positions.push_back(patch.rest[v] + patch.origin);
+            }
         }
-    }
-    return RefinedMesh(deformed, patch).build(std::move(positions), context);
+        return RefinedMesh(deformed, patch).build(std::move(positions), context);
+    });
 }
 
 }  // namespace lissom

@@ -28,7 +28,7 @@ class Frames : public ComparisonMethod {
 
     // Solved for deviations from the rigid part of the base transform.
     void solve(const ComparisonFrame& frame, std::span<Vec3> positions, std::span<Mat3> gradients,
-               const Context& context) override {
+               const Context& context) const override {
         const Affine base{nearest_rotation(frame.base.linear), frame.base.translation};
         const std::size_t n = positions.size(), rows = rings_.neighbor.size();
         solve_frames(frame, gradients);

@@ -32,7 +32,7 @@ class LaplacianMethod : public ComparisonMethod {
     }
 
     void solve(const ComparisonFrame& frame, std::span<Vec3> positions, std::span<Mat3> gradients,
-               const Context& context) override {
+               const Context& context) const override {
         reconstruct(frame.base.translation, {}, positions, context);
         for (Mat3& m : gradients) m.setIdentity();
     }
@@ -84,7 +84,7 @@ class RotationEstimate : public LaplacianMethod {
     }
 
     void solve(const ComparisonFrame& frame, std::span<Vec3> positions, std::span<Mat3> gradients,
-               const Context& context) override {
+               const Context& context) const override {
         reconstruct(frame.base.translation, {}, positions, context);
         const std::vector<Vec3> normal = normals(positions);
         for (Index i = 0; i < rings_.size(); ++i) {

@@ -47,7 +47,7 @@ struct ComparisonCosts {
     double first_seconds = 0, second_seconds = 0;
 };
 
-/// One comparison method, factored.
+/// One comparison method, factored. Several threads may solve at the same time.
 class ComparisonMethod {
   public:
     virtual ~ComparisonMethod() = default;
@@ -56,7 +56,7 @@ class ComparisonMethod {
     /// known are given, the others are found. `gradients` receives the M_i of Eq 2.2, by which the
     /// method transforms the details.
     virtual void solve(const ComparisonFrame& frame, std::span<Vec3> positions,
-                       std::span<Mat3> gradients, const Context& context) = 0;
+                       std::span<Mat3> gradients, const Context& context) const = 0;
     virtual ComparisonCosts costs() const = 0;
 };
 

@@ -32,15 +32,16 @@ class Propagation : public ComparisonMethod {
     // Solved for deviations from the base transform of the rest shape, whose gradients are its
     // linear part.
     void solve(const ComparisonFrame& frame, std::span<Vec3> positions, std::span<Mat3> gradients,
-               const Context& context) override {
+               const Context& context) const override {
         const std::size_t n = positions.size(), rows = 3 * triangles_.size();
-        stretch_.clear();
+        std::vector<Mat3> stretch;
         for (const SourceMotion& s : frame.sources) {
-            stretch_.push_back(rotation_of_turn(s.rotation).transpose() * s.gradient);
+            stretch.push_back(rotation_of_turn(s.rotation).transpose() * s.gradient);
         }
+        std::vector<double> mean;
         std::vector<double> b(3 * rows), x(3 * n);
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            const Mat3 change = triangle_transform(frame, t) - frame.base.linear;
+            const Mat3 change = triangle_transform(frame, stretch, t, mean) - frame.base.linear;
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec3 edge = change * edge_of(t, k);
                 for (int d = 0; d < 3; ++d) b[d * rows + 3 * t + k] = edge[d];
@@ -55,7 +56,7 @@ class Propagation : public ComparisonMethod {
             positions[i] = frame.base(rest_[i]) + Vec3(x[i], x[n + i], x[2 * n + i]);
         }
         for (std::size_t i = 0; i < n; ++i) {
-            gradients[i] = blend(frame, weights_.at(static_cast<Index>(i)));
+            gradients[i] = blend(frame, stretch, weights_.at(static_cast<Index>(i)));
         }
     }
 
@@ -91,24 +92,28 @@ class Propagation : public ComparisonMethod {
         }
     }
 
-    Mat3 blend(const ComparisonFrame& frame, std::span<const double> weights) const {
+    // `stretch` is that of each source.
+    static Mat3 blend(const ComparisonFrame& frame, const std::vector<Mat3>& stretch,
+                      std::span<const double> weights) {
         Vec3 rotation = Vec3::Zero();
-        Mat3 stretch = Mat3::Zero();
+        Mat3 mean_stretch = Mat3::Zero();
         for (std::size_t s = 0; s < weights.size(); ++s) {
             if (weights[s] == 1.0) return frame.sources[s].gradient;
             rotation += weights[s] * frame.sources[s].rotation;
-            stretch += weights[s] * stretch_[s];
+            mean_stretch += weights[s] * stretch[s];
         }
-        return rotation_of_turn(rotation) * stretch;
+        return rotation_of_turn(rotation) * mean_stretch;
     }
 
-    Mat3 triangle_transform(const ComparisonFrame& frame, std::size_t n) {
-        mean_.assign(static_cast<std::size_t>(weights_.sources), 0.0);
+    // `mean` is scratch.
+    Mat3 triangle_transform(const ComparisonFrame& frame, const std::vector<Mat3>& stretch,
+                            std::size_t n, std::vector<double>& mean) const {
+        mean.assign(static_cast<std::size_t>(weights_.sources), 0.0);
         for (const Index v : triangles_.triangle[n]) {
             const std::span<const double> w = weights_.at(v);
-            for (std::size_t s = 0; s < mean_.size(); ++s) mean_[s] += w[s] / 3.0;
+            for (std::size_t s = 0; s < mean.size(); ++s) mean[s] += w[s] / 3.0;
         }
-        return blend(frame, mean_);
+        return blend(frame, stretch, mean);
     }
 
     const WeightedTriangles& triangles_;
@@ -116,9 +121,6 @@ class Propagation : public ComparisonMethod {
     SourceWeights weights_;
     LeastSquares system_;
     ComparisonCosts costs_;
-    // Scratch of a frame: stretches of the sources, and the weights of one triangle.
-    std::vector<Mat3> stretch_;
-    std::vector<double> mean_;
 };
 
 }  // namespace

@@ -67,7 +67,7 @@ class Similarity : public ComparisonMethod {
 
     // The rest shape, scaled and moved, solves the system; deviations from it are solved for.
     void solve(const ComparisonFrame& frame, std::span<Vec3> positions, std::span<Mat3> gradients,
-               const Context& context) override {
+               const Context& context) const override {
         const Mat3& base = frame.base.linear;
         const double scale =
             (base.isDiagonal(0.0) && base == base(0, 0) * Mat3::Identity()) ? base(0, 0) : 1.0;

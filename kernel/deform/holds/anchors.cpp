@@ -17,31 +17,32 @@ constexpr double kFading = 100.0;
 
 class AnchorBuilder {
   public:
-    AnchorBuilder(const WorkingPatch& rest, const Holds& holds) : work_(rest), holds_(holds) {}
+    AnchorBuilder(const WorkingPatch& rest, const Holds& holds, double transition)
+        : work_(rest), holds_(holds), transition_(transition) {}
 
     WorkingPatch build() {
-        if (!holds_.stiffness.empty()) stiffen();
+        if (holds_.stiffness) stiffen(*holds_.stiffness);
         for (std::size_t h = 0; h < holds_.handles.size(); ++h) {
-            if (!holds_.handles[h].removed) add_handle(holds_.handles[h], static_cast<Index>(h));
+            if (holds_.handles[h]) add_handle(*holds_.handles[h], static_cast<Index>(h));
         }
-        for (std::size_t p = 0; p < holds_.points.size(); ++p) {
-            const PointState& point = holds_.points[p];
-            const PointConstraint& asked = point.asked;
-            add_point(point.row, kConstrained, static_cast<Index>(p), asked.weight,
-                      asked.position.has_value(), asked.gradient.has_value());
+        for (std::size_t t = 0; t < holds_.targets.size(); ++t) {
+            const Target& target = *holds_.targets[t];
+            if (target.is_hard_vertex()) continue;
+            add_point(target.row, kConstrained, static_cast<Index>(t), target.weight,
+                      target.position, target.gradient);
         }
-        if (holds_.transition > 0.0) add_transition();
+        if (transition_ > 0.0) add_transition();
         return std::move(work_);
     }
 
   private:
     // Virtual vertices are as stiff as what surrounds them.
-    void stiffen() {
+    void stiffen(const std::vector<double>& given) {
         const Patch& patch = work_.patch;
-        work_.stiffness = holds_.stiffness;
+        work_.stiffness = given;
         for (const SparseRow& row : patch.inserted) {
             double sum = 0.0;
-            for (const auto& [v, c] : row) sum += c * holds_.stiffness[v];
+            for (const auto& [v, c] : row) sum += c * given[v];
             work_.stiffness.push_back(sum);
         }
         for (Index v = patch.real_count; v < patch.surface_count; ++v) {
@@ -86,7 +87,7 @@ class AnchorBuilder {
         }
     }
 
-    void add_falloff(const HandleState& handle, Index h) {
+    void add_falloff(const Handle& handle, Index h) {
         std::vector<std::pair<Index, double>> sources;
         for (const Index v : handle.local) sources.emplace_back(v, 0.0);
         for (const SparseRow& row : handle.points) {
@@ -104,12 +105,12 @@ class AnchorBuilder {
         for (Index v = 0; v < work_.patch.real_count; ++v) {
             if (!work_.patch.in_region[v]) sources.emplace_back(v, 0.0);
         }
-        add_fading(sources, holds_.transition, kPinned, kFading, true, true);
+        add_fading(sources, transition_, kPinned, kFading, true, true);
     }
 
     // A soft handle is as strong as its weight says, however many vertices it has: each counts by
     // its share of their area.
-    void add_handle(const HandleState& handle, Index h) {
+    void add_handle(const Handle& handle, Index h) {
         const HandleOptions& options = handle.options;
         const double points = static_cast<double>(handle.points.size() + handle.local.size());
         if (handle.soft()) {
@@ -141,6 +142,7 @@ class AnchorBuilder {
 
     WorkingPatch work_;
     const Holds& holds_;
+    double transition_;
 };
 
 // Lengthens what is given for each vertex by nothing for each anchor.
@@ -206,8 +208,9 @@ void drop_repeated(WorkingPatch& work, const Holding& holding) {
 
 }  // namespace
 
-std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest, const Holds& holds) {
-    auto work = std::make_shared<WorkingPatch>(AnchorBuilder(rest, holds).build());
+std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest, const Holds& holds,
+                                             double transition) {
+    auto work = std::make_shared<WorkingPatch>(AnchorBuilder(rest, holds, transition).build());
     add_empty_anchors(*work);
     const Holding holding = find_holding(*work, holds);
     drop_repeated(*work, holding);

@@ -111,7 +111,7 @@ Holding known_nothing(const WorkingPatch& work) {
 }
 
 // Vertices without faces follow a soft handle as they follow a hard one.
-void hold_handle(const WorkingPatch& work, const HandleState& handle, Index h, Holding& holding) {
+void hold_handle(const WorkingPatch& work, const Handle& handle, Index h, Holding& holding) {
     for (const Index v : handle.local) {
         const bool isolated = work.rings.count(v) == 0;
         if (handle.soft() && !isolated) continue;
@@ -155,38 +155,40 @@ void hold_anchors(const WorkingPatch& work, Holding& holding) {
 
 }  // namespace
 
-bool Holds::change_patch() const {
-    return !points.empty() || !stiffness.empty() || transition > 0.0 ||
-           std::any_of(handles.begin(), handles.end(), [](const auto& h) {
-               return !h.removed && (h.soft() || !h.points.empty() || h.options.falloff > 0.0);
+bool changes_patch(const Holds& holds, double transition) {
+    return holds.stiffness || transition > 0.0 ||
+           std::any_of(holds.targets.begin(), holds.targets.end(),
+                       [](const auto& target) { return !target->is_hard_vertex(); }) ||
+           std::any_of(holds.handles.begin(), holds.handles.end(), [](const auto& h) {
+               return h && (h->soft() || !h->points.empty() || h->options.falloff > 0.0);
            });
 }
 
 Holding find_holding(const WorkingPatch& work, const Holds& holds) {
     Holding holding = known_nothing(work);
     for (std::size_t h = 0; h < holds.handles.size(); ++h) {
-        if (!holds.handles[h].removed) {
-            hold_handle(work, holds.handles[h], static_cast<Index>(h), holding);
-        }
+        if (holds.handles[h]) hold_handle(work, *holds.handles[h], static_cast<Index>(h), holding);
     }
-    for (const auto& [v, constraint] : holds.constraints) {
+    for (const auto& target : holds.targets) {
+        if (!target->is_hard_vertex()) continue;
+        const Index v = target->row.front().first;
         holding.owner[v] = kConstrained;
-        holding.known.position[v] = constraint.position.has_value() || work.rings.count(v) == 0;
-        holding.known.gradient[v] = constraint.gradient.has_value();
+        holding.known.position[v] = target->position || work.rings.count(v) == 0;
+        holding.known.gradient[v] = target->gradient;
     }
     hold_inserted(work.patch, holding);
     // Points come last: vertices that are held keep their holder.
     for (std::size_t h = 0; h < holds.handles.size(); ++h) {
-        const HandleState& handle = holds.handles[h];
-        if (handle.removed || handle.soft() || !handle.options.gradient) continue;
-        for (const SparseRow& row : handle.points) {
+        const Handle* handle = holds.handles[h].get();
+        if (!handle || handle->soft() || !handle->options.gradient) continue;
+        for (const SparseRow& row : handle->points) {
             turn_around(row, static_cast<Index>(h), kNoIndex, holding);
         }
     }
-    for (std::size_t p = 0; p < holds.points.size(); ++p) {
-        const PointConstraint& asked = holds.points[p].asked;
-        if (asked.weight || !asked.gradient) continue;
-        turn_around(holds.points[p].row, kConstrained, static_cast<Index>(p), holding);
+    for (std::size_t t = 0; t < holds.targets.size(); ++t) {
+        const Target& target = *holds.targets[t];
+        if (target.is_hard_vertex() || target.weight || !target.gradient) continue;
+        turn_around(target.row, kConstrained, static_cast<Index>(t), holding);
     }
     for (Index i = 0; i < work.patch.surface_count; ++i) {
         holding.known.gradient_wanted[i] = !holding.known.gradient[i] && work.rings.count(i) > 0;

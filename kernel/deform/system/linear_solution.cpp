@@ -67,7 +67,7 @@ void LinearSolution::choose_base(const LinearProblem& problem) {
         surrounded = surrounded || ((o == kPinned || o == kConstrained) && holds);
     }
     for (std::size_t h = 0; h < problem.handles.size(); ++h) {
-        if (problem.handles[h].removed) continue;
+        if (!problem.handles[h]) continue;
         if (!surrounded && base_ == kNoIndex) {
             base_ = static_cast<Index>(h);
         } else {
@@ -119,11 +119,10 @@ void LinearSolution::fold_back(const LinearProblem& problem) {
     }
 }
 
-void LinearSolution::solve_fixed(const LinearProblem& problem,
-                                 const VertexConstraints& constraints) {
-    fixed_.clear();
-    fixed_fold_.clear();
-    if (constraints.empty()) return;
+FixedPart LinearSolution::fixed_part(const LinearProblem& problem,
+                                     const VertexConstraints& constraints) const {
+    FixedPart fixed;
+    if (constraints.empty()) return fixed;
     const std::size_t rows = rest_.size();
     const auto shift = [&](Index k) -> Vec3 {
         const auto found = constraints.find(k);
@@ -146,13 +145,15 @@ void LinearSolution::solve_fixed(const LinearProblem& problem,
         problem.system.enforce_ties([&](Index k) { return shift(k)[d]; },
                                     std::span(columns).subspan(d * rows, rows));
     }
-    fixed_.resize(rows);
+    fixed.value.resize(rows);
     for (std::size_t r = 0; r < rows; ++r) {
-        fixed_[r] = {columns[r], columns[rows + r], columns[2 * rows + r]};
+        fixed.value[r] = {columns[r], columns[rows + r], columns[2 * rows + r]};
     }
     const std::vector<Index> row = rows_of(problem);
-    fixed_fold_ = folds<Vec3>(
-        problem, [&](Index k) -> Vec3 { return row[k] != kNoIndex ? fixed_[row[k]] : shift(k); });
+    fixed.fold = folds<Vec3>(problem, [&](Index k) -> Vec3 {
+        return row[k] != kNoIndex ? fixed.value[row[k]] : shift(k);
+    });
+    return fixed;
 }
 
 void LinearSolution::handle_part(std::span<const Mat4> differences, Vec4* x, Index begin,
@@ -163,16 +164,16 @@ void LinearSolution::handle_part(std::span<const Mat4> differences, Vec4* x, Ind
     loop.evaluate(x, begin, end);
 }
 
-void LinearSolution::deviations(std::span<const Mat4> differences, Vec4* x, Index begin,
-                                Index end) const {
+void LinearSolution::deviations(std::span<const Mat4> differences, const FixedPart& fixed, Vec4* x,
+                                Index begin, Index end) const {
     handle_part(differences, x, begin, end);
-    if (fixed_.empty()) return;
-    for (Index row = begin; row < end; ++row) x[row - begin].head<3>() += fixed_[row];
+    if (fixed.value.empty()) return;
+    for (Index row = begin; row < end; ++row) x[row - begin].head<3>() += fixed.value[row];
 }
 
-void LinearSolution::positions(const Mat4& shift, std::span<const Mat4> differences, Vec4* x,
-                               Index begin, Index end) const {
-    deviations(differences, x, begin, end);
+void LinearSolution::positions(const Mat4& shift, std::span<const Mat4> differences,
+                               const FixedPart& fixed, Vec4* x, Index begin, Index end) const {
+    deviations(differences, fixed, x, begin, end);
     const bool moved = !shift.isZero(0.0);
     for (Index row = begin; row < end; ++row) {
         Vec4& at = x[row - begin];
@@ -181,7 +182,7 @@ void LinearSolution::positions(const Mat4& shift, std::span<const Mat4> differen
         const Index f = fold_of_[row];
         if (f == kNoIndex) continue;
         for (std::size_t h = 0; h < handles_.size(); ++h) at += differences[h] * fold_[h][f];
-        if (!fixed_fold_.empty()) at.head<3>() += fixed_fold_[f];
+        if (!fixed.fold.empty()) at.head<3>() += fixed.fold[f];
     }
 }
 

@@ -2,6 +2,7 @@
 /// kernel/deform.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,15 @@ struct LinearProblem {
     const GradientStencils& gradients;
     const GradientSystem& system;
     const std::vector<Index>& owner;
-    const std::vector<HandleState>& handles;
+    const std::vector<std::shared_ptr<const Handle>>& handles;
+};
+
+/// What vertex constraints add to the free vertices; empty where there are none. `fold` is for
+/// displaced vertices.
+struct FixedPart {
+    std::vector<Vec3> value, fold;
+
+    Vec3 at(Index row) const { return value.empty() ? Vec3(Vec3::Zero()) : value[row]; }
 };
 
 /// With T the transform of the base and D_h = T_h - T those of the other handles relative to it, a
@@ -37,14 +46,15 @@ struct LinearProblem {
 /// A displaced vertex comes back by M (v - v') (section 2.4.3), which is linear in the same
 /// quantities: `fold` is added to its weights and v' becomes v. The base is what surrounds the
 /// region, with T = I, or the first handle where nothing is fixed. Affine motions of all handles
-/// together are then exact.
+/// together are then exact. `fixed` is a FixedPart, found apart as it follows what is asked.
+/// Several threads may read one solution at the same time.
 class LinearSolution {
   public:
     /// Solves for all handles at once.
     LinearSolution(const LinearProblem& problem, const Context& context);
 
-    /// Solves for the part that vertex constraints add.
-    void solve_fixed(const LinearProblem& problem, const VertexConstraints& constraints);
+    /// Solves for the part that vertex constraints add, for the problem it was made from.
+    FixedPart fixed_part(const LinearProblem& problem, const VertexConstraints& constraints) const;
 
     /// Number of free vertices.
     Index rows() const { return static_cast<Index>(rest_.size()); }
@@ -56,26 +66,26 @@ class LinearSolution {
     /// sum over h of D_h weight_h of the free vertices [begin, end): what the handles add.
     void handle_part(std::span<const Mat4> differences, Vec4* x, Index begin, Index end) const;
     /// x' - T v' of the free vertices [begin, end): how far they deviate from the base transform.
-    void deviations(std::span<const Mat4> differences, Vec4* x, Index begin, Index end) const;
+    void deviations(std::span<const Mat4> differences, const FixedPart& fixed, Vec4* x, Index begin,
+                    Index end) const;
     /// Positions of the free vertices [begin, end), for a base whose transform differs from the
     /// identity by `shift`.
-    void positions(const Mat4& shift, std::span<const Mat4> differences, Vec4* x, Index begin,
-                   Index end) const;
+    void positions(const Mat4& shift, std::span<const Mat4> differences, const FixedPart& fixed,
+                   Vec4* x, Index begin, Index end) const;
 
     /// The weight of the translation of handle number h of `handles()`, degenerate vertices
-    /// displaced, and what vertex constraints add.
+    /// displaced.
     double translation_weight(std::size_t h, Index row) const { return weight_[h][row][3]; }
-    Vec3 fixed_part(Index row) const { return fixed_.empty() ? Vec3(Vec3::Zero()) : fixed_[row]; }
 
-    /// Weight of handle number h of `handles()` in `position(row)`, and its fixed part.
+    /// Weight of handle number h of `handles()` in `positions`, and the part that no handle moves.
     Vec4 weight(std::size_t h, Index row) const {
         const Index f = fold_of_[row];
         return f == kNoIndex ? weight_[h][row] : Vec4(weight_[h][row] + fold_[h][f]);
     }
-    Vec3 fixed(Index row) const {
+    Vec3 fixed(const FixedPart& fixed, Index row) const {
         const Index f = fold_of_[row];
-        if (fixed_.empty()) return Vec3::Zero();
-        return f == kNoIndex ? fixed_[row] : Vec3(fixed_[row] + fixed_fold_[f]);
+        return fixed.value.empty() || f == kNoIndex ? fixed.at(row)
+                                                    : Vec3(fixed.value[row] + fixed.fold[f]);
     }
 
   private:
@@ -90,7 +100,6 @@ class LinearSolution {
     std::vector<Index> handles_;
     std::vector<Vec3> rest_;
     std::vector<std::vector<Vec4>> weight_, fold_;
-    std::vector<Vec3> fixed_, fixed_fold_;
     /// Place of a displaced free vertex in the folds.
     std::vector<Index> fold_of_;
 };

@@ -206,58 +206,60 @@ EnergyLoop RotationSystem::energy() const {
 
 // The factor by which one correction in single precision shortens the error, the worst of a smooth
 // solution and of two waves over the numbers of the vertices.
-double RotationSystem::measure_contraction(const Context& context) {
+double RotationSystem::measure_contraction(const Context& context) const {
+    Scratch scratch;
     std::vector<Vec4> x(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
     double size = 0.0;
     for (const Index v : free_) size = std::max(size, rest_[v].cwiseAbs().maxCoeff());
     for (const Index v : free_) {
         x[v] = {rest_[v].sum() / size, std::cos(0.01 * v), std::cos(1.0 * v), 0.0};
     }
-    find_residual(nullptr, x, residual_, context);
-    find_correction(context);
+    find_residual(nullptr, x, scratch.residual, scratch, context);
+    find_correction(scratch, context);
     Vec3 error = Vec3::Zero(), whole = Vec3::Zero();
     for (std::size_t r = 0; r < free_.size(); ++r) {
-        error += (correction_[r] + x[free_[r]].head<3>()).cwiseAbs2();
+        error += (scratch.correction[r] + x[free_[r]].head<3>()).cwiseAbs2();
         whole += x[free_[r]].head<3>().cwiseAbs2();
     }
     return std::sqrt((error.array() / whole.array().max(1e-300)).maxCoeff());
 }
 
 void RotationSystem::solve(std::span<const PaddedMat3> transforms, std::span<Vec4> x, bool draft,
-                           const Context& context) {
-    find_residual(transforms.data(), x, residual_, context);
-    find_correction(context);
-    add_correction(x);
+                           Scratch& scratch, const Context& context) const {
+    find_residual(transforms.data(), x, scratch.residual, scratch, context);
+    find_correction(scratch, context);
+    add_correction(scratch, x);
     for (int pass = 1; !draft && pass < corrections_; ++pass) {
         // What the last correction leaves of the residual.
-        step_.assign(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
-        add_correction(step_);
-        find_residual(nullptr, step_, change_, context);
-        for (std::size_t r = 0; r < free_.size(); ++r) residual_[r] += change_[r];
-        find_correction(context);
-        add_correction(x);
+        scratch.step.assign(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
+        add_correction(scratch, scratch.step);
+        find_residual(nullptr, scratch.step, scratch.change, scratch, context);
+        for (std::size_t r = 0; r < free_.size(); ++r) scratch.residual[r] += scratch.change[r];
+        find_correction(scratch, context);
+        add_correction(scratch, x);
     }
-    if (ties_.has_hard()) enforce_ties(x);
+    if (ties_.has_hard()) enforce_ties(x, scratch.columns);
 }
 
-void RotationSystem::add_correction(std::span<Vec4> x) const {
-    for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]].head<3>() += correction_[r];
+void RotationSystem::add_correction(const Scratch& scratch, std::span<Vec4> x) const {
+    for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]].head<3>() += scratch.correction[r];
 }
 
 void RotationSystem::bend(const PaddedMat3* transforms, std::span<const Vec4> x,
-                          const Context& context) {
+                          std::vector<Vec4>& bent, const Context& context) const {
     const EnergyLoop loop = energy();
-    bent_.resize(rest_.size());
+    bent.resize(rest_.size());
     context.parallel_for(0, rings_.size(), kFrameGrain, [&](Index begin, Index end) {
-        loop.bend(transforms, x.data(), bent_.data(), begin, end);
+        loop.bend(transforms, x.data(), bent.data(), begin, end);
     });
 }
 
 Vec3 RotationSystem::force(const PaddedMat3* transforms, std::span<const Vec4> x,
-                           std::span<const Index> vertices, const Context& context) {
-    bend(transforms, x, context);
+                           std::span<const Index> vertices, Scratch& scratch,
+                           const Context& context) const {
+    bend(transforms, x, scratch.bent, context);
     std::vector<Vec3> parts(vertices.size());
-    energy().descend(transforms, x.data(), bent_.data(), vertices.data(), parts.data(), 0,
+    energy().descend(transforms, x.data(), scratch.bent.data(), vertices.data(), parts.data(), 0,
                      static_cast<Index>(vertices.size()));
     Vec3 sum = Vec3::Zero();
     for (const Vec3& part : parts) sum += part;
@@ -266,41 +268,43 @@ Vec3 RotationSystem::force(const PaddedMat3* transforms, std::span<const Vec4> x
 
 // Right-hand side less what the matrix makes of x, without forming the matrix.
 void RotationSystem::find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
-                                   std::vector<Vec3>& residual, const Context& context) {
-    bend(transforms, x, context);
+                                   std::vector<Vec3>& residual, Scratch& scratch,
+                                   const Context& context) const {
+    bend(transforms, x, scratch.bent, context);
     const EnergyLoop loop = energy();
     residual.resize(free_.size());
     const auto count = static_cast<Index>(free_.size());
     context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
-        loop.descend(transforms, x.data(), bent_.data(), free_.data(), residual.data(), begin, end);
+        loop.descend(transforms, x.data(), scratch.bent.data(), free_.data(), residual.data(),
+                     begin, end);
     });
     ties_.subtract_from(x, free_, residual);
 }
 
-void RotationSystem::find_correction(const Context& context) {
-    correction_.resize(free_.size());
+void RotationSystem::find_correction(Scratch& scratch, const Context& context) const {
+    scratch.correction.resize(free_.size());
     if (single_.size() > 0) {
-        single_.solve(residual_, correction_, scratch_, context);
+        single_.solve(scratch.residual, scratch.correction, scratch.single, context);
         return;
     }
     const std::size_t rows = free_.size();
-    columns_.resize(3 * rows);
+    std::vector<double>& columns = scratch.columns;
+    columns.resize(3 * rows);
     for (std::size_t r = 0; r < rows; ++r) {
-        for (std::size_t d = 0; d < 3; ++d) columns_[d * rows + r] = residual_[r][d];
+        for (std::size_t d = 0; d < 3; ++d) columns[d * rows + r] = scratch.residual[r][d];
     }
-    system_.solve(columns_, columns_, 3);
+    system_.solve(columns, columns, 3);
     for (std::size_t r = 0; r < rows; ++r) {
-        correction_[r] = {columns_[r], columns_[rows + r], columns_[2 * rows + r]};
+        scratch.correction[r] = {columns[r], columns[rows + r], columns[2 * rows + r]};
     }
 }
 
-void RotationSystem::enforce_ties(std::span<Vec4> x) {
-    if (!ties_.has_hard()) return;
-    columns_.resize(free_.size());
+void RotationSystem::enforce_ties(std::span<Vec4> x, std::vector<double>& columns) const {
+    columns.resize(free_.size());
     for (int d = 0; d < 3; ++d) {
-        for (std::size_t r = 0; r < free_.size(); ++r) columns_[r] = x[free_[r]][d];
-        ties_.enforce([&](Index v) { return x[v][d]; }, columns_);
-        for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]][d] = columns_[r];
+        for (std::size_t r = 0; r < free_.size(); ++r) columns[r] = x[free_[r]][d];
+        ties_.enforce([&](Index v) { return x[v][d]; }, columns);
+        for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]][d] = columns[r];
     }
 }
 

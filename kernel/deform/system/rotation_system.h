@@ -26,6 +26,15 @@ namespace lissom {
 /// weights and that of rows G = l2 A F^2.
 class RotationSystem {
   public:
+    /// What a solve writes to, sized as needed; kept by the caller because a frame is short beside
+    /// the time to get fresh pages.
+    struct Scratch {
+        std::vector<Vec4> bent, step;
+        std::vector<Vec3> residual, change, correction;
+        std::vector<double> columns;
+        SingleFactor::Scratch single;
+    };
+
     RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                    const DeformOptions& options, const Context& context);
 
@@ -43,14 +52,20 @@ class RotationSystem {
     /// positions, those of anchors among them, and a guess of the free ones. Linear in both:
     /// deviations of S_i from one S give deviations of the positions from S v + t. With `draft`,
     /// one correction of the guess, about five digits; else as many as nearly full precision takes.
-    /// No transforms stand for zeros.
+    /// No transforms stand for zeros. Several threads may solve at the same time, each with scratch
+    /// of its own.
     void solve(std::span<const PaddedMat3> transforms, std::span<Vec4> x, bool draft,
-               const Context& context);
+               Scratch& scratch, const Context& context) const;
+    void solve(std::span<const PaddedMat3> transforms, std::span<Vec4> x, bool draft,
+               const Context& context) const {
+        Scratch scratch;
+        solve(transforms, x, draft, scratch, context);
+    }
 
     /// The sum over `vertices` of half the downward gradient of the energy without its ties, at
     /// positions x. Null transforms stand for zeros.
     Vec3 force(const PaddedMat3* transforms, std::span<const Vec4> x,
-               std::span<const Index> vertices, const Context& context);
+               std::span<const Index> vertices, Scratch& scratch, const Context& context) const;
 
     /// The loops over its energy.
     EnergyLoop energy() const;
@@ -59,13 +74,14 @@ class RotationSystem {
     void assemble(const std::vector<char>& position_known, const Context& context);
     void fade_laplacian(const Patch& patch, const std::vector<char>& position_known);
     void add_ties(const WorkingPatch& work);
-    void bend(const PaddedMat3* transforms, std::span<const Vec4> x, const Context& context);
+    void bend(const PaddedMat3* transforms, std::span<const Vec4> x, std::vector<Vec4>& bent,
+              const Context& context) const;
     void find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
-                       std::vector<Vec3>& residual, const Context& context);
-    void find_correction(const Context& context);
-    void add_correction(std::span<Vec4> x) const;
-    void enforce_ties(std::span<Vec4> x);
-    double measure_contraction(const Context& context);
+                       std::vector<Vec3>& residual, Scratch& scratch, const Context& context) const;
+    void find_correction(Scratch& scratch, const Context& context) const;
+    void add_correction(const Scratch& scratch, std::span<Vec4> x) const;
+    void enforce_ties(std::span<Vec4> x, std::vector<double>& columns) const;
+    double measure_contraction(const Context& context) const;
 
     Rings rings_;
     std::vector<double> coefficient_, edge_weight_, row_weight_;
@@ -82,11 +98,6 @@ class RotationSystem {
     SparseSystem system_;
     int corrections_ = 1;
     FactorStats stats_;
-    /// Scratch of a frame, kept because a frame is short beside the time to get fresh pages.
-    std::vector<Vec4> bent_, step_;
-    std::vector<Vec3> residual_, change_, correction_;
-    std::vector<double> columns_;
-    SingleFactor::Scratch scratch_;
 };
 
 }  // namespace lissom

@@ -20,8 +20,8 @@ struct FactorStats {
     double analyze_seconds = 0, factor_seconds = 0;
 };
 
-/// A factored symmetric positive definite matrix, for use by one thread at a time; several may be
-/// in use at the same time. Supernodal Cholesky, ordered and analysed by CHOLMOD; Eigen's
+/// A factored symmetric positive definite matrix. Several threads may solve with one factor at the
+/// same time; analysis and factoring are for one thread alone. Supernodal Cholesky, ordered and analysed by CHOLMOD; Eigen's
 /// SimplicialLDLT where the build is without GPL. `factor` runs on the threads of its context, and
 /// its result does not depend on their number.
 class SparseSystem {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "kernel/solve/sparse/sparse_system.h"
@@ -39,7 +40,9 @@ struct SparseSystem::State {
     Supernodes nodes;
     FactorPlan plan;
     std::unique_ptr<double[]> value;
+    // Of the solve before, taken by the next one; another at the same time makes its own.
     std::vector<double> scratch;
+    std::mutex scratch_lock;
     std::vector<Index> begin, row;
     bool factored = false;
     MemoryCharge charge;
@@ -106,11 +109,18 @@ void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index c
                                   {nodes.super.data(), nodes.first_row.data(),
                                    nodes.first_value.data(), nodes.row.data(), state_->value.get()},
                                   nodes.permutation.data()};
+    std::vector<double> scratch;
+    const auto exchange_scratch = [&] {
+        const std::lock_guard lock(state_->scratch_lock);
+        scratch.swap(state_->scratch);
+    };
+    exchange_scratch();
     for (Index first = 0; first < columns; first += kSolveWidth) {
         const std::size_t shift = static_cast<std::size_t>(first) * rows;
         solve_supernodal(factor, b.data() + shift, x.data() + shift,
-                         std::min(kSolveWidth, columns - first), state_->scratch);
+                         std::min(kSolveWidth, columns - first), scratch);
     }
+    exchange_scratch();
 }
 
 SingleFactor SparseSystem::single_factor(const Context& context) const {

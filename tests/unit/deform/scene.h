@@ -23,6 +23,14 @@ struct Scene {
     Region region(const std::vector<Index>& vertices) const {
         return {mesh.shared_topology(), vertices};
     }
+    /// The n-th of the vertices between the handles.
+    Index between(Index n) const {
+        for (Index v = 0;; ++v) {
+            const bool held = std::find(low.begin(), low.end(), v) != low.end() ||
+                              std::find(high.begin(), high.end(), v) != high.end();
+            if (!held && n-- == 0) return v;
+        }
+    }
     Region all() const { return Region::all(mesh.shared_topology()); }
 };
 

@@ -110,13 +110,14 @@ struct Held {
 };
 
 Held held_ends(const Scene& scene) {
-    std::vector<HandleState> handles;
+    Holds holds;
     for (const std::vector<Index>* end : {&scene.low, &scene.high}) {
-        handles.push_back({scene.region(*end), {}});
-        handles.back().local = *end;
+        Handle handle{scene.region(*end), {}};
+        handle.local = *end;
+        holds.handles.push_back(std::make_shared<const Handle>(std::move(handle)));
     }
     WorkingPatch work(build_patch(scene.mesh, scene.all(), 1), {});
-    Holding holding = find_holding(work, {handles, {}, {}, {}, 0.0});
+    Holding holding = find_holding(work, holds);
     return {std::move(work), std::move(holding)};
 }
 

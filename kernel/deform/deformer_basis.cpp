@@ -1,0 +1,136 @@
+// The first system alone: as a basis of the handles' transforms, and by its factor.
+#include <algorithm>
+
+#include "kernel/core/memory_error.h"
+#include "kernel/deform/deformer_state.h"
+#include "kernel/deform/frame_steps.h"
+
+namespace lissom {
+namespace {
+
+// Positions of the region's vertices for deviations `from` the base transform: displaced vertices
+// come back by v = M (v - v') + v' (section 2.4.3).
+std::vector<Vec3> pulled_back(const Motion& motion, const std::vector<Vec3>& from) {
+    const Patch& patch = motion.patch();
+    const GradientStencils& g = motion.method().gradients;
+    std::vector<Vec3> at = from;
+    for (const Index i : g.displaced) {
+        if (!g.defined[i]) continue;
+        at[i] +=
+            g.gather(motion.prepared().rings(), from, i) * (patch.rest[i] - g.displaced_rest[i]);
+    }
+    std::vector<Vec3> result;
+    for (const Index v : patch.of_region) {
+        result.push_back(at[v] + (motion.base() * homogeneous(patch.rest[v])).head<3>() +
+                         patch.origin);
+    }
+    return result;
+}
+
+// Solves for the deviation from the base transform of the rest shape, which the system maps to
+// itself: the rounding of its entries then acts on the deviation only.
+std::vector<Vec3> solved_directly(const Motion& motion) {
+    const Preparation& prepared = motion.prepared();
+    const GradientSystem& first = *motion.method().first;
+    const Mat3 base_gradient = motion.base_linear();
+    std::vector<Vec3> x(static_cast<std::size_t>(motion.patch().vertex_count), Vec3::Zero());
+    for (Index v = 0; v < motion.patch().vertex_count; ++v) {
+        if (prepared.known.position[v]) x[v] = motion.known_deviation(v);
+    }
+    const std::vector<Index>& free = first.free_vertices();
+    const std::size_t rows = free.size();
+    if (rows == 0) return pulled_back(motion, x);
+    std::vector<long double> b(3 * rows);
+    for (int d = 0; d < 3; ++d) {
+        first.right_hand_side(
+            [&](Index k) { return x[k][d]; },
+            [&](Index k) -> Vec3 {
+                return (motion.known_gradient(k) - base_gradient).row(d).transpose();
+            },
+            b.data() + static_cast<std::size_t>(d) * rows);
+    }
+    std::vector<double> y = first.solve(b, 3);
+    for (int d = 0; d < 3; ++d) {
+        first.enforce_ties([&](Index k) { return x[k][d]; }, std::span(y).subspan(d * rows, rows));
+    }
+    for (std::size_t r = 0; r < rows; ++r) x[free[r]] = {y[r], y[rows + r], y[2 * rows + r]};
+    return pulled_back(motion, x);
+}
+
+std::vector<Vec4>& weights_of(HandleBasis& basis, Index handle) {
+    const auto place = std::find(basis.handles.begin(), basis.handles.end(), HandleId{handle});
+    return basis.weights[static_cast<std::size_t>(place - basis.handles.begin())];
+}
+
+void add_known(const Motion& motion, HandleBasis& basis) {
+    const Preparation& prepared = motion.prepared();
+    const RestShape& rest = *prepared.rest;
+    for (Index row = 0; row < rest.region().size(); ++row) {
+        const Index v = rest.patch().of_region[row], owner = prepared.owner[v];
+        if (!prepared.known.position[v]) continue;
+        if (owner >= 0) {
+            weights_of(basis, owner)[row] = homogeneous(rest.positions[row]);
+        } else {
+            basis.fixed[row] = motion.known_position(v) + rest.origin();
+        }
+    }
+}
+
+// Weights and fixed part leave the coordinates of the patch: for a transform [L t] of the mesh's
+// space the patch sees [L, L o + t - o].
+void add_free(const Motion& motion, HandleBasis& basis) {
+    const RestShape& rest = *motion.prepared().rest;
+    const Vec3& o = rest.origin();
+    const LinearSolution& solution = motion.solution();
+    const std::vector<Index>& free = motion.method().first->free_vertices();
+    for (std::size_t f = 0; f < free.size(); ++f) {
+        const Index row = motion.method().frame_row[f];
+        if (row == kNoIndex || row >= rest.region().size()) continue;
+        Vec4 rest_part = homogeneous(motion.patch().rest[free[f]] + o);
+        for (std::size_t h = 0; h < solution.handles().size(); ++h) {
+            Vec4 w = solution.weight(h, static_cast<Index>(f));
+            w.head<3>() += w[3] * o;
+            weights_of(basis, solution.handles()[h])[row] = w;
+            rest_part -= w;
+        }
+        basis.fixed[row] = solution.fixed(motion.asked().fixed, static_cast<Index>(f));
+        if (solution.base() == kNoIndex) {
+            basis.fixed[row] += rest_part.head<3>();
+        } else {
+            weights_of(basis, solution.base())[row] = rest_part;
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Vec3> Deformer::solve_first_directly(const Context& context) {
+    State& s = *state_;
+    require_implicit(s.options(), "the first system");
+    return with_memory_errors([&] {
+        const auto& prepared = s.prepare(context);
+        const AskedPart& asked = asked_part(prepared, s.poses.targets, s.scratch.state().asked);
+        return solved_directly(Motion(*prepared, s.poses, asked));
+    });
+}
+
+HandleBasis Deformer::basis(const Context& context) {
+    State& s = *state_;
+    require_implicit(s.options(), "the handle basis");
+    return with_memory_errors([&] {
+        const auto& prepared = s.prepare(context);
+        const AskedPart& asked = asked_part(prepared, s.poses.targets, s.scratch.state().asked);
+        const Motion motion(*prepared, s.poses, asked);
+        HandleBasis basis;
+        basis.vertices = s.rest->region().vertices();
+        basis.handles = handles();
+        const std::size_t rows = basis.vertices.size();
+        basis.fixed.assign(rows, Vec3::Zero());
+        basis.weights.assign(basis.handles.size(), std::vector<Vec4>(rows, Vec4::Zero()));
+        add_known(motion, basis);
+        if (motion.method().solution) add_free(motion, basis);
+        return basis;
+    });
+}
+
+}  // namespace lissom

@@ -1,0 +1,127 @@
+// One frame: from a preparation and poses to positions.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "kernel/deform/frame_steps.h"
+#include "kernel/deform/rotation/polar.h"
+
+namespace lissom {
+namespace {
+
+// Solves for deviations from the similarity nearest to the base transform, so that similarities of
+// the whole are exact. `deviation` is that of the first system, and then of the second.
+void solve_second(const SecondInput& input, FrameScratch::State& scratch, const Context& context) {
+    const Motion& motion = input.motion;
+    const Patch& patch = motion.patch();
+    const RotationSystem& second = *motion.method().second;
+    Deviation& deviation = scratch.deviation;
+    find_rotations(input, deviation, context, scratch.rotations);
+    const Mat3 remainder = motion.base_linear() - input.base_rotation;
+    if (!remainder.isZero(0.0)) {
+        for_each_block(context, patch.vertex_count, [&](Index begin, Index end) {
+            for (Index v = begin; v < end; ++v) {
+                deviation[v].head<3>() += remainder * patch.rest[v];
+            }
+        });
+    }
+    wind_rotations(input, deviation, scratch.second, context, scratch.rotations);
+    second.solve(scratch.rotations, deviation, input.draft, scratch.second, context);
+    const int steps = motion.options().refine;
+    for (int step = 1; step <= steps; ++step) {
+        const double further = overshoot(input.greatest_turn, step == steps);
+        refine_rotations(input, deviation, further, scratch.absolute, context, scratch.rotations);
+        second.solve(scratch.rotations, deviation, input.draft, scratch.second, context);
+    }
+}
+
+// Where the second system puts the free vertices.
+void place_free(const SecondInput& input, std::span<const Vec4> deviation, const Context& context,
+                std::vector<Vec3>& positions) {
+    const Motion& motion = input.motion;
+    const Patch& patch = motion.patch();
+    const RestShape& rest = *motion.prepared().rest;
+    const Vec3 shift = motion.base().topRightCorner<3, 1>();
+    const std::vector<Index>& free = motion.method().second->free_vertices();
+    for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
+        for (Index row = begin; row < end; ++row) {
+            const Index v = free[row];
+            const Vec3 at = input.base_rotation * patch.rest[v] + shift + deviation[v].head<3>();
+            positions[rest.frame_row(patch, v)] = at + patch.origin;
+        }
+    });
+}
+
+// A frame's positions, for the region and behind it for what a refinement inserted.
+std::vector<Vec3> take_positions(FrameScratch::State& scratch, const Preparation& prepared) {
+    std::vector<Vec3> positions = std::exchange(scratch.positions, {});
+    positions.resize(prepared.rest->positions.size() + prepared.patch().inserted.size());
+    return positions;
+}
+
+DeformFrame resting(const Preparation& prepared, const Poses& poses) {
+    DeformFrame frame = rest_frame(*prepared.rest);
+    frame.poses = poses;
+    return frame;
+}
+
+}  // namespace
+
+FrameScratch::FrameScratch() : state_(std::make_unique<State>()) {}
+FrameScratch::~FrameScratch() = default;
+FrameScratch::FrameScratch(FrameScratch&&) noexcept = default;
+FrameScratch& FrameScratch::operator=(FrameScratch&&) noexcept = default;
+
+void FrameScratch::recycle(DeformFrame&& frame) {
+    state_->positions = std::move(frame.positions);
+}
+
+DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
+                          FrameScratch& scratch, const Context& context) {
+    const Preparation& prepared = *preparation;
+    if (at_rest(*prepared.rest, *prepared.holds, poses)) return resting(prepared, poses);
+    if (!prepared.implicit()) return solve_compared(preparation, poses, scratch.state(), context);
+    const AskedPart& asked = asked_part(preparation, poses.targets, scratch.state().asked);
+    const Motion motion(prepared, poses, asked);
+    std::vector<Vec3> positions = take_positions(scratch.state(), prepared);
+    if (const LinearSolution* solution = motion.method().solution.get()) {
+        const Mat4 shift = motion.base() - matrix_of({});
+        const std::vector<Index>& rows = motion.method().frame_row;
+        const Vec3& origin = prepared.patch().origin;
+        for_each_block(context, solution->rows(), [&](Index begin, Index end) {
+            std::array<Vec4, kFrameBlock> x;
+            solution->positions(shift, motion.differences(), asked.fixed, x.data(), begin, end);
+            for (Index row = begin; row < end; ++row) {
+                if (rows[row] == kNoIndex) continue;
+                positions[rows[row]] = x[row - begin].head<3>() + origin;
+            }
+        });
+    }
+    return framed(preparation, motion, poses, std::move(positions));
+}
+
+DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
+                        FrameScratch& given, FrameQuality quality, const Context& context) {
+    const Preparation& prepared = *preparation;
+    FrameScratch::State& scratch = given.state();
+    if (at_rest(*prepared.rest, *prepared.holds, poses)) return resting(prepared, poses);
+    if (!prepared.implicit()) return solve_compared(preparation, poses, scratch, context);
+    const AskedPart& asked = asked_part(preparation, poses.targets, scratch.asked);
+    const Motion motion(prepared, poses, asked);
+    std::vector<Vec3> positions = take_positions(scratch, prepared);
+    solve_first(motion, context, scratch.deviation);
+    if (!motion.method().second->free_vertices().empty()) {
+        if (scratch.sized_for.lock() != preparation) {
+            scratch.rotations.assign(static_cast<std::size_t>(prepared.patch().real_count),
+                                     PaddedMat3::Zero());
+            scratch.sized_for = preparation;
+        }
+        const SecondInput input{motion, rotation_of(motion, motion.base_linear()),
+                                motion.greatest_turn(), quality == FrameQuality::draft};
+        solve_second(input, scratch, context);
+        place_free(input, scratch.deviation, context, positions);
+    }
+    return framed(preparation, motion, poses, std::move(positions));
+}
+
+}  // namespace lissom

@@ -1,0 +1,108 @@
+// What becomes a result: positions as they were asked for to the bit, and gradients.
+#include <algorithm>
+#include <utility>
+
+#include "kernel/deform/frame_steps.h"
+#include "kernel/deform/rotation/polar.h"
+
+namespace lissom {
+namespace {
+
+// Where a vertex goes that handle h holds: transform(p), to the bit, unless the patch knows better.
+Vec3 held_position(const RestShape& rest, const HandlePose& pose, Index v) {
+    const Affine& transform = pose.transform;
+    const Vec3& before = rest.positions[rest.region_row[v]];
+    if (transform.is_identity()) return before;
+    if (!rest.far_away || transform.linear == Mat3::Identity()) return transform(before);
+    return rest.origin() + pose.local_transform(rest.patch().rest[v]);
+}
+
+// Held vertices lie where they were asked to, to the bit; vertices without faces that nothing holds
+// are at rest.
+void place_held(const Preparation& prepared, const Poses& poses, std::vector<Vec3>& positions) {
+    const RestShape& rest = *prepared.rest;
+    const Holds& holds = *prepared.holds;
+    for (const Index row : prepared.resting_rows) positions[row] = rest.positions[row];
+    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
+        if (!holds.handles[h]) continue;
+        for (const Index v : holds.handles[h]->local) {
+            if (!prepared.known.position[v]) continue;
+            positions[rest.region_row[v]] = held_position(rest, poses.handles[h], v);
+        }
+    }
+    for (std::size_t t = 0; t < holds.targets.size(); ++t) {
+        const Target& target = *holds.targets[t];
+        if (!target.is_hard_vertex()) continue;
+        const Index v = target.row.front().first, row = rest.region_row[v];
+        if (target.position) {
+            positions[row] = poses.targets[t].position;
+        } else if (prepared.known.position[v]) {
+            positions[row] = rest.positions[row];
+        }
+    }
+}
+
+// How the vertices that RestDirections::without_faces names have turned: with their handle.
+std::vector<Mat3> turns_without_faces(const Preparation& prepared, const Poses& poses) {
+    const RestShape& rest = *prepared.rest;
+    std::vector<Mat3> result;
+    for (const Index row : rest.directions.without_faces()) {
+        const Index v = rest.patch().of_region[row];
+        result.push_back(Mat3::Identity());
+        for (std::size_t h = 0; h < prepared.holds->handles.size(); ++h) {
+            const Handle* handle = prepared.holds->handles[h].get();
+            const Affine& moved = poses.handles[h].local_transform;
+            if (!handle || !handle->options.gradient || moved.is_identity()) continue;
+            const std::vector<Index>& held = handle->local;
+            if (std::find(held.begin(), held.end(), v) == held.end()) continue;
+            result.back() = nearest_rotation(moved.linear);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const Motion& motion,
+                   const Poses& poses, std::vector<Vec3> positions) {
+    const Preparation& prepared = *preparation;
+    const Patch& patch = prepared.patch();
+    place_held(prepared, poses, positions);
+    DeformFrame frame{preparation, poses, {}, {}, prepared.work, {}, {}};
+    const auto own = static_cast<std::ptrdiff_t>(prepared.rest->positions.size());
+    frame.inserted.assign(positions.begin() + own, positions.end());
+    positions.resize(static_cast<std::size_t>(own));
+    for (std::size_t k = 0; k < frame.inserted.size(); ++k) {
+        const Index v = patch.mesh_count() + static_cast<Index>(k);
+        if (!prepared.known.position[v]) continue;
+        frame.inserted[k] = motion.known_position(v) + patch.origin;
+    }
+    frame.positions = std::move(positions);
+    frame.turns_without_faces = turns_without_faces(prepared, poses);
+    return frame;
+}
+
+const AskedPart& asked_part(const std::shared_ptr<const Preparation>& preparation,
+                            const std::vector<TargetPose>& targets, AskedMemo& memo) {
+    if (memo.preparation.lock() != preparation || memo.targets != targets) {
+        AskedMemo next{preparation, targets, asked_part(*preparation, targets)};
+        memo = std::move(next);
+    }
+    return memo.part;
+}
+
+std::vector<Mat3> frame_gradients(const DeformFrame& frame, FrameScratch& given) {
+    if (frame.gradients) return *frame.gradients;
+    const Preparation& prepared = *frame.preparation;
+    FrameScratch::State& scratch = given.state();
+    const Motion motion(prepared, frame.poses,
+                        asked_part(frame.preparation, frame.poses.targets, scratch.asked));
+    solve_first(motion, {}, scratch.deviation);
+    std::vector<Mat3> gradients;
+    for (const Index v : prepared.patch().of_region) {
+        gradients.push_back(gradient_of(motion, scratch.deviation, v));
+    }
+    return gradients;
+}
+
+}  // namespace lissom

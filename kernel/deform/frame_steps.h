@@ -1,0 +1,102 @@
+/// The steps of a frame: each reads its arguments and gives a value, or writes the one it is given
+/// last; private to kernel/deform.
+///
+///     Motion -> deviation (first system) -> rotations -> deviation (second system) -> DeformFrame
+///
+/// A deviation is where local vertices lie, degenerate ones displaced, relative to where the base
+/// takes their rest position. Rotations are S_i of the second system, or R_i s_i, less that of the
+/// base; outside the region they stay zero, as then the base is the identity.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/deform/motion.h"
+#include "kernel/deform/system/frame_blocks.h"
+
+namespace lissom {
+
+using Deviation = std::vector<Vec4>;
+using Rotations = std::vector<PaddedMat3>;
+
+/// The asked part of the last frame, which serves as long as the targets stay where they are.
+struct AskedMemo {
+    std::weak_ptr<const Preparation> preparation;
+    std::vector<TargetPose> targets;
+    AskedPart part;
+};
+
+struct FrameScratch::State {
+    AskedMemo asked;
+    Deviation deviation;
+    /// Sized, and zero outside the region, for `sized_for`.
+    Rotations rotations;
+    std::weak_ptr<const Preparation> sized_for;
+    std::vector<Vec4> absolute;
+    std::vector<Vec3> positions;
+    RotationSystem::Scratch second;
+};
+
+const AskedPart& asked_part(const std::shared_ptr<const Preparation>& preparation,
+                            const std::vector<TargetPose>& targets, AskedMemo& memo);
+
+/// The first system at a fraction of the turns that are asked for.
+struct TurnPart {
+    double fraction = 1.0;
+    Deviation deviation;
+    /// What the handles' translations and the targets add that the turns do not.
+    std::vector<Vec4> remainder;
+};
+
+/// What the second system starts from.
+struct SecondInput {
+    const Motion& motion;
+    /// S of the base.
+    Mat3 base_rotation;
+    /// The greatest turn between handles.
+    double greatest_turn;
+    bool draft;
+};
+
+/// S of the second system for a deformation gradient: R, or R s.
+Mat3 rotation_of(const Motion& motion, const Mat3& gradient);
+
+void solve_first(const Motion& motion, const Context& context, Deviation& deviation);
+
+/// M_i after the first system, or what `part` of it leads to; where it does not exist, the mean of
+/// those around it.
+Mat3 gradient_of(const Motion& motion, std::span<const Vec4> deviation, Index v,
+                 const TurnPart* part = nullptr);
+
+/// The part of the turns that the first system is asked for, where it is not asked for all.
+std::optional<TurnPart> part_of_turns(const Motion& motion, double greatest_turn,
+                                      const Context& context);
+/// Turns gradients of `part` on by what it leaves, and adds the remainders.
+void turn_on(const Motion& motion, const TurnPart& part, std::span<const Index> vertices,
+             std::span<Mat3> gradient);
+
+/// The rotations that the first system leads to.
+void find_rotations(const SecondInput& input, std::span<const Vec4> deviation,
+                    const Context& context, Rotations& rotations);
+/// Blends in those of the field of turns, where handles turn too far for the first system.
+void wind_rotations(const SecondInput& input, std::span<const Vec4> deviation,
+                    RotationSystem::Scratch& scratch, const Context& context, Rotations& rotations);
+/// How much further than what fits best a refinement goes.
+double overshoot(double greatest_turn, bool last);
+/// Takes those that fit the positions of the second system best, and goes on by `further` times the
+/// change.
+void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
+                      std::vector<Vec4>& absolute, const Context& context, Rotations& rotations);
+
+/// A frame of a comparison method.
+DeformFrame solve_compared(const std::shared_ptr<const Preparation>& preparation,
+                           const Poses& poses, FrameScratch::State& scratch,
+                           const Context& context);
+
+/// The frame with `positions` for what is free; others lie where they are held, to the bit.
+DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const Motion& motion,
+                   const Poses& poses, std::vector<Vec3> positions);
+
+}  // namespace lissom

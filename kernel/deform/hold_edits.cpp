@@ -1,0 +1,326 @@
+#include "kernel/deform/hold_edits.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "kernel/deform/holds/mirror.h"
+
+namespace lissom {
+namespace {
+
+// Throws `code` about those of `vertices` for which `bad` holds, if there are any.
+template <typename Bad>
+void refuse_vertices(const std::vector<Index>& vertices, ErrorCode code, const std::string& message,
+                     const Bad& bad) {
+    Elements elements{ElementKind::vertex, 0, {}};
+    for (const Index v : vertices) {
+        if (bad(v)) elements.add(v);
+    }
+    if (elements.count == 0) return;
+    const std::string names = describe(elements);
+    throw Error(code, message + names, std::move(elements));
+}
+
+void require_topology(const Region& region, const Region& vertices) {
+    if (vertices.topology() == region.topology()) return;
+    throw Error(ErrorCode::topology_mismatch,
+                "the region given belongs to another mesh or to an older version of this one");
+}
+
+void require_weight(const std::optional<double>& weight) {
+    if (!weight || (*weight > 0.0 && std::isfinite(*weight))) return;
+    throw Error(ErrorCode::invalid_argument,
+                "a weight must be above 0; leave it out where the constraint is to hold exactly");
+}
+
+void require_handle_options(const HandleOptions& options) {
+    if (!options.position && !options.gradient) {
+        throw Error(ErrorCode::invalid_argument,
+                    "a handle must prescribe positions, gradients or both");
+    }
+    require_weight(options.weight);
+    if (!(options.falloff >= 0.0 && std::isfinite(options.falloff))) {
+        throw Error(ErrorCode::invalid_argument, "a falloff must be a distance of 0 or more");
+    }
+}
+
+void require_finite(const PointConstraint& constraint) {
+    if ((!constraint.position || constraint.position->allFinite()) &&
+        (!constraint.gradient || constraint.gradient->allFinite())) {
+        return;
+    }
+    Elements vertices{ElementKind::vertex, 0, {}};
+    for (const Index v : constraint.point.vertices) vertices.add(v);
+    const std::string names = describe(vertices);
+    throw Error(ErrorCode::not_finite, names + " cannot be constrained to NaN or infinity",
+                std::move(vertices));
+}
+
+// Errors: handle_outside_region where no vertex of the point may move.
+void require_inside(const Region& region, const MeshPoint& point) {
+    const bool inside = std::any_of(point.vertices.begin(), point.vertices.end(),
+                                    [&](Index v) { return region.contains(v); });
+    if (inside) return;
+    refuse_vertices(point.vertices, ErrorCode::handle_outside_region,
+                    "a point lies outside the region, between ", [](Index) { return true; });
+}
+
+// Errors: handle_overlap where handles but `except`, or targets, hold some of `vertices`.
+void require_unheld(const RestShape& rest, const Holds& holds, const std::vector<Index>& vertices,
+                    std::span<const Index> except = {}) {
+    std::vector<char> held(static_cast<std::size_t>(rest.patch().vertex_count), 0);
+    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
+        const bool left_out =
+            std::find(except.begin(), except.end(), static_cast<Index>(h)) != except.end();
+        if (left_out || !holds.handles[h]) continue;
+        for (const Index v : holds.handles[h]->local) held[v] = 1;
+    }
+    for (const auto& target : holds.targets) {
+        if (target->row.size() == 1) held[target->row.front().first] = 1;
+    }
+    refuse_vertices(vertices, ErrorCode::handle_overlap,
+                    "another handle or constraint already holds ",
+                    [&](Index v) { return held[rest.local_vertex(v)] != 0; });
+}
+
+SparseRow local_row(const RestShape& rest, const MeshPoint& point) {
+    SparseRow row;
+    for (std::size_t i = 0; i < point.vertices.size(); ++i) {
+        row.emplace_back(rest.local_vertex(point.vertices[i]), point.weights[i]);
+    }
+    return row;
+}
+
+bool before(const Target& a, const Target& b) {
+    if (a.is_hard_vertex() != b.is_hard_vertex()) return a.is_hard_vertex();
+    return a.row < b.row;
+}
+
+}  // namespace
+
+HandleId HoldEdit::add(Handle handle, const HandlePose& pose) {
+    handle.center = rest.center_of(handle);
+    holds.handles.push_back(std::make_shared<const Handle>(std::move(handle)));
+    poses.handles.push_back(pose);
+    return {static_cast<Index>(holds.handles.size()) - 1};
+}
+
+// Errors: as add_handle, beside the handles with numbers in `except`.
+void HoldEdit::require_handle_region(const Region& vertices, std::span<const Index> except) const {
+    require_topology(rest.region(), vertices);
+    if (vertices.empty()) throw Error(ErrorCode::region_empty, "the handle has no vertices");
+    refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
+                    "the handle reaches outside the region at ",
+                    [&](Index v) { return !rest.region().contains(v); });
+    require_unheld(rest, holds, vertices.vertices(), except);
+}
+
+HandleId HoldEdit::add_handle(const Region& vertices, const HandleOptions& options) {
+    require_handle_options(options);
+    require_handle_region(vertices);
+    Handle handle{vertices, options};
+    for (const Index v : vertices.vertices()) handle.local.push_back(rest.local_vertex(v));
+    return add(std::move(handle), {});
+}
+
+HandleId HoldEdit::add_handle(std::span<const MeshPoint> points, const HandleOptions& options) {
+    if (points.empty()) throw Error(ErrorCode::region_empty, "the handle has no points");
+    require_handle_options(options);
+    const auto& topology = rest.region().topology();
+    std::vector<Index> held, around;
+    std::vector<SparseRow> rows;
+    for (const MeshPoint& given : points) {
+        const MeshPoint point = checked_point(*topology, given);
+        require_inside(rest.region(), point);
+        around.insert(around.end(), point.vertices.begin(), point.vertices.end());
+        if (point.vertices.size() == 1) {
+            held.push_back(point.vertices.front());
+        } else {
+            rows.push_back(local_row(rest, point));
+        }
+    }
+    require_unheld(rest, holds, held);
+    Handle handle{Region(topology, around), options};
+    const Region held_region(topology, held);
+    for (const Index v : held_region.vertices()) handle.local.push_back(rest.local_vertex(v));
+    handle.points = std::move(rows);
+    return add(std::move(handle), {});
+}
+
+void HoldEdit::set_handle_region(HandleId id, const Region& vertices) {
+    Handle changed = handle_of(holds, id);
+    const Index partner = changed.partner;
+    require_handle_region(vertices, std::array{id.value, partner});
+    changed.region = vertices;
+    changed.points.clear();
+    changed.local.clear();
+    for (const Index v : vertices.vertices()) changed.local.push_back(rest.local_vertex(v));
+    changed.center = rest.center_of(changed);
+    if (partner != kNoIndex) {
+        holds.handles[partner] =
+            std::make_shared<const Handle>(mirror_image(id.value, changed, changed.mirror));
+        poses.handles[partner] = reflected(rest, changed.mirror, poses.handles[id.value]);
+    }
+    holds.handles[id.value] = std::make_shared<const Handle>(std::move(changed));
+}
+
+// Errors: invalid_argument where some of the local vertices have no counterpart in the region.
+std::vector<Index> HoldEdit::counterparts_of(const std::vector<Index>& local,
+                                             const MirrorPlane& plane) const {
+    const Patch& patch = rest.patch();
+    const Affine mirror = reflection({plane.point - patch.origin, plane.normal, 0.0});
+    const double tolerance = plane.tolerance > 0.0 ? plane.tolerance : 1e-3 * rest.work->radius;
+    std::vector<Index> found = counterparts(patch.rest, local, patch.of_region, mirror, tolerance);
+    std::vector<Index> alone;
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        if (found[i] == kNoIndex) alone.push_back(patch.mesh_vertex[local[i]]);
+    }
+    refuse_vertices(alone, ErrorCode::invalid_argument,
+                    "the mirror plane or its tolerance leave no counterpart to ",
+                    [](Index) { return true; });
+    return found;
+}
+
+// The mirror image of a handle, which keeps clear of that handle and of all others but its present
+// image.
+Handle HoldEdit::mirror_image(Index number, const Handle& handle, const MirrorPlane& plane) const {
+    const Patch& patch = rest.patch();
+    Handle image = handle;
+    image.mirror = plane;
+    image.local = counterparts_of(handle.local, plane);
+    std::sort(image.local.begin(), image.local.end());
+    for (SparseRow& row : image.points) {
+        std::vector<Index> around;
+        for (const auto& [v, c] : row) around.push_back(v);
+        const std::vector<Index> across = counterparts_of(around, plane);
+        for (std::size_t i = 0; i < row.size(); ++i) row[i].first = across[i];
+        std::sort(row.begin(), row.end());
+    }
+    std::vector<Index> vertices, held;
+    for (const Index v : image.local) held.push_back(patch.mesh_vertex[v]);
+    vertices = held;
+    for (const SparseRow& row : image.points) {
+        for (const auto& [v, c] : row) vertices.push_back(patch.mesh_vertex[v]);
+    }
+    refuse_vertices(vertices, ErrorCode::handle_overlap,
+                    "the handle meets its mirror image; leave out what is near the plane, as ",
+                    [&](Index v) { return handle.region.contains(v); });
+    require_unheld(rest, holds, held, std::array{number, handle.partner});
+    image.partner = number;
+    image.region = Region(rest.region().topology(), vertices);
+    image.center = rest.center_of(image);
+    return image;
+}
+
+HandleId HoldEdit::mirror_handle(HandleId id, const MirrorPlane& plane) {
+    Handle handle = handle_of(holds, id);
+    if (handle.partner != kNoIndex) {
+        throw Error(ErrorCode::invalid_argument, "the handle has a mirror image already");
+    }
+    const HandleId added =
+        add(mirror_image(id.value, handle, plane), reflected(rest, plane, poses.handles[id.value]));
+    handle.partner = added.value;
+    handle.mirror = plane;
+    holds.handles[id.value] = std::make_shared<const Handle>(std::move(handle));
+    return added;
+}
+
+void HoldEdit::remove_handle(HandleId id) {
+    const Index partner = handle_of(holds, id).partner;
+    holds.handles[id.value] = nullptr;
+    poses.handles[id.value] = {};
+    if (partner == kNoIndex) return;
+    Handle alone = *holds.handles[partner];
+    alone.partner = kNoIndex;
+    holds.handles[partner] = std::make_shared<const Handle>(std::move(alone));
+}
+
+void HoldEdit::set_stiffness(const Region& vertices, double factor) {
+    require_topology(rest.region(), vertices);
+    if (!(factor > 0.0 && std::isfinite(factor))) {
+        throw Error(ErrorCode::invalid_argument, "a stiffness must be above 0; 1 is as usual");
+    }
+    refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
+                    "outside the region there is nothing to make stiff, at ",
+                    [&](Index v) { return !rest.region().contains(v); });
+    auto stiffness = holds.stiffness ? std::make_shared<std::vector<double>>(*holds.stiffness)
+                                     : std::make_shared<std::vector<double>>(
+                                           static_cast<std::size_t>(rest.patch().real_count), 1.0);
+    for (const Index v : vertices.vertices()) (*stiffness)[rest.local_vertex(v)] = factor;
+    holds.stiffness = std::move(stiffness);
+}
+
+void HoldEdit::set_target(Target target, const TargetPose& pose) {
+    if (const TargetPlace old = find_target(holds, target); old.found) {
+        const auto place = static_cast<std::ptrdiff_t>(old.at);
+        holds.targets.erase(holds.targets.begin() + place);
+        poses.targets.erase(poses.targets.begin() + place);
+    }
+    if (!target.position && !target.gradient) return;
+    const auto place = static_cast<std::ptrdiff_t>(find_target(holds, target).at);
+    holds.targets.insert(holds.targets.begin() + place,
+                         std::make_shared<const Target>(std::move(target)));
+    poses.targets.insert(poses.targets.begin() + place, pose);
+}
+
+Target checked_target(const RestShape& rest, const Holds& holds, const PointConstraint& given) {
+    require_weight(given.weight);
+    PointConstraint asked = given;
+    asked.point = checked_point(*rest.region().topology(), given.point);
+    require_inside(rest.region(), asked.point);
+    require_finite(asked);
+    Target target{asked.point, local_row(rest, asked.point), asked.position.has_value(),
+                  asked.gradient.has_value(), asked.weight};
+    if (target.row.size() > 1) return target;
+    for (const auto& handle : holds.handles) {
+        if (!handle) continue;
+        const bool held = std::find(handle->local.begin(), handle->local.end(),
+                                    target.row.front().first) != handle->local.end();
+        if (held) require_unheld(rest, holds, asked.point.vertices);
+    }
+    return target;
+}
+
+// A point may have been asked for as a hard vertex before, and softly now.
+TargetPlace find_target(const Holds& holds, const Target& target) {
+    const auto place_of = [&](const Target& of) -> TargetPlace {
+        const auto place =
+            std::lower_bound(holds.targets.begin(), holds.targets.end(), of,
+                             [](const auto& a, const Target& b) { return before(*a, b); });
+        return {static_cast<std::size_t>(place - holds.targets.begin()),
+                place != holds.targets.end() && !before(of, **place)};
+    };
+    const TargetPlace place = place_of(target);
+    if (place.found || target.row.size() > 1) return place;
+    Target other = target;
+    other.weight = target.weight ? std::nullopt : std::optional(1.0);
+    const TargetPlace elsewhere = place_of(other);
+    return elsewhere.found ? elsewhere : place;
+}
+
+Poses resting_poses(const RestShape& rest, const Holds& holds) {
+    Poses poses{std::vector<HandlePose>(holds.handles.size()), {}};
+    for (const auto& target : holds.targets) {
+        const Vec3 at = target->is_hard_vertex()
+                            ? rest.positions[rest.region_row[target->row.front().first]]
+                            : Vec3(rest.position_of(target->row) + rest.origin());
+        poses.targets.push_back({at, Mat3::Identity()});
+    }
+    return poses;
+}
+
+Holds moved_to(const RestShape& rest, const Holds& holds) {
+    Holds moved = holds;
+    for (auto& handle : moved.handles) {
+        if (!handle) continue;
+        Handle next = *handle;
+        next.center = rest.center_of(next);
+        handle = std::make_shared<const Handle>(std::move(next));
+    }
+    return moved;
+}
+
+}  // namespace lissom

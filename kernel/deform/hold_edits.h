@@ -1,0 +1,52 @@
+/// Changes of who is held: steps from holds and poses to others; private to kernel/deform.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/deform/rest_shape.h"
+
+namespace lissom {
+
+/// Holds and poses under construction. After an error they are not to be used: work on copies, and
+/// keep them when all is done.
+struct HoldEdit {
+    const RestShape& rest;
+    Holds& holds;
+    Poses& poses;
+
+    // Errors of these are those of the functions of Deformer of the same names.
+    HandleId add_handle(const Region& vertices, const HandleOptions& options);
+    HandleId add_handle(std::span<const MeshPoint> points, const HandleOptions& options);
+    HandleId mirror_handle(HandleId id, const MirrorPlane& plane);
+    void set_handle_region(HandleId id, const Region& vertices);
+    void remove_handle(HandleId id);
+    void set_stiffness(const Region& vertices, double factor);
+    /// Replaces what is asked of a point by `asked`, which may be nothing.
+    void set_target(Target target, const TargetPose& pose);
+
+  private:
+    HandleId add(Handle handle, const HandlePose& pose);
+    Handle mirror_image(Index number, const Handle& handle, const MirrorPlane& plane) const;
+    std::vector<Index> counterparts_of(const std::vector<Index>& local,
+                                       const MirrorPlane& plane) const;
+    void require_handle_region(const Region& vertices, std::span<const Index> except = {}) const;
+};
+
+/// The target of a constraint, which is checked. Errors: as Deformer::constrain.
+Target checked_target(const RestShape& rest, const Holds& holds, const PointConstraint& given);
+
+/// Place of the target of the same point, where there is one, or where it would be put.
+struct TargetPlace {
+    std::size_t at = 0;
+    bool found = false;
+};
+TargetPlace find_target(const Holds& holds, const Target& target);
+
+/// The poses of everything at rest: handles stay where they are now, and so do targets.
+Poses resting_poses(const RestShape& rest, const Holds& holds);
+
+/// `holds` for another rest shape of the same region.
+Holds moved_to(const RestShape& rest, const Holds& holds);
+
+}  // namespace lissom

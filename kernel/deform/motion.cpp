@@ -1,0 +1,135 @@
+#include "kernel/deform/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/rotation/winding.h"
+
+namespace lissom {
+namespace {
+
+VertexConstraint constraint_of(const Target& target, const TargetPose& pose) {
+    VertexConstraint constraint{target.point.vertices.front(), {}, {}, {}};
+    if (target.position) constraint.position = pose.position;
+    if (target.gradient) constraint.gradient = pose.gradient;
+    return constraint;
+}
+
+VertexConstraints asked_of(const Preparation& prepared, const std::vector<TargetPose>& poses) {
+    const auto& targets = prepared.holds->targets;
+    VertexConstraints asked;
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+        if (!targets[t]->is_hard_vertex()) continue;
+        asked[targets[t]->row.front().first] = constraint_of(*targets[t], poses[t]);
+    }
+    for (const auto& [v, number] : prepared.asked) {
+        VertexConstraint constraint = constraint_of(*targets[number], poses[number]);
+        constraint.vertex = v;
+        const bool anchor = v >= prepared.patch().surface_count;
+        if (!anchor) constraint.position.reset();
+        asked[v] = constraint;
+    }
+    return asked;
+}
+
+}  // namespace
+
+AskedPart asked_part(const Preparation& prepared, const std::vector<TargetPose>& targets) {
+    AskedPart part{asked_of(prepared, targets), {}};
+    const ImplicitMethod* method = prepared.implicit();
+    if (method && method->solution) {
+        part.fixed = method->solution->fixed_part(prepared.problem(), part.at);
+    }
+    return part;
+}
+
+Motion::Motion(const Preparation& prepared, const Poses& poses, const AskedPart& asked)
+    : prepared_(prepared), poses_(poses), asked_(asked), base_(matrix_of({})) {
+    const ImplicitMethod* method = prepared.implicit();
+    if (!method || !method->solution) return;
+    const LinearSolution& solution = *method->solution;
+    if (solution.base() != kNoIndex) base_ = matrix_of(pose(solution.base()).local_transform);
+    for (const Index h : solution.handles()) {
+        differences_.push_back(matrix_of(pose(h).local_transform) - base_);
+    }
+}
+
+Vec3 Motion::known_position(Index v) const {
+    const Index o = prepared_.owner[v];
+    if (o >= 0) return pose(o).local_transform(patch().rest[v]);
+    if (o == kConstrained && asked_.at.at(v).position) {
+        return *asked_.at.at(v).position - patch().origin;
+    }
+    return patch().rest[v];
+}
+
+Vec3 Motion::known_deviation(Index v) const {
+    const Index o = prepared_.owner[v];
+    const Vec4 rest_point = homogeneous(patch().rest[v]);
+    if (o < 0) return known_position(v) - (base_ * rest_point).head<3>();
+    return ((matrix_of(pose(o).local_transform) - base_) * rest_point).head<3>();
+}
+
+Mat3 Motion::known_gradient(Index v) const {
+    const Index o = prepared_.owner[v];
+    if (o >= 0) return pose(o).local_transform.linear;
+    if (o != kConstrained) return Mat3::Identity();
+    return asked_.at.at(v).gradient.value_or(Mat3(Mat3::Identity()));
+}
+
+std::vector<Vec4> Motion::relative_turns() const {
+    const bool based = solution().base() != kNoIndex;
+    const Mat3 base =
+        based ? pose(solution().base()).local_transform.linear : Mat3(Mat3::Identity());
+    const Vec3 base_turn = based ? pose(solution().base()).turn : Vec3(Vec3::Zero());
+    const Mat3 back = nearest_rotation(base).transpose();
+    std::vector<Vec4> turns;
+    for (const Index h : solution().handles()) {
+        Vec4 relative;
+        const Mat3& linear = pose(h).local_transform.linear;
+        relative.head<3>() = turn_near(nearest_rotation(linear) * back, pose(h).turn - base_turn);
+        relative[3] = std::log(uniform_scale(linear) / uniform_scale(base));
+        turns.push_back(relative);
+    }
+    return turns;
+}
+
+double Motion::greatest_turn() const {
+    if (!method().solution || !options().scale_free) return 0.0;
+    std::vector<Vec4> ends = relative_turns();
+    ends.push_back(Vec4::Zero());
+    double greatest = 0.0;
+    for (const Vec4& a : ends) {
+        for (const Vec4& b : ends) greatest = std::max(greatest, (a - b).head<3>().norm());
+    }
+    return greatest;
+}
+
+std::vector<Vec4> Motion::spread(const std::vector<Vec4>& value) const {
+    const std::vector<Index>& free = method().first->free_vertices();
+    std::vector<Vec4> field(static_cast<std::size_t>(patch().vertex_count), Vec4::Zero());
+    for (std::size_t n = 0; n < value.size(); ++n) {
+        for (const Index v : prepared_.held[solution().handles()[n]]) {
+            if (prepared_.known.position[v]) field[v] = value[n];
+        }
+    }
+    for (std::size_t row = 0; row < free.size(); ++row) {
+        for (std::size_t n = 0; n < value.size(); ++n) {
+            field[free[row]] +=
+                solution().translation_weight(n, static_cast<Index>(row)) * value[n];
+        }
+    }
+    return field;
+}
+
+void Motion::add_asked_moves(std::vector<Vec4>& field) const {
+    if (asked_.at.empty()) return;
+    for (const auto& entry : asked_.at) field[entry.first] += padded(known_deviation(entry.first));
+    const std::vector<Index>& free = method().first->free_vertices();
+    for (std::size_t row = 0; row < free.size(); ++row) {
+        field[free[row]] += padded(asked_.fixed.at(static_cast<Index>(row)));
+    }
+}
+
+}  // namespace lissom

@@ -1,0 +1,62 @@
+/// What a preparation and poses say together: the input of one frame; private to kernel/deform.
+#pragma once
+
+#include <vector>
+
+#include "kernel/deform/preparation.h"
+
+namespace lissom {
+
+/// What targets ask of local vertices and anchors, and what that adds to the free vertices.
+struct AskedPart {
+    VertexConstraints at;
+    FixedPart fixed;
+};
+
+/// Costs a solve with the first system, where there are targets.
+AskedPart asked_part(const Preparation& prepared, const std::vector<TargetPose>& targets);
+
+/// Positions are relative to the patch's origin. All that it is made from lives as long.
+class Motion {
+  public:
+    Motion(const Preparation& prepared, const Poses& poses, const AskedPart& asked);
+
+    const Preparation& prepared() const { return prepared_; }
+    const ImplicitMethod& method() const { return *prepared_.implicit(); }
+    const LinearSolution& solution() const { return *method().solution; }
+    const DeformOptions& options() const { return prepared_.rest->options(); }
+    bool scales() const { return options().local_size == LocalSize::scale; }
+    const Patch& patch() const { return prepared_.patch(); }
+    const HandlePose& pose(Index handle) const { return poses_.handles[handle]; }
+    const AskedPart& asked() const { return asked_; }
+
+    /// The transform that deviations are relative to: of the solution's base, or the identity.
+    const Mat4& base() const { return base_; }
+    Mat3 base_linear() const { return base_.topLeftCorner<3, 3>(); }
+    /// Transforms of the solution's handles less that of the base.
+    const std::vector<Mat4>& differences() const { return differences_; }
+
+    Vec3 known_position(Index v) const;
+    /// Exactly zero for a handle that moves as the base does.
+    Vec3 known_deviation(Index v) const;
+    Mat3 known_gradient(Index v) const;
+
+    /// Turns and logarithms of scale of the solution's handles, relative to the base.
+    std::vector<Vec4> relative_turns() const;
+    /// The greatest turn between two handles. The thesis's literal formulation knows no turns.
+    double greatest_turn() const;
+    /// sum over h of w_h value_h at every local vertex, where w_h are the weights of translations
+    /// in the first system.
+    std::vector<Vec4> spread(const std::vector<Vec4>& value) const;
+    /// Adds to `field` what targets add to the positions, where the base is still.
+    void add_asked_moves(std::vector<Vec4>& field) const;
+
+  private:
+    const Preparation& prepared_;
+    const Poses& poses_;
+    const AskedPart& asked_;
+    Mat4 base_;
+    std::vector<Mat4> differences_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,111 @@
+/// Deformation as a pipeline of values, for hosts that need more than one Deformer gives: several
+/// frames at the same time, or an undo.
+///
+///     RestShape, Holds -> Preparation
+///     Preparation, Poses -> DeformFrame
+///     DeformFrame -> positions of a mesh, or the next RestShape
+///
+/// Rest shape, holds and preparation do not change once they are made, and a step reads nothing
+/// but what it is given. A Deformer keeps one value of each kind; two threads may pose two copies:
+///
+///     const auto prepared = edit.preparation();
+///     Poses left = edit.setup().poses, right = left;
+///     pose_handle(*prepared, left, tip, turned, center);
+///     pose_handle(*prepared, right, tip, lifted, center);
+///     // each on a thread of its own, with scratch of its own:
+///     const DeformFrame a = solve_frame(prepared, left, scratch_a);
+///     const DeformFrame b = solve_frame(prepared, right, scratch_b);
+///     write_frame(*rest_of(*prepared), a, mesh);
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/options.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// The region at rest with the options, and all that follows from them; immutable.
+struct RestShape;
+/// What depends on who is held, but not on where it goes: the factored systems; immutable.
+struct Preparation;
+/// A patch with its operators; private to kernel/deform.
+struct WorkingPatch;
+
+/// One result. Assigning it keeps it: nothing that is solved later changes it.
+struct DeformFrame {
+    /// What it was solved by, as far as gradients may still be asked for, and where all went.
+    std::shared_ptr<const Preparation> preparation;
+    Poses poses;
+    /// Of the region's vertices, in the region's order.
+    std::vector<Vec3> positions;
+    /// Vertices that a refinement of coarse borders inserted, and the patch that they belong to;
+    /// null at rest.
+    std::vector<Vec3> inserted;
+    std::shared_ptr<const WorkingPatch> patch;
+    /// How vertices of the region that have no faces have turned.
+    std::vector<Mat3> turns_without_faces;
+    /// Deformation gradients, where they are known already; see frame_gradients.
+    std::optional<std::vector<Mat3>> gradients;
+};
+
+/// What frames write to while they are made, and what they find once and use again; one for each
+/// thread. It changes no result.
+class FrameScratch {
+  public:
+    FrameScratch();
+    ~FrameScratch();
+    FrameScratch(FrameScratch&&) noexcept;
+    FrameScratch& operator=(FrameScratch&&) noexcept;
+    /// Memory of a frame that is needed no more serves the next one.
+    void recycle(DeformFrame&& frame);
+
+    struct State;
+    State& state() { return *state_; }
+
+  private:
+    std::unique_ptr<State> state_;
+};
+
+/// `draft` is for the frames of a drag: about five digits of the size, in half the time.
+enum class FrameQuality { full, draft };
+
+/// Takes the present shape of `mesh` as rest shape. Errors: as Deformer.
+std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region& region,
+                                                 const DeformOptions& options = {});
+
+/// Assembles and factors what `holds` need. Errors: as Deformer::prepare.
+std::shared_ptr<const Preparation> prepare_deformation(std::shared_ptr<const RestShape> rest,
+                                                       std::shared_ptr<const Holds> holds,
+                                                       const Context& context = {});
+const std::shared_ptr<const RestShape>& rest_of(const Preparation& preparation);
+const std::shared_ptr<const Holds>& holds_of(const Preparation& preparation);
+
+/// As Deformer::set_transform, in `poses`; `turn`, where it is given, says how far the handle
+/// turns. A mirror image moves along. Errors: as there; handle_removed; and then `poses` are as
+/// they were.
+void pose_handle(const Preparation& preparation, Poses& poses, HandleId handle,
+                 const Affine& transform, const Vec3& about = Vec3::Zero(),
+                 const std::optional<Vec3>& turn = std::nullopt);
+
+/// The rest shape as a result.
+DeformFrame rest_frame(const RestShape& rest);
+/// The first system alone, or both. Errors: as Deformer::solve.
+DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
+                          FrameScratch& scratch, const Context& context = {});
+DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
+                        FrameScratch& scratch, FrameQuality quality = FrameQuality::full,
+                        const Context& context = {});
+/// As Deformer::gradients, of a frame.
+std::vector<Mat3> frame_gradients(const DeformFrame& frame, FrameScratch& scratch);
+
+/// As Deformer::apply_to.
+void write_frame(const RestShape& rest, const DeformFrame& frame, Mesh& mesh);
+/// The rest shape that lies as the frame does; see Deformer::rebase.
+std::shared_ptr<const RestShape> rebased(const RestShape& rest, const DeformFrame& frame);
+
+}  // namespace lissom

@@ -1,0 +1,222 @@
+#include "kernel/deform/preparation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "kernel/deform/holds/boundary_refinement.h"
+
+namespace lissom {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void require_area(const Patch& patch) {
+    const Elements& vertices = patch.zero_area_vertices;
+    if (vertices.count == 0) return;
+    throw Error(ErrorCode::zero_area,
+                "all faces around " + describe(vertices) +
+                    " have no area; collapse those faces or leave them out of the region",
+                vertices);
+}
+
+std::shared_ptr<const WorkingPatch> working_patch(const RestShape& rest, const Holds& holds) {
+    std::shared_ptr<const WorkingPatch> work = rest.work;
+    const DeformOptions& options = rest.options();
+    if (options.refine_borders && options.method == DeformMethod::implicit) {
+        std::optional<Patch> refined = refined_at_borders(work->patch, find_holding(*work, holds));
+        if (refined) work = std::make_shared<WorkingPatch>(std::move(*refined), options);
+    }
+    return changes_patch(holds, options.transition) ? anchored(*work, holds, options.transition)
+                                                    : work;
+}
+
+void collect_held(Preparation& next) {
+    const Patch& patch = next.patch();
+    for (const auto& handle : next.holds->handles) {
+        next.held.push_back(handle ? handle->local : std::vector<Index>());
+    }
+    for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
+        if (next.owner[v] >= 0) next.held[next.owner[v]].push_back(v);
+    }
+}
+
+void find_who_holds(Preparation& next) {
+    Holding holding = find_holding(*next.work, *next.holds);
+    require_constraints(*next.work, holding.known);
+    next.owner = std::move(holding.owner);
+    next.known = std::move(holding.known);
+    next.asked = std::move(holding.asked);
+    collect_held(next);
+    for (const Index v : next.patch().of_region) {
+        if (next.owner[v] == kPinned) next.resting_rows.push_back(next.rest->region_row[v]);
+    }
+}
+
+// The centre of the first handle, or between it and its mirror image: rarely a centre of the
+// surface itself, at which vertices that differ would lie equally far.
+Vec3 start_of_sequence(const RestShape& rest, const Holds& holds) {
+    for (const auto& h : holds.handles) {
+        if (!h) continue;
+        const Vec3 center = h->partner == kNoIndex
+                                ? h->center
+                                : Vec3(0.5 * (h->center + holds.handles[h->partner]->center));
+        return center - rest.origin();
+    }
+    return Vec3::Zero();
+}
+
+// Factors `system`, where it has unknowns.
+template <typename System>
+void factor(System& system, const Patch& patch, const Context& context) {
+    if (system.free_vertices().empty()) return;
+    try {
+        system.factor(context);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::not_positive_definite) throw;
+        refuse_singular(patch, error, system.free_vertices());
+    }
+}
+
+void assemble(Preparation& next, ImplicitMethod& method, const Context& context) {
+    const DeformOptions& options = next.rest->options();
+    method.gradients = make_gradients(next.patch(), next.rings(), next.work->geometry, next.known,
+                                      start_of_sequence(*next.rest, *next.holds), options);
+    method.first = std::make_unique<GradientSystem>(*next.work, method.gradients, next.known,
+                                                    options, context);
+    method.second =
+        std::make_unique<RotationSystem>(*next.work, next.known.position, options, context);
+}
+
+void number_frame(const Preparation& next, ImplicitMethod& method) {
+    const Patch& patch = next.patch();
+    for (const Index v : method.first->free_vertices()) {
+        method.frame_row.push_back(next.rest->frame_row(patch, v));
+    }
+    std::vector<Index> surface = patch.of_region;
+    for (Index v = patch.mesh_count(); v < patch.real_count; ++v) surface.push_back(v);
+    for (const Index v : surface) {
+        if (next.known.gradient[v]) continue;
+        (method.gradients.defined[v] ? method.gathered : method.averaged).push_back(v);
+    }
+}
+
+void count_costs(Preparation& next, const ImplicitMethod& method) {
+    const FactorStats &first = method.first->stats(), &second = method.second->stats();
+    DeformStats& stats = next.costs;
+    stats.free_vertices = static_cast<Index>(method.second->free_vertices().size());
+    for (const Index v : next.patch().of_region) {
+        stats.constrained_vertices += next.known.position[v];
+    }
+    stats.displaced_vertices = static_cast<Index>(method.gradients.displaced.size());
+    stats.refined_vertices = static_cast<Index>(next.patch().inserted.size());
+    stats.first_nonzeros = first.factor_nonzeros;
+    stats.second_nonzeros = second.factor_nonzeros;
+    stats.factor_bytes = first.factor_bytes + second.factor_bytes;
+    stats.first_factor_seconds = first.analyze_seconds + first.factor_seconds;
+    stats.second_factor_seconds = second.analyze_seconds + second.factor_seconds;
+    stats.factorizations = stats.free_vertices > 0 ? 1 : 0;
+}
+
+void prepare_implicit(Preparation& next, Progress& progress, const Context& context) {
+    ImplicitMethod& method = next.method.emplace<ImplicitMethod>();
+    progress.step(0.2);
+    const auto start = std::chrono::steady_clock::now();
+    assemble(next, method, context);
+    next.costs.assemble_seconds = seconds_since(start);
+
+    progress.step(0.6);
+    // The two do not depend on each other.
+    context.parallel_for(0, 2, 1, [&](Index begin, Index end) {
+        for (Index system = begin; system < end; ++system) {
+            system == 0 ? factor(*method.first, next.patch(), context)
+                        : factor(*method.second, next.patch(), context);
+        }
+    });
+    progress.step(0.05);
+    if (!method.second->free_vertices().empty()) method.second->finish(context);
+
+    progress.step(0.15);
+    const auto basis_start = std::chrono::steady_clock::now();
+    number_frame(next, method);
+    if (!method.frame_row.empty()) {
+        method.solution = std::make_unique<LinearSolution>(next.problem(), context);
+    }
+    count_costs(next, method);
+    next.costs.basis_seconds = seconds_since(basis_start);
+}
+
+}  // namespace
+
+std::shared_ptr<const Preparation> prepare_deformation(std::shared_ptr<const RestShape> rest,
+                                                       std::shared_ptr<const Holds> holds,
+                                                       const Context& context) {
+    Progress progress(context, "deform: prepare");
+    require_area(rest->patch());
+    require_plain_holds(*holds, rest->options());
+    auto next = std::make_shared<Preparation>();
+    next->rest = std::move(rest);
+    next->holds = std::move(holds);
+    next->work = working_patch(*next->rest, *next->holds);
+    find_who_holds(*next);
+    if (next->rest->options().method == DeformMethod::implicit) {
+        prepare_implicit(*next, progress, context);
+    } else {
+        prepare_comparison(*next, context);
+    }
+    return next;
+}
+
+const std::shared_ptr<const RestShape>& rest_of(const Preparation& preparation) {
+    return preparation.rest;
+}
+
+const std::shared_ptr<const Holds>& holds_of(const Preparation& preparation) {
+    return preparation.holds;
+}
+
+void pose_handle(const Preparation& preparation, Poses& poses, HandleId handle,
+                 const Affine& transform, const Vec3& about, const std::optional<Vec3>& turn) {
+    (void)handle_of(*preparation.holds, handle);
+    pose_handle(*preparation.rest, *preparation.holds, poses, handle, transform, about,
+                turn.value_or(poses.handles[handle.value].turn));
+}
+
+LinearProblem Preparation::problem() const {
+    const ImplicitMethod& m = *implicit();
+    return {patch(), rings(), m.gradients, *m.first, owner, holds->handles};
+}
+
+GradientLoop Preparation::gradient_loop() const {
+    const GradientStencils& stencils = implicit()->gradients;
+    return {rings().begin.data(), rings().neighbor.data(), stencils.self.data(),
+            stencils.neighbor.data()};
+}
+
+void refuse_singular(const Patch& patch, const Error& error, const std::vector<Index>& free) {
+    Elements vertices{ElementKind::vertex, 0, {}};
+    std::vector<Index> ids;
+    for (const Index row : error.elements().ids) {
+        if (free[row] < patch.mesh_count()) ids.push_back(patch.mesh_vertex[free[row]]);
+    }
+    std::sort(ids.begin(), ids.end());
+    for (const Index v : ids) vertices.add(v);
+    vertices.count = std::max(vertices.count, error.elements().count);
+    const std::string names = describe(vertices);
+    throw Error(ErrorCode::unconstrained,
+                "the constraints do not determine the connected part of " + names +
+                    "; add a handle with a gradient there",
+                std::move(vertices));
+}
+
+void require_implicit(const DeformOptions& options, const char* what) {
+    if (options.method == DeformMethod::implicit) return;
+    throw Error(ErrorCode::unsupported, std::string(what) +
+                                            " exists for method implicit only, not for method " +
+                                            std::string(method_name(options.method)));
+}
+
+}  // namespace lissom

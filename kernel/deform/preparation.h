@@ -1,0 +1,127 @@
+/// What depends on which vertices are held, but not on where they go; private to kernel/deform.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "kernel/deform/comparison/method.h"
+#include "kernel/deform/holds/constraints.h"
+#include "kernel/deform/rest_shape.h"
+#include "kernel/deform/stats.h"
+#include "kernel/deform/system/frame_loops.h"
+#include "kernel/deform/system/gradient_system.h"
+#include "kernel/deform/system/gradients.h"
+#include "kernel/deform/system/linear_solution.h"
+#include "kernel/deform/system/rotation_system.h"
+
+namespace lissom {
+
+/// How the second system answers to translations of handles: where they take the vertices, a list
+/// for each handle of the solution, empty where the second system knows nothing of it; and the
+/// force on movable handle j that handle k makes.
+struct TurnAnswers {
+    std::vector<std::vector<double>> weights;
+    Eigen::MatrixXd stiffness;
+};
+
+/// A value that threads find when they first need it. It follows from what is immutable, so that it
+/// does not matter whose is kept where two find it at the same time; nobody waits, as a loop that
+/// is waited in may take up other work.
+template <typename Value>
+class FoundOnce {
+  public:
+    template <typename Find>
+    const Value& get(const Find& find) const {
+        if (const Value* found = look()) return *found;
+        auto value = std::make_unique<const Value>(find());
+        const std::lock_guard guard(lock_);
+        if (!value_) value_ = std::move(value);
+        return *value_;
+    }
+
+  private:
+    const Value* look() const {
+        const std::lock_guard guard(lock_);
+        return value_.get();
+    }
+
+    mutable std::mutex lock_;
+    mutable std::unique_ptr<const Value> value_;
+};
+
+/// The method of the thesis: both systems, and the basis of the first.
+struct ImplicitMethod {
+    GradientStencils gradients;
+    std::unique_ptr<GradientSystem> first;
+    std::unique_ptr<RotationSystem> second;
+    /// Null where nothing is free.
+    std::unique_ptr<LinearSolution> solution;
+    /// Row among the positions of a frame of each row of the solution, or kNoIndex for virtual
+    /// vertices.
+    std::vector<Index> frame_row;
+    /// Vertices of the region and of a refinement without a known gradient: those with a stencil,
+    /// and those without, which take the mean of their neighbours.
+    std::vector<Index> gathered, averaged;
+    FoundOnce<TurnAnswers> answers;
+};
+
+/// Vertices whose gradient is prescribed together: those of a handle, one with a constraint, or all
+/// that are pinned.
+struct GradientSource {
+    Index owner = kPinned;
+    Index vertex = kNoIndex;
+};
+
+/// A method that the thesis compares with; the source of each local vertex's gradient, or kNoIndex,
+/// and the sources.
+struct ComparedMethod {
+    std::unique_ptr<ComparisonMethod> method;
+    std::vector<Index> source;
+    std::vector<GradientSource> sources;
+};
+
+struct Preparation {
+    std::shared_ptr<const RestShape> rest;
+    std::shared_ptr<const Holds> holds;
+    /// The patch that it works on: refined at borders, with anchors.
+    std::shared_ptr<const WorkingPatch> work;
+    std::vector<Index> owner;
+    /// The local vertices of each handle, with those that a refinement inserted between them.
+    std::vector<std::vector<Index>> held;
+    KnownMask known;
+    /// Local vertices and anchors that take what a target asks, with its number.
+    std::vector<std::pair<Index, Index>> asked;
+    /// Rows of the region whose vertices have no faces and nothing that holds them.
+    std::vector<Index> resting_rows;
+    std::variant<ImplicitMethod, ComparedMethod> method;
+    /// Of this preparation alone.
+    DeformStats costs;
+
+    const Patch& patch() const { return work->patch; }
+    const Rings& rings() const { return work->rings; }
+    /// Null for a comparison method.
+    const ImplicitMethod* implicit() const { return std::get_if<ImplicitMethod>(&method); }
+    LinearProblem problem() const;
+    GradientLoop gradient_loop() const;
+};
+
+/// Says in terms of vertices what a solver said in terms of rows, which stand for the vertices
+/// `free`: throws unconstrained.
+[[noreturn]] void refuse_singular(const Patch& patch, const Error& error,
+                                  const std::vector<Index>& free);
+
+/// Throws `unsupported`, with `what` as subject, where the method is not the implicit one.
+void require_implicit(const DeformOptions& options, const char* what);
+
+/// Factors the comparison method that the options name. Errors: unsupported; as
+/// prepare_deformation.
+void prepare_comparison(Preparation& next, const Context& context);
+
+/// What the options refuse for `holds`: unsupported where a comparison method cannot hold it.
+void require_plain_holds(const Holds& holds, const DeformOptions& options);
+
+}  // namespace lissom

@@ -1,0 +1,146 @@
+#include "kernel/deform/rest_shape.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace lissom {
+namespace {
+
+// Rings around the region that the stencils of its vertices reach.
+constexpr Index kPatchRings = 1;
+
+// A mesh is far away where its coordinates spend three digits on its place.
+constexpr double kFarAway = 1e3;
+
+// Vertices around the region that have moved by less than this fraction of its size are where they
+// were: no tear would be seen.
+constexpr double kMoved = 1e-6;
+
+// What follows from the patch.
+void measure(RestShape& rest) {
+    const Patch& patch = rest.patch();
+    const Region& region = rest.region();
+    rest.region_row.assign(static_cast<std::size_t>(patch.vertex_count), kNoIndex);
+    for (Index row = 0; row < region.size(); ++row) {
+        rest.region_row[patch.of_region[row]] = row;
+        rest.size = std::max(rest.size, patch.rest[patch.of_region[row]].norm());
+    }
+    rest.far_away = patch.origin.norm() > kFarAway * rest.size;
+}
+
+void write(const RestShape& rest, std::span<const Vec3> positions,
+           const std::vector<Mat3>& turns_without_faces, Mesh& mesh) {
+    require_same_topology(mesh, rest.region().topology(), "the deformer");
+    require_surroundings(rest, mesh);
+    const std::span<Vec3> out = mesh.edit_positions();
+    for (Index row = 0; row < rest.region().size(); ++row) {
+        out[rest.region().vertices()[row]] = positions[row];
+    }
+    rest.directions.apply_to(mesh, turns_without_faces);
+}
+
+std::vector<Mat3> no_turns(const RestShape& rest) {
+    return std::vector<Mat3>(rest.directions.without_faces().size(), Mat3::Identity());
+}
+
+}  // namespace
+
+std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region& region,
+                                                 const DeformOptions& options) {
+    auto scope = std::make_shared<DeformScope>(DeformScope{region, options});
+    auto work = std::make_shared<WorkingPatch>(
+        build_patch(region, mesh.positions(), kPatchRings, near_order(region, kPatchRings)),
+        options);
+    auto rest = std::make_shared<RestShape>(RestShape{
+        std::move(scope), std::move(work), {}, {}, 0.0, false, RestDirections(mesh, region), {}});
+    for (const Index v : region.vertices()) rest->positions.push_back(mesh.position(v));
+    const Patch& patch = rest->patch();
+    for (Index i = 0; i < patch.mesh_count(); ++i) {
+        const Index v = patch.mesh_vertex[i];
+        if (!patch.in_region[i]) rest->surroundings.emplace_back(v, mesh.position(v));
+    }
+    measure(*rest);
+    return rest;
+}
+
+// The patch keeps its faces and numbers; what is around the region stays.
+std::shared_ptr<const RestShape> rebased(const RestShape& rest, const DeformFrame& frame) {
+    const Patch& before = rest.patch();
+    const Region& region = rest.region();
+    auto next = std::make_shared<RestShape>(RestShape{
+        rest.scope, nullptr, {}, frame.positions, 0.0, false, rest.directions, rest.surroundings});
+    next->directions.rebase(region, frame.positions, frame.turns_without_faces);
+    std::vector<Vec3> at(static_cast<std::size_t>(region.topology()->vertex_count()), Vec3::Zero());
+    for (Index i = 0; i < before.real_count; ++i) {
+        at[before.mesh_vertex[i]] = before.rest[i] + before.origin;
+    }
+    for (Index row = 0; row < region.size(); ++row) {
+        at[region.vertices()[row]] = frame.positions[row];
+    }
+    next->work = std::make_shared<WorkingPatch>(
+        build_patch(region, at, kPatchRings, before.mesh_vertex), rest.options());
+    measure(*next);
+    return next;
+}
+
+Index RestShape::local_vertex(Index mesh_vertex) const {
+    const std::vector<Index>& ids = region().vertices();
+    const auto place = std::lower_bound(ids.begin(), ids.end(), mesh_vertex);
+    if (place != ids.end() && *place == mesh_vertex) {
+        return patch().of_region[static_cast<std::size_t>(place - ids.begin())];
+    }
+    const std::vector<Index>& all = patch().mesh_vertex;
+    return static_cast<Index>(std::find(all.begin(), all.end(), mesh_vertex) - all.begin());
+}
+
+Vec3 RestShape::position_of(const SparseRow& row) const {
+    Vec3 at = Vec3::Zero();
+    for (const auto& [v, c] : row) at += c * patch().rest[v];
+    return at;
+}
+
+Vec3 RestShape::center_of(const Handle& handle) const {
+    const auto count = static_cast<double>(handle.points.size() + handle.local.size());
+    Vec3 center = Vec3::Zero();
+    for (const Index v : handle.local) center += patch().rest[v] / count;
+    for (const SparseRow& row : handle.points) center += position_of(row) / count;
+    return center + origin();
+}
+
+Index RestShape::frame_row(const Patch& of, Index v) const {
+    if (v < of.mesh_count()) return region_row[v];
+    return v < of.real_count ? region().size() + v - of.mesh_count() : kNoIndex;
+}
+
+void require_surroundings(const RestShape& rest, const Mesh& mesh) {
+    Elements moved{ElementKind::vertex, 0, {}};
+    for (const auto& [v, at] : rest.surroundings) {
+        if (!((mesh.position(v) - at).norm() <= kMoved * rest.size)) moved.add(v);
+    }
+    if (moved.count == 0) return;
+    const std::string names = describe(moved);
+    throw Error(ErrorCode::topology_mismatch,
+                "the mesh has changed around the region since the deformation was made, at " +
+                    names +
+                    "; the result would tear there. Make a new deformation, or undo the change",
+                std::move(moved));
+}
+
+void write_frame(const RestShape& rest, const DeformFrame& frame, Mesh& mesh) {
+    write(rest, frame.positions, frame.turns_without_faces, mesh);
+}
+
+void write_rest(const RestShape& rest, Mesh& mesh) {
+    write(rest, rest.positions, no_turns(rest), mesh);
+}
+
+DeformFrame rest_frame(const RestShape& rest) {
+    DeformFrame frame;
+    frame.positions = rest.positions;
+    frame.turns_without_faces = no_turns(rest);
+    frame.gradients.emplace(rest.positions.size(), Mat3::Identity());
+    return frame;
+}
+
+}  // namespace lissom

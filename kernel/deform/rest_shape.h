@@ -1,0 +1,74 @@
+/// The rest shape of a deformation; private to kernel/deform.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "kernel/deform/patch/working_patch.h"
+#include "kernel/deform/pipeline.h"
+#include "kernel/deform/rotation/rest_directions.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+/// What is deformed, and how. All rest shapes of a Deformer share it.
+struct DeformScope {
+    Region region;
+    DeformOptions options;
+};
+
+struct RestShape {
+    std::shared_ptr<const DeformScope> scope;
+    /// The region as the mesh has it.
+    std::shared_ptr<const WorkingPatch> work;
+    /// Row in the region of each local vertex of `work`, or kNoIndex.
+    std::vector<Index> region_row;
+    /// Of the region's vertices.
+    std::vector<Vec3> positions;
+    /// Greatest distance of a vertex of the region from the origin of the patch.
+    double size = 0.0;
+    /// Whether coordinates of the mesh have fewer digits for its shape than those of the patch.
+    bool far_away = false;
+    RestDirections directions;
+    /// Vertices around the region and where they lie.
+    std::vector<std::pair<Index, Vec3>> surroundings;
+
+    const Region& region() const { return scope->region; }
+    const DeformOptions& options() const { return scope->options; }
+    const Patch& patch() const { return work->patch; }
+    const Vec3& origin() const { return work->patch.origin; }
+    /// Of a vertex of the region or next to it.
+    Index local_vertex(Index mesh_vertex) const;
+    /// Relative to the origin of the patch.
+    Vec3 position_of(const SparseRow& row) const;
+    Vec3 center_of(const Handle& handle) const;
+    /// Where a frame on `of`, a refinement of the patch, keeps the position of local vertex v.
+    Index frame_row(const Patch& of, Index v) const;
+};
+
+/// Errors: topology_mismatch, naming vertices around the region that are not where they were.
+void require_surroundings(const RestShape& rest, const Mesh& mesh);
+
+/// As write_frame, of the rest shape.
+void write_rest(const RestShape& rest, Mesh& mesh);
+
+/// The pose that takes p to about + transform(p - about), without a turn. Both forms of the
+/// transform come from differences in extended precision, so that a rotation about a point far from
+/// the origin keeps its digits.
+HandlePose placed(const RestShape& rest, const Affine& transform, const Vec3& about);
+
+/// The pose of the mirror image of a handle that stands in `pose`.
+HandlePose reflected(const RestShape& rest, const MirrorPlane& plane, const HandlePose& pose);
+
+/// Errors: handle_removed.
+const Handle& handle_of(const Holds& holds, HandleId id);
+
+/// As pose_handle; `turn` is near the one to take.
+void pose_handle(const RestShape& rest, const Holds& holds, Poses& poses, HandleId id,
+                 const Affine& transform, const Vec3& about, const Vec3& turn);
+
+/// True where nothing is asked to move.
+bool at_rest(const RestShape& rest, const Holds& holds, const Poses& poses);
+
+}  // namespace lissom

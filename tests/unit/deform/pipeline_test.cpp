@@ -1,0 +1,98 @@
+// The values of a deformation: what was asked is put back by assigning it, and frames are values.
+#include "kernel/deform/pipeline.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/deform/scene.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+struct Seen {
+    std::vector<Vec3> solved, previewed;
+    std::vector<Vec3> turns;
+    std::vector<HandleId> handles;
+
+    explicit Seen(Deformer& d) : previewed(d.preview()), handles(d.handles()) {
+        solved = d.solve();
+        for (const HandleId h : handles) turns.push_back(d.turn(h));
+    }
+    bool operator==(const Seen&) const = default;
+};
+
+}  // namespace
+
+TEST_CASE("a frame is written and taken as rest shape as a Deformer does it") {
+    const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
+    Edit edit = make_edit(scene);
+    const Affine move = bend(scene, edit.deformer.handle_center(edit.high));
+    const auto prepared = edit.deformer.preparation();
+    Poses poses = edit.deformer.setup().poses;
+    pose_handle(*prepared, poses, edit.high, move);
+    FrameScratch scratch;
+    const DeformFrame frame = solve_frame(prepared, poses, scratch);
+    CHECK(edit.deformer.positions() == edit.deformer.rest_positions());
+    edit.deformer.set_transform(edit.high, move);
+    CHECK(edit.deformer.solve() == frame.positions);
+    Mesh a = scene.mesh, b = scene.mesh;
+    write_frame(*rest_of(*prepared), frame, a);
+    edit.deformer.apply_to(b);
+    CHECK(hash(a) == hash(b));
+    CHECK(rest_frame(*rebased(*rest_of(*prepared), frame)).positions == frame.positions);
+    CHECK(error_of([&] { pose_handle(*prepared, poses, {7}, move); }).code() ==
+          ErrorCode::handle_removed);
+}
+
+TEST_CASE("undo: what was asked is put back to the bit, whatever was asked in between") {
+    const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
+    const Index middle = scene.between(0);
+    Edit edit = make_edit(scene);
+    Deformer& d = edit.deformer;
+    const auto full_turn = [&](double angle) {
+        d.set_transform(edit.high, rotation(Vec3(0.1, 1, 0).normalized(), angle, Vec3(0, 2, 0)));
+    };
+    std::vector<std::pair<DeformSetup, Seen>> history;
+    const auto step = [&](const auto& change) {
+        history.emplace_back(d.setup(), Seen(d));
+        change();
+    };
+    step([&] {
+        for (double t = 0.5; t < 7.0; t += 0.5) full_turn(t);
+    });
+    step([&] { full_turn(0.0); });
+    step([&] { d.add_handle(scene.region({middle, scene.between(1)})); });
+    step([&] { d.set_transform(d.handles().back(), translation({0.3, 0, 0.1})); });
+    step([&] { d.constrain({scene.between(9), Vec3(1, 0, 0), {}, {}}); });
+    step([&] { d.constrain({scene.between(9), Vec3(1, 0.5, 0), {}, {}}); });
+    step([&] { d.set_stiffness(scene.region({scene.between(5), scene.between(6)}), 20.0); });
+    step([&] { d.set_handle_region(edit.low, scene.region({scene.low.front(), scene.low[1]})); });
+    step([&] { d.rebase(); });
+    step([&] { full_turn(3.0); });
+    step([&] { d.remove_handle(edit.low); });
+    step([&] { d.reset(); });
+    for (; !history.empty(); history.pop_back()) {
+        CAPTURE(history.size());
+        const std::vector<Vec3> shown = d.positions();
+        d.restore(history.back().first);
+        CHECK(d.positions() == shown);
+        CHECK(Seen(d) == history.back().second);
+    }
+    Edit other = make_edit(scene);
+    CHECK(error_of([&] { d.restore(other.deformer.setup()); }).code() ==
+          ErrorCode::invalid_argument);
+    CHECK(error_of([&] { d.restore(DeformSetup()); }).code() == ErrorCode::invalid_argument);
+}
+
+TEST_CASE("undo: a handle that is added and taken back costs no factorisation") {
+    const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
+    Edit edit = make_edit(scene);
+    Deformer& d = edit.deformer;
+    d.set_transform(edit.high, bend(scene, d.handle_center(edit.high)));
+    const std::vector<Vec3> before = d.solve();
+    const DeformSetup setup = d.setup();
+    d.add_handle(scene.region({scene.between(0)}));
+    d.restore(setup);
+    CHECK(d.solve() == before);
+    CHECK(d.stats().factorizations == 1);
+}
