@@ -15,11 +15,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
+#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/mesh_point.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/stats.h"

@@ -23,9 +23,11 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/deform/holds/holds.h"
 #include "kernel/deform/options.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
 
 namespace lissom {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/deform/mesh_point.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/sparse_row.h"
 #include "kernel/mesh/region.h"
