@@ -186,6 +186,7 @@ void Call::begin_work() {
 
 bool Call::end_work() {
     state_->listeners->running = nullptr;
+    release_collected(L_, *state_->listeners);
     state_->end_operation(L_);
     return !failed_;
 }

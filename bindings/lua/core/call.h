@@ -2,12 +2,15 @@
 /// a C function by longjmp, which skips destructors, and an exception must never reach Lua:
 ///
 ///     int smooth(Call& call) {
-///         const auto mesh = call.self<MeshObject>();                       // 1 read: plain data
-///         only const int iterations = call.integer("iterations"); const auto result =
-///         call.create<MeshObject>();                   // 2 make an empty result if
-///         (!call.attempt([&] { result.set(smoothed(mesh, iterations)); }))  // 3 C++, no Lua
-///             return call.fail();
-///         return 1;                                                        // 4 push
+///         // 1. Read: plain data only.
+///         const auto mesh = call.self<MeshObject>();
+///         const int iterations = call.integer("iterations");
+///         // 2. Make an empty result.
+///         const auto result = call.create<MeshObject>();
+///         // 3. Work: C++, no Lua.
+///         if (!call.attempt([&] { result.set(smoothed(*mesh, iterations)); })) return call.fail();
+///         // 4. Push.
+///         return 1;
 ///     }
 ///
 /// What the table says about arguments has been checked before the body runs. Outside `attempt`

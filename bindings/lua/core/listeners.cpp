@@ -5,6 +5,9 @@
 namespace lissom::lua {
 namespace {
 
+// Key of Lua's registry: its address.
+const char kCollected = 0;
+
 struct Report {
     const Listeners* listeners;
     std::string_view label;
@@ -98,6 +101,31 @@ void keep_message(Listeners& listeners, LogLevel level, std::string_view text) {
     if (listeners.log == LUA_NOREF) return;
     const std::lock_guard lock(listeners.mutex);
     listeners.messages.push_back({level, std::string(text)});
+}
+
+void keep_collected(lua_State* L, Listeners& listeners) {
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kCollected);
+    if (!lua_istable(L, -1)) {
+        lua_newtable(L);
+        lua_pushvalue(L, -1);
+        raw_set_pointer(L, LUA_REGISTRYINDEX, &kCollected);
+    }
+    lua_pushvalue(L, 1);
+    lua_rawseti(L, -2, ++listeners.collected);
+    lua_pop(L, 1);
+}
+
+void release_collected(lua_State* L, Listeners& listeners) {
+    if (listeners.collected == 0) return;
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kCollected);
+    for (; listeners.collected > 0; --listeners.collected) {
+        lua_rawgeti(L, -1, listeners.collected);
+        if (Holder* holder = find_holder(L, -1, nullptr)) holder->object.reset();
+        lua_pop(L, 1);
+        lua_pushnil(L);
+        lua_rawseti(L, -2, listeners.collected);
+    }
+    lua_pop(L, 1);
 }
 
 void end_listening(lua_State* L, Listeners& listeners) {

@@ -32,6 +32,8 @@ struct Listeners {
     /// Messages of the operation that runs, from any thread; delivered when it has ended.
     std::mutex mutex;
     std::vector<Message> messages, delivered;
+    /// How many objects were collected while the operation ran.
+    int collected = 0;
 };
 
 /// Prepares the references.
@@ -43,6 +45,13 @@ void report_progress(Listeners& listeners, std::string_view label, double fracti
 
 /// Keeps a message until the operation has ended. Any thread.
 void keep_message(Listeners& listeners, LogLevel level, std::string_view text);
+
+/// Keeps the object at stack index 1, which is collected in the middle of an operation, until its
+/// end: a script can call __gc of what the operation works on.
+void keep_collected(lua_State* L, Listeners& listeners);
+
+/// Lets go of what keep_collected kept.
+void release_collected(lua_State* L, Listeners& listeners);
 
 /// After an operation, with no C++ object alive: delivers messages and raises what a function
 /// raised.

@@ -154,7 +154,14 @@ int missing_function(lua_State* L) {
 // ---- Life of objects.
 
 int collect_object(lua_State* L) {
-    if (Holder* holder = find_holder(L, 1, nullptr)) holder->object.reset();
+    Holder* holder = find_holder(L, 1, nullptr);
+    if (!holder || !holder->object) return 0;
+    const StateBox* box = find_box(L, lua_upvalueindex(2));
+    if (box && box->state && box->state->listeners->running) {
+        keep_collected(L, *box->state->listeners);
+    } else {
+        holder->object.reset();
+    }
     return 0;
 }
 
