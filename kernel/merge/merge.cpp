@@ -4,15 +4,38 @@
 #include <utility>
 
 #include "kernel/core/memory_error.h"
-#include "kernel/merge/merge_state.h"
+#include "kernel/merge/merge_stages.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/merge/verdict.h"
 
 namespace lissom {
+namespace {
+
+// In the fixed configuration they stay where they are, as they do without a merge.
+void note_loose_parts(const MergePreparation& preparation, std::vector<std::string>& warnings) {
+    const LooseParts& loose = preparation.loose;
+    if (loose.parts == 0 || preparation.options.configuration == Configuration::fixed) return;
+    const bool one = loose.parts == 1;
+    warnings.push_back(
+        std::to_string(loose.parts) + (one ? " part" : " parts") + " of the source (" +
+        std::to_string(loose.vertices) + " vertices) " + (one ? "has" : "have") +
+        " no boundary that is joined and " + (one ? "moves" : "move") +
+        " along with what is nearest; take what does not belong to it out of the source first");
+}
+
+}  // namespace
+
+struct Merge::State {
+    MergePreparation preparation;
+    /// By join.
+    std::vector<std::vector<KeyPair>> keys;
+};
 
 Merge::Merge(const Mesh& source, std::span<const Mesh* const> targets, std::vector<Join> joins,
              const MergeOptions& options, const Context& context) try
-    : state_(std::make_unique<State>(source, targets, std::move(joins), options, context)) {
+    : state_(std::make_unique<State>(
+          State{prepare_merge(source, targets, joins, options, context), {}})) {
+    for (Join& join : joins) state_->keys.push_back(std::move(join.keys));
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
 }
@@ -22,53 +45,63 @@ Merge::Merge(Merge&&) noexcept = default;
 Merge& Merge::operator=(Merge&&) noexcept = default;
 
 void Merge::set_keys(Index join, std::vector<KeyPair> keys) {
-    if (join < 0 || join >= static_cast<Index>(state_->joins.size())) {
+    if (join < 0 || join >= static_cast<Index>(state_->keys.size())) {
         throw Error(ErrorCode::out_of_range, "there is no such join");
     }
-    (void)state_->keys_of(static_cast<std::size_t>(join), keys);
-    state_->joins[join].keys = std::move(keys);
+    (void)parameters_of(state_->preparation, static_cast<std::size_t>(join), keys);
+    state_->keys[join] = std::move(keys);
 }
 
 std::size_t Merge::memory_bytes() const {
-    std::size_t bytes = state_->source.mesh.memory_bytes() + state_->target.memory_bytes();
-    for (const auto* deformer : {state_->deformer.get(), state_->featured.get()}) {
+    const MergePreparation& made = state_->preparation;
+    std::size_t bytes =
+        made.boundaries.source.mesh.memory_bytes() + made.boundaries.target.memory_bytes();
+    for (const auto* deformer : {made.deformer.get(), made.featured.get()}) {
         if (deformer) bytes += deformer->stats().factor_bytes;
     }
     return bytes;
 }
 
-MergeResult Merge::solve(const Context& context) try {
-    State& state = *state_;
-    Progress progress(context, "merge");
-    const auto start = MergeClock::now();
-    MergeReport report = state.report;
-    const std::vector<LoopPair> pairs = state.correspond(report, context);
-    progress.step(0.5);
-    BoundaryDeformation deformed = state.deform(pairs, context);
-    std::optional<ThesisMerge> thesis = state.thesis_merge(pairs, report, context);
-    if (thesis) {
-        const auto& by = state.featured ? *state.featured : *state.deformer;
-        deformed = thesis->deform(by.region(), by.held(), deformed, context);
+MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
+                      const MergedSides& merged) {
+    MergeReport report;
+    report.source_rim = preparation.source_rim;
+    report.target_rim = preparation.target_rim;
+    report.loose_parts = preparation.loose.parts;
+    report.joins = matching.joins;
+    report.source_flipped = preparation.found.source_flipped;
+    report.targets_flipped = preparation.found.targets_flipped;
+    report.warnings = preparation.found.warnings;
+    note_loose_parts(preparation, report.warnings);
+    for (const auto* told : {&matching.warnings, &merged.warnings}) {
+        report.warnings.insert(report.warnings.end(), told->begin(), told->end());
     }
-    Mesh moved = state.source.mesh;
-    moved.set_positions(state.all_positions(deformed));
-    state.turn_directions(deformed, moved);
-    progress.step(0.5);
-    Sewn sewn = state.sew_sides(moved, pairs, thesis, report, context);
-    if (state.options.find_intersections) {
-        report.intersections = state.new_intersections(sewn, context);
-        if (!report.intersections.empty()) {
-            report.warnings.push_back(std::to_string(report.intersections.size()) +
-                                      " pairs of faces run through one another that did not "
-                                      "before; see the report's intersections");
-        }
-    }
-    const MeshMap origins =
-        appended_map(state.target_map, state.source.map, *state.given_target_topology);
-    const Verdict verdict = verdict_of(report, state.options.find_intersections);
+    report.deform = preparation.stats;
+    report.seam = merged.sewn.report;
+    report.transition = merged.transition;
+    report.intersections = merged.intersections;
+    report.prepare_seconds = preparation.seconds;
+    const Verdict verdict = verdict_of(report, preparation.options.find_intersections);
     report.ok = verdict.good;
     report.verdict = verdict.text;
+    return report;
+}
+
+MergeResult Merge::solve(const Context& context) try {
+    const MergePreparation& preparation = state_->preparation;
+    Progress progress(context, "merge");
+    const auto start = MergeClock::now();
+    const Matching matching = match_boundaries(preparation, state_->keys, context);
+    progress.step(0.5);
+    const Moved moved = deform_source(preparation, matching, context);
+    progress.step(0.5);
+    MergedSides merged = sew_sides(preparation, matching, moved, context);
+    MergeReport report = report_of(preparation, matching, merged);
     report.solve_seconds = seconds_since(start);
+    const Boundaries& from = preparation.boundaries;
+    const MeshMap origins =
+        appended_map(from.target_map, from.source.map, *preparation.given.target_topology.back());
+    Sewn& sewn = merged.sewn;
     return {std::move(sewn.mesh), std::move(report), composed(sewn.map, origins),
             std::move(sewn.side_of_face), std::move(sewn.seams)};
 } catch (const std::bad_alloc&) {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "kernel/merge/loop/loop_values.h"
-#include "kernel/merge/merge_state.h"
+#include "kernel/merge/merge_stages.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/edit/append.h"
 #include "kernel/mesh/query/distances.h"
@@ -39,8 +39,6 @@ void require_options(const MergeOptions& options, std::size_t joins, std::size_t
     const bool widths = options.source_transition > 0.0 || options.target_transition > 0.0;
     require(!(options.suit_transition && widths),
             "the widths of a transition are either given or chosen");
-    require(!(options.suit_transition && options.thesis),
-            "the thesis's transition needs its widths: it does not choose them");
     require(options.smooth >= 0, "the number of smoothing steps must not be negative");
     require(options.source_transition >= 0.0 && options.target_transition >= 0.0 &&
                 std::isfinite(options.source_transition + options.target_transition),
@@ -108,79 +106,13 @@ void require_apart(const Region& feature, const Region& others, const MergeSide&
                 elements);
 }
 
-}  // namespace
+// Boundaries of the targets: those of each target, and for every join its place among them.
+struct TargetPaths {
+    std::vector<std::vector<Path>> paths;
+    std::vector<std::size_t> place;
+};
 
-Merge::State::State(const Mesh& given_source, std::span<const Mesh* const> given_targets,
-                    std::vector<Join> asked, const MergeOptions& chosen, const Context& context)
-    : options(chosen), joins(std::move(asked)) {
-    Progress progress(context, "merge: prepare");
-    const auto start = MergeClock::now();
-    require_options(options, joins.size(), given_targets.size());
-    require_distinct(given_source, given_targets);
-    for (const Region& feature : options.fixed) {
-        require_same_topology(given_source, feature.topology(), "a fixed feature of the source");
-    }
-    make_sides(given_source, given_targets, context);
-    progress.step(0.3);
-    make_loops();
-    refine_coarse(context);
-    carry_features();
-    note_loose_parts();
-    report.source_rim = seam_quality(source.mesh, source.loops);
-    report.target_rim = seam_quality(target, target_loops);
-    progress.step(0.7);
-    prepare(context);
-    report.prepare_seconds = seconds_since(start);
-}
-
-void Merge::State::note_flips() {
-    if (report.source_flipped) {
-        report.warnings.push_back("the source was inside out and has been turned over");
-    }
-    for (const Index t : report.targets_flipped) {
-        report.warnings.push_back("target " + std::to_string(t + 1) +
-                                  " was inside out and has been turned over");
-    }
-}
-
-void Merge::State::note_trims(const MergeSide& side, const char* name) {
-    for (std::size_t k = 0; k < side.loops.size(); ++k) {
-        if (!side.trimmed[k]) continue;
-        report.warnings.push_back(std::string("a boundary of the ") + name + " was jagged (" +
-                                  degrees(side.turns[k]) +
-                                  " degrees at each vertex) and has been trimmed");
-    }
-    for (const std::string& reason : side.untrimmed) {
-        report.warnings.push_back(std::string("a boundary of the ") + name +
-                                  " is jagged and could not be trimmed: " + reason);
-    }
-}
-
-// In the fixed configuration they stay where they are, as they do without a merge.
-void Merge::State::note_loose_parts() {
-    const Topology& topology = source.mesh.topology();
-    std::vector<char> joined(static_cast<std::size_t>(topology.component_count()), 0),
-        seen = joined;
-    for (const std::vector<Index>& loop : source.loops) joined[topology.components()[loop[0]]] = 1;
-    Index vertices = 0;
-    for (Index v = 0; v < topology.vertex_count(); ++v) {
-        const Index part = topology.components()[v];
-        if (joined[part] || topology.is_isolated(v)) continue;
-        report.loose_parts += seen[part] ? 0 : 1;
-        seen[part] = 1;
-        ++vertices;
-    }
-    if (report.loose_parts == 0 || options.configuration == Configuration::fixed) return;
-    const bool one = report.loose_parts == 1;
-    report.warnings.push_back(
-        std::to_string(report.loose_parts) + (one ? " part" : " parts") + " of the source (" +
-        std::to_string(vertices) + " vertices) " + (one ? "has" : "have") +
-        " no boundary that is joined and " + (one ? "moves" : "move") +
-        " along with what is nearest; take what does not belong to it out of the source first");
-}
-
-// Which boundaries of each target are joined.
-TargetPaths Merge::State::target_paths(std::size_t targets) const {
+TargetPaths target_paths(std::span<const Join> joins, std::size_t targets) {
     TargetPaths result{std::vector<std::vector<Path>>(targets), {}};
     for (const Join& join : joins) {
         if (join.target_mesh < 0 || join.target_mesh >= static_cast<Index>(targets)) {
@@ -192,118 +124,142 @@ TargetPaths Merge::State::target_paths(std::size_t targets) const {
     return result;
 }
 
-void Merge::State::make_source(const Mesh& given, const Context& context) {
+void make_source(const Mesh& given, std::span<const Join> joins, Sides& sides,
+                 const Context& context) {
     std::vector<Path> paths;
     for (const Join& join : joins) paths.push_back(join.source);
-    source = make_side(given, paths, "source");
-    given_source_loops = given_loops(given, source);
-    orient(source, context);
-    report.source_flipped = source.flipped;
+    sides.source = make_side(given, paths, "source");
+    sides.given.source_loops = given_loops(given, sides.source);
+    orient(sides.source, context);
+    sides.found.source_flipped = sides.source.flipped;
 }
 
-std::vector<MergeSide> Merge::State::make_targets(std::span<const Mesh* const> given,
-                                                  const TargetPaths& paths,
-                                                  const Context& context) {
-    std::vector<MergeSide> sides;
-    given_target_loops.resize(joins.size());
+void make_targets(std::span<const Mesh* const> given, std::span<const Join> joins,
+                  const TargetPaths& paths, Sides& sides, const Context& context) {
+    sides.given.target_loops.resize(joins.size());
     for (std::size_t t = 0; t < given.size(); ++t) {
-        MergeSide& side = sides.emplace_back(make_side(*given[t], paths.paths[t], "target"));
+        MergeSide& side =
+            sides.targets.emplace_back(make_side(*given[t], paths.paths[t], "target"));
         const std::vector<GivenLoop> loops = given_loops(*given[t], side);
         for (std::size_t j = 0; j < joins.size(); ++j) {
             if (joins[j].target_mesh == static_cast<Index>(t)) {
-                given_target_loops[j] = loops[paths.place[j]];
+                sides.given.target_loops[j] = loops[paths.place[j]];
             }
         }
         orient(side, context);
-        if (side.flipped) report.targets_flipped.push_back(static_cast<Index>(t));
+        if (side.flipped) sides.found.targets_flipped.push_back(static_cast<Index>(t));
     }
-    return sides;
 }
 
-void Merge::State::trim_sides(std::vector<MergeSide>& sides, const TargetPaths& paths,
-                              const Context& context) {
-    for (MergeSide& side : sides) {
+void note_flips(SidesFound& found) {
+    if (found.source_flipped) {
+        found.warnings.push_back("the source was inside out and has been turned over");
+    }
+    for (const Index t : found.targets_flipped) {
+        found.warnings.push_back("target " + std::to_string(t + 1) +
+                                 " was inside out and has been turned over");
+    }
+}
+
+void note_trims(const MergeSide& side, const char* name, std::vector<std::string>& warnings) {
+    for (std::size_t k = 0; k < side.loops.size(); ++k) {
+        if (!side.trimmed[k]) continue;
+        warnings.push_back(std::string("a boundary of the ") + name + " was jagged (" +
+                           degrees(side.turns[k]) +
+                           " degrees at each vertex) and has been trimmed");
+    }
+    for (const std::string& reason : side.untrimmed) {
+        warnings.push_back(std::string("a boundary of the ") + name +
+                           " is jagged and could not be trimmed: " + reason);
+    }
+}
+
+void trim_sides(std::span<const Join> joins, const MergeOptions& options, Sides& sides,
+                const Context& context) {
+    for (MergeSide& side : sides.targets) {
         if (options.trim) trim_jagged(side, options.greatest_turn, context);
-        note_trims(side, "target");
+        note_trims(side, "target", sides.found.warnings);
     }
-    if (options.trim) trim_jagged(source, options.greatest_turn, context);
-    note_trims(source, "source");
+    if (options.trim) trim_jagged(sides.source, options.greatest_turn, context);
+    note_trims(sides.source, "source", sides.found.warnings);
     for (std::size_t j = 0; j < joins.size(); ++j) {
-        JoinReport& join = report.joins[j];
-        const MergeSide& side = sides[joins[j].target_mesh];
-        join.source_turn = source.turns[j];
-        join.source_trimmed = source.trimmed[j] != 0;
-        join.target_turn = side.turns[paths.place[j]];
-        join.target_trimmed = side.trimmed[paths.place[j]] != 0;
+        JoinReport& join = sides.found.joins.emplace_back();
+        const MergeSide& side = sides.targets[joins[j].target_mesh];
+        join.source_turn = sides.source.turns[j];
+        join.source_trimmed = sides.source.trimmed[j] != 0;
+        join.target_turn = side.turns[sides.place[j]];
+        join.target_trimmed = side.trimmed[sides.place[j]] != 0;
     }
+}
+
+// Of the first target as given, of the first two as one mesh, and so on.
+std::vector<std::shared_ptr<const Topology>> topologies_together(
+    std::span<const Mesh* const> targets, const Context& context) {
+    Mesh all = *targets.front();
+    std::vector<std::shared_ptr<const Topology>> result{all.shared_topology()};
+    for (const Mesh* mesh : targets.subspan(1)) {
+        append(all, *mesh, context);
+        result.push_back(all.shared_topology());
+    }
+    return result;
 }
 
 // With the numbers that vertices have where all targets are one mesh.
-void Merge::State::take_target_loops(const std::vector<MergeSide>& sides,
-                                     const TargetPaths& paths) {
+std::vector<std::vector<Index>> all_target_loops(const Sides& sides, std::span<const Join> joins) {
+    std::vector<std::vector<Index>> loops;
     for (std::size_t j = 0; j < joins.size(); ++j) {
         Index shift = 0;
-        for (Index t = 0; t < joins[j].target_mesh; ++t) shift += sides[t].mesh.vertex_count();
-        std::vector<Index> loop = sides[joins[j].target_mesh].loops[paths.place[j]];
+        for (Index t = 0; t < joins[j].target_mesh; ++t) {
+            shift += sides.targets[t].mesh.vertex_count();
+        }
+        std::vector<Index> loop = sides.targets[joins[j].target_mesh].loops[sides.place[j]];
         for (Index& v : loop) v += shift;
-        target_loops.push_back(std::move(loop));
+        loops.push_back(std::move(loop));
     }
-}
-
-void Merge::State::make_sides(const Mesh& given_source, std::span<const Mesh* const> given_targets,
-                              const Context& context) {
-    report.joins.resize(joins.size());
-    const TargetPaths paths = target_paths(given_targets.size());
-    make_source(given_source, context);
-    std::vector<MergeSide> sides = make_targets(given_targets, paths, context);
-    note_flips();
-    trim_sides(sides, paths, context);
-    combine(given_targets, sides, context);
-    take_target_loops(sides, paths);
+    return loops;
 }
 
 // All targets as one mesh. Sides keep their numbers of elements.
-void Merge::State::combine(std::span<const Mesh* const> given_targets,
-                           std::vector<MergeSide>& sides, const Context& context) {
-    target = sides.front().mesh;
-    target_map = sides.front().map;
-    Mesh given = *given_targets.front();
+void combine_targets(std::vector<MergeSide>& sides, const GivenMeshes& given, Boundaries& result,
+                     const Context& context) {
+    result.target = std::move(sides.front().mesh);
+    result.target_map = std::move(sides.front().map);
     for (std::size_t t = 1; t < sides.size(); ++t) {
-        target_map = appended_map(target_map, sides[t].map, given.topology());
-        append(target, sides[t].mesh, context);
-        append(given, *given_targets[t], context);
-    }
-    given_target_topology = given.shared_topology();
-}
-
-void Merge::State::make_loops() {
-    source_curves.clear();
-    target_curves.clear();
-    for (std::size_t j = 0; j < joins.size(); ++j) {
-        std::vector<Index> reversed(source.loops[j].rbegin(), source.loops[j].rend());
-        source_curves.emplace_back(source.mesh, std::move(reversed));
-        target_curves.emplace_back(target, target_loops[j]);
+        result.target_map =
+            appended_map(result.target_map, sides[t].map, *given.target_topology[t - 1]);
+        append(result.target, sides[t].mesh, context);
     }
 }
 
-void Merge::State::refine_coarse(const Context& context) {
-    if (!options.refine) return;
-    for (std::size_t j = 0; j < joins.size(); ++j) {
-        const Loop &from = source_curves[j], &to = target_curves[j];
+void make_loops(Boundaries& boundaries) {
+    boundaries.source_curves.clear();
+    boundaries.target_curves.clear();
+    for (std::size_t j = 0; j < boundaries.target_loops.size(); ++j) {
+        const std::vector<Index>& loop = boundaries.source.loops[j];
+        boundaries.source_curves.emplace_back(boundaries.source.mesh,
+                                              std::vector<Index>(loop.rbegin(), loop.rend()));
+        boundaries.target_curves.emplace_back(boundaries.target, boundaries.target_loops[j]);
+    }
+}
+
+void refine_coarse(Boundaries& boundaries, const Context& context) {
+    for (std::size_t j = 0; j < boundaries.refined.size(); ++j) {
+        const Loop &from = boundaries.source_curves[j], &to = boundaries.target_curves[j];
         const double scale = loop_scale(from, to);
         const double edge = scale * from.length() / from.size(), other = to.length() / to.size();
         if (edge <= kCoarse * other) continue;
-        refine_loop(source, j, context);
-        report.joins[j].refined = true;
+        refine_loop(boundaries.source, j, context);
+        boundaries.refined[j] = 1;
     }
-    make_loops();
+    make_loops(boundaries);
 }
 
 // Features on parts without a join need no care: these go as a whole, or stay.
-void Merge::State::carry_features() {
+std::vector<Region> carried_features(const MergeSide& source, const MergeOptions& options) {
     const Region loops = region_of_loops(source.mesh, source.loops);
     const Region parts = joined_parts(source.mesh, source.loops);
     Region taken = Region::none(source.mesh.shared_topology());
+    std::vector<Region> features;
     for (const Region& given : options.fixed) {
         const Region feature = source.carried(given).intersected(parts);
         require_apart(feature, loops, source,
@@ -315,16 +271,36 @@ void Merge::State::carry_features() {
         taken = taken.united(feature);
         if (!feature.empty()) features.push_back(feature);
     }
+    return features;
+}
+
+LooseParts loose_parts(const MergeSide& source) {
+    const Topology& topology = source.mesh.topology();
+    std::vector<char> joined(static_cast<std::size_t>(topology.component_count()), 0),
+        seen = joined;
+    for (const std::vector<Index>& loop : source.loops) joined[topology.components()[loop[0]]] = 1;
+    LooseParts result;
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+        const Index part = topology.components()[v];
+        if (joined[part] || topology.is_isolated(v)) continue;
+        result.parts += seen[part] ? 0 : 1;
+        seen[part] = 1;
+        ++result.vertices;
+    }
+    return result;
 }
 
 // The part of the source that moves, with what holds it.
-Region Merge::State::deforming() const {
+Region deforming(const MergePreparation& made) {
+    const MergeSide& source = made.boundaries.source;
     const Region parts = joined_parts(source.mesh, source.loops);
-    if (options.configuration == Configuration::free) return parts;
-    double reach = options.reach.value_or(0.0);
-    if (!options.reach) {
-        if (!features.empty()) return parts;
-        for (const Loop& loop : source_curves) reach = std::max(reach, kReach * loop.radius());
+    if (made.options.configuration == Configuration::free) return parts;
+    double reach = made.options.reach.value_or(0.0);
+    if (!made.options.reach) {
+        if (!made.features.empty()) return parts;
+        for (const Loop& loop : made.boundaries.source_curves) {
+            reach = std::max(reach, kReach * loop.radius());
+        }
     }
     const Region loops = region_of_loops(source.mesh, source.loops);
     const std::vector<double> distance = edge_distances(source.mesh, loops.vertices(), reach);
@@ -335,22 +311,106 @@ Region Merge::State::deforming() const {
     return Region(source.mesh.shared_topology(), std::move(near));
 }
 
-void Merge::State::prepare(const Context& context) {
-    const BoundaryDeformOptions how =
-        options.thesis ? BoundaryDeformOptions::thesis() : BoundaryDeformOptions{};
-    const Region region = deforming();
+void factor(MergePreparation& made, const Context& context) {
+    const MergeSide& source = made.boundaries.source;
+    const Region region = deforming(made);
     const Region loops = region_of_loops(source.mesh, source.loops);
     Region held = loops, with_features = loops;
-    for (const Region& feature : features) {
+    for (const Region& feature : made.features) {
         with_features = with_features.united(feature.intersected(region));
     }
-    if (options.configuration == Configuration::fixed) held = with_features;
-    deformer = std::make_unique<BoundaryDeformer>(source.mesh, region, held, how, context);
-    if (options.configuration == Configuration::free && !features.empty()) {
-        featured =
-            std::make_unique<BoundaryDeformer>(source.mesh, region, with_features, how, context);
+    const bool fixed = made.options.configuration == Configuration::fixed;
+    if (fixed) held = with_features;
+    const auto deformer_with = [&](const Region& of) {
+        return std::make_unique<BoundaryDeformer>(source.mesh, region, of, made.method.deform,
+                                                  context);
+    };
+    made.deformer = deformer_with(held);
+    if (!fixed && !made.features.empty()) made.featured = deformer_with(with_features);
+    made.stats = made.deformer->stats();
+}
+
+}  // namespace
+
+MergeMethod method_of(const MergeOptions& options) {
+    MergeMethod method;
+    method.collar = options.collar;
+    method.values.turn = options.configuration == Configuration::free || options.turn_frames;
+    if (!options.thesis) return method;
+    if (options.suit_transition) {
+        throw Error(ErrorCode::invalid_argument,
+                    "the thesis's transition needs its widths: it does not choose them");
     }
-    report.deform = deformer->stats();
+    method.deform = BoundaryDeformOptions::thesis();
+    method.values.turn = options.configuration == Configuration::free;
+    method.values.sigma = 0.0;
+    method.values.tangent_scales = true;
+    method.collar = false;
+    method.own_transition = options.source_transition > 0.0 || options.target_transition > 0.0;
+    return method;
+}
+
+Sides make_sides(const Mesh& source, std::span<const Mesh* const> targets,
+                 std::span<const Join> joins, const MergeOptions& options, const Context& context) {
+    Sides sides;
+    const TargetPaths paths = target_paths(joins, targets.size());
+    sides.place = paths.place;
+    make_source(source, joins, sides, context);
+    make_targets(targets, joins, paths, sides, context);
+    note_flips(sides.found);
+    trim_sides(joins, options, sides, context);
+    sides.given.target_topology = topologies_together(targets, context);
+    return sides;
+}
+
+Boundaries find_boundaries(Sides sides, std::span<const Join> joins, const MergeOptions& options,
+                           const Context& context) {
+    Boundaries result;
+    result.refined.assign(joins.size(), 0);
+    result.target_loops = all_target_loops(sides, joins);
+    combine_targets(sides.targets, sides.given, result, context);
+    result.source = std::move(sides.source);
+    make_loops(result);
+    if (options.refine) refine_coarse(result, context);
+    return result;
+}
+
+const PartShapes::Pair& PartShapes::of(const Boundaries& boundaries, const Context& context) const {
+    std::call_once(once_, [&] {
+        parts_ = {part_shape(boundaries.source.mesh, boundaries.source_curves.front(), context),
+                  part_shape(boundaries.target, boundaries.target_curves.front(), context)};
+    });
+    return parts_;
+}
+
+MergePreparation prepare_merge(const Mesh& source, std::span<const Mesh* const> targets,
+                               std::span<const Join> joins, const MergeOptions& options,
+                               const Context& context) {
+    Progress progress(context, "merge: prepare");
+    const auto start = MergeClock::now();
+    require_options(options, joins.size(), targets.size());
+    require_distinct(source, targets);
+    for (const Region& feature : options.fixed) {
+        require_same_topology(source, feature.topology(), "a fixed feature of the source");
+    }
+    MergePreparation made;
+    made.options = options;
+    made.method = method_of(options);
+    Sides sides = make_sides(source, targets, joins, options, context);
+    made.given = sides.given;
+    made.found = sides.found;
+    progress.step(0.3);
+    made.boundaries = find_boundaries(std::move(sides), joins, options, context);
+    const Boundaries& from = made.boundaries;
+    made.features = carried_features(from.source, options);
+    made.loose = loose_parts(from.source);
+    made.source_rim = seam_quality(from.source.mesh, from.source.loops);
+    made.target_rim = seam_quality(from.target, from.target_loops);
+    made.parts = std::make_unique<PartShapes>();
+    progress.step(0.7);
+    factor(made, context);
+    made.seconds = seconds_since(start);
+    return made;
 }
 
 }  // namespace lissom

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kernel/merge/blend/fair_seam.h"
-#include "kernel/merge/merge_state.h"
+#include "kernel/merge/merge_stages.h"
 #include "kernel/merge/sew/seam_collar.h"
 #include "kernel/merge/sew/seam_guard.h"
 
@@ -21,28 +21,21 @@ std::string short_number(double value) {
     return text;
 }
 
-void note_narrow_bands(std::span<const TransitionWidths> asked, MergeReport& now) {
-    const auto note = [&](std::size_t seam, const char* side, double width, double used) {
-        if (!(used < kNarrow * width)) return;
-        now.warnings.push_back("join " + std::to_string(seam + 1) + ": the transition on the " +
-                               side + " is " + short_number(used) + " wide in place of " +
-                               short_number(width) +
-                               ", in the unit of the target: the surface "
-                               "has no room for more");
-    };
-    for (std::size_t k = 0; k < asked.size(); ++k) {
-        note(k, "source", asked[k].source, now.transition.source[k].width);
-        note(k, "target", asked[k].target, now.transition.target[k].width);
-    }
+// One side of a transition.
+void note_narrow_band(std::size_t seam, const char* side, double width, double used,
+                      std::vector<std::string>& warnings) {
+    if (!(used < kNarrow * width)) return;
+    warnings.push_back("join " + std::to_string(seam + 1) + ": the transition on the " + side +
+                       " is " + short_number(used) + " wide in place of " + short_number(width) +
+                       ", in the unit of the target: the surface has no room for more");
 }
 
 // A transition that went less than this part of its way is told.
 constexpr double kHardly = 0.1;
 
-void note_refused_bands(MergeReport& now) {
-    const double kept = now.transition.kept;
+void note_refused_bands(double kept, std::vector<std::string>& warnings) {
     if (!(kept < kHardly)) return;
-    now.warnings.push_back(
+    warnings.push_back(
         (kept > 0.0 ? "the transition went only " + short_number(100.0 * kept) + " % of its way"
                     : std::string("the transition was left out")) +
         ": more of it would have folded the surface at a seam; choose other widths, or cut where "
@@ -58,9 +51,7 @@ double greatest_angles(const SewReport& report) {
     return report.after.greatest_dihedral + report.after.greatest_near;
 }
 
-}  // namespace
-
-SewOptions Merge::State::sewing(bool collar) const {
+SewOptions sewing(const MergeOptions& options, bool collar) {
     SewOptions how;
     how.kind = options.seam;
     how.smooth = options.smooth;
@@ -68,49 +59,39 @@ SewOptions Merge::State::sewing(bool collar) const {
     return how;
 }
 
-// With collars, and without where that hides the seam better: on sides that are folded no step
-// after the collar may be possible.
-Sewn Merge::State::sew_sides(const Mesh& moved, const std::vector<LoopPair>& pairs,
-                             const std::optional<ThesisMerge>& thesis, MergeReport& now,
-                             const Context& context) const {
-    MergeReport plain_report = now;
-    const auto sew_with = [&](bool collar, MergeReport& told) {
-        Sewn sewn = sew(target, moved, pairs, sewing(collar), context);
-        finish_seams(sewn, thesis, told, context);
-        require_sound(sewn, target, moved, pairs);
-        return sewn;
-    };
-    Sewn sewn = sew_with(options.collar && !options.thesis, now);
-    const bool doubtful = now.seam.collar_added > 0 && now.seam.after.greatest_dihedral > kVisible;
-    if (!doubtful) return sewn;
-    Sewn plain = sew_with(false, plain_report);
-    if (greatest_angles(plain_report.seam) > kClearlyBetter * greatest_angles(now.seam)) {
-        return sewn;
-    }
-    now = std::move(plain_report);
-    return plain;
-}
-
-std::vector<TransitionWidths> Merge::State::asked_widths(const MergeReport& now) const {
+std::vector<TransitionWidths> asked_widths(const MergeOptions& options,
+                                           std::span<const JoinReport> joins) {
     std::vector<TransitionWidths> widths;
-    for (const JoinReport& join : now.joins) {
+    for (const JoinReport& join : joins) {
         widths.push_back({options.target_transition, options.source_transition * join.scale});
     }
     return widths;
 }
 
-void Merge::State::finish_seams(Sewn& sewn, const std::optional<ThesisMerge>& thesis,
-                                MergeReport& now, const Context& context) const {
+void blend(const MergeOptions& options, const Matching& matching, MergedSides& merged,
+           const Context& context) {
+    const std::vector<TransitionWidths> widths = options.suit_transition
+                                                     ? suitable_widths(merged.sewn, context)
+                                                     : asked_widths(options, matching.joins);
+    merged.transition = blend_transition(merged.sewn, widths, {}, context);
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+        note_narrow_band(k, "source", widths[k].source, merged.transition.source[k].width,
+                         merged.warnings);
+        note_narrow_band(k, "target", widths[k].target, merged.transition.target[k].width,
+                         merged.warnings);
+    }
+    note_refused_bands(merged.transition.kept, merged.warnings);
+}
+
+void finish_seams(const MergeOptions& options, const Matching& matching, const Moved& moved,
+                  MergedSides& merged, const Context& context) {
     const bool blends = options.suit_transition || options.source_transition > 0.0 ||
                         options.target_transition > 0.0;
-    if (thesis) {
-        now.transition = thesis->reconstruct(sewn, context);
+    Sewn& sewn = merged.sewn;
+    if (moved.thesis) {
+        merged.transition = moved.thesis->reconstruct(sewn, context);
     } else if (blends) {
-        const std::vector<TransitionWidths> widths =
-            options.suit_transition ? suitable_widths(sewn, context) : asked_widths(now);
-        now.transition = blend_transition(sewn, widths, {}, context);
-        note_narrow_bands(widths, now);
-        note_refused_bands(now);
+        blend(options, matching, merged, context);
     } else if (options.seam == SeamKind::fair) {
         fair_seam(sewn.mesh, sewn.seams, {}, context);
         flip_near_seams(sewn, context);
@@ -118,11 +99,32 @@ void Merge::State::finish_seams(Sewn& sewn, const std::optional<ThesisMerge>& th
     if (blends || options.seam == SeamKind::fair) {
         sewn.report.after = seam_quality(sewn.mesh, sewn.seams);
     }
-    now.seam = sewn.report;
+}
+
+// With collars, and without where that hides the seam better: on sides that are folded no step
+// after the collar may be possible.
+MergedSides sew_well(const MergePreparation& preparation, const Matching& matching,
+                     const Moved& moved, const Context& context) {
+    const MergeOptions& options = preparation.options;
+    const Mesh& target = preparation.boundaries.target;
+    const auto sew_with = [&](bool collar) {
+        MergedSides merged;
+        merged.sewn = sew(target, moved.source, matching.pairs, sewing(options, collar), context);
+        finish_seams(options, matching, moved, merged, context);
+        require_sound(merged.sewn, target, moved.source, matching.pairs);
+        return merged;
+    };
+    MergedSides merged = sew_with(preparation.method.collar);
+    const SewReport& report = merged.sewn.report;
+    if (!(report.collar_added > 0 && report.after.greatest_dihedral > kVisible)) return merged;
+    MergedSides plain = sew_with(false);
+    const bool better =
+        greatest_angles(plain.sewn.report) <= kClearlyBetter * greatest_angles(report);
+    return better ? std::move(plain) : std::move(merged);
 }
 
 // The faces of the source, which is deformed, and those of the target that were made or moved.
-std::vector<Index> Merge::State::changed_faces(const Sewn& sewn) const {
+std::vector<Index> changed_faces(const Mesh& target, const Sewn& sewn) {
     const auto is_same = [&](Index v) {
         const auto sources = sewn.map.vertices[v];
         return sources.size() == 1 && sources.front().element < target.vertex_count() &&
@@ -144,14 +146,39 @@ std::vector<Index> Merge::State::changed_faces(const Sewn& sewn) const {
     return faces;
 }
 
-std::vector<FacePair> Merge::State::new_intersections(const Sewn& sewn,
-                                                      const Context& context) const {
+// Those of the targets and of the source as they are, among the given faces: of the targets, then
+// of the source.
+std::vector<FacePair> own_intersections(const Mesh& target, const Mesh& source,
+                                        const std::vector<Index>& origins, const Context& context) {
+    std::vector<FacePair> result;
+    Index shift = 0;
+    for (const Mesh* mesh : {&target, &source}) {
+        std::vector<Index> faces;
+        for (const Index f : origins) {
+            if (f >= shift && f < shift + mesh->face_count()) faces.push_back(f - shift);
+        }
+        std::sort(faces.begin(), faces.end());
+        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        if (!faces.empty()) {
+            for (const FacePair& pair : self_intersections(*mesh, {faces, faces}, context)) {
+                result.push_back({pair.first + shift, pair.second + shift});
+            }
+        }
+        shift += mesh->face_count();
+    }
+    return result;
+}
+
+std::vector<FacePair> new_intersections(const Boundaries& boundaries, const Sewn& sewn,
+                                        const Context& context) {
+    const Mesh& target = boundaries.target;
+    const Mesh& source = boundaries.source.mesh;
     std::vector<FacePair> pairs =
-        self_intersections(sewn.mesh, {changed_faces(sewn), std::nullopt}, context);
+        self_intersections(sewn.mesh, {changed_faces(target, sewn), std::nullopt}, context);
     if (pairs.empty()) return pairs;
     // In the numbers of the unconnected mesh: faces of the target, then of the source.
     const Topology& old = target.topology();
-    const Topology& other = source.mesh.topology();
+    const Topology& other = source.topology();
     const auto origins = [&](Index f) {
         if (sewn.side_of_face[f] == SeamSide::target) {
             return origin_faces(old, sewn.mesh.topology(), sewn.map, f);
@@ -188,7 +215,7 @@ std::vector<FacePair> Merge::State::new_intersections(const Sewn& sewn,
             }
         }
     }
-    const std::vector<FacePair> before = own_intersections(concerned, context);
+    const std::vector<FacePair> before = own_intersections(target, source, concerned, context);
     const auto was = [&](std::span<const Index> first, std::span<const Index> second) {
         for (const Index a : first) {
             for (const Index b : second) {
@@ -207,27 +234,19 @@ std::vector<FacePair> Merge::State::new_intersections(const Sewn& sewn,
     return pairs;
 }
 
-// Those of the targets and of the source as they are, among the given faces: of the targets, then
-// of the source.
-std::vector<FacePair> Merge::State::own_intersections(const std::vector<Index>& origins,
-                                                      const Context& context) const {
-    std::vector<FacePair> result;
-    Index shift = 0;
-    for (const Mesh* mesh : {&target, &source.mesh}) {
-        std::vector<Index> faces;
-        for (const Index f : origins) {
-            if (f >= shift && f < shift + mesh->face_count()) faces.push_back(f - shift);
-        }
-        std::sort(faces.begin(), faces.end());
-        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-        if (!faces.empty()) {
-            for (const FacePair& pair : self_intersections(*mesh, {faces, faces}, context)) {
-                result.push_back({pair.first + shift, pair.second + shift});
-            }
-        }
-        shift += mesh->face_count();
+}  // namespace
+
+MergedSides sew_sides(const MergePreparation& preparation, const Matching& matching,
+                      const Moved& moved, const Context& context) {
+    MergedSides merged = sew_well(preparation, matching, moved, context);
+    if (!preparation.options.find_intersections) return merged;
+    merged.intersections = new_intersections(preparation.boundaries, merged.sewn, context);
+    if (!merged.intersections.empty()) {
+        merged.warnings.push_back(std::to_string(merged.intersections.size()) +
+                                  " pairs of faces run through one another that did not "
+                                  "before; see the report's intersections");
     }
-    return result;
+    return merged;
 }
 
 }  // namespace lissom

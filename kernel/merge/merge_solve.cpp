@@ -9,7 +9,7 @@
 #include "kernel/deform/rotation/rest_directions.h"
 #include "kernel/merge/loop/automatic_keys.h"
 #include "kernel/merge/loop/loop_values.h"
-#include "kernel/merge/merge_state.h"
+#include "kernel/merge/merge_stages.h"
 
 namespace lissom {
 namespace {
@@ -69,173 +69,132 @@ BoundaryValue common_value(const Mesh& mesh, const Region& feature, const Region
     return {to, nearest_rotation(products), std::exp(logs / static_cast<double>(rows.size()))};
 }
 
-}  // namespace
-
-std::vector<ParameterPair> Merge::State::keys_of(std::size_t join,
-                                                 std::span<const KeyPair> given) const {
-    std::vector<KeyPair> keys;
-    for (std::size_t k = 0; k < given.size(); ++k) {
-        const KeyPair& key = given[k];
-        keys.push_back(
-            {worked_key(key.source, given_source_loops[join], source_curves[join], k, "source"),
-             worked_key(key.target, given_target_loops[join], target_curves[join], k, "target")});
-    }
-    return key_parameters(source_curves[join], target_curves[join], keys);
-}
-
 // The shapes of the parts count only where the loops and the given directions leave a choice.
-std::vector<OffsetGuess> Merge::State::guesses(const Context& context) {
+std::vector<OffsetGuess> guessed_places(const MergePreparation& preparation,
+                                        const Context& context) {
+    const Boundaries& from = preparation.boundaries;
     std::vector<LoopJoin> loops;
-    for (std::size_t j = 0; j < joins.size(); ++j) {
-        loops.push_back({&source_curves[j], &target_curves[j]});
+    for (std::size_t j = 0; j < from.source_curves.size(); ++j) {
+        loops.push_back({&from.source_curves[j], &from.target_curves[j]});
     }
-    std::vector<OffsetGuess> guesses = guess_offsets(loops, options.directions);
+    const auto& directions = preparation.options.directions;
+    std::vector<OffsetGuess> guesses = guess_offsets(loops, directions);
     if (guesses.front().certainty >= kCertain) return guesses;
-    if (!source_part) source_part = part_shape(source.mesh, source_curves.front(), context);
-    if (!target_part) target_part = part_shape(target, target_curves.front(), context);
-    loops.front().source_part = &*source_part;
-    loops.front().target_part = &*target_part;
-    return guess_offsets(loops, options.directions);
-}
-
-std::vector<LoopPair> Merge::State::correspond(MergeReport& now, const Context& context) {
-    std::vector<OffsetGuess> guessed;
-    const bool guess =
-        std::any_of(joins.begin(), joins.end(), [](const Join& join) { return join.keys.empty(); });
-    if (guess) guessed = guesses(context);
-    std::vector<LoopPair> pairs;
-    for (std::size_t j = 0; j < joins.size(); ++j) {
-        std::vector<ParameterPair> keys = keys_of(j);
-        JoinReport& join = now.joins[j];
-        if (keys.empty()) {
-            keys.push_back(guessed[j].key);
-            join.guessed = true;
-            join.certainty = guessed[j].certainty;
-            if (join.certainty < kCertain) {
-                now.warnings.push_back("join " + std::to_string(j + 1) +
-                                       ": where the boundaries meet is a guess; give it one key, "
-                                       "or say which directions of both models belong together");
-            }
-        }
-        pairs.push_back(corresponding(source_curves[j], target_curves[j], keys));
-        join.source_size = source_curves[j].size();
-        join.target_size = target_curves[j].size();
-        join.scale = loop_scale(source_curves[j], target_curves[j]);
-    }
-    return pairs;
+    const PartShapes::Pair& parts = preparation.parts->of(from, context);
+    loops.front().source_part = &parts.source;
+    loops.front().target_part = &parts.target;
+    return guess_offsets(loops, directions);
 }
 
 // One value a held vertex; those not on a loop stay as they are.
-std::vector<BoundaryValue> Merge::State::values_of(const std::vector<LoopPair>& pairs,
-                                                   const Region& held) const {
-    std::vector<BoundaryValue> values;
-    for (const Index v : held.vertices()) {
-        values.push_back({source.mesh.position(v), Mat3::Identity(), 1.0});
-    }
-    LoopValueOptions how;
-    how.turn =
-        options.configuration == Configuration::free || (options.turn_frames && !options.thesis);
-    if (options.thesis) {
-        how.sigma = 0.0;
-        how.tangent_scales = true;
-    }
+std::vector<BoundaryValue> values_of(const MergePreparation& preparation, const Matching& matching,
+                                     const Region& held) {
+    const Boundaries& from = preparation.boundaries;
     const std::vector<Index>& ids = held.vertices();
-    for (std::size_t j = 0; j < joins.size(); ++j) {
-        const std::vector<BoundaryValue> loop =
-            loop_values(source_curves[j], target_curves[j], pairs[j], how);
+    std::vector<BoundaryValue> values;
+    for (const Index v : ids) {
+        values.push_back({from.source.mesh.position(v), Mat3::Identity(), 1.0});
+    }
+    for (std::size_t j = 0; j < matching.pairs.size(); ++j) {
+        const LoopPair& pair = matching.pairs[j];
+        const std::vector<BoundaryValue> loop = loop_values(
+            from.source_curves[j], from.target_curves[j], pair, preparation.method.values);
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Index v = pairs[j].source[i];
-            values[static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), v) -
-                                            ids.begin())] = loop[i];
+            values[static_cast<std::size_t>(
+                std::lower_bound(ids.begin(), ids.end(), pair.source[i]) - ids.begin())] = loop[i];
         }
     }
     return values;
 }
 
-BoundaryDeformation Merge::State::deform(const std::vector<LoopPair>& pairs,
-                                         const Context& context) {
-    BoundaryDeformation deformed = deformer->solve(values_of(pairs, deformer->held()), context);
-    if (!featured) return deformed;
-    std::vector<BoundaryValue> values = values_of(pairs, featured->held());
-    const std::vector<Index>& ids = featured->held().vertices();
-    for (const Region& feature : features) {
+BoundaryDeformation bent(const MergePreparation& preparation, const Matching& matching,
+                         const Context& context) {
+    BoundaryDeformer& deformer = *preparation.deformer;
+    BoundaryDeformation deformed =
+        deformer.solve(values_of(preparation, matching, deformer.held()), context);
+    if (!preparation.featured) return deformed;
+    BoundaryDeformer& featured = *preparation.featured;
+    const Mesh& mesh = preparation.boundaries.source.mesh;
+    std::vector<BoundaryValue> values = values_of(preparation, matching, featured.held());
+    const std::vector<Index>& ids = featured.held().vertices();
+    for (const Region& feature : preparation.features) {
         Vec3 center;
-        const BoundaryValue move =
-            common_value(source.mesh, feature, featured->region(), deformed, center);
+        const BoundaryValue move = common_value(mesh, feature, featured.region(), deformed, center);
         for (const Index v : feature.vertices()) {
-            const Vec3 arm = source.mesh.position(v) - center;
+            const Vec3 arm = mesh.position(v) - center;
             values[static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), v) -
                                             ids.begin())] = {
                 move.position + move.scale * (move.rotation * arm), move.rotation, move.scale};
         }
     }
-    return featured->solve(values, context);
+    return featured.solve(values, context);
 }
 
 // Parts of the source without a join go as a whole with what is nearest to them.
-void Merge::State::follow(const BoundaryDeformation& deformed, std::vector<Vec3>& positions) const {
-    const Topology& topology = source.mesh.topology();
-    const Region& moved = deformer->region();
-    if (options.configuration == Configuration::fixed || moved.size() == topology.vertex_count()) {
-        return;
-    }
+void follow(const Mesh& mesh, const Region& moved, const BoundaryDeformation& deformed,
+            std::vector<Vec3>& positions) {
+    const Topology& topology = mesh.topology();
+    if (moved.size() == topology.vertex_count()) return;
     std::map<Index, std::vector<Index>> loose;
     for (const Index v : moved.inverted().vertices()) loose[topology.components()[v]].push_back(v);
     for (const auto& entry : loose) {
         Vec3 center = Vec3::Zero();
         for (const Index v : entry.second) {
-            center += source.mesh.position(v) / static_cast<double>(entry.second.size());
+            center += mesh.position(v) / static_cast<double>(entry.second.size());
         }
         std::size_t nearest = 0;
         const auto distance = [&](std::size_t row) {
-            return (source.mesh.position(moved.vertices()[row]) - center).squaredNorm();
+            return (mesh.position(moved.vertices()[row]) - center).squaredNorm();
         };
         for (std::size_t row = 1; row < moved.vertices().size(); ++row) {
             if (distance(row) < distance(nearest)) nearest = row;
         }
-        const Vec3& from = source.mesh.position(moved.vertices()[nearest]);
+        const Vec3& from = mesh.position(moved.vertices()[nearest]);
         const Mat3& transform = deformed.transforms[nearest];
         for (const Index v : entry.second) {
-            positions[v] =
-                deformed.positions[nearest] + transform * (source.mesh.position(v) - from);
+            positions[v] = deformed.positions[nearest] + transform * (mesh.position(v) - from);
         }
     }
 }
 
-std::vector<Vec3> Merge::State::all_positions(const BoundaryDeformation& deformed) const {
-    std::vector<Vec3> positions(source.mesh.positions().begin(), source.mesh.positions().end());
-    const std::vector<Index>& moved = deformer->region().vertices();
+std::vector<Vec3> all_positions(const MergePreparation& preparation,
+                                const BoundaryDeformation& deformed) {
+    const Mesh& mesh = preparation.boundaries.source.mesh;
+    const Region& region = preparation.deformer->region();
+    std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
+    const std::vector<Index>& moved = region.vertices();
     for (std::size_t row = 0; row < moved.size(); ++row) {
         positions[moved[row]] = deformed.positions[row];
     }
-    follow(deformed, positions);
+    if (preparation.options.configuration == Configuration::free) {
+        follow(mesh, region, deformed, positions);
+    }
     return positions;
 }
 
 // The thesis's transition, where it is asked for.
-std::optional<ThesisMerge> Merge::State::thesis_merge(const std::vector<LoopPair>& pairs,
-                                                      const MergeReport& now,
-                                                      const Context& context) const {
-    if (!options.thesis) return std::nullopt;
-    if (!(options.source_transition > 0.0 || options.target_transition > 0.0)) return std::nullopt;
+std::optional<ThesisMerge> thesis_merge(const MergePreparation& preparation,
+                                        const Matching& matching, const Context& context) {
+    if (!preparation.method.own_transition) return std::nullopt;
+    const MergeOptions& options = preparation.options;
+    const bool scales = options.configuration == Configuration::free;
     std::vector<ThesisJoin> thesis;
-    for (std::size_t j = 0; j < joins.size(); ++j) {
-        const bool scales = options.configuration == Configuration::free;
-        const std::vector<ParameterPair> keys = keys_of(j);
-        const Index start =
-            keys.empty() ? 0 : nearest_vertex(source_curves[j], keys.front().source);
-        thesis.push_back({pairs[j], start, scales ? now.joins[j].scale : 1.0,
-                          options.target_transition, options.source_transition});
+    for (std::size_t j = 0; j < matching.pairs.size(); ++j) {
+        thesis.push_back({matching.pairs[j], matching.starts[j],
+                          scales ? matching.joins[j].scale : 1.0, options.target_transition,
+                          options.source_transition});
     }
-    return std::make_optional<ThesisMerge>(target, source.mesh, std::move(thesis),
+    return std::make_optional<ThesisMerge>(preparation.boundaries.target,
+                                           preparation.boundaries.source.mesh, std::move(thesis),
                                            options.transition_weight, context);
 }
 
 // Normals and tangents turn with the surface; displacements of morph targets grow with it as well.
-void Merge::State::turn_directions(const BoundaryDeformation& deformed, Mesh& moved) const {
-    RestDirections(source.mesh, deformer->region()).apply_to(moved, deformed.transforms);
+void turn_directions(const Mesh& rest, const Region& region, const BoundaryDeformation& deformed,
+                     Mesh& moved) {
+    RestDirections(rest, region).apply_to(moved, deformed.transforms);
     std::vector<double> scale(static_cast<std::size_t>(moved.vertex_count()), 1.0);
-    const std::vector<Index>& ids = deformer->region().vertices();
+    const std::vector<Index>& ids = region.vertices();
     for (std::size_t row = 0; row < ids.size(); ++row) {
         scale[ids[row]] = uniform_scale(deformed.transforms[row]);
     }
@@ -247,6 +206,70 @@ void Merge::State::turn_directions(const BoundaryDeformation& deformed, Mesh& mo
             for (double& x : attribute.at(i)) x *= scale[v];
         }
     }
+}
+
+}  // namespace
+
+std::vector<ParameterPair> parameters_of(const MergePreparation& preparation, std::size_t join,
+                                         std::span<const KeyPair> given) {
+    const GivenMeshes& meshes = preparation.given;
+    const Loop &source = preparation.boundaries.source_curves[join],
+               &target = preparation.boundaries.target_curves[join];
+    std::vector<KeyPair> keys;
+    for (std::size_t k = 0; k < given.size(); ++k) {
+        keys.push_back(
+            {worked_key(given[k].source, meshes.source_loops[join], source, k, "source"),
+             worked_key(given[k].target, meshes.target_loops[join], target, k, "target")});
+    }
+    return key_parameters(source, target, keys);
+}
+
+Matching match_boundaries(const MergePreparation& preparation,
+                          std::span<const std::vector<KeyPair>> given, const Context& context) {
+    const Boundaries& from = preparation.boundaries;
+    std::vector<OffsetGuess> guessed;
+    const bool guess = std::any_of(given.begin(), given.end(),
+                                   [](const std::vector<KeyPair>& keys) { return keys.empty(); });
+    if (guess) guessed = guessed_places(preparation, context);
+    Matching result;
+    result.joins = preparation.found.joins;
+    for (std::size_t j = 0; j < given.size(); ++j) {
+        const Loop &source = from.source_curves[j], &target = from.target_curves[j];
+        std::vector<ParameterPair> keys = parameters_of(preparation, j, given[j]);
+        JoinReport& join = result.joins[j];
+        result.starts.push_back(keys.empty() ? 0 : nearest_vertex(source, keys.front().source));
+        if (keys.empty()) {
+            keys.push_back(guessed[j].key);
+            join.guessed = true;
+            join.certainty = guessed[j].certainty;
+            if (join.certainty < kCertain) {
+                result.warnings.push_back(
+                    "join " + std::to_string(j + 1) +
+                    ": where the boundaries meet is a guess; give it one key, "
+                    "or say which directions of both models belong together");
+            }
+        }
+        result.pairs.push_back(corresponding(source, target, keys));
+        join.refined = from.refined[j] != 0;
+        join.source_size = source.size();
+        join.target_size = target.size();
+        join.scale = loop_scale(source, target);
+    }
+    return result;
+}
+
+Moved deform_source(const MergePreparation& preparation, const Matching& matching,
+                    const Context& context) {
+    const Mesh& rest = preparation.boundaries.source.mesh;
+    BoundaryDeformation deformed = bent(preparation, matching, context);
+    Moved result{rest, thesis_merge(preparation, matching, context)};
+    if (result.thesis) {
+        const auto& by = preparation.featured ? *preparation.featured : *preparation.deformer;
+        deformed = result.thesis->deform(by.region(), by.held(), deformed, context);
+    }
+    result.source.set_positions(all_positions(preparation, deformed));
+    turn_directions(rest, preparation.deformer->region(), deformed, result.source);
+    return result;
 }
 
 }  // namespace lissom

@@ -1,0 +1,168 @@
+/// The stages of a merge; private to kernel/merge. Each is a function of the ones before it:
+///
+///     make_sides -> Sides -> find_boundaries -> Boundaries -> prepare_merge -> MergePreparation,
+///     match_boundaries -> Matching, deform_source -> Moved, sew_sides -> MergedSides, report_of
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernel/merge/loop/loop.h"
+#include "kernel/merge/loop/loop_values.h"
+#include "kernel/merge/loop/part_shape.h"
+#include "kernel/merge/merge.h"
+#include "kernel/merge/merge_side.h"
+#include "kernel/merge/thesis/thesis_merge.h"
+
+namespace lissom {
+
+using MergeClock = std::chrono::steady_clock;
+
+inline double seconds_since(MergeClock::time_point start) {
+    return std::chrono::duration<double>(MergeClock::now() - start).count();
+}
+
+/// How the options are carried out: what the thesis does otherwise.
+struct MergeMethod {
+    BoundaryDeformOptions deform;
+    LoopValueOptions values;
+    bool collar = true;
+    /// Its own transition, where one is asked for.
+    bool own_transition = false;
+};
+/// Errors: invalid_argument for options that do not go together or are out of range.
+MergeMethod method_of(const MergeOptions& options);
+
+/// The place of a boundary's vertices in the mesh that was given.
+struct GivenLoop {
+    std::vector<Index> vertices;
+    std::vector<Vec3> points;
+};
+
+/// What is kept of the meshes as they were given, loops by join.
+struct GivenMeshes {
+    std::vector<GivenLoop> source_loops, target_loops;
+    /// Of the first target, of the first two as one mesh, and so on: their counts of elements.
+    std::vector<std::shared_ptr<const Topology>> target_topology;
+};
+
+/// What was found of the sides when they were looked over.
+struct SidesFound {
+    std::vector<JoinReport> joins;
+    bool source_flipped = false;
+    std::vector<Index> targets_flipped;
+    std::vector<std::string> warnings;
+};
+
+/// Copies of the meshes that look outward and have smooth boundaries.
+struct Sides {
+    MergeSide source;
+    std::vector<MergeSide> targets;
+    /// For every join the place of its boundary among those of its target.
+    std::vector<std::size_t> place;
+    GivenMeshes given;
+    SidesFound found;
+};
+/// Errors: as Merge.
+Sides make_sides(const Mesh& source, std::span<const Mesh* const> targets,
+                 std::span<const Join> joins, const MergeOptions& options, const Context& context);
+
+/// The loops to be joined, on the source and on all targets as one mesh.
+struct Boundaries {
+    MergeSide source;
+    /// By join: whether the source's faces were split for it.
+    std::vector<char> refined;
+    Mesh target;
+    MeshMap target_map;
+    std::vector<std::vector<Index>> target_loops;
+    /// By join, the source's run the other way so that both run the same way.
+    std::vector<Loop> source_curves, target_curves;
+};
+Boundaries find_boundaries(Sides sides, std::span<const Join> joins, const MergeOptions& options,
+                           const Context& context);
+
+/// The parts behind the first join, found where loops and directions leave a choice.
+class PartShapes {
+  public:
+    struct Pair {
+        PartShape source, target;
+    };
+    /// Found at the first call; after an error at the next one.
+    const Pair& of(const Boundaries& boundaries, const Context& context) const;
+
+  private:
+    mutable std::once_flag once_;
+    mutable Pair parts_;
+};
+
+/// Parts of the source without a join, and their vertices.
+struct LooseParts {
+    Index parts = 0, vertices = 0;
+};
+
+/// All that does not depend on keys.
+struct MergePreparation {
+    MergeOptions options;
+    MergeMethod method;
+    GivenMeshes given;
+    SidesFound found;
+    Boundaries boundaries;
+    std::vector<Region> features;
+    LooseParts loose;
+    SeamQuality source_rim, target_rim;
+    std::unique_ptr<PartShapes> parts;
+    std::unique_ptr<BoundaryDeformer> deformer;
+    /// With the features of a free configuration held as well.
+    std::unique_ptr<BoundaryDeformer> featured;
+    DeformStats stats;
+    double seconds = 0.0;
+};
+MergePreparation prepare_merge(const Mesh& source, std::span<const Mesh* const> targets,
+                               std::span<const Join> joins, const MergeOptions& options,
+                               const Context& context);
+
+/// Keys of one join, on its loops. Errors: key_conflict.
+std::vector<ParameterPair> parameters_of(const MergePreparation& preparation, std::size_t join,
+                                         std::span<const KeyPair> keys);
+
+/// What meets what.
+struct Matching {
+    std::vector<LoopPair> pairs;
+    /// By join the vertex of the source's loop at the first key, or the first.
+    std::vector<Index> starts;
+    std::vector<JoinReport> joins;
+    std::vector<std::string> warnings;
+};
+/// `keys` by join; guessed where there are none.
+Matching match_boundaries(const MergePreparation& preparation,
+                          std::span<const std::vector<KeyPair>> keys, const Context& context);
+
+/// The source brought to the target.
+struct Moved {
+    Mesh source;
+    /// Where the thesis's transition is made.
+    std::optional<ThesisMerge> thesis;
+};
+/// The preparation must outlive the result.
+Moved deform_source(const MergePreparation& preparation, const Matching& matching,
+                    const Context& context);
+
+/// The sides sewn together.
+struct MergedSides {
+    Sewn sewn;
+    TransitionReport transition;
+    std::vector<std::string> warnings;
+    std::vector<FacePair> intersections;
+};
+MergedSides sew_sides(const MergePreparation& preparation, const Matching& matching,
+                      const Moved& moved, const Context& context);
+
+MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
+                      const MergedSides& merged);
+
+}  // namespace lissom
