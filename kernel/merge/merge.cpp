@@ -44,12 +44,14 @@ Merge::~Merge() = default;
 Merge::Merge(Merge&&) noexcept = default;
 Merge& Merge::operator=(Merge&&) noexcept = default;
 
-void Merge::set_keys(Index join, std::vector<KeyPair> keys) {
+void Merge::set_keys(Index join, std::vector<KeyPair> keys) try {
     if (join < 0 || join >= static_cast<Index>(state_->keys.size())) {
         throw Error(ErrorCode::out_of_range, "there is no such join");
     }
     (void)parameters_of(state_->preparation, static_cast<std::size_t>(join), keys);
     state_->keys[join] = std::move(keys);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
 }
 
 std::size_t Merge::memory_bytes() const {

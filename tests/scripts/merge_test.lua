@@ -278,12 +278,12 @@ expect.truthy(of_wide.warnings[1]:find("in place of 29", 1, true))
 expect.truthy(of_suited.transition_kept > 0.9)
 -- One that would fold the surface is left out, and that is said.
 local function bent_tube(segments, bend)
-    local tube = lissom.shapes.cylinder{ radius = 1, height = 2, segments = segments, rings = 6, caps = false }
-    for v = 1, #tube do
-        local x, y, z = tube:position(v)
-        tube:set_position(v, x + bend * math.sin(2 * y), y, z)
+    local bent = lissom.shapes.cylinder{ height = 2, segments = segments, rings = 6, caps = false }
+    for v = 1, #bent do
+        local x, y, z = bent:position(v)
+        bent:set_position(v, x + bend * math.sin(2 * y), y, z)
     end
-    return tube
+    return bent
 end
 local _, of_refused = lissom.merge{ collar = false, transition = { source = 1.5, target = 1.5 },
     joins = { { source = bent_tube(3, 0):boundaries()[1], target = bent_tube(40, 0.5):boundaries()[1] } } }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "kernel/mesh/mesh.h"
 
@@ -31,6 +32,12 @@ inline Vec3 clear_area_vector(const Mesh& mesh, Index face) {
     }
     const Vec3 area = area_vector(mesh, face);
     return area.norm() > kClear * longest ? area : Vec3(Vec3::Zero());
+}
+
+/// The same number for an edge in either direction, and no other.
+inline std::uint64_t edge_key(Index a, Index b) {
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::min(a, b))) << 32) |
+           static_cast<std::uint32_t>(std::max(a, b));
 }
 
 /// In radians, 0 to pi.

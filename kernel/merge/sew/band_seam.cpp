@@ -86,10 +86,10 @@ class BandSeam {
             const std::span<const Index> face = topology.face(f);
             for (std::size_t k = 0; k < face.size(); ++k) {
                 const Index a = face[k], b = face[(k + 1) % face.size()];
-                const Index beyond = work_.patch.left_of(b, a);
+                const Index beyond = work_.patch.faces().left_of(b, a);
                 if (is_on_loop(a) || is_on_loop(b)) continue;
                 if (beyond == kNoIndex) fail("reaches another open boundary");
-                if (band_.contains(work_.patch.faces()[beyond].origin)) continue;
+                if (band_.contains(work_.patch.faces().faces()[beyond].origin)) continue;
                 if (!next.emplace(b, std::pair(a, f)).second) fail("touches itself");
             }
         }

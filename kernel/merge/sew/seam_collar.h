@@ -18,7 +18,7 @@ namespace lissom {
 void make_collars(Sewn& sewn, const Context& context);
 
 /// Flips edges of triangles with a vertex on the seams or next to them where that makes the
-/// smallest angle greater, as SeamPatch does. Not kept where it makes the seam worse or faces run
+/// smallest angle greater, as ClosedPatch does. Not kept where it makes the seam worse or faces run
 /// through one another.
 void flip_near_seams(Sewn& sewn, const Context& context);
 

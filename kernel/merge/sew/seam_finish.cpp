@@ -32,11 +32,12 @@ std::vector<Index> numbered(const SeamWork& work) {
 // The elements of the result in their order.
 class Assembly {
   public:
-    Assembly(const SeamWork& work, std::span<const Index> number) : work_(work), number_(number) {
-        add_vertices();
+    Assembly(const SeamWork& work, const SeamFaces& patch, std::span<const Index> number)
+        : work_(work), number_(number) {
+        add_vertices(patch);
         std::map<Index, std::vector<const SeamFace*>> of_origin;
-        for (const Index f : work.patch.origins()) of_origin[f];
-        for (const SeamFace& face : work.patch.faces()) {
+        for (const Index f : patch.origins()) of_origin[f];
+        for (const SeamFace& face : patch.faces()) {
             if (!face.corners.empty()) of_origin[face.origin].push_back(&face);
         }
         auto next = of_origin.begin();
@@ -56,7 +57,7 @@ class Assembly {
     std::vector<Vec3> positions;
 
   private:
-    void add_vertices() {
+    void add_vertices(const SeamFaces& patch) {
         for (Index v = 0; v < work_.both.vertex_count(); ++v) {
             if (number_[v] == kNoIndex) continue;
             positions.push_back(work_.both.position(v));
@@ -67,7 +68,7 @@ class Assembly {
                 map.vertices.add_blend(seam->second.blend());
             }
         }
-        for (const auto& [v, position] : work_.patch.moved()) {
+        for (const auto& [v, position] : patch.moved()) {
             if (number_[v] != kNoIndex) positions[number_[v]] = position;
         }
     }
@@ -115,9 +116,10 @@ SeamSources sources_of(const SeamWork& work, const LoopPair& join, const LoopPoi
             sources_at(join.source, work.first_source_vertex, on_source)};
 }
 
-Sewn finish(SeamWork& work, const SewOptions& options, const Context& context) {
+Sewn finish(const SeamWork& work, const SeamFaces& faces, const SewOptions& options,
+            const Context& context) {
     const std::vector<Index> number = numbered(work);
-    Assembly assembly(work, number);
+    Assembly assembly(work, faces, number);
     Sewn sewn;
     sewn.mesh = derive(work.both, std::move(assembly.positions), std::move(assembly.faces),
                        assembly.map, context);

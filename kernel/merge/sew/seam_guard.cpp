@@ -14,11 +14,6 @@ constexpr double kEqualAngles = 1e-6;
 // Angles of triangles above this may become smaller.
 constexpr double kGoodAngle = 15.0 * kPi / 180.0;
 
-std::uint64_t edge_key(Index a, Index b) {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::min(a, b))) << 32) |
-           static_cast<std::uint32_t>(std::max(a, b));
-}
-
 std::vector<Index> faces_at(const Topology& topology, std::span<const Index> vertices) {
     std::vector<Index> faces;
     for (const Index v : vertices) {

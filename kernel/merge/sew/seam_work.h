@@ -16,7 +16,7 @@ namespace lissom {
 struct SeamWork {
     const Mesh& both;
     Index first_source_vertex = 0, first_source_face = 0;
-    SeamPatch patch;
+    SplitPatch patch;
     /// The vertices of each seam, in the order of the target's loop.
     std::vector<std::vector<Index>> seams;
     /// What the seams' vertices are made of.
@@ -37,7 +37,8 @@ void sew_band(SeamWork& work, const LoopPair& join, const Context& context);
 SeamSources sources_of(const SeamWork& work, const LoopPair& join, const LoopPoint& on_target,
                        const LoopPoint& on_source);
 
-/// Smooths the seams and makes the mesh.
-Sewn finish(SeamWork& work, const SewOptions& options, const Context& context);
+/// Smooths the seams of the closed patch and makes the mesh.
+Sewn finish(const SeamWork& work, const SeamFaces& faces, const SewOptions& options,
+            const Context& context);
 
 }  // namespace lissom

@@ -75,7 +75,7 @@ Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins
     SeamWork work{both,
                   target.vertex_count(),
                   target.face_count(),
-                  SeamPatch(both, target.face_count(), loops),
+                  SplitPatch(both, target.face_count(), loops),
                   {},
                   {},
                   {},
@@ -88,9 +88,9 @@ Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins
             sew_conforming(work, join, options);
         }
     }
-    work.patch.close(work.seams);
-    if (options.flip) work.report.flipped = work.patch.flip_edges(kAllowedDihedral, context);
-    Sewn sewn = finish(work, options, context);
+    ClosedPatch closed = close(std::move(work.patch), work.seams);
+    if (options.flip) work.report.flipped = closed.flip_edges(kAllowedDihedral, context);
+    Sewn sewn = finish(work, closed.faces(), options, context);
     if (const auto skinned = skinned_side(target, source)) extend_skin(sewn, *skinned, context);
     require_sound(sewn, target, source, joins);
     return sewn;

@@ -1,11 +1,9 @@
-// Flips of edges in a patch around a seam.
+#include "kernel/merge/sew/seam_patch.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "kernel/merge/sew/seam_patch.h"
 
 #include "kernel/merge/loop/face_angles.h"
 
@@ -35,12 +33,57 @@ Vec3 normal(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-bool SeamPatch::find_diagonal(Index a, Index c, std::size_t side, Diagonal& diagonal) const {
-    diagonal.left = left_of(a, c, side);
-    diagonal.right = left_of(c, a, side);
+ClosedPatch::ClosedPatch(SeamFaces faces, std::span<const std::vector<Index>> seams)
+    : faces_(std::move(faces)) {
+    for (const std::vector<Index>& seam : seams) {
+        for (std::size_t k = 0; k < seam.size(); ++k) {
+            seam_edges_.insert(edge_key(seam[k], seam[(k + 1) % seam.size()]));
+        }
+        seam_vertices_.insert(seam_vertices_.end(), seam.begin(), seam.end());
+    }
+    std::sort(seam_vertices_.begin(), seam_vertices_.end());
+    separate_inner_edges();
+}
+
+bool ClosedPatch::is_on_seam(Index a, Index b) const {
+    return seam_edges_.contains(edge_key(a, b));
+}
+
+// Where the seam's vertices are joined by an edge inside both sides, that edge would have four
+// faces. It is flipped on one side.
+void ClosedPatch::separate_inner_edges() {
+    for (const Index a : seam_vertices_) {
+        for (const Index c : faces_.neighbors(a)) {
+            const bool shared = a < c && !is_on_seam(a, c) && faces_.left_of(a, c, 0) != kNoIndex &&
+                                faces_.left_of(a, c, 1) != kNoIndex;
+            if (!shared) continue;
+            bool done = false;
+            for (const std::size_t side : {1, 0}) {
+                for (const auto& [x, y] : {std::pair(a, c), std::pair(c, a)}) {
+                    const Index face = faces_.left_of(x, y, side);
+                    if (face != kNoIndex) faces_.triangulate(face);
+                }
+                Diagonal diagonal;
+                done = find_diagonal(a, c, side, diagonal) && can_flip(diagonal);
+                if (!done) continue;
+                flip(diagonal);
+                break;
+            }
+            if (done) continue;
+            throw Error(ErrorCode::nonmanifold_edge,
+                        "both sides of a seam have an inner edge between the same two of its "
+                        "vertices; subdivide one of the meshes near the seam",
+                        {ElementKind::vertex, 2, {a, c}});
+        }
+    }
+}
+
+bool ClosedPatch::find_diagonal(Index a, Index c, std::size_t side, Diagonal& diagonal) const {
+    diagonal.left = faces_.left_of(a, c, side);
+    diagonal.right = faces_.left_of(c, a, side);
     if (diagonal.left == kNoIndex || diagonal.right == kNoIndex) return false;
-    const std::vector<SeamCorner>& left = faces_[diagonal.left].corners;
-    const std::vector<SeamCorner>& right = faces_[diagonal.right].corners;
+    const std::vector<SeamCorner>& left = faces_.faces()[diagonal.left].corners;
+    const std::vector<SeamCorner>& right = faces_.faces()[diagonal.right].corners;
     if (left.size() != 3 || right.size() != 3) return false;
     for (std::size_t k = 0; k < 3; ++k) {
         if (left[k].vertex == a) {
@@ -53,97 +96,68 @@ bool SeamPatch::find_diagonal(Index a, Index c, std::size_t side, Diagonal& diag
     return true;
 }
 
-bool SeamPatch::can_flip(const Diagonal& quad) const {
+bool ClosedPatch::can_flip(const Diagonal& quad) const {
     const Index a = quad.a.vertex, b = quad.b.vertex, c = quad.c.vertex, d = quad.d.vertex;
-    const bool complete = is_complete(a) && is_complete(b) && is_complete(c) && is_complete(d);
-    const bool inner = !seam_edges_.contains(key(std::min(a, c), std::max(a, c)));
-    return complete && inner && b != d && !has_edge(b, d);
+    const bool complete = faces_.is_complete(a) && faces_.is_complete(b) && faces_.is_complete(c) &&
+                          faces_.is_complete(d);
+    const bool inner = !is_on_seam(a, c);
+    return complete && inner && b != d && !faces_.has_edge(b, d);
 }
 
-// The values of a corner attribute at a corner of the patch, compared without rounding in the way.
-bool SeamPatch::same_values(const SeamCorner& p, const SeamCorner& q) const {
-    for (const Attribute& attribute : mesh_.attributes().all()) {
-        if (attribute.domain != Domain::corner) continue;
-        for (Index k = 0; k < attribute.width; ++k) {
-            const auto value = [&](const SeamCorner& corner) {
-                const double first = attribute.at(corner.first)[k];
-                if (corner.second == kNoIndex) return first;
-                return (1.0 - corner.t) * first + corner.t * attribute.at(corner.second)[k];
-            };
-            const double x = value(p), y = value(q);
-            if (std::isnan(x) && std::isnan(y)) continue;
-            if (!(std::abs(x - y) <= 1e-9 * (std::abs(x) + std::abs(y)))) return false;
-        }
-    }
-    return true;
+void ClosedPatch::flip(const Diagonal& quad) {
+    faces_.replace_both(quad.left, {quad.a, quad.b, quad.d}, quad.right, {quad.b, quad.c, quad.d});
 }
 
-bool SeamPatch::same_chart(const Diagonal& quad) const {
-    const SeamFace &left = faces_[quad.left], &right = faces_[quad.right];
-    for (const auto& [kind, labels] : mesh_.attributes().labels()) {
+bool ClosedPatch::same_chart(const Diagonal& quad) const {
+    const SeamFace &left = faces_.faces()[quad.left], &right = faces_.faces()[quad.right];
+    for (const auto& [kind, labels] : faces_.mesh().attributes().labels()) {
         if (labels.of_face[left.origin] != labels.of_face[right.origin]) return false;
     }
     for (const SeamCorner& corner : right.corners) {
-        if (corner.vertex == quad.a.vertex && !same_values(corner, quad.a)) return false;
-        if (corner.vertex == quad.c.vertex && !same_values(corner, quad.c)) return false;
+        if (corner.vertex == quad.a.vertex && !faces_.same_values(corner, quad.a)) return false;
+        if (corner.vertex == quad.c.vertex && !faces_.same_values(corner, quad.c)) return false;
     }
     return true;
 }
 
-void SeamPatch::flip(const Diagonal& quad) {
-    leave(quad.left);
-    leave(quad.right);
-    faces_[quad.left].corners = {quad.a, quad.b, quad.d};
-    faces_[quad.right].corners = {quad.b, quad.c, quad.d};
-    enter(quad.left);
-    enter(quad.right);
-}
-
-Vec3 SeamPatch::area_vector(const SeamFace& face) const {
-    Vec3 sum = Vec3::Zero();
-    const Vec3& origin = position(face.corners[0].vertex);
-    for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {
-        sum +=
-            normal(origin, position(face.corners[k].vertex), position(face.corners[k + 1].vertex));
-    }
-    return sum;
-}
-
 // The angle between a face with `normal` on the left of an edge and the face on its right.
-void SeamPatch::add_dihedral(Index from, Index to, const Vec3& normal, Dihedrals& greatest) const {
-    const Index other = left_of(to, from);
+void ClosedPatch::add_dihedral(Index from, Index to, const Vec3& normal,
+                               Dihedrals& greatest) const {
+    const Index other = faces_.left_of(to, from);
     if (other == kNoIndex) return;
-    const bool on_seam = seam_edges_.contains(key(std::min(from, to), std::max(from, to)));
+    const bool on_seam = is_on_seam(from, to);
     double& angle = on_seam ? greatest.seam : greatest.other;
-    angle = std::max(angle, normal_angle(normal, area_vector(faces_[other])));
+    angle = std::max(angle, normal_angle(normal, faces_.area_vector(faces_.faces()[other])));
 }
 
 // At the seams and next to them. Faces without area have none.
-SeamPatch::Dihedrals SeamPatch::greatest_dihedrals() const {
+ClosedPatch::Dihedrals ClosedPatch::greatest_dihedrals() const {
     Dihedrals greatest;
     std::unordered_set<Index> near(seam_vertices_.begin(), seam_vertices_.end());
     for (const Index v : seam_vertices_) {
-        for (const Index w : neighbors(v)) near.insert(w);
+        for (const Index w : faces_.neighbors(v)) near.insert(w);
     }
-    for (const SeamFace& face : faces_) {
+    for (const SeamFace& face : faces_.faces()) {
         if (face.corners.empty()) continue;
-        const Vec3 normal = area_vector(face);
+        const Vec3 normal = faces_.area_vector(face);
         if (!(normal.squaredNorm() > 0.0)) continue;
         for (std::size_t k = 0; k < face.corners.size(); ++k) {
             const Index from = face.corners[k].vertex;
             const Index to = face.corners[(k + 1) % face.corners.size()].vertex;
-            const Index other = left_of(to, from);
+            const Index other = faces_.left_of(to, from);
             if (!near.contains(from) && !near.contains(to)) continue;
-            if (other == kNoIndex || area_vector(faces_[other]).isZero(0.0)) continue;
+            if (other == kNoIndex || faces_.area_vector(faces_.faces()[other]).isZero(0.0))
+                continue;
             add_dihedral(from, to, normal, greatest);
         }
     }
     return greatest;
 }
 
-bool SeamPatch::improves(const Diagonal& quad, const Dihedrals& allowed) const {
+bool ClosedPatch::improves(const Diagonal& quad, const Dihedrals& allowed) const {
     const Index ia = quad.a.vertex, ib = quad.b.vertex, ic = quad.c.vertex, id = quad.d.vertex;
-    const Vec3 a = position(ia), b = position(ib), c = position(ic), d = position(id);
+    const Vec3 a = faces_.position(ia), b = faces_.position(ib), c = faces_.position(ic),
+               d = faces_.position(id);
     const double old_angle = std::min(smallest_angle(a, c, d), smallest_angle(c, a, b));
     const double new_angle = std::min(smallest_angle(a, b, d), smallest_angle(b, c, d));
     if (!(new_angle > old_angle * (1.0 + kGain) + kSameAngle)) return false;
@@ -163,13 +177,14 @@ bool SeamPatch::improves(const Diagonal& quad, const Dihedrals& allowed) const {
            after.other <= std::max(before.other, allowed.other) + kSameAngle;
 }
 
-Index SeamPatch::flip_all_once(const Dihedrals& allowed) {
+Index ClosedPatch::flip_all_once(const Dihedrals& allowed) {
     Index flips = 0;
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-        for (std::size_t k = 0; k < 3 && faces_[f].corners.size() == 3; ++k) {
-            const Index a = faces_[f].corners[k].vertex, c = faces_[f].corners[(k + 1) % 3].vertex;
+    for (std::size_t f = 0; f < faces_.faces().size(); ++f) {
+        for (std::size_t k = 0; k < 3 && faces_.faces()[f].corners.size() == 3; ++k) {
+            const Index a = faces_.faces()[f].corners[k].vertex,
+                        c = faces_.faces()[f].corners[(k + 1) % 3].vertex;
             Diagonal quad;
-            if (!find_diagonal(a, c, is_source(faces_[f]) ? 1 : 0, quad)) continue;
+            if (!find_diagonal(a, c, faces_.is_source(faces_.faces()[f]) ? 1 : 0, quad)) continue;
             if (!can_flip(quad) || !improves(quad, allowed) || !same_chart(quad)) continue;
             flip(quad);
             ++flips;
@@ -180,16 +195,16 @@ Index SeamPatch::flip_all_once(const Dihedrals& allowed) {
 
 // Pairs of faces of the patch that run through one another. Vertices at one place count as one, so
 // that the faces need not be connected.
-std::vector<FacePair> SeamPatch::crossings(const Context& context) const {
+std::vector<FacePair> ClosedPatch::crossings(const Context& context) const {
     std::vector<Vec3> points;
     std::vector<Index> number, vertices;
     FaceList faces;
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-        if (faces_[f].corners.empty()) continue;
+    for (std::size_t f = 0; f < faces_.faces().size(); ++f) {
+        if (faces_.faces()[f].corners.empty()) continue;
         vertices.clear();
-        for (const SeamCorner& corner : faces_[f].corners) {
+        for (const SeamCorner& corner : faces_.faces()[f].corners) {
             vertices.push_back(static_cast<Index>(points.size()));
-            points.push_back(position(corner.vertex));
+            points.push_back(faces_.position(corner.vertex));
         }
         faces.add(vertices);
         number.push_back(static_cast<Index>(f));
@@ -200,14 +215,12 @@ std::vector<FacePair> SeamPatch::crossings(const Context& context) const {
     return pairs;
 }
 
-Index SeamPatch::flip_edges(double allowed_dihedral, const Context& context) {
+Index ClosedPatch::flip_edges(double allowed_dihedral, const Context& context) {
     const Dihedrals greatest = greatest_dihedrals();
     const Dihedrals allowed{std::min(allowed_dihedral, greatest.seam),
                             std::min(allowed_dihedral, greatest.other)};
     const std::vector<FacePair> before = crossings(context);
-    const auto old_faces = faces_;
-    const auto old_edges = edges_;
-    const auto old_faces_at = faces_at_;
+    SeamFaces old = faces_;
     Index flips = 0;
     for (int pass = 0; pass < kPasses; ++pass) {
         const Index more = flip_all_once(allowed);
@@ -217,9 +230,7 @@ Index SeamPatch::flip_edges(double allowed_dihedral, const Context& context) {
     if (flips == 0) return 0;
     const std::vector<FacePair> after = crossings(context);
     if (std::includes(before.begin(), before.end(), after.begin(), after.end())) return flips;
-    faces_ = old_faces;
-    edges_ = old_edges;
-    faces_at_ = old_faces_at;
+    faces_ = std::move(old);
     return 0;
 }
 
