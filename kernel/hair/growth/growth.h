@@ -21,8 +21,8 @@ struct HairTie {
     /// length but 0.
     Vec3 direction = Vec3::UnitY();
     double radius = 0.0;
-    /// How much longer a strand grows once it is caught, by at most this share less, evenly by
-    /// chance: so a tail thins out towards its end, and is not cut flat.
+    /// Length grown past the tie, shortened at random by up to the fraction `ragged`, so that a
+    /// tail thins out towards its end.
     double tail_length = 0.25;
     double ragged = 0.45;
     /// The way of the tail from the center on. As far as it goes the length is measured along it,
@@ -49,8 +49,8 @@ double longest_hair(const GridLayout& layout);
 
 /// Lengths and points are those of the field's grid.
 struct GrowthOptions {
-    /// Length of a strand, and by which share of it at most each is longer or shorter. At most
-    /// longest_hair of the grid, as are the lengths of tails.
+    /// Length of a strand, and the fraction by which it varies at random. At most longest_hair of
+    /// the grid, as are the lengths of tails.
     double length = 0.25;
     double variation = 0.1;
     /// Factors of the length for every vertex of the head, interpolated at roots; finite and not
@@ -125,9 +125,8 @@ class StrandGrower {
     /// Number of roots.
     Index size() const;
 
-    /// Grows a strand from every root into `strands`, which keeps its memory but nothing else, so
-    /// that growing into the same strands again is fast: strand i is that of root i, whatever other
-    /// roots there are. A strand that cannot grow is its root alone. No segment is shorter than a
+    /// Grows a strand from every root. Replaces the contents of `strands` and reuses its buffers.
+    /// Strand i is that of root i, whatever other roots there are. A strand that cannot grow is its root alone. No segment is shorter than a
     /// thousandth of `segment`.
     /// Errors: invalid_argument for options out of range, or a length map of the wrong size, or
     /// more points than can be numbered; memory_limit; cancelled. After an error there are no
