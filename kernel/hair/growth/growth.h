@@ -126,11 +126,11 @@ class StrandGrower {
     Index size() const;
 
     /// Grows a strand from every root. Replaces the contents of `strands` and reuses its buffers.
-    /// Strand i is that of root i, whatever other roots there are. A strand that cannot grow is its root alone. No segment is shorter than a
-    /// thousandth of `segment`.
-    /// Errors: invalid_argument for options out of range, or a length map of the wrong size, or
-    /// more points than can be numbered; memory_limit; cancelled. After an error there are no
-    /// strands, but for options out of range, which are refused first.
+    /// Strand i is that of root i, whatever other roots there are. A strand that cannot grow is its
+    /// root alone. No segment is shorter than a thousandth of `segment`. Errors: invalid_argument
+    /// for options out of range, or a length map of the wrong size, or more points than can be
+    /// numbered; memory_limit; cancelled. After an error there are no strands, but for options out
+    /// of range, which are refused first.
     GrowthReport grow(const HairField& field, const GrowthOptions& options, Strands& strands,
                       const Context& context = {});
 
