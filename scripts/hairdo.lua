@@ -126,8 +126,8 @@ local function ring_is_free(scalp, tail, distance)
     return true
 end
 
--- Moves a tie that would lie on an ear back along its height, by at most 30 degrees, to where its ring is free:
--- no hair gets into a ring that an ear fills.
+-- Moves a tie that would lie on an ear back along its height, by at most 30 degrees, to where its ring is
+-- free: no hair gets into a ring that an ear fills.
 function hairdo.keep_off_ears(scalp, tail)
     local azimuth = (tail.azimuth + 180) % 360 - 180
     local sign = azimuth < 0 and -1 or 1

@@ -338,8 +338,8 @@ std::vector<Record> merge_records() {
            "For each seam source and target: width, vertices, and flipped and unmapped ones, of "
            "its bands."},
           {"number|nil", "transition_kept",
-           "The part of the way that the bands of a transition went: 0 where it was left out, since "
-           "it would have folded the surface."},
+           "The part of the way that the bands of a transition went: 0 where it was left out, "
+           "since it would have folded the surface."},
           {"integer[][]", "intersections",
            "Pairs of faces that run through one another and come from faces that did not."},
           {"lissom.Path[]", "seams", "The seams on the merged mesh."},

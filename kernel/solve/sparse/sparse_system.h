@@ -20,10 +20,10 @@ struct FactorStats {
     double analyze_seconds = 0, factor_seconds = 0;
 };
 
-/// A factored symmetric positive definite matrix. Several threads may solve with one factor at the
-/// same time; analysis and factoring are for one thread alone. Supernodal Cholesky, ordered and analysed by CHOLMOD; Eigen's
-/// SimplicialLDLT where the build is without GPL. `factor` runs on the threads of its context, and
-/// its result does not depend on their number.
+/// A factored symmetric positive definite matrix. Several threads may solve with it at once; one
+/// alone analyses and factors. Supernodal Cholesky, ordered and analysed by CHOLMOD; without GPL,
+/// Eigen's SimplicialLDLT. `factor` runs on the threads of its context, and its result does not
+/// depend on their number.
 class SparseSystem {
   public:
     SparseSystem();
