@@ -111,20 +111,33 @@ function ponytail.style(head, values, options)
         spine = spine,
         radius = tie.radius,
         fullness = values.fullness,
-        share = 0.85,
-        -- Hair that enters at the lower edge of the tie is sparse: spread more, it would part from the tail.
-        spread = 0.5,
+        share = 0.75,
+        -- Where the tie is low, hair that enters at its lower edge is sparse: spread more, it would part from
+        -- the tail.
+        spread = 0.5 + math.min(math.max((values.height - 12) / 20, 0), 1),
         tail_length = values.length,
         name = "ponytail",
     }
     return style, tie
 end
 
+-- Where hair that runs along the tail but missed its ring ends: where the tail does. On it would gather
+-- on the spine to a thin string.
+local function loose_ends(scalp, tie)
+    local spine = hairdo.tail_spine(scalp, tie)
+    local tip = spine[math.max(2, math.floor(#spine / 1.1))]
+    local before = spine[math.max(1, math.floor(#spine / 1.1) - 2)]
+    local along = {}
+    for k = 1, 3 do along[k] = tip[k] - before[k] end
+    return { point = tip, normal = along, ragged = 0.03 }
+end
+
 -- The style, its hair and its tail; `growth` are options of style:grow.
 function ponytail.grow(head, values, options, growth)
     values = complete(values)
     local style, tie = ponytail.style(head, values, options)
-    local all = { length = 0.6, layer = 0.003 + 0.014 * (1 - values.tightness), seed = values.seed }
+    local all = { length = 0.6, layer = 0.003 + 0.014 * (1 - values.tightness), seed = values.seed,
+        cut = loose_ends(style:scalp(), tie) }
     for key, value in pairs(growth or {}) do all[key] = value end
     return style, style:grow(all), tie
 end
