@@ -25,17 +25,17 @@ inline bool has_avx2() {
 #endif
 }
 
-/// Four numbers.
+/// Four numbers, aligned as one. By typedef: clang forgets the alignment of an alias declaration.
 #if defined(__GNUC__)
 template <typename Real>
 struct LanesOf;
 template <>
 struct LanesOf<double> {
-    using Type = double __attribute__((vector_size(32), aligned(8), may_alias));
+    typedef double Type __attribute__((vector_size(32), aligned(8), may_alias));
 };
 template <>
 struct LanesOf<float> {
-    using Type = float __attribute__((vector_size(16), aligned(4), may_alias));
+    typedef float Type __attribute__((vector_size(16), aligned(4), may_alias));
 };
 template <typename Real>
 using Lanes = typename LanesOf<Real>::Type;
