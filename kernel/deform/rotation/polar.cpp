@@ -262,7 +262,7 @@ constexpr std::size_t kWidth = 4;
 
 LISSOM_INLINE void find_four(const Mat3* m, Mat3* r) {
     const Mat3 copy[kWidth] = {m[0], m[1], m[2], m[3]};
-    Lanes<double> doubt;
+    double __attribute__((vector_size(32))) doubt;
     find_rotations(copy, r, doubt);
     if (!is_any(doubt > 0.0)) return;
     for (std::size_t c = 0; c < kWidth; ++c) {
