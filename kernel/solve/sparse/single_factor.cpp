@@ -208,7 +208,7 @@ void SingleFactor::solve(std::span<const Vec3> b, std::span<Vec3> x, Scratch& sc
 
     for_each_bin(context, [&](const Subtree& t, Index bin) {
         read(nodes_.super[t.first], nodes_.super[t.last]);
-        for (std::size_t i = 0; i < t.above.size(); ++i) at[t.extension + i] = {};
+        for (std::size_t i = 0; i < t.above.size(); ++i) at[t.extension + i] = Lanes<float>{};
         sweeps.lower(view, t.first, t.last, at, below_of(bin));
     });
     const auto own_bin = static_cast<Index>(bins_.size());
