@@ -188,7 +188,7 @@ void RotationSystem::finish(const Context& context) {
                   });
     single_ = system_.single_factor(context);
     const double contraction = measure_contraction(context);
-    if (contraction > kLargestContraction) {
+    if (!(contraction <= kLargestContraction)) {
         single_ = {};
         corrections_ = 1;
         return;
@@ -209,7 +209,8 @@ EnergyLoop RotationSystem::energy() const {
 double RotationSystem::measure_contraction(const Context& context) const {
     Scratch scratch;
     std::vector<Vec4> x(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
-    double size = 0.0;
+    // A lone free vertex may rest at the origin.
+    double size = 1e-300;
     for (const Index v : free_) size = std::max(size, rest_[v].cwiseAbs().maxCoeff());
     for (const Index v : free_) {
         x[v] = {rest_[v].sum() / size, std::cos(0.01 * v), std::cos(1.0 * v), 0.0};
