@@ -25,17 +25,27 @@ inline bool has_avx2() {
 #endif
 }
 
-/// Four numbers, aligned as one. By typedef: clang forgets the alignment of an alias declaration.
+// Declares NAME: four numbers, aligned as one. clang forgets the alignment of an alias declaration,
+// and gcc that of a typedef where it is const.
+#if defined(__clang__)
+#define LISSOM_FOUR(Real, NAME, bytes) \
+    typedef Real NAME __attribute__((vector_size(bytes), aligned(bytes / 4), may_alias))
+#else
+#define LISSOM_FOUR(Real, NAME, bytes) \
+    using NAME = Real __attribute__((vector_size(bytes), aligned(bytes / 4), may_alias))
+#endif
+
+/// Four numbers.
 #if defined(__GNUC__)
 template <typename Real>
 struct LanesOf;
 template <>
 struct LanesOf<double> {
-    typedef double Type __attribute__((vector_size(32), aligned(8), may_alias));
+    LISSOM_FOUR(double, Type, 32);
 };
 template <>
 struct LanesOf<float> {
-    typedef float Type __attribute__((vector_size(16), aligned(4), may_alias));
+    LISSOM_FOUR(float, Type, 16);
 };
 template <typename Real>
 using Lanes = typename LanesOf<Real>::Type;
