@@ -69,7 +69,7 @@ tidy() {
 unit_tests() {
     local status=0
     ./dev build "$1" tests/unit/all tests/arrows/all || return 1
-    ./dev ctest "$1" -L unit || status=1
+    ./dev ctest "$1" -L unit -j "$jobs" || status=1
     ./dev summary "$1"
     return $status
 }
