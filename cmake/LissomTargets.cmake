@@ -68,6 +68,8 @@ function(lissom_hot_loops target)
     target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O3>)
 endfunction()
 
+set(LISSOM_TEST_DATA ${PROJECT_SOURCE_DIR}/../shared/data CACHE PATH "Real meshes and heads for tests")
+
 # lissom_unit_test(MODULE FILES...): the doctest executable test_MODULE, registered as unit_MODULE.
 # Tests that need real meshes look in LISSOM_TEST_DATA and skip, by name, where it is absent.
 function(lissom_unit_test module)
@@ -81,5 +83,5 @@ function(lissom_unit_test module)
     add_test(NAME unit_${module} COMMAND test_${module})
     set_tests_properties(
         unit_${module} PROPERTIES LABELS unit ENVIRONMENT
-                                  "LISSOM_TEST_DATA=${PROJECT_SOURCE_DIR}/../shared/data")
+                                  "LISSOM_TEST_DATA=${LISSOM_TEST_DATA}")
 endfunction()
