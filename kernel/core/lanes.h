@@ -26,14 +26,14 @@ inline bool has_avx2() {
 }
 
 // Declares NAME: four numbers, aligned as one. clang forgets the alignment of an alias declaration,
-// and gcc that of a typedef where it is const.
+// and gcc that of a typedef where it is const. NOLINTBEGIN(bugprone-macro-parentheses)
 #if defined(__clang__)
 #define LISSOM_FOUR(Real, NAME, bytes) \
     typedef Real NAME __attribute__((vector_size(bytes), aligned(bytes / 4), may_alias))
 #else
 #define LISSOM_FOUR(Real, NAME, bytes) \
     using NAME = Real __attribute__((vector_size(bytes), aligned(bytes / 4), may_alias))
-#endif
+#endif  // NOLINTEND(bugprone-macro-parentheses)
 
 /// Four numbers.
 #if defined(__GNUC__)
