@@ -48,10 +48,12 @@ WORD = re.compile(r"\b(true|false|std::min|std::max)\b(?!<)(?!_)")
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?|\d+)(f?)(?![\w.'])")
 SIGN = re.compile(r"(?:(?<=[(,{\[] )|(?<=[(,{\[])|(?<=return )|(?<== )|(?<=[?:] ))-(?=[\w(])")
 NOT = re.compile(r"(?<=[( ])!(?=[\w(])")
-# Lines whose numbers and order no result depends on: how work is divided, progress, memory, messages.
+# Lines whose numbers and order no result depends on: how work is divided, progress, memory, costs, messages.
 NO_RESULT = re.compile(
-    r"[Gg]rain|parallel_for|progress|reserve\(|charge\(|memory|\.log\(|require\(|static_assert|"
-    r"^\s*(#|using |template)")
+    r"[Gg]rain|parallel_for|progress|reserve\(|charge\(|memory|scratch|costs\.|stats\.|_bytes|_seconds|"
+    r"\.log\(|require\(|static_assert|^\s*(#|using |template)")
+# Numbers between 0 and this stand for zero: half as much again is the same.
+LEAST_NUMBER = 1e-5
 
 
 def sources(module):
@@ -85,6 +87,8 @@ def candidates(path):
             for match in WORD.finditer(line):
                 yield offset + match.start(), len(match.group()), WORDS[match.group()]
             for match in NUMBER.finditer(line):
+                if 0.0 < float(match.group(1)) < LEAST_NUMBER:
+                    continue
                 yield offset + match.start(), len(match.group()), other_number(*match.groups())
             for match in itertools.chain(SIGN.finditer(line), NOT.finditer(line)):
                 yield offset + match.start(), 1, ""
