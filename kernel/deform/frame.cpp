@@ -16,7 +16,8 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
     const Patch& patch = motion.patch();
     const RotationSystem& second = *motion.method().second;
     Deviation& deviation = scratch.deviation;
-    find_rotations(input, deviation, context, scratch.rotations);
+    const bool winds = share_of_turns(input.greatest_turn) > 0.0;
+    if (!winds) find_rotations(input, deviation, context, scratch.rotations);
     const Mat3 remainder = motion.base_linear() - input.base_rotation;
     if (!remainder.isZero(0.0)) {
         for_each_block(context, patch.vertex_count, [&](Index begin, Index end) {
@@ -25,7 +26,7 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
             }
         });
     }
-    wind_rotations(input, deviation, scratch.second, context, scratch.rotations);
+    if (winds) wind_rotations(input, deviation, scratch.second, context, scratch.rotations);
     second.solve(scratch.rotations, deviation, input.draft, scratch.second, context);
     const int steps = motion.options().refine;
     for (int step = 1; step <= steps; ++step) {
@@ -33,6 +34,12 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
         refine_rotations(input, deviation, further, scratch.absolute, context, scratch.rotations);
         second.solve(scratch.rotations, deviation, input.draft, scratch.second, context);
     }
+}
+
+// Whether the full frame takes the same steps up to the last corrections. Refinements start from
+// all of them, and so do ties.
+bool may_be_finished(const Motion& motion) {
+    return motion.options().refine == 0 && !motion.method().second->has_ties();
 }
 
 // Where the second system puts the free vertices.
@@ -109,18 +116,28 @@ DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, c
     const AskedPart& asked = asked_part(preparation, poses.targets, scratch.asked);
     const Motion motion(prepared, poses, asked);
     std::vector<Vec3> positions = take_positions(scratch, prepared);
-    solve_first(motion, context, scratch.deviation);
-    if (!motion.method().second->free_vertices().empty()) {
+    const std::optional<DraftMemo> drafted = std::exchange(scratch.draft, std::nullopt);
+    const bool draft = quality == FrameQuality::draft;
+    const RotationSystem& second = *motion.method().second;
+    if (second.free_vertices().empty()) {
+        solve_first(motion, context, scratch.deviation);
+        return framed(preparation, motion, poses, std::move(positions));
+    }
+    const SecondInput input{motion, rotation_of(motion, motion.base_linear()),
+                            motion.greatest_turn(), draft};
+    if (!draft && drafted && drafted->is_of(preparation, poses)) {
+        second.finish_draft(scratch.deviation, scratch.second, context);
+    } else {
+        solve_first(motion, context, scratch.deviation);
         if (scratch.sized_for.lock() != preparation) {
             scratch.rotations.assign(static_cast<std::size_t>(prepared.patch().real_count),
                                      PaddedMat3::Zero());
             scratch.sized_for = preparation;
         }
-        const SecondInput input{motion, rotation_of(motion, motion.base_linear()),
-                                motion.greatest_turn(), quality == FrameQuality::draft};
         solve_second(input, scratch, context);
-        place_free(input, scratch.deviation, context, positions);
     }
+    place_free(input, scratch.deviation, context, positions);
+    if (draft && may_be_finished(motion)) scratch.draft = {preparation, poses};
     return framed(preparation, motion, poses, std::move(positions));
 }
 

@@ -45,7 +45,7 @@ Mat3 gradient_of(const Motion& motion, std::span<const Vec4> deviation, Index v,
         Mat3 m;
         prepared.gradient_loop().gather(&u, x, &m, 0, 1);
         m += base;
-        if (part) turn_on(motion, *part, {&u, 1}, {&m, 1});
+        if (part) turn_on(motion, *part, &u, &m, 0, 1);
         return m;
     };
     if (defined[v]) return gathered(v);

@@ -33,12 +33,12 @@ constexpr double kSizeChange = 0.05;
 
 // How handles change the size of the surface, as logarithms in the last entry; empty where none
 // does.
-std::vector<Vec4> size_changes(const Motion& motion) {
+std::vector<Vec4> size_changes(const Motion& motion, const Context& context) {
     if (!motion.method().solution) return {};
     const std::vector<Vec4> of_handles = motion.relative_turns();
     const bool any = std::any_of(of_handles.begin(), of_handles.end(),
                                  [](const Vec4& h) { return std::abs(h[3]) > 1e-9; });
-    return any ? motion.spread(of_handles) : std::vector<Vec4>();
+    return any ? motion.spread(of_handles, context) : std::vector<Vec4>();
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation,
         }
     });
     const EnergyLoop loop = motion.method().second->energy();
-    const std::vector<Vec4> sizes = size_changes(motion);
+    const std::vector<Vec4> sizes = size_changes(motion, context);
     const bool scales = motion.scales();
     for (const std::vector<Index>* vertices :
          {&motion.method().gathered, &motion.method().averaged}) {

@@ -97,6 +97,7 @@ std::vector<Mat3> frame_gradients(const DeformFrame& frame, FrameScratch& given)
     FrameScratch::State& scratch = given.state();
     const Motion motion(prepared, frame.poses,
                         asked_part(frame.preparation, frame.poses.targets, scratch.asked));
+    scratch.draft.reset();
     solve_first(motion, {}, scratch.deviation);
     std::vector<Mat3> gradients;
     for (const Index v : prepared.patch().of_region) {

@@ -37,10 +37,12 @@ Deviation spread_moves(const Motion& motion, std::span<const Mat4> differences,
         return found == handles.end() ? kNoIndex : static_cast<Index>(found - handles.begin());
     };
     Deviation x(static_cast<std::size_t>(patch.vertex_count), Vec4::Zero());
-    for (Index v = 0; v < patch.vertex_count; ++v) {
-        const Index n = number_of(motion.prepared().owner[v]);
-        if (n != kNoIndex) x[v] = differences[n] * homogeneous(patch.rest[v]);
-    }
+    for_each_block(context, patch.vertex_count, [&](Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) {
+            const Index n = number_of(motion.prepared().owner[v]);
+            if (n != kNoIndex) x[v] = differences[n] * homogeneous(patch.rest[v]);
+        }
+    });
     const std::vector<Index>& free = motion.method().first->free_vertices();
     for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
         std::array<Vec4, kFrameBlock> moved;
@@ -50,32 +52,56 @@ Deviation spread_moves(const Motion& motion, std::span<const Mat4> differences,
     return x;
 }
 
-// Handles turn as a whole, and targets as they are asked to.
-void turn_held(const SecondInput& input, Rotations& rotations) {
-    const Motion& motion = input.motion;
-    const Preparation& prepared = motion.prepared();
-    const auto& handles = prepared.holds->handles;
-    for (std::size_t n = 0; n < handles.size(); ++n) {
-        const Handle* h = handles[n].get();
-        if (!h || h->soft() || !h->options.gradient) continue;
-        const Mat3& linear = motion.pose(static_cast<Index>(n)).transform.linear;
-        const PaddedMat3 turn = padded_columns(rotation_of(motion, linear) - input.base_rotation);
-        for (const Index v : prepared.held[n]) rotations[v] = turn;
-        for (const SparseRow& row : h->points) {
-            for (const auto& [v, c] : row) {
-                if (prepared.owner[v] == static_cast<Index>(n)) rotations[v] = turn;
-            }
-        }
+// Gradients of weights serve where there are at most so many handles: more would take longer to
+// read than stencils.
+constexpr std::size_t kFewHandles = 4;
+
+std::vector<std::vector<Vec3>> find_weight_gradients(const Motion& motion, const Context& context) {
+    const std::vector<Index>& vertices = motion.method().gathered;
+    const std::size_t handles = motion.solution().handles().size();
+    std::vector<std::vector<Vec3>> gradients(handles, std::vector<Vec3>(vertices.size()));
+    for (std::size_t n = 0; n < handles; ++n) {
+        std::vector<Vec4> unit(handles, Vec4::Zero());
+        unit[n] = Vec4::UnitX();
+        const std::vector<Vec4> weight = motion.spread(unit, context);
+        for_each_block(context, static_cast<Index>(vertices.size()), [&](Index begin, Index end) {
+            std::array<Mat3, kFrameBlock> m;
+            motion.prepared().gradient_loop().gather(vertices.data(), weight.data(), m.data(),
+                                                     begin, end);
+            for (Index i = begin; i < end; ++i) gradients[n][i] = m[i - begin].row(0).transpose();
+        });
     }
-    for (const auto& entry : motion.asked().at) {
-        const Index v = entry.first;
-        if (v >= motion.patch().real_count || !prepared.known.gradient[v]) continue;
-        rotations[v] =
-            padded_columns(rotation_of(motion, motion.known_gradient(v)) - input.base_rotation);
-    }
+    return gradients;
 }
 
 }  // namespace
+
+SpreadMoves::SpreadMoves(const Motion& motion, const std::vector<Vec4>& of_handles,
+                         const Context& context)
+    : motion_(motion), of_handles_(of_handles) {
+    const ImplicitMethod& method = motion.method();
+    if (of_handles.size() <= kFewHandles && method.averaged.empty() && motion.asked().at.empty()) {
+        weight_gradients_ =
+            &method.weight_gradients.get([&] { return find_weight_gradients(motion, context); });
+        return;
+    }
+    field_ = motion.spread(of_handles, context);
+    motion.add_asked_moves(field_);
+}
+
+void SpreadMoves::gather(const Index* vertices, Mat3* m, Index begin, Index end) const {
+    if (!weight_gradients_) {
+        motion_.prepared().gradient_loop().gather(vertices, field_.data(), m, begin, end);
+        return;
+    }
+    std::fill(m, m + (end - begin), Mat3::Zero());
+    for (std::size_t n = 0; n < of_handles_.size(); ++n) {
+        const Vec3 move = of_handles_[n].head<3>();
+        if (move.isZero(0.0)) continue;
+        const std::vector<Vec3>& gradient = (*weight_gradients_)[n];
+        for (Index i = begin; i < end; ++i) m[i - begin] += move * gradient[i].transpose();
+    }
+}
 
 Mat3 rotation_of(const Motion& motion, const Mat3& gradient) {
     const Mat3 r = nearest_rotation(gradient);
@@ -105,22 +131,60 @@ std::optional<TurnPart> part_of_turns(const Motion& motion, double greatest_turn
         differences.push_back(matrix_of(at) - base);
         remainders.push_back(padded(screw.remainder));
     }
-    TurnPart part{fraction, spread_moves(motion, differences, context), motion.spread(remainders)};
-    motion.add_asked_moves(part.remainder);
-    return part;
+    return TurnPart{fraction, spread_moves(motion, differences, context),
+                    SpreadMoves(motion, remainders, context)};
 }
 
-void turn_on(const Motion& motion, const TurnPart& part, std::span<const Index> vertices,
-             std::span<Mat3> gradient) {
+void turn_on(const Motion& motion, const TurnPart& part, const Index* vertices, Mat3* gradient,
+             Index begin, Index end) {
     const Mat3 back = nearest_rotation(motion.base_linear()).transpose();
     const double further = 1.0 / part.fraction - 1.0;
+    const auto count = static_cast<std::size_t>(end - begin);
     std::array<Mat3, kFrameBlock> rotation, added;
-    const auto count = static_cast<Index>(vertices.size());
-    nearest_rotations(gradient, {rotation.data(), vertices.size()});
-    motion.prepared().gradient_loop().gather(vertices.data(), part.remainder.data(), added.data(),
-                                             0, count);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
+    nearest_rotations({gradient, count}, {rotation.data(), count});
+    part.remainder.gather(vertices, added.data(), begin, end);
+    for (std::size_t i = 0; i < count; ++i) {
         gradient[i] = turned_further(rotation[i] * back, further) * gradient[i] + added[i];
+    }
+}
+
+void first_rotations(const Motion& motion, const TurnPart* part, std::span<const Vec4> deviation,
+                     Mat3* s, Index begin, Index end) {
+    const Index* vertices = motion.method().gathered.data();
+    const Vec4* x = part ? part->deviation.data() : deviation.data();
+    const Mat3 base = motion.base_linear();
+    const auto count = static_cast<std::size_t>(end - begin);
+    std::array<double, kFrameBlock> scale;
+    motion.prepared().gradient_loop().gather(vertices, x, s, begin, end);
+    for (std::size_t i = 0; i < count; ++i) s[i] += base;
+    if (part) turn_on(motion, *part, vertices, s, begin, end);
+    const bool scales = motion.scales();
+    for (std::size_t i = 0; i < count; ++i) scale[i] = scales ? uniform_scale(s[i]) : 1.0;
+    nearest_rotations({s, count}, {s, count});
+    for (std::size_t i = 0; i < count; ++i) s[i] *= scale[i];
+}
+
+void turn_held(const SecondInput& input, Rotations& rotations) {
+    const Motion& motion = input.motion;
+    const Preparation& prepared = motion.prepared();
+    const auto& handles = prepared.holds->handles;
+    for (std::size_t n = 0; n < handles.size(); ++n) {
+        const Handle* h = handles[n].get();
+        if (!h || h->soft() || !h->options.gradient) continue;
+        const Mat3& linear = motion.pose(static_cast<Index>(n)).transform.linear;
+        const PaddedMat3 turn = padded_columns(rotation_of(motion, linear) - input.base_rotation);
+        for (const Index v : prepared.held[n]) rotations[v] = turn;
+        for (const SparseRow& row : h->points) {
+            for (const auto& [v, c] : row) {
+                if (prepared.owner[v] == static_cast<Index>(n)) rotations[v] = turn;
+            }
+        }
+    }
+    for (const auto& entry : motion.asked().at) {
+        const Index v = entry.first;
+        if (v >= motion.patch().real_count || !prepared.known.gradient[v]) continue;
+        rotations[v] =
+            padded_columns(rotation_of(motion, motion.known_gradient(v)) - input.base_rotation);
     }
 }
 
@@ -128,27 +192,17 @@ void find_rotations(const SecondInput& input, std::span<const Vec4> deviation,
                     const Context& context, Rotations& rotations) {
     const Motion& motion = input.motion;
     const std::optional<TurnPart> part = part_of_turns(motion, input.greatest_turn, context);
-    const Vec4* x = part ? part->deviation.data() : deviation.data();
-    const Mat3 base = motion.base_linear();
-    const bool scales = motion.scales();
-    const GradientLoop loop = motion.prepared().gradient_loop();
+    const TurnPart* const of = part ? &*part : nullptr;
     const std::vector<Index>& vertices = motion.method().gathered;
     for_each_block(context, static_cast<Index>(vertices.size()), [&](Index begin, Index end) {
-        std::array<Mat3, kFrameBlock> m;
-        std::array<double, kFrameBlock> scale;
-        const auto count = static_cast<std::size_t>(end - begin);
-        loop.gather(vertices.data(), x, m.data(), begin, end);
-        for (std::size_t i = 0; i < count; ++i) m[i] += base;
-        if (part) turn_on(motion, *part, {vertices.data() + begin, count}, {m.data(), count});
-        for (std::size_t i = 0; i < count; ++i) scale[i] = scales ? uniform_scale(m[i]) : 1.0;
-        nearest_rotations({m.data(), count}, {m.data(), count});
-        for (std::size_t i = 0; i < count; ++i) {
-            const Index v = vertices[static_cast<std::size_t>(begin) + i];
-            rotations[v].topRows<3>() = scale[i] * m[i] - input.base_rotation;
+        std::array<Mat3, kFrameBlock> s;
+        first_rotations(motion, of, deviation, s.data(), begin, end);
+        for (Index i = begin; i < end; ++i) {
+            rotations[vertices[i]].topRows<3>() = s[i - begin] - input.base_rotation;
         }
     });
     for (const Index v : motion.method().averaged) {
-        const Mat3 m = gradient_of(motion, deviation, v, part ? &*part : nullptr);
+        const Mat3 m = gradient_of(motion, deviation, v, of);
         rotations[v] = padded_columns(rotation_of(motion, m) - input.base_rotation);
     }
     turn_held(input, rotations);

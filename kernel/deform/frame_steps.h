@@ -28,8 +28,19 @@ struct AskedMemo {
     AskedPart part;
 };
 
+/// Whose draft lies in the scratch; a full frame of the same poses goes on from there.
+struct DraftMemo {
+    std::weak_ptr<const Preparation> preparation;
+    Poses poses;
+
+    bool is_of(const std::shared_ptr<const Preparation>& other, const Poses& at) const {
+        return preparation.lock() == other && poses == at;
+    }
+};
+
 struct FrameScratch::State {
     AskedMemo asked;
+    std::optional<DraftMemo> draft;
     Deviation deviation;
     /// Sized, and zero outside the region, for `sized_for`.
     Rotations rotations;
@@ -42,12 +53,30 @@ struct FrameScratch::State {
 const AskedPart& asked_part(const std::shared_ptr<const Preparation>& preparation,
                             const std::vector<TargetPose>& targets, AskedMemo& memo);
 
+/// Translations of the solution's handles, spread as in the first system, together with what
+/// targets ask: their gradients.
+class SpreadMoves {
+  public:
+    SpreadMoves(const Motion& motion, const std::vector<Vec4>& of_handles, const Context& context);
+
+    /// m[i - begin] for the i-th of vertices, i in [begin, end): of those that are gathered, or,
+    /// where some are averaged, any.
+    void gather(const Index* vertices, Mat3* m, Index begin, Index end) const;
+
+  private:
+    const Motion& motion_;
+    std::vector<Vec4> of_handles_;
+    const std::vector<std::vector<Vec3>>* weight_gradients_ = nullptr;
+    /// The moves themselves, where gradients of weights do not serve.
+    std::vector<Vec4> field_;
+};
+
 /// The first system at a fraction of the turns that are asked for.
 struct TurnPart {
     double fraction = 1.0;
     Deviation deviation;
     /// What the handles' translations and the targets add that the turns do not.
-    std::vector<Vec4> remainder;
+    SpreadMoves remainder;
 };
 
 /// What the second system starts from.
@@ -73,14 +102,22 @@ Mat3 gradient_of(const Motion& motion, std::span<const Vec4> deviation, Index v,
 /// The part of the turns that the first system is asked for, where it is not asked for all.
 std::optional<TurnPart> part_of_turns(const Motion& motion, double greatest_turn,
                                       const Context& context);
-/// Turns gradients of `part` on by what it leaves, and adds the remainders.
-void turn_on(const Motion& motion, const TurnPart& part, std::span<const Index> vertices,
-             std::span<Mat3> gradient);
+/// Turns gradients of `part` on by what it leaves, and adds the remainders: of vertices [begin,
+/// end).
+void turn_on(const Motion& motion, const TurnPart& part, const Index* vertices, Mat3* gradient,
+             Index begin, Index end);
 
+/// The share of the field of turns in the rotations, 0 to 1.
+double share_of_turns(double greatest_turn);
+/// S_i that the first system leads to, of the vertices [begin, end) of those that are gathered.
+void first_rotations(const Motion& motion, const TurnPart* part, std::span<const Vec4> deviation,
+                     Mat3* s, Index begin, Index end);
+/// Handles turn as a whole, and targets as they are asked to.
+void turn_held(const SecondInput& input, Rotations& rotations);
 /// The rotations that the first system leads to.
 void find_rotations(const SecondInput& input, std::span<const Vec4> deviation,
                     const Context& context, Rotations& rotations);
-/// Blends in those of the field of turns, where handles turn too far for the first system.
+/// The same where handles turn too far for it: by the field of turns, or between both.
 void wind_rotations(const SecondInput& input, std::span<const Vec4> deviation,
                     RotationSystem::Scratch& scratch, const Context& context, Rotations& rotations);
 /// How much further than what fits best a refinement goes.

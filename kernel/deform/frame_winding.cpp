@@ -17,42 +17,63 @@ namespace {
 constexpr double kFirstAngle = 120.0 * kPi / 180.0;
 constexpr double kLastAngle = 240.0 * kPi / 180.0;
 
-// The mean of `value` at every local vertex, by weights from zero upwards with sum one. They are
-// those of translations in the second system, which change evenly along a part that is twisted,
-// and in the first for handles that the second knows nothing of.
-std::vector<Vec4> mean_of_turns(const Motion& motion, const TurnAnswers& answers,
-                                const std::vector<Vec4>& value) {
-    const Preparation& prepared = motion.prepared();
-    const LinearSolution& solution = motion.solution();
-    std::vector<Vec4> field(static_cast<std::size_t>(motion.patch().vertex_count), Vec4::Zero());
-    std::vector<double> total(field.size(), 0.0), remainder(field.size(), 1.0);
-    const auto add = [&](Index v, double raw, const Vec4& of) {
-        const double weight = std::clamp(raw, 0.0, 1.0);
-        field[v] += weight * of;
-        total[v] += weight;
-        remainder[v] -= raw;
-    };
-    const std::vector<Index>& free = motion.method().first->free_vertices();
-    for (std::size_t n = 0; n < value.size(); ++n) {
-        const std::vector<double>& weights = answers.weights[n];
-        for (std::size_t v = 0; v < weights.size(); ++v) {
-            add(static_cast<Index>(v), weights[v], value[n]);
+// The mean of `value` at local vertices, by weights from zero upwards with sum one. They are those
+// of translations in the second system, which change evenly along a part that is twisted, and in
+// the first for handles that the second knows nothing of.
+class MeanOfTurns {
+  public:
+    MeanOfTurns(const Motion& motion, const TurnAnswers& answers, const std::vector<Vec4>& value)
+        : answers_(answers), value_(value) {
+        const auto all_answer = [](const auto& weights) { return !weights.empty(); };
+        if (!std::all_of(answers.weights.begin(), answers.weights.end(), all_answer)) {
+            add_silent(motion);
         }
-        if (!weights.empty()) continue;
-        for (const Index v : prepared.held[solution.handles()[n]]) add(v, 1.0, value[n]);
-        for (std::size_t row = 0; row < free.size(); ++row) {
-            const double weight = solution.translation_weight(n, static_cast<Index>(row));
-            if (prepared.owner[free[row]] != solution.handles()[n]) {
-                add(free[row], weight, value[n]);
+    }
+
+    Vec4 at(Index v) const {
+        Sum sum = silent_.empty() ? Sum{} : silent_[static_cast<std::size_t>(v)];
+        for (std::size_t n = 0; n < value_.size(); ++n) {
+            if (!answers_.weights[n].empty()) sum.add(answers_.weights[n][v], value_[n]);
+        }
+        const double total = sum.total + std::clamp(sum.remainder, 0.0, 1.0);
+        return total > 0.0 ? Vec4(sum.field / total) : sum.field;
+    }
+
+  private:
+    struct Sum {
+        Vec4 field = Vec4::Zero();
+        double total = 0.0, remainder = 1.0;
+
+        void add(double raw, const Vec4& of) {
+            const double weight = std::clamp(raw, 0.0, 1.0);
+            field += weight * of;
+            total += weight;
+            remainder -= raw;
+        }
+    };
+
+    // Those of handles that the second system does not answer to.
+    void add_silent(const Motion& motion) {
+        const Preparation& prepared = motion.prepared();
+        const LinearSolution& solution = motion.solution();
+        const std::vector<Index>& free = motion.method().first->free_vertices();
+        silent_.resize(static_cast<std::size_t>(motion.patch().vertex_count));
+        for (std::size_t n = 0; n < value_.size(); ++n) {
+            if (!answers_.weights[n].empty()) continue;
+            const Index h = solution.handles()[n];
+            for (const Index v : prepared.held[h]) silent_[v].add(1.0, value_[n]);
+            for (std::size_t row = 0; row < free.size(); ++row) {
+                if (prepared.owner[free[row]] == h) continue;
+                const double weight = solution.translation_weight(n, static_cast<Index>(row));
+                silent_[free[row]].add(weight, value_[n]);
             }
         }
     }
-    for (std::size_t v = 0; v < field.size(); ++v) {
-        const double sum = total[v] + std::clamp(remainder[v], 0.0, 1.0);
-        if (sum > 0.0) field[v] /= sum;
-    }
-    return field;
-}
+
+    const TurnAnswers& answers_;
+    const std::vector<Vec4>& value_;
+    std::vector<Sum> silent_;
+};
 
 // Handles that the second system could move as a whole: all that hold positions, but the base.
 std::vector<Index> movable_handles(const Preparation& prepared) {
@@ -97,22 +118,48 @@ TurnAnswers find_answers(const Preparation& prepared, RotationSystem::Scratch& s
     return answers;
 }
 
-// How far each handle of the solution is from where the present turns alone would put it.
-std::vector<Vec4> mismatches(const Motion& motion, const TurnAnswers& answers,
-                             const Rotations& rotations, std::span<const Vec4> x,
-                             RotationSystem::Scratch& scratch, const Context& context) {
-    const Preparation& prepared = motion.prepared();
-    const std::vector<Index> movable = movable_handles(prepared);
-    const auto count = static_cast<Index>(movable.size());
-    Eigen::MatrixXd forces(count, 3);
-    for (Index j = 0; j < count; ++j) {
-        forces.row(j) =
-            motion.method()
-                .second->force(rotations.data(), x, prepared.held[movable[j]], scratch, context)
-                .transpose();
+// The forces on movable handles where the second system would take the surface.
+Eigen::MatrixXd forces_on(const SecondInput& input, const std::vector<Index>& movable,
+                          const TurnAnswers& answers, const Rotations& rotations,
+                          std::span<const Vec4> deviation, RotationSystem::Scratch& scratch,
+                          const Context& context) {
+    const Preparation& prepared = input.motion.prepared();
+    const RotationSystem& second = *input.motion.method().second;
+    const std::vector<Index>& all = input.motion.solution().handles();
+    std::vector<Vec3> forces;
+    if (second.has_ties()) {
+        Deviation x(deviation.begin(), deviation.end());
+        second.solve(rotations, x, input.draft, scratch, context);
+        for (const Index h : movable) {
+            forces.push_back(second.force(rotations.data(), x, prepared.held[h], scratch, context));
+        }
+    } else {
+        std::vector<RotationSystem::Group> groups;
+        for (const Index h : movable) {
+            const auto n = std::find(all.begin(), all.end(), h) - all.begin();
+            groups.push_back({prepared.held[h], answers.weights[static_cast<std::size_t>(n)]});
+        }
+        forces = second.solved_forces(rotations.data(), deviation, groups, scratch, context);
     }
+    Eigen::MatrixXd rows(static_cast<Index>(forces.size()), 3);
+    for (std::size_t j = 0; j < forces.size(); ++j) {
+        rows.row(static_cast<Index>(j)) = forces[j].transpose();
+    }
+    return rows;
+}
+
+// How far each handle of the solution is from where the present turns alone would put it.
+std::vector<Vec4> mismatches(const SecondInput& input, const TurnAnswers& answers,
+                             const Rotations& rotations, std::span<const Vec4> deviation,
+                             RotationSystem::Scratch& scratch, const Context& context) {
+    const Motion& motion = input.motion;
+    const std::vector<Index> movable = movable_handles(motion.prepared());
+    const auto count = static_cast<Index>(movable.size());
     Eigen::MatrixXd natural(count, 3);
-    if (count > 0) natural = answers.stiffness.completeOrthogonalDecomposition().solve(forces);
+    if (count > 0) {
+        natural = answers.stiffness.completeOrthogonalDecomposition().solve(
+            forces_on(input, movable, answers, rotations, deviation, scratch, context));
+    }
     std::vector<Vec4> result;
     for (const Index h : motion.solution().handles()) {
         const auto found = std::find(movable.begin(), movable.end(), h);
@@ -130,23 +177,25 @@ void take_mean_turns(const SecondInput& input, const TurnAnswers& answers, const
     const bool scales = motion.scales();
     const Mat3 base = nearest_rotation(motion.base_linear());
     const double base_scale = scales ? uniform_scale(motion.base_linear()) : 1.0;
-    const std::vector<Vec4> field = mean_of_turns(motion, answers, motion.relative_turns());
+    const std::vector<Vec4> turns = motion.relative_turns();
+    const MeanOfTurns mean(motion, answers, turns);
     for (const std::vector<Index>* vertices :
          {&motion.method().gathered, &motion.method().averaged}) {
         for_each_block(context, static_cast<Index>(vertices->size()), [&](Index begin, Index end) {
             for (Index i = begin; i < end; ++i) {
                 const Index v = (*vertices)[static_cast<std::size_t>(i)];
-                const double scale = scales ? base_scale * std::exp(field[v][3]) : 1.0;
+                const Vec4 turn = mean.at(v);
+                const double scale = scales ? base_scale * std::exp(turn[3]) : 1.0;
                 rotations[v].topRows<3>() =
-                    scale * rotation_of_turn(field[v].head<3>()) * base - input.base_rotation;
+                    scale * rotation_of_turn(turn.head<3>()) * base - input.base_rotation;
             }
         });
     }
 }
 
-// Takes the rotations nearest to `rotations` with the given gradients added, which are overwritten.
-void bend(const SecondInput& input, std::span<const Index> vertices, std::span<Mat3> gradient,
-          Rotations& rotations) {
+// S_i nearest to those of `rotations` with the given gradients added, which they replace.
+void bend(const SecondInput& input, std::span<const Index> vertices, const Rotations& rotations,
+          std::span<Mat3> gradient) {
     const bool scales = input.motion.scales();
     std::array<double, kFrameBlock> scale;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -154,29 +203,21 @@ void bend(const SecondInput& input, std::span<const Index> vertices, std::span<M
         scale[i] = scales ? uniform_scale(gradient[i]) : 1.0;
     }
     nearest_rotations(gradient, gradient);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        rotations[vertices[i]].topRows<3>() = scale[i] * gradient[i] - input.base_rotation;
-    }
+    for (std::size_t i = 0; i < vertices.size(); ++i) gradient[i] *= scale[i];
 }
 
-// Takes those from before by `share` of the way to `rotations`.
-void blend(const SecondInput& input, std::span<const Index> vertices, const Rotations& before,
-           double share, Rotations& rotations) {
-    if (before.empty()) return;
-    const bool scales = input.motion.scales();
-    for (const Index v : vertices) {
-        const Mat3 first = input.base_rotation + before[v].topRows<3>();
-        const Mat3 now = input.base_rotation + rotations[v].topRows<3>();
-        const double scale =
-            scales ? (1.0 - share) * uniform_scale(first) + share * uniform_scale(now) : 1.0;
-        const Mat3 mean =
-            scales ? rotation_between(nearest_rotation(first), nearest_rotation(now), share)
-                   : rotation_between(first, now, share);
-        rotations[v].topRows<3>() = scale * mean - input.base_rotation;
-    }
+// S_i at `share` of the way from `first` to `now`.
+Mat3 blended(const Motion& motion, const Mat3& first, const Mat3& now, double share) {
+    if (!motion.scales()) return rotation_between(first, now, share);
+    const double scale = (1.0 - share) * uniform_scale(first) + share * uniform_scale(now);
+    return scale * rotation_between(nearest_rotation(first), nearest_rotation(now), share);
 }
 
 }  // namespace
+
+double share_of_turns(double greatest_turn) {
+    return smooth_step((greatest_turn - kFirstAngle) / (kLastAngle - kFirstAngle));
+}
 
 // Each vertex turns by the mean of the handles' rotation vectors; the second system says where the
 // handles would then lie by themselves, and what they are off by bends the surface as pure
@@ -184,32 +225,38 @@ void blend(const SecondInput& input, std::span<const Index> vertices, const Rota
 void wind_rotations(const SecondInput& input, std::span<const Vec4> deviation,
                     RotationSystem::Scratch& scratch, const Context& context,
                     Rotations& rotations) {
-    const double share =
-        smooth_step((input.greatest_turn - kFirstAngle) / (kLastAngle - kFirstAngle));
-    if (share <= 0.0) return;
+    const double share = share_of_turns(input.greatest_turn);
     const Motion& motion = input.motion;
     const ImplicitMethod& method = motion.method();
-    Rotations before;
-    if (share < 1.0) before = rotations;
     const TurnAnswers& answers =
         method.answers.get([&] { return find_answers(motion.prepared(), scratch, context); });
+    turn_held(input, rotations);
     take_mean_turns(input, answers, context, rotations);
-    Deviation x(deviation.begin(), deviation.end());
-    method.second->solve(rotations, x, input.draft, scratch, context);
-    std::vector<Vec4> y =
-        motion.spread(mismatches(motion, answers, rotations, x, scratch, context));
-    motion.add_asked_moves(y);
+    const SpreadMoves moves(
+        motion, mismatches(input, answers, rotations, deviation, scratch, context), context);
+    // Beyond a right angle, and so here, the first system is never asked for all of the turns.
+    const std::optional<TurnPart> part =
+        share < 1.0 ? part_of_turns(motion, input.greatest_turn, context) : std::nullopt;
 
-    const GradientLoop loop = motion.prepared().gradient_loop();
     const std::vector<Index>& vertices = method.gathered;
     for_each_block(context, static_cast<Index>(vertices.size()), [&](Index begin, Index end) {
-        std::array<Mat3, kFrameBlock> m;
-        const std::span<Mat3> block(m.data(), static_cast<std::size_t>(end - begin));
-        loop.gather(vertices.data(), y.data(), m.data(), begin, end);
-        bend(input, {vertices.data() + begin, block.size()}, block, rotations);
-        blend(input, {vertices.data() + begin, block.size()}, before, share, rotations);
+        std::array<Mat3, kFrameBlock> now, first;
+        const auto count = static_cast<std::size_t>(end - begin);
+        moves.gather(vertices.data(), now.data(), begin, end);
+        bend(input, {vertices.data() + begin, count}, rotations, {now.data(), count});
+        if (part) first_rotations(motion, &*part, deviation, first.data(), begin, end);
+        for (Index i = begin; i < end; ++i) {
+            const Mat3& s = now[i - begin];
+            rotations[vertices[i]].topRows<3>() =
+                (part ? blended(motion, first[i - begin], s, share) : s) - input.base_rotation;
+        }
     });
-    blend(input, method.averaged, before, share, rotations);
+    if (!part) return;
+    for (const Index v : method.averaged) {
+        const Mat3 first = rotation_of(motion, gradient_of(motion, deviation, v, &*part));
+        const Mat3 now = input.base_rotation + rotations[v].topRows<3>();
+        rotations[v].topRows<3>() = blended(motion, first, now, share) - input.base_rotation;
+    }
 }
 
 }  // namespace lissom

@@ -5,6 +5,7 @@
 
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/deform/rotation/winding.h"
+#include "kernel/deform/system/frame_blocks.h"
 
 namespace lissom {
 namespace {
@@ -106,7 +107,7 @@ double Motion::greatest_turn() const {
     return greatest;
 }
 
-std::vector<Vec4> Motion::spread(const std::vector<Vec4>& value) const {
+std::vector<Vec4> Motion::spread(const std::vector<Vec4>& value, const Context& context) const {
     const std::vector<Index>& free = method().first->free_vertices();
     std::vector<Vec4> field(static_cast<std::size_t>(patch().vertex_count), Vec4::Zero());
     for (std::size_t n = 0; n < value.size(); ++n) {
@@ -114,12 +115,13 @@ std::vector<Vec4> Motion::spread(const std::vector<Vec4>& value) const {
             if (prepared_.known.position[v]) field[v] = value[n];
         }
     }
-    for (std::size_t row = 0; row < free.size(); ++row) {
-        for (std::size_t n = 0; n < value.size(); ++n) {
-            field[free[row]] +=
-                solution().translation_weight(n, static_cast<Index>(row)) * value[n];
+    for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
+        for (Index row = begin; row < end; ++row) {
+            for (std::size_t n = 0; n < value.size(); ++n) {
+                field[free[row]] += solution().translation_weight(n, row) * value[n];
+            }
         }
-    }
+    });
     return field;
 }
 

@@ -47,7 +47,7 @@ class Motion {
     double greatest_turn() const;
     /// sum over h of w_h value_h at every local vertex, where w_h are the weights of translations
     /// in the first system.
-    std::vector<Vec4> spread(const std::vector<Vec4>& value) const;
+    std::vector<Vec4> spread(const std::vector<Vec4>& value, const Context& context) const;
     /// Adds to `field` what targets add to the positions, where the base is still.
     void add_asked_moves(std::vector<Vec4>& field) const;
 

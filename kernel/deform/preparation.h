@@ -67,6 +67,9 @@ struct ImplicitMethod {
     /// and those without, which take the mean of their neighbours.
     std::vector<Index> gathered, averaged;
     FoundOnce<TurnAnswers> answers;
+    /// Gradients of the weights of translations, of each handle of the solution at each of
+    /// `gathered`; only where handles turn far, and are few.
+    FoundOnce<std::vector<std::vector<Vec3>>> weight_gradients;
 };
 
 /// Vertices whose gradient is prescribed together: those of a handle, one with a constraint, or all

@@ -85,7 +85,8 @@ class Drag {
         return deformer_.stats().first_factor_seconds + deformer_.stats().second_factor_seconds;
     }
     /// Each returns the seconds of the next frame: of the first system alone, of a drag, at the end
-    /// of a drag, and of a drag beyond half a turn.
+    /// of a drag where its last frame lies, at once in full quality, and of a drag beyond half a
+    /// turn.
     double preview() {
         deformer_.set_transform(high_, task_.move(frame_++));
         return seconds([&] { deformer_.preview(context_); });
@@ -95,6 +96,10 @@ class Drag {
         return seconds([&] { deformer_.solve_draft(context_); });
     }
     double solve() {
+        frame();
+        return seconds([&] { deformer_.solve(context_); });
+    }
+    double full_solve() {
         deformer_.set_transform(high_, task_.move(frame_++));
         return seconds([&] { deformer_.solve(context_); });
     }
@@ -254,6 +259,9 @@ void run_size(Report& report, const Task& task, int threads, int rounds) {
     report.add({name + "full frame" + on, 1e3 * solve.below, "ms"});
     report.add_ratio(name + "solve at the end of a drag / full frame" + on, "full frame", solve,
                      1.3);
+    const Quotient at_once = quotient_of(
+        rounds, [&] { return drag->full_solve(); }, [&] { return drag->frame(); });
+    report.add_ratio(name + "solve without a drag before / full frame" + on, "full frame", at_once);
     Drag far(task, {}, context);
     const Quotient beyond = quotient_of(
         rounds, [&] { return far.far_frame(); }, [&] { return drag->frame(); });

@@ -62,6 +62,7 @@ struct HandlePose {
     Vec3 turn = Vec3::Zero();
 
     bool at_rest() const { return transform.is_identity() && turn.isZero(0.0); }
+    bool operator==(const HandlePose&) const = default;
 };
 
 /// Where one target goes; what it does not prescribe has no effect.
@@ -76,6 +77,8 @@ struct TargetPose {
 struct Poses {
     std::vector<HandlePose> handles;
     std::vector<TargetPose> targets;
+
+    bool operator==(const Poses&) const = default;
 };
 
 }  // namespace lissom

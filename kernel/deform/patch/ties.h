@@ -46,6 +46,7 @@ class TieRows {
     TieRows(const Ties& ties, const std::vector<Index>& row_of, double unit,
             const std::function<SparseRow(Index)>& final_position);
 
+    bool empty() const { return ties_.empty(); }
     bool has_hard() const { return response_.cols() > 0; }
 
     /// Adds w c c^T of every tie.

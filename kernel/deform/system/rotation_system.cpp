@@ -1,6 +1,7 @@
 #include "kernel/deform/system/rotation_system.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -230,7 +231,18 @@ void RotationSystem::solve(std::span<const PaddedMat3> transforms, std::span<Vec
     find_residual(transforms.data(), x, scratch.residual, scratch, context);
     find_correction(scratch, context);
     add_correction(scratch, x);
-    for (int pass = 1; !draft && pass < corrections_; ++pass) {
+    if (!draft) correct_further(x, scratch, context);
+    if (ties_.has_hard()) enforce_ties(x, scratch.columns);
+}
+
+void RotationSystem::finish_draft(std::span<Vec4> x, Scratch& scratch,
+                                  const Context& context) const {
+    correct_further(x, scratch, context);
+}
+
+void RotationSystem::correct_further(std::span<Vec4> x, Scratch& scratch,
+                                     const Context& context) const {
+    for (int pass = 1; pass < corrections_; ++pass) {
         // What the last correction leaves of the residual.
         scratch.step.assign(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
         add_correction(scratch, scratch.step);
@@ -239,7 +251,6 @@ void RotationSystem::solve(std::span<const PaddedMat3> transforms, std::span<Vec
         find_correction(scratch, context);
         add_correction(scratch, x);
     }
-    if (ties_.has_hard()) enforce_ties(x, scratch.columns);
 }
 
 void RotationSystem::add_correction(const Scratch& scratch, std::span<Vec4> x) const {
@@ -259,12 +270,46 @@ Vec3 RotationSystem::force(const PaddedMat3* transforms, std::span<const Vec4> x
                            std::span<const Index> vertices, Scratch& scratch,
                            const Context& context) const {
     bend(transforms, x, scratch.bent, context);
+    return bent_force(transforms, x, vertices, scratch.bent);
+}
+
+Vec3 RotationSystem::bent_force(const PaddedMat3* transforms, std::span<const Vec4> x,
+                                std::span<const Index> vertices, std::span<const Vec4> bent) const {
     std::vector<Vec3> parts(vertices.size());
-    energy().descend(transforms, x.data(), scratch.bent.data(), vertices.data(), parts.data(), 0,
+    energy().descend(transforms, x.data(), bent.data(), vertices.data(), parts.data(), 0,
                      static_cast<Index>(vertices.size()));
     Vec3 sum = Vec3::Zero();
     for (const Vec3& part : parts) sum += part;
     return sum;
+}
+
+std::vector<Vec3> RotationSystem::solved_forces(const PaddedMat3* transforms,
+                                                std::span<const Vec4> x,
+                                                std::span<const Group> groups, Scratch& scratch,
+                                                const Context& context) const {
+    bend(transforms, x, scratch.bent, context);
+    const EnergyLoop loop = energy();
+    const auto count = static_cast<Index>(free_.size());
+    std::vector<std::vector<Vec3>> parts(
+        static_cast<std::size_t>((count + kFrameGrain - 1) / kFrameGrain),
+        std::vector<Vec3>(groups.size(), Vec3::Zero()));
+    for_each_block(context, count, [&](Index begin, Index end) {
+        std::array<Vec3, kFrameBlock> residual;
+        std::vector<Vec3>& sum = parts[static_cast<std::size_t>(begin / kFrameGrain)];
+        loop.descend(transforms, x.data(), scratch.bent.data(), free_.data() + begin,
+                     residual.data(), 0, end - begin);
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            for (Index row = begin; row < end; ++row) {
+                sum[g] += groups[g].answer[free_[row]] * residual[row - begin];
+            }
+        }
+    });
+    std::vector<Vec3> forces;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        forces.push_back(bent_force(transforms, x, groups[g].vertices, scratch.bent));
+        for (const std::vector<Vec3>& part : parts) forces.back() += part[g];
+    }
+    return forces;
 }
 
 // Right-hand side less what the matrix makes of x, without forming the matrix.

@@ -62,10 +62,29 @@ class RotationSystem {
         solve(transforms, x, draft, scratch, context);
     }
 
+    /// Goes on from a solution with `draft`, in `x` and as left in `scratch`, to that without, to
+    /// the bit. Not for a system with ties.
+    void finish_draft(std::span<Vec4> x, Scratch& scratch, const Context& context) const;
+
     /// The sum over `vertices` of half the downward gradient of the energy without its ties, at
     /// positions x. Null transforms stand for zeros.
     Vec3 force(const PaddedMat3* transforms, std::span<const Vec4> x,
                std::span<const Index> vertices, Scratch& scratch, const Context& context) const;
+
+    /// Known vertices that move together, and where each local vertex is once `solve` has followed
+    /// one unit of their motion: 1 at themselves and 0 at other known ones.
+    struct Group {
+        std::span<const Index> vertices;
+        std::span<const double> answer;
+    };
+    /// `force` on each group as it were after `solve`, without solving: x holds the known positions
+    /// and any guess of the free ones. As the matrix is symmetric, the solution need not be known:
+    /// what a guess leaves at a free vertex acts on the group by the vertex's answer. Not for a
+    /// system with ties.
+    std::vector<Vec3> solved_forces(const PaddedMat3* transforms, std::span<const Vec4> x,
+                                    std::span<const Group> groups, Scratch& scratch,
+                                    const Context& context) const;
+    bool has_ties() const { return !ties_.empty(); }
 
     /// The loops over its energy.
     EnergyLoop energy() const;
@@ -76,8 +95,11 @@ class RotationSystem {
     void add_ties(const WorkingPatch& work);
     void bend(const PaddedMat3* transforms, std::span<const Vec4> x, std::vector<Vec4>& bent,
               const Context& context) const;
+    Vec3 bent_force(const PaddedMat3* transforms, std::span<const Vec4> x,
+                    std::span<const Index> vertices, std::span<const Vec4> bent) const;
     void find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
                        std::vector<Vec3>& residual, Scratch& scratch, const Context& context) const;
+    void correct_further(std::span<Vec4> x, Scratch& scratch, const Context& context) const;
     void find_correction(Scratch& scratch, const Context& context) const;
     void add_correction(const Scratch& scratch, std::span<Vec4> x) const;
     void enforce_ties(std::span<Vec4> x, std::vector<double>& columns) const;

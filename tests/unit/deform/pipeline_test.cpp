@@ -1,5 +1,6 @@
 // The values of a deformation: what was asked is put back by assigning it, and frames are values.
 #include "kernel/deform/pipeline.h"
+
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
@@ -95,4 +96,49 @@ TEST_CASE("undo: a handle that is added and taken back costs no factorisation") 
     d.restore(setup);
     CHECK(d.solve() == before);
     CHECK(d.stats().factorizations == 1);
+}
+
+TEST_CASE(
+    "a full frame after a draft is that without, to the bit, whatever else was asked between") {
+    const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
+    for (const int refine : {0, 1}) {
+        for (const double angle : {0.8, 2.5, 3.6, 5.0}) {
+            CAPTURE(refine);
+            CAPTURE(angle);
+            DeformOptions options;
+            options.refine = refine;
+            Edit edit = make_edit(scene, options);
+            const Vec3 turn = angle * scene.across;
+            const Affine move = rotation(scene.across, angle, Vec3::Zero());
+            const auto prepared = edit.deformer.preparation();
+            Poses poses = edit.deformer.setup().poses, other = poses;
+            const Vec3 center = edit.deformer.handle_center(edit.high);
+            pose_handle(*prepared, poses, edit.high, move, center, turn);
+            pose_handle(*prepared, other, edit.high, translation(scene.across));
+            FrameScratch fresh, scratch;
+            const auto full = [&](FrameScratch& with) {
+                return solve_frame(prepared, poses, with).positions;
+            };
+            const std::vector<Vec3> expected = full(fresh);
+            const auto draft = [&](const Poses& at) {
+                return solve_frame(prepared, at, scratch, FrameQuality::draft);
+            };
+            const DeformFrame drafted = draft(poses);
+            CHECK(drafted.positions != expected);
+            CHECK(full(scratch) == expected);
+            CHECK(full(scratch) == expected);
+            (void)draft(poses);
+            (void)frame_gradients(drafted, scratch);
+            CHECK(full(scratch) == expected);
+            (void)draft(poses);
+            (void)preview_frame(prepared, other, scratch);
+            CHECK(full(scratch) == expected);
+            (void)draft(poses);
+            (void)draft(other);
+            CHECK(full(scratch) == expected);
+            const auto again = prepare_deformation(rest_of(*prepared), holds_of(*prepared));
+            (void)draft(poses);
+            CHECK(solve_frame(again, poses, scratch).positions == expected);
+        }
+    }
 }

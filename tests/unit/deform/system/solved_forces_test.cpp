@@ -1,0 +1,67 @@
+// Forces on groups of held vertices where the second system would take the free ones.
+#include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/system/rotation_system.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/deform/scene.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+// The answers of all local vertices to one unit of motion of `vertices`.
+std::vector<double> answer_to(const RotationSystem& system, const std::vector<Index>& vertices,
+                              std::size_t count) {
+    std::vector<Vec4> x(count, Vec4::Zero());
+    for (const Index v : vertices) x[v][0] = 1.0;
+    system.solve({}, x, false, {});
+    std::vector<double> answer;
+    for (const Vec4& row : x) answer.push_back(row[0]);
+    return answer;
+}
+
+}  // namespace
+
+TEST_CASE("forces where the free vertices would lie need no solution, from any guess") {
+    const Scene scene = make_scene(make_bar({1.0, 5.0, 6, 30}));
+    for (const SecondSystem second :
+         {SecondSystem::blend, SecondSystem::laplacian, SecondSystem::poisson}) {
+        DeformOptions options;
+        options.second = second;
+        const WorkingPatch work(build_patch(scene.mesh, scene.all(), 2), options);
+        const auto count = static_cast<std::size_t>(work.patch.vertex_count);
+        std::vector<char> held(count, 0);
+        for (const Index v : scene.low) held[v] = 1;
+        for (const Index v : scene.high) held[v] = 1;
+        RotationSystem system(work, held, options, {});
+        system.factor({});
+        system.finish({});
+        CHECK(!system.has_ties());
+        std::vector<PaddedMat3> turns(count);
+        std::vector<Vec4> x(count, Vec4::Zero());
+        for (std::size_t v = 0; v < count; ++v) {
+            const double t = work.patch.rest[v].y();
+            turns[v] = padded_columns(rotation(Vec3::UnitY(), t, Vec3::Zero()).linear);
+            x[v] = padded(Vec3(0.3 * t, t, std::sin(9.0 * static_cast<double>(v))));
+        }
+        const std::vector<double> low = answer_to(system, scene.low, count),
+                                  high = answer_to(system, scene.high, count);
+        const RotationSystem::Group groups[] = {{scene.low, low}, {scene.high, high}};
+        RotationSystem::Scratch scratch;
+        const std::vector<Vec3> forces = system.solved_forces(turns.data(), x, groups, scratch, {});
+        const Context threads = [] {
+            ContextOptions two;
+            two.threads = 2;
+            return Context(two);
+        }();
+        CHECK(system.solved_forces(turns.data(), x, groups, scratch, threads) == forces);
+        system.solve(turns, x, false, {});
+        for (std::size_t g = 0; g < 2; ++g) {
+            const Vec3 expected =
+                system.force(turns.data(), x, g == 0 ? scene.low : scene.high, scratch, {});
+            CHECK(expected.norm() > 1e-3);
+            CHECK((forces[g] - expected).norm() < 1e-8 * expected.norm());
+        }
+    }
+}
