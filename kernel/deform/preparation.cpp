@@ -85,10 +85,17 @@ void assemble(Preparation& next, ImplicitMethod& method, const Context& context)
     const DeformOptions& options = next.rest->options();
     method.gradients = make_gradients(next.patch(), next.rings(), next.work->geometry, next.known,
                                       start_of_sequence(*next.rest, *next.holds), options);
-    method.first = std::make_unique<GradientSystem>(*next.work, method.gradients, next.known,
-                                                    options, context);
-    method.second =
-        std::make_unique<RotationSystem>(*next.work, next.known.position, options, context);
+    context.parallel_for(0, 2, 1, [&](Index begin, Index end) {
+        for (Index system = begin; system < end; ++system) {
+            if (system == 0) {
+                method.first = std::make_unique<GradientSystem>(*next.work, method.gradients,
+                                                                next.known, options, context);
+            } else {
+                method.second = std::make_unique<RotationSystem>(*next.work, next.known.position,
+                                                                 options, context);
+            }
+        }
+    });
 }
 
 void number_frame(const Preparation& next, ImplicitMethod& method) {

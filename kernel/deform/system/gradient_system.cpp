@@ -73,6 +73,10 @@ class Assembler {
         context.parallel_for(0, rings_.size(), grain, [&](Index begin, Index end) {
             parts[static_cast<std::size_t>(begin / grain)] = coherence_rows(begin, end);
         });
+        std::size_t entries = 0;
+        for (const CoherenceRows& part : parts) entries += part.column.size();
+        coherence_.column.reserve(entries);
+        coherence_.value.reserve(entries);
         for (const CoherenceRows& part : parts) coherence_.append(part);
     }
 
@@ -285,7 +289,12 @@ GradientSystem::GradientSystem(const WorkingPatch& work, const GradientStencils&
     free_ = assembler.number_free_vertices();
     assembler.build_coherence(context);
     positions_.columns = work.patch.vertex_count;
-    for (const SystemRows& part : assembler.build_rows(free_, context)) {
+    const std::vector<SystemRows> parts = assembler.build_rows(free_, context);
+    std::size_t entries = 0;
+    for (const SystemRows& part : parts) entries += part.matrix_column.size();
+    matrix_.row.reserve(entries);
+    matrix_.value.reserve(entries);
+    for (const SystemRows& part : parts) {
         append_rows(matrix_.begin, matrix_.row, matrix_.value, part.matrix_begin,
                     part.matrix_column, part.matrix_value);
         append_rows(positions_.begin, positions_.column, positions_.value, part.position_begin,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "kernel/deform/patch/patch_distance.h"
@@ -31,6 +32,11 @@ constexpr double kFadeRadii = 0.06;
 
 // Weight of squared lengths of a tie of weight 1 beside the edges.
 constexpr double kPositionUnit = 1.0;
+
+// Whether the rings of the first system, with virtual vertices, are those of the second.
+bool is_real(const Patch& patch) {
+    return patch.vertex_count == patch.real_count;
+}
 
 double laplacian_factor_of(const Patch& patch, const Rings& rings, SecondSystem second) {
     if (second == SecondSystem::laplacian) return 1.0;
@@ -71,11 +77,14 @@ std::vector<double> row_weights(const Rings& rings, const RingGeometry& geometry
 
 RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                                const DeformOptions& options, const Context& context)
-    : rings_(build_rings(work.patch.real_count, work.patch.triangles)),
+    : rings_(is_real(work.patch) ? work.rings
+                                 : build_rings(work.patch.real_count, work.patch.triangles)),
       vertex_count_(work.patch.vertex_count) {
     const Patch& patch = work.patch;
     const std::span<const Vec3> rest(patch.rest.data(), rings_.begin.size() - 1);
-    const RingGeometry geometry = ring_geometry(rings_, patch.triangles, rest);
+    std::optional<RingGeometry> own;
+    if (!is_real(patch)) own = ring_geometry(rings_, patch.triangles, rest);
+    const RingGeometry& geometry = own ? *own : work.geometry;
     const double factor = laplacian_factor_of(patch, rings_, options.second);
     row_weight_ = row_weights(rings_, geometry, options, factor);
     if (options.second == SecondSystem::blend) fade_laplacian(patch, position_known);
@@ -170,6 +179,10 @@ void RotationSystem::assemble(const std::vector<char>& position_known, const Con
             rows.begin.push_back(static_cast<Index>(rows.row.size()));
         }
     });
+    std::size_t entries = 0;
+    for (const SymmetricMatrix& part : parts) entries += part.row.size();
+    matrix_.row.reserve(entries);
+    matrix_.value.reserve(entries);
     for (const SymmetricMatrix& part : parts) {
         append_rows(matrix_.begin, matrix_.row, matrix_.value, part.begin, part.row, part.value);
     }
