@@ -51,7 +51,10 @@ struct Task {
         const int step = frame % 100;
         return turned(0.5 + 0.02 * (step < 50 ? step : 100 - step));
     }
-    /// Beyond half a turn, where the field of turns has taken over.
+    /// Beyond half a turn: mostly between 120 and 240 degrees, where the rotations of both fields
+    /// are found and blended. Three polar decompositions and four turns about an axis a vertex, a
+    /// quarter of the frame, are what is left above a plain frame; beyond 240 degrees it is a
+    /// tenth.
     Affine far_move(int frame) const { return turned(3.3 + 0.02 * (frame % 50)); }
     Affine turned(double angle) const { return rotation(axis, angle, center); }
 };
