@@ -10,6 +10,8 @@ local atan2 = rawget(math, "atan2") or math.atan
 function hairdo.params(options)
     local list = {
         head = { type = "file", default = "", help = "a bald head, instead of the generated one" },
+        unit = { type = "number", default = 0, min = 0, unit = "metres",
+            help = "length of a unit of the head; 0 as its size tells" },
         vertices = { type = "integer", default = 40000, min = 3000, max = 500000,
             help = "of the generated head" },
         count = { type = "integer", default = options.count or 100000, min = 0, max = 2000000,
@@ -20,6 +22,9 @@ function hairdo.params(options)
         size = { type = "integer", default = 800, min = 64, max = 4096, unit = "pixels",
             help = "width and height of each picture" },
         out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
+        format = { type = "choice", default = "usda",
+            choices = { "usda", "hair", "glb", "data", "rib", "obj" },
+            help = "of the hair's file; usda holds groups and roots too" },
         name = { type = "string", default = options.name, help = "name of the files" },
     }
     for key, value in pairs(options.more or {}) do list[key] = value end
@@ -31,9 +36,15 @@ function hairdo.head(params)
     return assert(lissom.load(params.head))
 end
 
--- A style with the resolution of the parameters; `volume` as in lissom.hairstyle.
+-- The scalp of a head in the unit of the parameters.
+function hairdo.scalp(head, params)
+    return assert(lissom.scalp(head, { unit = params.unit > 0 and params.unit or nil }))
+end
+
+-- A style with the unit and resolution of the parameters; `volume` as in lissom.hairstyle.
 function hairdo.style(head, params, volume)
-    return assert(lissom.hairstyle(head, { resolution = params.resolution, volume = volume }))
+    return assert(lissom.hairstyle(head, { scalp = hairdo.scalp(head, params),
+        resolution = params.resolution, volume = volume }))
 end
 
 -- The volume of a style, {min=, max=} in metres, that holds the scalp and the spines of tails, with so much
@@ -261,7 +272,7 @@ function hairdo.finish(style, hair, params, rings)
     if params.detail then hairdo.detail(hair) end
     local path = params.out .. "/" .. params.name
     assert(style:save(path .. ".json"))
-    assert(hair:save(path .. ".hair"))
+    assert(hair:save(path .. "." .. params.format))
     if not params.pictures then return end
     local meshes, colors = { style:head() }, { "clay" }
     for _, ring in ipairs(rings or {}) do

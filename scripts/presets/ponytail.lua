@@ -147,8 +147,9 @@ if ... ~= "presets.ponytail" then
     local params = hairdo.params{ name = "ponytail", more = ponytail.schema }
     local values = {}
     for name in pairs(ponytail.schema) do values[name] = params[name] end
-    local style, hair, tie = ponytail.grow(hairdo.head(params), values, { resolution = params.resolution },
-        { count = params.count })
+    local head = hairdo.head(params)
+    local options = { scalp = hairdo.scalp(head, params), resolution = params.resolution }
+    local style, hair, tie = ponytail.grow(head, values, options, { count = params.count })
     hairdo.finish(style, hair, params, { hairdo.ring(style:scalp(), tie) })
 end
 
