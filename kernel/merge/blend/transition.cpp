@@ -24,6 +24,16 @@ constexpr double kShareOfSide = 0.9;
 // share of the side, whose end is to stay recognisable.
 constexpr double kSuitableRadii = 0.9, kSuitableEdges = 3.0, kSuitableShare = 0.5;
 
+// Angles up to this do not show among the details that fade across a seam: smoothing may have left
+// smaller ones, and a transition need not.
+constexpr double kFaint = 10.0 * kDegree;
+
+SeamQuality faint_angles() {
+    SeamQuality quality;
+    quality.greatest_dihedral = quality.greatest_near = kFaint;
+    return quality;
+}
+
 void check_transition(const Sewn& sewn, std::span<const TransitionWidths> widths,
                       const TransitionOptions& options) {
     if (widths.size() != sewn.seams.size()) {
@@ -284,7 +294,7 @@ TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> 
     for (Index pass = 0; pass < options.passes; ++pass) {
         band.bend(core.relaxed(band, blended, context), context);
     }
-    report.kept = band.write_guarded(sewn.mesh, sewn.seams, sewn.report.before, context);
+    report.kept = band.write_guarded(sewn.mesh, sewn.seams, faint_angles(), context);
     return report;
 }
 

@@ -36,6 +36,19 @@ SewScene bent_tubes(Index target, Index source) {
     return scene;
 }
 
+// Quads in two triangles whose diagonals meet at every other vertex of a row, so that the faces on
+// both sides of each column are mirror images.
+Mesh with_mirrored_diagonals(const Mesh& tube) {
+    FaceList faces;
+    for (Index f = 0; f < tube.face_count(); ++f) {
+        const std::span<const Index> q = tube.topology().face(f);
+        const std::size_t first = f % 2;
+        faces.add({q[first], q[first + 1], q[first + 2]});
+        faces.add({q[first + 2], q[(first + 3) % 4], q[first]});
+    }
+    return {{tube.positions().begin(), tube.positions().end()}, std::move(faces)};
+}
+
 Sewn sewn_tubes(const SewScene& scene, const SewOptions& options) {
     return sew(scene.target, scene.source, scene.joins, options);
 }
@@ -124,6 +137,26 @@ TEST_CASE("fairing and transitions between loops of unlike density do not fold")
     }
 }
 
+TEST_CASE("a transition turns no seam more than smoothing left it, up to angles that do not show") {
+    for (const auto& counts : {std::pair<Index, Index>{8, 300}, {300, 8}, {16, 90}, {24, 31}}) {
+        CAPTURE(counts.first);
+        SewScene scene = bent_tubes(counts.first, counts.second);
+        for (Vec3& p : scene.source.edit_positions()) p *= 1.0 + 0.1 * std::sin(9.0 * p.y());
+        bring_together(scene.target, scene.source, scene.joins[0]);
+        const Sewn sewn = sewn_tubes(scene, {.smooth = 10});
+        const double faint = 10.0 * kStepDegree;
+        for (const double width : {0.3, 0.9}) {
+            Sewn blended = sewn;
+            const std::vector<TransitionWidths> widths{{width, width}};
+            blend_transition(blended, widths);
+            const SeamQuality before = seam_quality(sewn.mesh, sewn.seams),
+                              after = seam_quality(blended.mesh, blended.seams);
+            CHECK(after.greatest_dihedral <= std::max(before.greatest_dihedral, faint) + 1e-5);
+            CHECK(after.greatest_near <= std::max(before.greatest_near, faint) + 1e-5);
+        }
+    }
+}
+
 TEST_CASE("a collar leaves no slivers beside a seam with a sparse side, and keeps the surface") {
     for (const auto& counts : {std::pair<Index, Index>{8, 300}, {16, 120}, {300, 8}, {22, 80}}) {
         CAPTURE(counts.first);
@@ -167,33 +200,46 @@ TEST_CASE("a collar between loops of which one side is all seam is whole") {
 }
 
 TEST_CASE("with collars a merge is the same wherever its source lies, symmetric as it may be") {
-    // Mirror images on a plane through edges, so that what is nearest to its points is a tie.
-    SewScene scene = two_tubes(14, 90);
-    for (Vec3& p : scene.target.edit_positions()) p *= 1.0 + 0.2 * std::sin(4.0 * p.y());
-    const auto merged_from = [&](const Mesh& source) {
-        const auto key = [&](const Mesh& mesh, double sign) {
-            const auto& loop = mesh.topology().boundary_loops()[boundary_towards(mesh, sign)];
-            return *std::max_element(loop.begin(), loop.end(), [&](Index a, Index b) {
-                return mesh.position(a).x() < mesh.position(b).x();
-            });
+    // The collar is on the source, whose faces are mirror images of each other: what is nearest to
+    // the middle of an edge across the plane between them is a tie.
+    for (const auto& counts : {std::pair<Index, Index>{90, 14}, {96, 24}, {120, 20}, {160, 32}}) {
+        CAPTURE(counts.second);
+        SewScene scene = two_tubes(counts.first, counts.second);
+        for (Vec3& p : scene.source.edit_positions()) p *= 1.0 + 0.2 * std::sin(4.0 * p.y());
+        scene.source = with_mirrored_diagonals(scene.source);
+        const auto merged_from = [&](const Mesh& source) {
+            const auto key = [&](const Mesh& mesh, double sign) {
+                const auto& loop = mesh.topology().boundary_loops()[boundary_towards(mesh, sign)];
+                return *std::max_element(loop.begin(), loop.end(), [&](Index a, Index b) {
+                    return mesh.position(a).x() < mesh.position(b).x();
+                });
+            };
+            MergeOptions options;
+            options.refine = false;
+            const Mesh* targets[] = {&scene.target};
+            return Merge(source, targets,
+                         {Join{boundaries(source)[boundary_towards(scene.source, -1.0)],
+                               boundaries(scene.target)[boundary_towards(scene.target, 1.0)],
+                               0,
+                               {{key(scene.source, -1.0), key(scene.target, 1.0)}}}},
+                         options)
+                .solve();
         };
-        const Mesh* targets[] = {&scene.target};
-        return Merge(source, targets,
-                     {Join{boundaries(source)[boundary_towards(scene.source, -1.0)],
-                           boundaries(scene.target)[boundary_towards(scene.target, 1.0)],
-                           0,
-                           {{key(scene.source, -1.0), key(scene.target, 1.0)}}}})
-            .solve();
-    };
-    const MergeResult first = merged_from(scene.source);
-    REQUIRE(first.report.seam.collar_added > 0);
-    Random random(3);
-    for (int trial = 0; trial < 8; ++trial) {
-        const MergeResult other =
-            merged_from(moved(scene.source, similarity(random, trial % 2 == 0 ? 0.01 : 50.0)));
-        REQUIRE(other.mesh.topology().faces().vertices == first.mesh.topology().faces().vertices);
-        for (Index v = 0; v < first.mesh.vertex_count(); ++v) {
-            CHECK((other.mesh.position(v) - first.mesh.position(v)).norm() < 1e-9);
+        const MergeResult first = merged_from(scene.source);
+        REQUIRE(first.report.seam.collar_added > 0);
+        Random random(3);
+        for (int trial = 0; trial < 8; ++trial) {
+            const MergeResult other =
+                merged_from(moved(scene.source, similarity(random, trial % 2 == 0 ? 0.01 : 50.0)));
+            REQUIRE(other.mesh.topology().faces().vertices ==
+                    first.mesh.topology().faces().vertices);
+            for (Index f = 0; f < first.mesh.face_count(); ++f) {
+                CHECK(other.provenance.faces.main_source(f) ==
+                      first.provenance.faces.main_source(f));
+            }
+            for (Index v = 0; v < first.mesh.vertex_count(); ++v) {
+                CHECK((other.mesh.position(v) - first.mesh.position(v)).norm() < 1e-9);
+            }
         }
     }
 }
