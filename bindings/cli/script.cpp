@@ -147,6 +147,11 @@ bool blames_nil(const std::string& message) {
            message.find("got nil") != std::string::npos;
 }
 
+// Whether a script used the library without loading it.
+bool lacks_require(const std::string& message) {
+    return blames_nil(message) && message.find("(global 'lissom')") != std::string::npos;
+}
+
 // Splits "file:line: message".
 void find_place(ScriptResult& result) {
     for (std::size_t at = 0; (at = result.message.find(':', at + 1)) != std::string::npos;) {
@@ -311,7 +316,9 @@ ScriptResult Script::failure() {
         opened.has_failed &&
         (blames_nil(result.message) || result.message.find(last.message) != std::string::npos);
     if (came_as_nil) result.code = std::string(code_name(last.code));
-    if (opened.has_failed && blames_nil(result.message)) {
+    if (lacks_require(result.message)) {
+        result.message += "\na script loads the library first: local lissom = require \"lissom\"";
+    } else if (opened.has_failed && blames_nil(result.message)) {
         result.message += "\n" + std::string(opened.last_failure_place) +
                           "the nil may come from here: " + last.message + " [" + result.code + "]";
     }

@@ -108,10 +108,6 @@ int camera_text(Call& call) {
     return call.push(std::string_view(text));
 }
 
-Parameter size_argument() {
-    return integers("size", "Width and height of the picture in pixels.").optional("{1280, 960}");
-}
-
 std::vector<Function> camera_methods() {
     const std::vector<Result> vector_result = {{"number[]", "vector", "{x, y, z}."}};
     const std::string setup = "local camera = lissom.camera{ eye = { 0, 0, 5 } }\n";
@@ -194,6 +190,10 @@ ViewRequest ViewRequest::read(const Call& call) {
 SizeRequest SizeRequest::read(const Call& call, const char* path) {
     SizeRequest size;
     if (!call.has(path)) return size;
+    if (call.kind(path) == Kind::integer) {
+        size.width = size.height = static_cast<int>(call.integer(path));
+        return size;
+    }
     const auto numbers = call.ids(path);
     if (numbers.size() != 2 || numbers[0] < 1 || numbers[1] < 1) {
         call.reject(path, "{width, height} in pixels expected, each at least 1");
@@ -201,6 +201,14 @@ SizeRequest SizeRequest::read(const Call& call, const char* path) {
     size.width = numbers[0];
     size.height = numbers[1];
     return size;
+}
+
+Parameter size_argument() {
+    return either("size",
+                  {integer("pixels", "Of a square.").at_least(1),
+                   integers("pixels", "{width, height}.")},
+                  "{width, height} of the picture in pixels; one number for a square.")
+        .optional("{1280, 960}");
 }
 
 std::vector<Parameter> view_options() {
@@ -231,8 +239,7 @@ std::vector<Function> camera_functions() {
     std::vector<Parameter> frame_options = view_options();
     frame_options.push_back(
         number("fov", "Vertical opening angle.").defaults(30.0).between(1.0, 170.0).in("degrees"));
-    frame_options.push_back(
-        integers("size", "Width and height of the picture in pixels.").optional("{1280, 960}"));
+    frame_options.push_back(size_argument());
     return {
         {.name = "camera",
          .body = place_camera,

@@ -22,7 +22,8 @@ struct ViewRequest {
     static ViewRequest read(const Call& call);
 };
 
-/// A size in pixels from a list of two integers; {1280, 960} where the option is absent.
+/// A size in pixels from a list of two integers, or one of a square; {1280, 960} where the option
+/// is absent.
 struct SizeRequest {
     int width = 1280, height = 960;
 

@@ -564,7 +564,7 @@ std::vector<Parameter> picture_options() {
     const RenderOptions options;
     return {
         string("file", "The picture to write; its name ends with .png."),
-        integers("size", "{width, height} in pixels.").optional("{1280, 960}"),
+        size_argument(),
         object("camera", "lissom.Camera", "Where the picture is seen from, instead of `view`.")
             .optional(),
         string("background", "A colour as for `color`, or \"transparent\".").defaults("white"),

@@ -15,5 +15,7 @@ std::vector<Function> render_functions();
 
 /// Options of a standard view: view, up, parallel, margin.
 std::vector<Parameter> view_options();
+/// The option that SizeRequest reads.
+Parameter size_argument();
 
 }  // namespace lissom::lua

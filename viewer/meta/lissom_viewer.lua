@@ -35,24 +35,24 @@ function Camera:ortho() end
 
 ---Where a point is seen: pixels from the top left, and its depth along the view. With perspective, x and y are NaN for a point that is not in front of the camera.
 ---@param point lissom.Vector The point.
----@param size? integer[] Width and height of the picture in pixels. Default: {1280, 960}.
+---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@return number x # Pixels to the right.
 ---@return number y # Pixels down.
 ---@return number depth # Mesh units.
----@overload fun(self: lissom.Camera, x: number, y: number, z: number, size?: integer[]): number
+---@overload fun(self: lissom.Camera, x: number, y: number, z: number, size?: integer|integer[]): number
 function Camera:project(point, size) end
 
 ---The inverse of project.
 ---@param pixel lissom.Vector {x, y, depth}.
----@param size? integer[] Width and height of the picture in pixels. Default: {1280, 960}.
+---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@return number[] point # The point, {x, y, z}.
----@overload fun(self: lissom.Camera, x: number, y: number, z: number, size?: integer[]): number[]
+---@overload fun(self: lissom.Camera, x: number, y: number, z: number, size?: integer|integer[]): number[]
 function Camera:unproject(pixel, size) end
 
 ---The ray of points that are seen at a pixel; mesh:pick takes it.
 ---@param x number Pixels from the left.
 ---@param y number Pixels from the top.
----@param size? integer[] Width and height of the picture in pixels. Default: {1280, 960}.
+---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@return number[] origin # Where the ray starts.
 ---@return number[] direction # Where it goes; unit length.
 function Camera:ray(x, y, size) end
@@ -82,7 +82,7 @@ function lissom.camera(options) end
 ---@field parallel? boolean Without perspective. Default: false.
 ---@field margin? number Share of the picture left free on every side. Default: 0.06.
 ---@field fov? number Vertical opening angle. In degrees. Default: 30.
----@field size? integer[] Width and height of the picture in pixels. Default: {1280, 960}.
+---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 
 ---The camera of a standard view that shows all of a mesh, as large as the margin allows. Use it for several pictures that are to be compared.
 ---@param mesh lissom.Mesh What to show.
@@ -146,7 +146,7 @@ function lissom.frame(mesh, options) end
 ---@field legend? boolean Draws the scale with its numbers. Default: true.
 ---@field label? string Stands above the scale. Default: the name of the scalars.
 ---@field file string The picture to write; its name ends with .png.
----@field size? integer[] {width, height} in pixels. Default: {1280, 960}.
+---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@field camera? lissom.Camera Where the picture is seen from, instead of `view`.
 ---@field background? string A colour as for `color`, or "transparent". Default: "white".
 ---@field samples? integer Samples a pixel along edges of meshes: 1, 2, 4, ... as far as the driver has them. Default: 4.

@@ -121,6 +121,22 @@ TEST_CASE("scripts end with a status and the place of their error") {
     CHECK(ends("local t\nprint(t.x)").err.find("may come from") == std::string::npos);
 }
 
+TEST_CASE("a script that uses lissom without loading it is told how to") {
+    const Folder folder;
+    const auto message = [&](const std::string& text) {
+        return run({"run", folder.write("s.lua", text)}).err;
+    };
+    const std::string hint =
+        "\na script loads the library first: local lissom = require \"lissom\"\n";
+    for (const char* text : {"local m = lissom.shapes.box()", "lissom()"}) {
+        const std::string told = message(text);
+        CHECK(told.find("s.lua:1: attempt to ") != std::string::npos);
+        CHECK(told.ends_with("a nil value (global 'lissom')" + hint));
+    }
+    CHECK(message("local box = bax.box").find("require") == std::string::npos);
+    CHECK(message("require 'lissom'\nassert(lissom == nil)").empty());
+}
+
 TEST_CASE("a failure that nobody looked at is told with file and line, and the status is 1") {
     const Folder folder;
     const std::string script = folder.write(

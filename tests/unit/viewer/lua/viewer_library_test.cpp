@@ -240,6 +240,27 @@ TEST_CASE("attributes are drawn by name, and copies side by side share a region"
     CHECK(result == folder.path("pair.png"));
 }
 
+TEST_CASE("one number is the size of a square picture") {
+    const PictureFolder folder;
+    test::LuaState lua(with_viewer());
+    CHECK(lua.run("assert(lissom.render{ mesh = lissom.shapes.box(), size = 20, file = '" +
+                  folder.path("square.png") + "' })") == "");
+    CHECK(lua.eval("(function()\n"
+                   "  local file = assert(io.open('" +
+                   folder.path("square.png") +
+                   "', 'rb'))\n"
+                   "  local width, height = string.unpack('>I4I4', file:read(24), 17)\n"
+                   "  file:close()\n"
+                   "  return width .. ' ' .. height\n"
+                   "end)()") == "20 20");
+    CHECK(lua.run(
+              "local mesh = lissom.shapes.box()\n"
+              "local a = lissom.frame(mesh, { size = 20 })\n"
+              "local b = lissom.frame(mesh, { size = { 20, 20 } })\n"
+              "assert(a:project({ 0, 0.1, 0.2 }, 50) == b:project({ 0, 0.1, 0.2 }, { 50, 50 }))") ==
+          "");
+}
+
 TEST_CASE("misuse is an error that names the option") {
     const PictureFolder folder;
     test::LuaState lua(with_viewer());
@@ -252,6 +273,8 @@ TEST_CASE("misuse is an error that names the option") {
     refuses("view = 'frnt'", "did you mean \"front\"?");
     refuses("size = { 0, 10 }", "bad option 'size'");
     refuses("size = { 10 }", "bad option 'size'");
+    refuses("size = 0", "bad option 'size'");
+    refuses("size = 10.5", "bad option 'size'");
     refuses("meshes = { lissom.shapes.box() }", "bad option 'mesh'");
     refuses("camera = lissom.camera{ eye = { 1, 1, 1 } }, view = 'top'", "bad option 'view'");
     refuses("camera = lissom.camera{ eye = { 1, 1, 1 } }, margin = 0.1", "bad option 'margin'");
