@@ -41,14 +41,21 @@ local function complete(values)
     return all
 end
 
--- Over what length a tail bends down: one at the crown stands up before it falls.
-local function droop_at(height)
-    local knots = { { -90, 0.02 }, { 0, 0.02 }, { 30, 0.04 }, { 50, 0.05 }, { 90, 0.05 } }
+-- Over what length a tail bends down: one at the crown stands up before it falls. In a bend narrower than the
+-- tie, hair at the tie's lower edge would fall in front of the tail, by itself; at the side of the head most
+-- hair comes from above.
+local function droop_at(height, side)
+    local knots = { { -90, 0.024, 0.02 }, { -15, 0.024, 0.02 }, { 0, 0.032, 0.02 }, { 30, 0.04, 0.04 },
+        { 50, 0.05, 0.05 }, { 90, 0.05, 0.05 } }
+    local f = math.abs(side)
+    local function droop(knot) return (1 - f) * knot[2] + f * knot[3] end
     for i = 2, #knots do
         local a, b = knots[i - 1], knots[i]
-        if height <= b[1] then return a[2] + (b[2] - a[2]) * (height - a[1]) / (b[1] - a[1]) end
+        if height <= b[1] then
+            return droop(a) + (droop(b) - droop(a)) * (height - a[1]) / (b[1] - a[1])
+        end
     end
-    return knots[#knots][2]
+    return droop(knots[#knots])
 end
 
 -- A low tie draws hair from the temples over the ears: first it goes up and over them.
@@ -87,7 +94,8 @@ function ponytail.style(head, values, options)
     for key, value in pairs(options or {}) do all[key] = value end
     all.scalp = all.scalp or assert(lissom.scalp(head))
     local tie = { azimuth = 180 - 75 * values.side, elevation = values.height, lift = values.lift,
-        length = values.length, droop = values.droop >= 0 and values.droop or droop_at(values.height),
+        length = values.length,
+        droop = values.droop >= 0 and values.droop or droop_at(values.height, values.side),
         radius = 0.016 + 0.010 * (1 - values.tightness) }
     hairdo.keep_off_ears(all.scalp, tie)
     -- Towards the end of its spine a tail narrows to a wick: hair ends before.
@@ -104,7 +112,7 @@ function ponytail.style(head, values, options)
     if values.height < 20 then
         hairdo.lead(style, tie, { routes = on_both_sides(over_ears, azimuth), low = low })
     end
-    if values.height > 15 then
+    if values.height > 5 then
         hairdo.lead(style, tie, { routes = on_both_sides(from_nape, 180), low = low })
     end
     style:ponytail{
@@ -115,6 +123,8 @@ function ponytail.style(head, values, options)
         -- Where the tie is low, hair that enters at its lower edge is sparse: spread more, it would part from
         -- the tail.
         spread = 0.5 + math.min(math.max((values.height - 12) / 20, 0), 1),
+        -- Where the tail hangs free of the head its end is seen: tips of like lengths would end it bluntly.
+        ragged = 0.45 + 0.25 * math.min(math.max((values.height - 30) / 20, 0), 1),
         tail_length = values.length,
         name = "ponytail",
     }

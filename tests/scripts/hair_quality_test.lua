@@ -94,7 +94,40 @@ local function over_ears(style, hair)
     return found / #hair
 end
 
+-- The widest gap between strands of a tail 12 cm below its tie, from front to back, in metres; without the
+-- outermost of them.
+local function widest_gap(style, hair, tie)
+    local scalp, depths = style:scalp(), {}
+    local unit = scalp:unit()
+    local place = { azimuth = tie.azimuth, elevation = tie.elevation, lift = tie.lift }
+    local top = scalp:to_metres((scalp:at(place)))
+    for i = 1, #hair do
+        local strand, last = hair:strand(i), nil
+        for k = 1, strand:count() do
+            local x, y, z = strand:get(k)
+            local p = scalp:to_metres(x / unit, y / unit, z / unit)
+            if last and last[2] > top[2] - 0.12 and p[2] <= top[2] - 0.12 and p[3] < top[3] + 0.02 then
+                depths[#depths + 1] = p[3]
+                break
+            end
+            last = p
+        end
+    end
+    expect.truthy(#depths > 0.5 * #hair)
+    table.sort(depths)
+    local gap = 0
+    for i = math.ceil(0.002 * #depths) + 1, math.floor(0.998 * #depths) do
+        gap = math.max(gap, depths[i] - depths[i - 1])
+    end
+    return gap
+end
+
 for _, head in pairs(heads()) do
+    -- No hair hangs in front of a low tail by itself.
+    for _, height in ipairs{ 0, 12 } do
+        local style, hair, tie = ponytail.grow(head, { height = height }, {}, { count = count })
+        expect.truthy(widest_gap(style, hair, tie) < 0.004)
+    end
     -- A low ponytail leaves the ears free.
     for _, low in ipairs{ { height = -15, tightness = 0.2 }, { height = -10 } } do
         local style, hair = ponytail.grow(head, low, {}, { count = count })
