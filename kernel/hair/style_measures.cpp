@@ -44,10 +44,10 @@ bool passes(const StrandView& strand, const PonytailSection& section) {
 
 // Counts strands; `judge` says whether a strand is looked at and whether it is found.
 template <typename Judge>
-StrandShare count(const Strands& strands, const Context& context, const Judge& judge) {
+StrandFraction count(const Strands& strands, const Context& context, const Judge& judge) {
     std::atomic<Index> looked_at = 0, found = 0;
     context.parallel_for(0, strands.size(), kGrain, [&](Index begin, Index end) {
-        StrandShare part;
+        StrandFraction part;
         for (Index s = begin; s < end; ++s) judge(strands.strand(s), part);
         looked_at += part.strands;
         found += part.found;
@@ -57,21 +57,21 @@ StrandShare count(const Strands& strands, const Context& context, const Judge& j
 
 }  // namespace
 
-StrandShare parting_crossings(const Strands& strands, const DividingLine& line,
-                              const CrossingOptions& options, const Context& context) {
+StrandFraction parting_crossings(const Strands& strands, const DividingLine& line,
+                                 const CrossingOptions& options, const Context& context) {
     if (!(options.near >= 0.0) || !(options.reach >= 0.0)) {
         throw Error(ErrorCode::invalid_argument, "near and reach must be 0 or more");
     }
-    return count(strands, context, [&](const StrandView& strand, StrandShare& part) {
+    return count(strands, context, [&](const StrandView& strand, StrandFraction& part) {
         if (line.skin_distance(point_of(strand, 0)) > options.near) return;
         ++part.strands;
         if (crosses(strand, line, options.reach)) ++part.found;
     });
 }
 
-StrandShare section_passages(const Strands& strands, const PonytailSection& section,
-                             const Context& context) {
-    return count(strands, context, [&](const StrandView& strand, StrandShare& part) {
+StrandFraction section_passages(const Strands& strands, const PonytailSection& section,
+                                const Context& context) {
+    return count(strands, context, [&](const StrandView& strand, StrandFraction& part) {
         ++part.strands;
         if (passes(strand, section)) ++part.found;
     });

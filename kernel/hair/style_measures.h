@@ -15,22 +15,22 @@ struct CrossingOptions {
     double near = 0.02, reach = 0.03;
 };
 
-struct StrandShare {
+struct StrandFraction {
     /// Strands that were looked at, and those among them that were found.
     Index strands = 0, found = 0;
 
     /// 0 where there were none.
-    double share() const { return strands > 0 ? static_cast<double>(found) / strands : 0.0; }
+    double fraction() const { return strands > 0 ? static_cast<double>(found) / strands : 0.0; }
 };
 
 /// Strands rooted near a dividing curve that cross the surface of its normals. The same for any
 /// number of threads. Errors: invalid_argument for options that are negative; cancelled.
-StrandShare parting_crossings(const Strands& strands, const DividingLine& line,
-                              const CrossingOptions& options = {}, const Context& context = {});
+StrandFraction parting_crossings(const Strands& strands, const DividingLine& line,
+                                 const CrossingOptions& options = {}, const Context& context = {});
 
 /// Strands that pass through the circle of a ponytail's cross section in its direction, of all
 /// strands, those without hair included. Errors: cancelled.
-StrandShare section_passages(const Strands& strands, const PonytailSection& section,
-                             const Context& context = {});
+StrandFraction section_passages(const Strands& strands, const PonytailSection& section,
+                                const Context& context = {});
 
 }  // namespace lissom

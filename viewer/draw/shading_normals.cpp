@@ -31,7 +31,7 @@ struct FanFace {
     double angle;
 };
 
-// Walks the fans of one mesh; keeps its memory between vertices.
+// Walks the fans of one mesh; reuses buffers.
 class CornerNormals {
   public:
     CornerNormals(const Topology& topology, std::span<const Vec3> positions,

@@ -326,7 +326,7 @@ void add_segment(SortedSegments& sorted, const Tiles& tiles, const Segment& segm
     const float top = std::min(a.y, b.y) - reach, bottom = std::max(a.y, b.y) + reach;
     const float depth = std::min(a.depth, b.depth);
     tiles.for_each_in(left, top, right, bottom, [&](std::size_t tile) {
-        if (tiles[tile].hides(left, top, right, bottom, depth)) return;
+        if (tiles[tile].occludes(left, top, right, bottom, depth)) return;
         sorted.of_tile[tile].push_back(number);
         seen = true;
     });
@@ -421,7 +421,7 @@ void draw_batch(const ViewStrands& drawn, std::span<const Index> batch, std::uin
                 samples.draw_segment(segment.begin, segment.end, segment.id);
             }
         }
-        samples.find_farthest();
+        samples.update_depth_blocks();
     });
 }
 
@@ -479,7 +479,7 @@ void draw_meshes(const std::vector<ViewTriangle>& triangles, const Screen& scree
         for (const std::uint32_t i : of_tile[static_cast<std::size_t>(tile)]) {
             samples.draw_triangle(seen[i]);
         }
-        samples.find_farthest();
+        samples.update_depth_blocks();
     });
 }
 

@@ -77,31 +77,32 @@ SampleTile::SampleTile(int left, int top, int width, int height)
     : left_(left), top_(top), width_(width), height_(height) {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     keys_.assign(pixels * kSamples, kEmpty);
-    farthest_.assign(pixels, std::numeric_limits<float>::infinity());
+    pixel_depth_.assign(pixels, std::numeric_limits<float>::infinity());
     puts_.assign(pixels, 0);
     block_columns_ = (width + kBlock - 1) / kBlock;
     const int block_rows = (height + kBlock - 1) / kBlock;
-    blocks_.assign(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows),
-                   std::numeric_limits<float>::infinity());
+    block_depth_.assign(
+        static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows),
+        std::numeric_limits<float>::infinity());
 }
 
-void SampleTile::find_farthest() {
-    std::fill(blocks_.begin(), blocks_.end(), 0.0f);
+void SampleTile::update_depth_blocks() {
+    std::fill(block_depth_.begin(), block_depth_.end(), 0.0f);
     for (int y = 0; y < height_; ++y) {
         for (int x = 0; x < width_; ++x) {
-            float& farthest = blocks_[block(x, y)];
-            farthest = std::max(farthest, farthest_[place(left_ + x, top_ + y)]);
+            float& farthest = block_depth_[block(x, y)];
+            farthest = std::max(farthest, pixel_depth_[place(left_ + x, top_ + y)]);
         }
     }
 }
 
-bool SampleTile::hides(float left, float top, float right, float bottom, float depth) const {
+bool SampleTile::occludes(float left, float top, float right, float bottom, float depth) const {
     const PixelRange columns = pixels_between(left, right, 0.0f, left_, width_);
     const PixelRange rows = pixels_between(top, bottom, 0.0f, top_, height_);
     if (columns.last < columns.first || rows.last < rows.first) return true;
     for (int y = (rows.first - top_) / kBlock; y <= (rows.last - top_) / kBlock; ++y) {
         for (int x = (columns.first - left_) / kBlock; x <= (columns.last - left_) / kBlock; ++x) {
-            if (depth <= blocks_[block(x * kBlock, y * kBlock)]) return false;
+            if (depth <= block_depth_[block(x * kBlock, y * kBlock)]) return false;
         }
     }
     return true;
@@ -118,15 +119,15 @@ void SampleTile::put(std::size_t pixel, int sample, float depth, std::uint32_t i
     std::uint64_t& seen = keys_[pixel * kSamples + static_cast<std::size_t>(sample)];
     if (key >= seen) return;
     seen = key;
-    if (++puts_[pixel] == kPutsToUpdate) update_farthest(pixel);
+    if (++puts_[pixel] == kPutsToUpdate) update_pixel_depth(pixel);
 }
 
-void SampleTile::update_farthest(std::size_t pixel) {
+void SampleTile::update_pixel_depth(std::size_t pixel) {
     puts_[pixel] = 0;
     const auto* const keys = keys_.data() + pixel * kSamples;
     const auto bits = static_cast<std::uint32_t>(*std::max_element(keys, keys + kSamples) >> 32);
     const bool covered = bits != static_cast<std::uint32_t>(kEmpty >> 32);
-    if (covered) farthest_[pixel] = std::bit_cast<float>(bits);
+    if (covered) pixel_depth_[pixel] = std::bit_cast<float>(bits);
 }
 
 void SampleTile::draw_segment(const ScreenPoint& begin, const ScreenPoint& end, std::uint32_t id) {
@@ -158,7 +159,7 @@ void SampleTile::draw_along(const ScreenPoint& begin, const ScreenPoint& end, st
                            steep ? left_ : top_, steep ? width_ : height_);
         for (int column = columns.first; column <= columns.last; ++column) {
             const int x = steep ? column : row, y = steep ? row : column;
-            if (nearest <= farthest_[place(x, y)]) cover(x, y, begin, end, id);
+            if (nearest <= pixel_depth_[place(x, y)]) cover(x, y, begin, end, id);
         }
     }
 }

@@ -44,11 +44,11 @@ class SampleTile {
     /// Hides what is behind it; both of its sides do.
     void draw_triangle(const std::array<ScreenPoint, 3>& corners);
 
-    /// Finds out how far can be seen, for `hides`.
-    void find_farthest();
-    /// Whether all that was drawn before `find_farthest` hides whatever is at `depth` or beyond in
-    /// a rectangle of the picture; false where that is not certain.
-    bool hides(float left, float top, float right, float bottom, float depth) const;
+    /// Hierarchical depth: the greatest depth in each block of pixels, for `occludes`.
+    void update_depth_blocks();
+    /// Whether all that was drawn before `update_depth_blocks` hides whatever is at `depth` or
+    /// beyond in a rectangle of the picture; false where that is not certain.
+    bool occludes(float left, float top, float right, float bottom, float depth) const;
 
     /// Pixels count from the top left of the picture.
     std::uint32_t id(int x, int y, int sample) const {
@@ -59,7 +59,7 @@ class SampleTile {
     Eigen::Vector2f position(int x, int y, int sample) const;
 
   private:
-    // Pixels along a side of a block, for `hides`.
+    // Pixels along a side of a block, for `occludes`.
     static constexpr int kBlock = 4;
 
     std::size_t place(int x, int y) const {
@@ -73,7 +73,7 @@ class SampleTile {
     template <bool steep>
     void draw_along(const ScreenPoint& begin, const ScreenPoint& end, std::uint32_t id);
     void cover(int x, int y, const ScreenPoint& begin, const ScreenPoint& end, std::uint32_t id);
-    void update_farthest(std::size_t pixel);
+    void update_pixel_depth(std::size_t pixel);
     void put(std::size_t pixel, int sample, float depth, std::uint32_t id);
 
     int left_, top_, width_, height_;
@@ -81,11 +81,11 @@ class SampleTile {
     std::vector<std::uint64_t> keys_;
     /// Of each pixel: a depth that nothing seen in it is beyond, and samples put since it was
     /// found.
-    std::vector<float> farthest_;
+    std::vector<float> pixel_depth_;
     std::vector<std::uint8_t> puts_;
     int block_columns_ = 0;
     /// The farthest of the pixels of each block.
-    std::vector<float> blocks_;
+    std::vector<float> block_depth_;
 };
 
 }  // namespace lissom

@@ -116,10 +116,10 @@ class Divider {
         const double tilt = tilt_at(place);
         const Vec3 level = flow(place, tilt, normal);
         if (!along) {
-            return Said{faded(options_.separation * level, place), ConstraintKind::separation};
+            return Said{fade(options_.separation * level, place), ConstraintKind::separation};
         }
         const Vec3 up = rule_.slope(u) * std::cos(tilt) * normal;
-        return Said{faded((level + up).normalized(), place), ConstraintKind::parting};
+        return Said{fade((level + up).normalized(), place), ConstraintKind::parting};
     }
 
   private:
@@ -137,7 +137,7 @@ class Divider {
     }
 
     /// With the part across the curve growing evenly from the curve to the end of the ramp.
-    Vec3 faded(const Vec3& vector, const DividingPlace& place) const {
+    Vec3 fade(const Vec3& vector, const DividingPlace& place) const {
         const double u = std::abs(place.across);
         if (!(u < rule_.ramp)) return vector;
         return vector - (1.0 - u / rule_.ramp) * vector.dot(place.right) * place.right;

@@ -198,14 +198,14 @@ DistanceGrid::Sample DistanceGrid::sample(const Vec3& point) const {
     for (int corner = 0; corner < 8; ++corner) {
         const std::array<int, 3> up{corner & 1, (corner >> 1) & 1, corner >> 2};
         const double v = this->at(cell[0] + up[0], cell[1] + up[1], cell[2] + up[2]);
-        std::array<double, 3> w{}, slope{};
+        std::array<double, 3> w{}, gradient{};
         for (int axis = 0; axis < 3; ++axis) {
             w[axis] = up[axis] ? t[axis] : 1.0 - t[axis];
-            slope[axis] = (up[axis] ? 1.0 : -1.0) / layout_.step;
+            gradient[axis] = (up[axis] ? 1.0 : -1.0) / layout_.step;
         }
         result.value += v * w[0] * w[1] * w[2];
-        result.gradient +=
-            v * Vec3(slope[0] * w[1] * w[2], w[0] * slope[1] * w[2], w[0] * w[1] * slope[2]);
+        result.gradient += v * Vec3(gradient[0] * w[1] * w[2], w[0] * gradient[1] * w[2],
+                                    w[0] * w[1] * gradient[2]);
     }
     const Vec3 outward = point - clamped;
     const double beyond = outward.norm();

@@ -104,22 +104,22 @@ HairField::Sample HairField::sample(const Vec3& point) const {
     }
     Sample result;
     for (int corner = 0; corner < 8; ++corner) {
-        std::array<double, 3> weight{}, slope{};
+        std::array<double, 3> weight{}, gradient{};
         std::array<Index, 3> index{};
         for (int axis = 0; axis < 3; ++axis) {
             const int up = (corner >> axis) & 1;
             index[axis] = cell[axis] + up;
             weight[axis] = up ? t[axis] : 1.0 - t[axis];
-            slope[axis] = (up ? 1.0 : -1.0) / grid.step;
+            gradient[axis] = (up ? 1.0 : -1.0) / grid.step;
         }
         const float* v = values_.data() + 4 * grid.index(index[0], index[1], index[2]);
         const double distance = distances_.at(index[0], index[1], index[2]);
         const double w = weight[0] * weight[1] * weight[2];
         result.direction += w * Vec3(v[0], v[1], v[2]);
         result.distance += w * distance;
-        result.gradient +=
-            distance * Vec3(slope[0] * weight[1] * weight[2], weight[0] * slope[1] * weight[2],
-                            weight[0] * weight[1] * slope[2]);
+        result.gradient += distance * Vec3(gradient[0] * weight[1] * weight[2],
+                                           weight[0] * gradient[1] * weight[2],
+                                           weight[0] * weight[1] * gradient[2]);
     }
     return result;
 }

@@ -16,8 +16,8 @@ namespace lissom {
 namespace {
 
 // Strands that are grown by one thread into one list.
-constexpr Index kTuft = 256;
-static_assert(kGrowthWave % kTuft == 0);
+constexpr Index kBatchStrands = 256;
+static_assert(kGrowthWave % kBatchStrands == 0);
 
 // Strands that are copied by one thread at a time.
 constexpr Index kCopied = 256;
@@ -199,16 +199,16 @@ struct StrandGrower::State {
     State(const Mesh& head, std::span<const Root> all, const Context& context)
         : roots(head, all, context) {}
 
-    Seedling seedling(Index i, const GridLayout& layout, const GrowthOptions& options) const;
+    StrandSeed strand_seed(Index i, const GridLayout& layout, const GrowthOptions& options) const;
 
     GrowthRoots roots;
     // Scratch: the strands of one wave.
-    std::vector<Tuft> tufts;
-    std::vector<std::vector<Seedling>> seedlings;
+    std::vector<StrandBatch> batches;
+    std::vector<std::vector<StrandSeed>> seeds;
 };
 
-Seedling StrandGrower::State::seedling(Index i, const GridLayout& layout,
-                                       const GrowthOptions& options) const {
+StrandSeed StrandGrower::State::strand_seed(Index i, const GridLayout& layout,
+                                            const GrowthOptions& options) const {
     const StrandChance& chance = roots.chance(i);
     const double step = layout.step, u = chance.layer;
     const double length =
@@ -224,9 +224,9 @@ Seedling StrandGrower::State::seedling(Index i, const GridLayout& layout,
 namespace {
 
 // Growth into one list of points, wave after wave.
-class Harvest {
+class StrandCollector {
   public:
-    Harvest(Index strands, Strands& into, const Context& context)
+    StrandCollector(Index strands, Strands& into, const Context& context)
         : strands_(into), context_(context), count_(strands) {
         strands_.release(points_, offsets_);
         offsets_.resize(static_cast<std::size_t>(strands) + 1);
@@ -234,7 +234,7 @@ class Harvest {
     }
 
     // Takes the strands of a wave that begins with root `first`.
-    void take(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts);
+    void take(const GrowthRoots& roots, Index first, std::span<const StrandBatch> batches);
     void finish(const StrandRoots& roots);
 
     GrowthReport report;
@@ -242,7 +242,7 @@ class Harvest {
   private:
     // Lists the strands of a wave, with the count of i as offset i + 1; returns the root behind its
     // last.
-    Index list_wave(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts);
+    Index list_wave(const GrowthRoots& roots, Index first, std::span<const StrandBatch> batches);
     // Makes offsets of the counts.
     void number_points(Index first, Index last);
     void make_room(Index done);
@@ -258,22 +258,23 @@ class Harvest {
     MemoryCharge charge_;
 };
 
-Index Harvest::list_wave(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
+Index StrandCollector::list_wave(const GrowthRoots& roots, Index first,
+                                 std::span<const StrandBatch> batches) {
     Index next = first;
-    for (const Tuft& tuft : tufts) {
-        for (const Tuft::Shoot& shoot : tuft.shoots) {
+    for (const StrandBatch& batch : batches) {
+        for (const StrandBatch::Strand& strand : batch.strands) {
             const auto root = static_cast<std::size_t>(roots.number(next++));
             wave_[root - static_cast<std::size_t>(first)] =
-                tuft.lists[shoot.list].data() + shoot.first;
-            offsets_[root + 1] = shoot.count;
-            ++report.ends[static_cast<std::size_t>(shoot.end)];
-            if (!report.ties.empty()) report.ties[root] = shoot.tie;
+                batch.lists[strand.list].data() + strand.first;
+            offsets_[root + 1] = strand.count;
+            ++report.ends[static_cast<std::size_t>(strand.end)];
+            if (!report.ties.empty()) report.ties[root] = strand.tie;
         }
     }
     return next;
 }
 
-void Harvest::number_points(Index first, Index last) {
+void StrandCollector::number_points(Index first, Index last) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
         const std::size_t end =
             static_cast<std::size_t>(offsets_[i]) + static_cast<std::size_t>(offsets_[i + 1]);
@@ -285,7 +286,7 @@ void Harvest::number_points(Index first, Index last) {
 }
 
 // Room for the first `done` strands, and for the others to come.
-void Harvest::make_room(Index done) {
+void StrandCollector::make_room(Index done) {
     const auto needed = 3 * static_cast<std::size_t>(offsets_[static_cast<std::size_t>(done)]);
     if (needed <= points_.size()) return;
     const double all = kSlack * static_cast<double>(needed) * count_ / done;
@@ -295,8 +296,9 @@ void Harvest::make_room(Index done) {
     points_.resize(size);
 }
 
-void Harvest::take(const GrowthRoots& roots, Index first, std::span<const Tuft> tufts) {
-    const Index last = list_wave(roots, first, tufts);
+void StrandCollector::take(const GrowthRoots& roots, Index first,
+                           std::span<const StrandBatch> batches) {
+    const Index last = list_wave(roots, first, batches);
     number_points(first, last);
     make_room(last);
     context_.parallel_for(first, last, kCopied, [&](Index begin, Index end) {
@@ -309,7 +311,7 @@ void Harvest::take(const GrowthRoots& roots, Index first, std::span<const Tuft> 
     });
 }
 
-void Harvest::finish(const StrandRoots& roots) {
+void StrandCollector::finish(const StrandRoots& roots) {
     points_.resize(3 * static_cast<std::size_t>(offsets_.back()));
     strands_ = Strands(std::move(points_), std::move(offsets_));
     strands_.set_roots(roots);
@@ -336,32 +338,33 @@ GrowthReport StrandGrower::grow(const HairField& field, const GrowthOptions& opt
     GrowthRoots& roots = state_->roots;
     require_options(options, roots.head_vertices());
     require_fitting_lengths(options, field.layout());
-    Harvest harvest(size(), strands, context);
+    StrandCollector collector(size(), strands, context);
     roots.set_seed(options.seed, context);
     roots.set_length_map(options.length_map, context);
-    if (!options.ties.empty()) harvest.report.ties.resize(static_cast<std::size_t>(size()));
+    if (!options.ties.empty()) collector.report.ties.resize(static_cast<std::size_t>(size()));
 
     const GrowthRules rules = rules_of(field.layout(), options);
     const QuadGrid grid = grid_of(field);
     const GrowthLoop loop = best_growth_loop();
-    state_->tufts.resize(kGrowthWave / kTuft);
-    state_->seedlings.resize(kGrowthWave / kTuft);
+    state_->batches.resize(kGrowthWave / kBatchStrands);
+    state_->seeds.resize(kGrowthWave / kBatchStrands);
     for (Index first = 0; first < size(); first += kGrowthWave) {
         const Index last = std::min(size(), first + kGrowthWave);
-        context.parallel_for(first, last, kTuft, [&](Index begin, Index end) {
-            const auto number = static_cast<std::size_t>((begin - first) / kTuft);
-            std::vector<Seedling>& seedlings = state_->seedlings[number];
-            seedlings.clear();
+        context.parallel_for(first, last, kBatchStrands, [&](Index begin, Index end) {
+            const auto number = static_cast<std::size_t>((begin - first) / kBatchStrands);
+            std::vector<StrandSeed>& seeds = state_->seeds[number];
+            seeds.clear();
             for (Index i = begin; i < end; ++i) {
-                seedlings.push_back(state_->seedling(i, field.layout(), options));
+                seeds.push_back(state_->strand_seed(i, field.layout(), options));
             }
-            grow_tuft(grid, rules, seedlings, loop, state_->tufts[number]);
+            grow_batch(grid, rules, seeds, loop, state_->batches[number]);
         });
-        const auto grown = static_cast<std::size_t>((last - first + kTuft - 1) / kTuft);
-        harvest.take(roots, first, std::span(state_->tufts).first(grown));
+        const auto grown =
+            static_cast<std::size_t>((last - first + kBatchStrands - 1) / kBatchStrands);
+        collector.take(roots, first, std::span(state_->batches).first(grown));
     }
-    harvest.finish(roots.strand_roots());
-    return std::move(harvest.report);
+    collector.finish(roots.strand_roots());
+    return std::move(collector.report);
 }
 
 GrowthReport grow(const Mesh& head, const HairField& field, std::span<const Root> roots,

@@ -23,13 +23,13 @@ GrowthLoop best_growth_loop() {
     return has_avx2() ? GrowthLoop::avx2 : GrowthLoop::anywhere;
 }
 
-void grow_tuft(const QuadGrid& grid, const GrowthRules& rules, std::span<const Seedling> seedlings,
-               [[maybe_unused]] GrowthLoop loop, Tuft& tuft) {
+void grow_batch(const QuadGrid& grid, const GrowthRules& rules, std::span<const StrandSeed> seeds,
+                [[maybe_unused]] GrowthLoop loop, StrandBatch& batch) {
 #ifdef LISSOM_HAS_AVX2_PATH
-    if (loop == GrowthLoop::avx512) return grow_tuft_avx512(grid, rules, seedlings, tuft);
-    if (loop == GrowthLoop::avx2) return grow_tuft_avx2(grid, rules, seedlings, tuft);
+    if (loop == GrowthLoop::avx512) return grow_batch_avx512(grid, rules, seeds, batch);
+    if (loop == GrowthLoop::avx2) return grow_batch_avx2(grid, rules, seeds, batch);
 #endif
-    lanes_anywhere::LaneGrower(grid, rules, seedlings, tuft).run();
+    lanes_anywhere::LaneGrower(grid, rules, seeds, batch).run();
 }
 
 }  // namespace lissom

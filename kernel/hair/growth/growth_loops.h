@@ -24,7 +24,7 @@ struct QuadGrid {
 };
 
 /// A strand before it grows.
-struct Seedling {
+struct StrandSeed {
     Eigen::Vector3f at, normal;
     float length, floor;
     /// Random numbers, as StrandChance.
@@ -64,9 +64,9 @@ struct GrowthRules {
     Eigen::Vector3f translation;
 };
 
-/// Strands that were grown together; shoots[i] is that of seedling i.
-struct Tuft {
-    struct Shoot {
+/// Strands that were grown together; strands[i] is that of seed i.
+struct StrandBatch {
+    struct Strand {
         /// Which of the lists its points are in, where they begin, and how many it has.
         std::size_t list, first;
         Index count;
@@ -75,7 +75,7 @@ struct Tuft {
     };
     /// Those that grew in one lane are in one list, with room behind them that is kept.
     std::vector<std::vector<float>> lists;
-    std::vector<Shoot> shoots;
+    std::vector<Strand> strands;
 };
 
 /// With which instructions strands grow; the results are the same to the bit. A processor that runs
@@ -84,14 +84,14 @@ enum class GrowthLoop { anywhere, avx2, avx512 };
 /// The last that this processor runs.
 GrowthLoop best_growth_loop();
 
-/// Replaces what `tuft` holds. `loop` must be one that this processor runs.
-void grow_tuft(const QuadGrid& grid, const GrowthRules& rules, std::span<const Seedling> seedlings,
-               GrowthLoop loop, Tuft& tuft);
+/// Replaces what `batch` holds. `loop` must be one that this processor runs.
+void grow_batch(const QuadGrid& grid, const GrowthRules& rules, std::span<const StrandSeed> seeds,
+                GrowthLoop loop, StrandBatch& batch);
 
-/// grow_tuft on processors with AVX2, and with AVX-512; only where LISSOM_HAS_AVX2_PATH.
-void grow_tuft_avx2(const QuadGrid& grid, const GrowthRules& rules,
-                    std::span<const Seedling> seedlings, Tuft& tuft);
-void grow_tuft_avx512(const QuadGrid& grid, const GrowthRules& rules,
-                      std::span<const Seedling> seedlings, Tuft& tuft);
+/// grow_batch on processors with AVX2, and with AVX-512; only where LISSOM_HAS_AVX2_PATH.
+void grow_batch_avx2(const QuadGrid& grid, const GrowthRules& rules,
+                     std::span<const StrandSeed> seeds, StrandBatch& batch);
+void grow_batch_avx512(const QuadGrid& grid, const GrowthRules& rules,
+                       std::span<const StrandSeed> seeds, StrandBatch& batch);
 
 }  // namespace lissom

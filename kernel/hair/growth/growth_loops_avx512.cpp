@@ -7,9 +7,9 @@
 
 namespace lissom {
 
-void grow_tuft_avx512(const QuadGrid& grid, const GrowthRules& rules,
-                      std::span<const Seedling> seedlings, Tuft& tuft) {
-    lanes_avx512::LaneGrower(grid, rules, seedlings, tuft).run();
+void grow_batch_avx512(const QuadGrid& grid, const GrowthRules& rules,
+                       std::span<const StrandSeed> seeds, StrandBatch& batch) {
+    lanes_avx512::LaneGrower(grid, rules, seeds, batch).run();
 }
 
 }  // namespace lissom

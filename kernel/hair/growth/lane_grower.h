@@ -99,12 +99,12 @@ struct Sprout {
 
 class LaneGrower {
   public:
-    LaneGrower(const QuadGrid& grid, const GrowthRules& rules, std::span<const Seedling> seedlings,
-               Tuft& tuft)
-        : grid_(grid), rules_(rules), seedlings_(seedlings), tuft_(tuft) {
-        tuft_.lists.resize(kLanes);
-        tuft_.shoots.assign(seedlings.size(), {});
-        sprouts_.resize(seedlings.size());
+    LaneGrower(const QuadGrid& grid, const GrowthRules& rules, std::span<const StrandSeed> seeds,
+               StrandBatch& batch)
+        : grid_(grid), rules_(rules), seeds_(seeds), batch_(batch) {
+        batch_.lists.resize(kLanes);
+        batch_.strands.assign(seeds.size(), {});
+        sprouts_.resize(seeds.size());
         for (int k = 0; k < kLanes; ++k) make_room(k);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             below_last_[axis] = std::nextafter(grid_.last[axis], 0.0f);
@@ -112,7 +112,7 @@ class LaneGrower {
     }
 
     void run() {
-        for (std::size_t i = 0; i < seedlings_.size(); i += kLanes) sprout(i);
+        for (std::size_t i = 0; i < seeds_.size(); i += kLanes) sprout(i);
         for (int k = 0; k < kLanes; ++k) begin_strand(k);
         while (growing_count_ > 0) {
             locate();
@@ -339,15 +339,15 @@ class LaneGrower {
         return end;
     }
 
-    // Chooses the first points after the roots of the seedlings from `first` on, one a lane.
+    // Chooses the first points after the roots of the seeds from `first` on, one a lane.
     LISSOM_INLINE void sprout(std::size_t first) {
-        const std::size_t count = std::min<std::size_t>(kLanes, seedlings_.size() - first);
+        const std::size_t count = std::min<std::size_t>(kLanes, seeds_.size() - first);
         Floats3 normal{};
         for (std::size_t k = 0; k < count; ++k) {
-            const Seedling& seedling = seedlings_[first + k];
-            set(to_, static_cast<int>(k), seedling.at);
-            set(normal, static_cast<int>(k), seedling.normal);
-            length_[static_cast<int>(k)] = seedling.length;
+            const StrandSeed& seed = seeds_[first + k];
+            set(to_, static_cast<int>(k), seed.at);
+            set(normal, static_cast<int>(k), seed.normal);
+            length_[static_cast<int>(k)] = seed.length;
         }
         locate();
         const Floats3 v = read_all().vector;
@@ -394,7 +394,7 @@ class LaneGrower {
         if (any(full)) enlarge_lanes(full);
     }
 
-    std::vector<float>& list(int k) { return tuft_.lists[static_cast<std::size_t>(k)]; }
+    std::vector<float>& list(int k) { return batch_.lists[static_cast<std::size_t>(k)]; }
 
     void enlarge_lanes(const Ints& full) {
         for (int k = 0; k < kLanes; ++k) {
@@ -429,19 +429,19 @@ class LaneGrower {
     void record(int k, std::int32_t end) {
         const Index count = segments_[k] + 1;
         const auto lane = static_cast<std::size_t>(k);
-        tuft_.shoots[seedling_of_[k]] = {lane, starts_[lane], count, tie_[k],
-                                         static_cast<StrandEnd>(end - 1)};
+        batch_.strands[seed_of_[k]] = {lane, starts_[lane], count, tie_[k],
+                                       static_cast<StrandEnd>(end - 1)};
         starts_[lane] += 3 * static_cast<std::size_t>(count);
         make_room(k);
     }
 
-    // Gives lane k the next seedling that can grow; those that cannot are their roots.
+    // Gives lane k the next seed that can grow; those that cannot are their roots.
     void begin_strand(int k) {
         growing_[k] = 0;
-        while (next_ < seedlings_.size()) {
-            seedling_of_[k] = next_;
-            const Seedling& seedling = seedlings_[next_++];
-            plant(k, seedling);
+        while (next_ < seeds_.size()) {
+            seed_of_[k] = next_;
+            const StrandSeed& seed = seeds_[next_++];
+            start(k, seed);
             const Sprout& sprout = sprouts_[next_ - 1];
             if (sprout.end == 0) {
                 set(to_, k, sprout.to);
@@ -457,17 +457,16 @@ class LaneGrower {
         set(to_, k, Eigen::Vector3f::Zero());
     }
 
-    void plant(int k, const Seedling& seedling) {
-        set(at_, k, seedling.at);
+    void start(int k, const StrandSeed& seed) {
+        set(at_, k, seed.at);
         grown_[k] = 0.0f;
-        length_[k] = seedling.length;
-        floor_[k] = seedling.floor;
-        cut_[k] = seedling.cut;
-        tail_[k] = seedling.tail;
+        length_[k] = seed.length;
+        floor_[k] = seed.floor;
+        cut_[k] = seed.cut;
+        tail_[k] = seed.tail;
         segments_[k] = pushes_[k] = 0;
         tie_[k] = kNoIndex;
-        const Eigen::Vector3f root_point =
-            (rules_.linear * seedling.at).eval() + rules_.translation;
+        const Eigen::Vector3f root_point = (rules_.linear * seed.at).eval() + rules_.translation;
         std::copy_n(root_point.data(), 3, ends_[k] - 3);
     }
 
@@ -490,14 +489,14 @@ class LaneGrower {
     // Just below the greatest coordinates, so in the last cell.
     std::array<float, 3> below_last_{};
     const GrowthRules& rules_;
-    std::span<const Seedling> seedlings_;
-    Tuft& tuft_;
+    std::span<const StrandSeed> seeds_;
+    StrandBatch& batch_;
     // Where the strand of each lane begins in its list, and where it goes on after the root.
     std::array<std::size_t, kLanes> starts_{};
     float* ends_[kLanes]{};
-    std::array<std::size_t, kLanes> seedling_of_{};
+    std::array<std::size_t, kLanes> seed_of_{};
     std::size_t next_ = 0;
-    // Of the seedlings.
+    // Of the seeds.
     std::vector<Sprout> sprouts_;
     int growing_count_ = 0;
 };

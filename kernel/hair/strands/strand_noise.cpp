@@ -21,12 +21,12 @@ constexpr double kSpread = 1.5;
 // tips that run out in a weak field, it has short segments.
 constexpr double kSteepest = 0.5;
 
-double faded(double x) {
+double fade_curve(double x) {
     return x * x * x * (x * (x * 6.0 - 15.0) + 10.0);
 }
 
-// The slope along `d` of one of the twelve gradients from the middle of a cube to its edges.
-double slope(std::uint64_t bits, const Vec3& d) {
+// The dot product with `d` of one of the twelve gradients from the middle of a cube to its edges.
+double gradient(std::uint64_t bits, const Vec3& d) {
     const auto edge = static_cast<unsigned>(bits % 12);
     const double a = (edge & 1u) != 0 ? 1.0 : -1.0, b = (edge & 2u) != 0 ? 1.0 : -1.0;
     if (edge < 4) return a * d.x() + b * d.y();
@@ -123,7 +123,7 @@ Vec3 smooth_noise(const Vec3& place, std::uint64_t seed) {
         const double floor = std::floor(place[k]);
         cell[static_cast<std::size_t>(k)] = cell_of(floor);
         inside[k] = place[k] - floor;
-        fade[k] = faded(inside[k]);
+        fade[k] = fade_curve(inside[k]);
     }
     Vec3 sum = Vec3::Zero();
     for (unsigned corner = 0; corner < 8; ++corner) {
@@ -132,8 +132,8 @@ Vec3 smooth_noise(const Vec3& place, std::uint64_t seed) {
         for (int k = 0; k < 3; ++k) weight *= offset[k] > 0.0 ? fade[k] : 1.0 - fade[k];
         const std::uint64_t bits = corner_bits(cell, corner, seed);
         const Vec3 d = inside - offset;
-        sum += weight * Vec3(slope(bits & 0xffff, d), slope(bits >> 16 & 0xffff, d),
-                             slope(bits >> 32 & 0xffff, d));
+        sum += weight * Vec3(gradient(bits & 0xffff, d), gradient(bits >> 16 & 0xffff, d),
+                             gradient(bits >> 32 & 0xffff, d));
     }
     return kSpread * sum;
 }

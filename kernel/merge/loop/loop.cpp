@@ -17,8 +17,8 @@ namespace {
 constexpr double kLengthSigma = 0.03;
 // A Gaussian ends at this many sigmas.
 constexpr double kReach = 3.0;
-// Vertices inside must be this many times as far from the boundary as what its own normal stands
-// for, to tell how it turns; and it turns on by no more than this, in radians.
+// Ignore interior vertices nearer to the boundary than this many fan radii, when the turn of its
+// normal is extrapolated; and clamp that turn to so many radians.
 constexpr double kLeastReach = 1.5;
 constexpr double kMostTurn = 0.35;
 

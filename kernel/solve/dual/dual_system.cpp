@@ -20,7 +20,7 @@ void DualSystem::update(const ConstraintRows& rows, const Context& context) {
     if (!iterative_) {
         factor_ = {};
         rows_ = {};
-        iterative_ = std::make_unique<IterativeDual>(green_, tolerance_);
+        iterative_ = std::make_unique<ProjectedCG>(green_, tolerance_);
     }
     if (rows_.common(rows) == static_cast<Index>(rows.size()) && rows_.size() == rows.size())
         return;

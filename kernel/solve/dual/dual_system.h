@@ -7,7 +7,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/solve/dual/bordered_cholesky.h"
-#include "kernel/solve/dual/iterative_dual.h"
+#include "kernel/solve/dual/projected_cg.h"
 #include "kernel/solve/grid/constraint_rows.h"
 #include "kernel/solve/grid/field_workspace.h"
 #include "kernel/solve/grid/grid_green.h"
@@ -47,7 +47,7 @@ class DualSystem {
     double tolerance_;
     ConstraintRows rows_;
     BorderedCholesky factor_;
-    std::unique_ptr<IterativeDual> iterative_;
+    std::unique_ptr<ProjectedCG> iterative_;
 };
 
 }  // namespace lissom

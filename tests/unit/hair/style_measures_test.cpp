@@ -70,12 +70,12 @@ TEST_CASE("measures: crossings of a line are counted near it and near the root")
     });
     CrossingOptions options;
     options.reach = 0.02;
-    const StrandShare share = parting_crossings(strands, line, options);
-    CHECK(share.strands == 6);
-    CHECK(share.found == 2);
-    CHECK(share.share() == Approx(2.0 / 6.0));
+    const StrandFraction count = parting_crossings(strands, line, options);
+    CHECK(count.strands == 6);
+    CHECK(count.found == 2);
+    CHECK(count.fraction() == Approx(2.0 / 6.0));
     CHECK(parting_crossings(strands, line, {0.02, 0.03}).found == 3);
-    CHECK(parting_crossings(Strands(), line).share() == 0.0);
+    CHECK(parting_crossings(Strands(), line).fraction() == 0.0);
     CHECK(test::error_of([&] {
               parting_crossings(strands, line, {-1.0, 0.0});
           }).code() == ErrorCode::invalid_argument);
@@ -90,9 +90,9 @@ TEST_CASE("measures: passages go through the circle, in its direction") {
         {{0, 0, 0}, {0.05, 0, -0.2}, {0, 0, 0}, {0, 0, -0.2}},  // beside it, back, and through
         {{0, 0, 0}},
     });
-    const StrandShare share = section_passages(strands, section);
-    CHECK(share.strands == 5);
-    CHECK(share.found == 2);
+    const StrandFraction count = section_passages(strands, section);
+    CHECK(count.strands == 5);
+    CHECK(count.found == 2);
 }
 
 TEST_CASE("measures: hair does not cross an oblique parting") {
@@ -124,12 +124,12 @@ TEST_CASE("measures: hair does not cross an oblique parting") {
         Strands strands = bald.grown(0.06);
         return parting_crossings(strands, line);
     };
-    const StrandShare share = crossing({});
-    CHECK(share.strands > 150);
-    CHECK(share.share() < 0.01);
+    const StrandFraction count = crossing({});
+    CHECK(count.strands > 150);
+    CHECK(count.fraction() < 0.01);
     // Without the curve hair flows over it.
     bald.field.set_constraints(4, {});
-    CHECK(parting_crossings(bald.grown(0.06), line).share() > 0.05);
+    CHECK(parting_crossings(bald.grown(0.06), line).fraction() > 0.05);
 }
 
 TEST_CASE("measures: hair that is gathered passes through the tie") {
@@ -153,7 +153,7 @@ TEST_CASE("measures: hair that is gathered passes through the tie") {
         points.push_back(tie + 0.4 * 0.022 * Vec3(-std::cos(angle), std::sin(angle), 0.0));
         bald.stream(owner++, points, 0.0);
     }
-    const StrandShare share = section_passages(bald.grown(0.5), shape.tie());
-    CHECK(share.strands == 4000);
-    CHECK(share.share() > 0.98);
+    const StrandFraction count = section_passages(bald.grown(0.5), shape.tie());
+    CHECK(count.strands == 4000);
+    CHECK(count.fraction() > 0.98);
 }

@@ -42,17 +42,17 @@ double tip_height(const Meadow& meadow, const Strands& strands, Index s) {
     return strands.strand(s).col(strands.point_count(s) - 1).y() - meadow.above(0.0).y();
 }
 
-std::vector<float> points_of(const Tuft& tuft, std::size_t strand) {
-    const Tuft::Shoot& shoot = tuft.shoots[strand];
-    const float* first = tuft.lists[shoot.list].data() + shoot.first;
-    return {first, first + std::ptrdiff_t{3} * shoot.count};
+std::vector<float> points_of(const StrandBatch& batch, std::size_t i) {
+    const StrandBatch::Strand& strand = batch.strands[i];
+    const float* first = batch.lists[strand.list].data() + strand.first;
+    return {first, first + std::ptrdiff_t{3} * strand.count};
 }
 
-void check_same(const Tuft& a, const Tuft& b) {
-    REQUIRE(a.shoots.size() == b.shoots.size());
-    for (std::size_t i = 0; i < a.shoots.size(); ++i) {
+void check_same(const StrandBatch& a, const StrandBatch& b) {
+    REQUIRE(a.strands.size() == b.strands.size());
+    for (std::size_t i = 0; i < a.strands.size(); ++i) {
         CHECK(points_of(a, i) == points_of(b, i));
-        CHECK(a.shoots[i].end == b.shoots[i].end);
+        CHECK(a.strands[i].end == b.strands[i].end);
     }
 }
 
@@ -187,33 +187,33 @@ TEST_CASE("growth: the same to the bit with and without vector instructions") {
     }
     rules.linear = Eigen::Matrix3f::Identity();
     rules.translation = {0.1f, 0.2f, 0.3f};
-    std::vector<Seedling> seedlings;
+    std::vector<StrandSeed> seeds;
     test::RandomPoints random(3);
     for (const Root& root : scene.roots) {
         const auto number = [&] { return static_cast<float>(random.uniform(0.0, 1.0)); };
-        seedlings.push_back({((root.position - layout.origin) / layout.step).cast<float>(),
-                             root.normal.cast<float>(), 30.0f * number(), number(), number(),
-                             number()});
+        seeds.push_back({((root.position - layout.origin) / layout.step).cast<float>(),
+                         root.normal.cast<float>(), 30.0f * number(), number(), number(),
+                         number()});
     }
-    Tuft plain;
-    grow_tuft(grid, rules, seedlings, GrowthLoop::anywhere, plain);
+    StrandBatch plain;
+    grow_batch(grid, rules, seeds, GrowthLoop::anywhere, plain);
     for (const GrowthLoop loop : {GrowthLoop::avx2, GrowthLoop::avx512}) {
         if (loop > best_growth_loop()) continue;
-        Tuft other;
-        grow_tuft(grid, rules, seedlings, loop, other);
+        StrandBatch other;
+        grow_batch(grid, rules, seeds, loop, other);
         check_same(plain, other);
     }
     int cut = 0, tied = 0;
-    for (const Tuft::Shoot& shoot : plain.shoots) {
-        cut += shoot.end == StrandEnd::cut;
-        tied += shoot.tie == 0;
+    for (const StrandBatch::Strand& strand : plain.strands) {
+        cut += strand.end == StrandEnd::cut;
+        tied += strand.tie == 0;
     }
     CHECK(cut > 0);
     CHECK(tied > 0);
     // Neighbours in other lanes change nothing.
-    Tuft alone;
-    for (std::size_t i = 0; i < seedlings.size(); i += 131) {
-        grow_tuft(grid, rules, std::span(seedlings).subspan(i, 1), best_growth_loop(), alone);
+    StrandBatch alone;
+    for (std::size_t i = 0; i < seeds.size(); i += 131) {
+        grow_batch(grid, rules, std::span(seeds).subspan(i, 1), best_growth_loop(), alone);
         CHECK(points_of(alone, 0) == points_of(plain, i));
     }
 }

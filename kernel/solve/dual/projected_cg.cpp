@@ -1,4 +1,4 @@
-#include "kernel/solve/dual/iterative_dual.h"
+#include "kernel/solve/dual/projected_cg.h"
 
 #include <algorithm>
 
@@ -46,7 +46,7 @@ Vec3 ratio(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-void IterativeDual::update(const ConstraintRows& rows, const Context& context) {
+void ProjectedCG::update(const ConstraintRows& rows, const Context& context) {
     factor_.update(green_, rows, context);
     rows_ = rows;
     const Vectors ones(rows.size(), Vec3::Ones());
@@ -56,8 +56,8 @@ void IterativeDual::update(const ConstraintRows& rows, const Context& context) {
 }
 
 // y = (G + W^-2) x.
-void IterativeDual::multiply(const Vectors& x, Vectors& y, FieldWorkspace& workspace,
-                             const Context& context) const {
+void ProjectedCG::multiply(const Vectors& x, Vectors& y, FieldWorkspace& workspace,
+                           const Context& context) const {
     FieldSink sink;
     sink.components = workspace.second.get();
     green_.apply_at(rows_.point, x, workspace.first.get(), workspace.second.get(), sink, context);
@@ -68,8 +68,8 @@ void IterativeDual::multiply(const Vectors& x, Vectors& y, FieldWorkspace& works
     }
 }
 
-DualSolution IterativeDual::solve(std::span<const Vec3> g, const Vec3& total,
-                                  FieldWorkspace& workspace, const Context& context) const {
+DualSolution ProjectedCG::solve(std::span<const Vec3> g, const Vec3& total,
+                                FieldWorkspace& workspace, const Context& context) const {
     const std::size_t count = g.size();
     DualSolution solution;
     Vectors& x = solution.multiplier;

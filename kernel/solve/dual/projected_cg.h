@@ -1,4 +1,4 @@
-/// IterativeDual: conjugate gradients for the multipliers of many constraints; private to
+/// ProjectedCG: conjugate gradients for the multipliers of many constraints; private to
 /// kernel/solve.
 #pragma once
 
@@ -21,11 +21,10 @@ struct DualSolution {
 
 /// Solves the system of DualSystem without its matrix: a product is a cosine transform there and
 /// back. Iterates keep their sum; the preconditioner, a MaximinFactor, is projected to do so.
-class IterativeDual {
+class ProjectedCG {
   public:
     /// Iterations end when the residual is below `tolerance` times the greatest right-hand side.
-    IterativeDual(const GridGreen& green, double tolerance)
-        : green_(green), tolerance_(tolerance) {}
+    ProjectedCG(const GridGreen& green, double tolerance) : green_(green), tolerance_(tolerance) {}
 
     /// Errors: cancelled, memory_limit; then it is as before.
     void update(const ConstraintRows& rows, const Context& context);
