@@ -5,8 +5,8 @@
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/deform/failing_memory.h"
 #include "tests/unit/deform/scene.h"
+#include "tests/unit/failing_memory.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

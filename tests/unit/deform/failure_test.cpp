@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/deform/failing_memory.h"
 #include "tests/unit/deform/interrupter.h"
 #include "tests/unit/deform/scene.h"
+#include "tests/unit/failing_memory.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

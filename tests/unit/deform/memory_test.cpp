@@ -1,7 +1,7 @@
 // Memory that runs out at any moment is an error of the kernel, and the deformer stays usable.
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/deform/failing_memory.h"
 #include "tests/unit/deform/scene.h"
+#include "tests/unit/failing_memory.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

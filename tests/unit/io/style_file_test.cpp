@@ -7,7 +7,7 @@
 
 #include "kernel/hair/strands/strand_measures.h"
 #include "kernel/mesh/shapes/head.h"
-#include "tests/unit/deform/failing_memory.h"
+#include "tests/unit/failing_memory.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

@@ -7,7 +7,7 @@
 #include "kernel/merge/merge.h"
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/deform/failing_memory.h"
+#include "tests/unit/failing_memory.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

@@ -1,4 +1,4 @@
-#include "tests/unit/deform/failing_memory.h"
+#include "tests/unit/failing_memory.h"
 
 #include <cstdlib>
 #include <new>
