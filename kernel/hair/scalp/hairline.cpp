@@ -20,14 +20,27 @@ constexpr double kEarDepth = 4.0 / 155.0;
 // shoulder.
 constexpr double kReach = 1.3, kLowest = 0.75;
 
+// What has a place at the hairline has more than -kMost, which stands for what no hair grows on.
+constexpr double kLeast = -0.999 * kMost;
+
 double to_margin(double distance, double softness) {
-    if (softness > 0.0) return std::clamp(distance / softness + kBelow, -kMost, kMost);
-    return distance > 0.0 ? kMost : -kMost;
+    if (softness > 0.0) return std::clamp(distance / softness + kBelow, kLeast, kMost);
+    return distance > 0.0 ? kMost : kLeast;
 }
 
 // Radius of a point across the axis of the head, in ellipses of its slice.
 double ellipses(const HeadFrame& frame, const Vec3& p) {
     return 2.0 * std::hypot(p.x() / frame.width, p.z() / frame.length);
+}
+
+// Angle above the hairline: the difference in elevation, which is more where the line is steep,
+// over the length of its gradient.
+double angle_above(const std::vector<HairlinePoint>& hairline, double azimuth, double elevation) {
+    constexpr double kStep = 0.5 * kDegree;
+    const double rise = hairline_elevation(hairline, azimuth + kStep) -
+                        hairline_elevation(hairline, azimuth - kStep);
+    const double steepness = rise / (2.0 * kStep * std::max(std::cos(elevation), 0.1));
+    return (elevation - hairline_elevation(hairline, azimuth)) / std::hypot(1.0, steepness);
 }
 
 // How far inside the hairline a point is, in the mesh's unit, negative outside.
@@ -36,7 +49,7 @@ double inside_hairline(const HairlineTest& test, const Vec3& p) {
     const double azimuth = std::abs(std::atan2(p.x(), p.z()));
     const double elevation = std::atan2(p.y(), std::hypot(p.x(), p.z()));
     double inside =
-        (elevation - hairline_elevation(test.hairline, azimuth)) * std::min(p.norm(), frame.width);
+        angle_above(test.hairline, azimuth, elevation) * std::min(p.norm(), frame.width);
     const double radius = ellipses(frame, p);
     if (azimuth > kEarFront && azimuth < kEarBack && elevation < kEarTop) {
         inside = std::min(inside, kEarDepth * frame.width - (radius - 1.0) * 0.5 * frame.width);
@@ -68,6 +81,14 @@ bool HairlineTest::inside(double margin) {
     return margin > kBelow;
 }
 
+bool HairlineTest::bald(double margin) {
+    return margin <= -kMost;
+}
+
+double HairlineTest::margin_at(const Vec3& point) const {
+    return to_margin(inside_hairline(*this, frame.local(point)), softness);
+}
+
 void require_hairline(const std::vector<HairlinePoint>& hairline) {
     double last = -1.0;
     for (const auto& [azimuth, elevation] : hairline) {
@@ -94,7 +115,7 @@ std::vector<double> margins_of_hairline(const Mesh& head, const std::vector<Vec3
     for (const Index v : largest_component(head)) {
         const Vec3 p = test.frame.local(head.position(v));
         if (normals[v].dot(head.position(v) - test.frame.center) <= 0.0) continue;
-        margins[v] = to_margin(inside_hairline(test, p), test.softness);
+        margins[v] = test.margin_at(head.position(v));
         inside[v] = margins[v] > 0.0;
         if (!inside[v] || (top != kNoIndex && p.y() <= height)) continue;
         top = v;

@@ -16,6 +16,10 @@ struct HairlineTest {
 
     /// Whether a vertex of this margin lies above the hairline.
     static bool inside(double margin);
+    /// Whether a margin is that of a vertex on which no hair grows wherever the hairline is.
+    static bool bald(double margin);
+    /// Distance of a point of the head above the hairline in units of the softness.
+    double margin_at(const Vec3& point) const;
 };
 
 /// Errors: invalid_argument without points, for azimuths that do not ascend within [0, pi], or

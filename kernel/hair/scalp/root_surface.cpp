@@ -126,12 +126,13 @@ Root RootSurface::root(const Dart& dart) const {
 double RootSurface::density_at(Index face, const Triangle& triangle,
                                const Vec3& barycentric) const {
     if (!on_scalp_[face]) return 0.0;
-    double density = 0.0, margin = 0.0;
+    double density = 0.0;
+    Vec3 position = Vec3::Zero();
     for (int corner = 0; corner < 3; ++corner) {
         density += barycentric[corner] * density_[triangle[corner]];
-        margin += barycentric[corner] * scalp_.margins()[triangle[corner]];
+        position += barycentric[corner] * head_.position(triangle[corner]);
     }
-    return density * hairline_thinning(margin);
+    return density * hairline_thinning(scalp_.margin_at(triangle, barycentric, position));
 }
 
 }  // namespace lissom

@@ -72,6 +72,8 @@ Scalp::Scalp(const Mesh& head, const ScalpOptions& options, const Context& conte
     : frame_(checked_frame(head, options, context)),
       scale_(frame_.width / kAverageWidth),
       unit_(options.unit.value_or(usual_unit(frame_.width).value_or(kAverageWidth / frame_.width))),
+      hairline_(options.hairline),
+      softness_(options.softness * scale_),
       region_(Region::none(head.shared_topology())),
       normals_(vertex_normals(head)),
       tree_(head, context) {
@@ -92,7 +94,7 @@ void Scalp::choose_region(const Mesh& head, const ScalpOptions& options) {
     const Region* named = head.find_region("scalp");
     guessed_ = !options.region && !named;
     if (guessed_) {
-        guess_region(head, options);
+        guess_region(head);
     } else {
         set_given_region(head, options.region ? *options.region : *named, options.softness);
     }
@@ -104,8 +106,8 @@ void Scalp::set_given_region(const Mesh& head, const Region& region, double soft
     margins_ = margins_of_region(head, region, softness * scale_);
 }
 
-void Scalp::guess_region(const Mesh& head, const ScalpOptions& options) {
-    const HairlineTest test{frame_, options.hairline, options.softness * scale_};
+void Scalp::guess_region(const Mesh& head) {
+    const HairlineTest test{frame_, hairline_, softness_};
     margins_ = margins_of_hairline(head, normals_, test);
     std::vector<Index> vertices;
     for (Index v = 0; v < head.vertex_count(); ++v) {
@@ -118,6 +120,19 @@ void Scalp::guess_region(const Mesh& head, const ScalpOptions& options) {
             root_faces_.push_back(f);
         }
     }
+}
+
+double Scalp::margin_at(const Triangle& triangle, const Vec3& barycentric,
+                        const Vec3& position) const {
+    double interpolated = 0.0;
+    bool bald = false;
+    for (int corner = 0; corner < 3; ++corner) {
+        const double margin = margins_[triangle[corner]];
+        interpolated += barycentric[corner] * margin;
+        bald = bald || HairlineTest::bald(margin);
+    }
+    if (!guessed_ || bald) return interpolated;
+    return HairlineTest{frame_, hairline_, softness_}.margin_at(position);
 }
 
 Vec3 Scalp::vector_of(const ScalpDirection& direction) const {

@@ -77,6 +77,9 @@ class Scalp {
     /// How far each vertex is inside the hairline in units of the softness: hair grows with the
     /// probability smoothstep(0, 1, margin). At least -1000, at most 1000.
     const std::vector<double>& margins() const { return margins_; }
+    /// The same at a point of the surface: of a guessed region that of the hairline itself,
+    /// whatever the size of the faces.
+    double margin_at(const Triangle& triangle, const Vec3& barycentric, const Vec3& position) const;
 
     /// The point `lift` metres (of the frame) above where the head is first left in a direction
     /// from the center, along its normal there.
@@ -108,11 +111,13 @@ class Scalp {
   private:
     void choose_region(const Mesh& head, const ScalpOptions& options);
     void set_given_region(const Mesh& head, const Region& region, double softness);
-    void guess_region(const Mesh& head, const ScalpOptions& options);
+    void guess_region(const Mesh& head);
 
     HeadFrame frame_;
     double scale_ = 1.0, unit_ = 1.0;
     bool guessed_ = false, knows_unit_ = true;
+    std::vector<HairlinePoint> hairline_;
+    double softness_ = 0.0;
     Region region_;
     std::vector<Index> root_faces_;
     std::vector<double> margins_;

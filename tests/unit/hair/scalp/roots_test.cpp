@@ -161,6 +161,23 @@ TEST_CASE("hair thins out at a guessed hairline and stays behind it") {
     CHECK(before < behind / 5);
 }
 
+TEST_CASE("a guessed hairline is as sharp on large faces as on small ones") {
+    Mesh head = make_head({.vertices = 3000});
+    REQUIRE(head.remove_region("scalp"));
+    const Scalp scalp(head);
+    REQUIRE(scalp.guessed());
+    int at_the_line = 0;
+    for (const Root& root : make_roots(head, scalp, {.count = 20000})) {
+        const ScalpDirection to = scalp.direction_of(root.position);
+        if (std::abs(to.azimuth) > 0.6) continue;
+        const double angle = to.elevation - hairline_elevation(default_hairline(), to.azimuth);
+        const double above = angle * scalp.to_metres(root.position).norm();
+        CHECK(above > -0.0025);
+        at_the_line += above < 0.005;
+    }
+    CHECK(at_the_line > 20);
+}
+
 TEST_CASE("roots by angles are dense at the crown") {
     const Dome dome;
     const auto roots =

@@ -107,11 +107,22 @@ TEST_CASE("heads without sense are refused") {
 TEST_CASE("the hairline is smooth between its points and the same on both sides") {
     const std::vector<HairlinePoint> hairline = {{0.0, 1.0}, {1.0, 0.0}, {kPi, -0.5}};
     CHECK(hairline_elevation(hairline, 0.0) == 1.0);
-    CHECK(hairline_elevation(hairline, -0.5) == Approx(0.5));
+    CHECK(hairline_elevation(hairline, -0.5) == hairline_elevation(hairline, 0.5));
     CHECK(hairline_elevation(hairline, 1.0) == Approx(0.0));
     CHECK(hairline_elevation(hairline, 2.0 * kPi - 1.0) == Approx(0.0));
     CHECK(hairline_elevation(hairline, kPi) == -0.5);
     CHECK(hairline_elevation(default_hairline(), 0.0) > 0.5);
+}
+
+TEST_CASE("the hairline falls from the forehead to the ear without steps") {
+    const std::vector<HairlinePoint> hairline = default_hairline();
+    for (int degrees = 45; degrees < 75; ++degrees) {
+        CAPTURE(degrees);
+        const double fall = hairline_elevation(hairline, degrees * kDegree) -
+                            hairline_elevation(hairline, (degrees + 1) * kDegree);
+        CHECK(fall > 0.4 * kDegree);
+        CHECK(fall < 2.0 * kDegree);
+    }
 }
 
 TEST_CASE("head: a manifold at every resolution, of about as many vertices as asked for") {
