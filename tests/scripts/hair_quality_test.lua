@@ -85,7 +85,7 @@ local function over_ears(style, hair)
             local p = scalp:to_metres(x / unit, y / unit, z / unit)
             local level = math.sqrt(p[1] ^ 2 + p[3] ^ 2)
             local azimuth, elevation = math.deg(math.acos(p[3] / level)), math.deg(math.atan(p[2] / level))
-            if azimuth > 84 and azimuth < 112 and math.abs(elevation + 9) < 13 and level < 0.12 then
+            if azimuth > 89 and azimuth < 105 and math.abs(elevation + 12) < 7 and level < 0.12 then
                 found = found + 1
                 break
             end
