@@ -25,7 +25,9 @@ expect.equal(#grid:region{ box = { min = { nil, nil, 0.95 }, max = { 0, math.hug
 expect.equal(#grid:region{ fraction = { min = { 0.975, nil, nil } } }, 21)
 expect.equal(#grid:region{ fraction = { min = { 0, 0, 0 }, max = { 1, 1, 1 } } }, #grid)
 expect.equal(#grid:region{ fraction = { max = { 0, nil, 0 } } }, 1)
-for _, box in ipairs{ { min = {} }, { min = { 1, 2, 3, 4 } }, { max = { x = 1 } }, { max = 2 } } do
+expect.equal(#grid:region{ fraction = { min = { nil, nil, nil } } }, #grid)
+expect.equal(#grid:region{ box = { min = {}, max = { 0.95 } } }, #grid:region{ box = { max = { 0.95 } } })
+for _, box in ipairs{ { min = { 1, 2, 3, 4 } }, { max = { x = 1 } }, { max = 2 } } do
     expect.error("nil or math.huge for an open side", function() grid:region{ box = box } end)
 end
 

@@ -505,7 +505,7 @@ void Parser::read_open_vector(const Parameter& p, int index, double* xyz, const 
         lua_pop(L_, 1);
     }
     // Of the wrong type, at the wrong place, or NaN.
-    if (given == 0 || given != keys) mismatch(p, index, place);
+    if (given != keys) mismatch(p, index, place);
 }
 
 void Parser::read_vector(const Parameter& p, int index, double* xyz, const Place& place) {
