@@ -150,3 +150,10 @@ expect.equal(elements.kind, "edge")
 expect.equal(elements.count, 1)
 expect.near_list(elements.ids[1], { 1, 2 })
 expect.truthy(message:find("1-2", 1, true))
+
+-- What is no method but an option says of which.
+local any = lissom.shapes.box{ size = 2 }
+expect.error("no method 'rotate'; write mesh:transform{ rotate = ... }", function()
+    any:rotate{ axis = "x", angle = 3 }
+end)
+expect.error("did you mean 'regions'?", function() any:regionss() end)

@@ -97,7 +97,20 @@ int object_to_string(lua_State* L) {
 
 // ---- Names that do not exist.
 
+// "mesh:transform{ rotate = ... }" where `name` is an option of a method, or "".
+std::string call_with_option(const Type& type, std::string_view name) {
+    for (const Function& method : type.methods) {
+        for (const Parameter& option : method.options) {
+            if (option.name != name) continue;
+            return variable_name(type) + ":" + method.name + "{ " + option.name + " = ... }";
+        }
+    }
+    return "";
+}
+
 std::string missing_method_text(const Type& type, const char* name) {
+    const std::string call = call_with_option(type, name);
+    if (!call.empty()) return type.name + ": no method '" + name + "'; write " + call;
     std::vector<std::string_view> names{"close"};
     for (const Function& method : type.methods) names.push_back(method.name);
     return type.name + ": no method '" + name + "'" + name_hint(name, names);

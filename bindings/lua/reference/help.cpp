@@ -85,6 +85,12 @@ bool is_called(const Entry& entry, const std::string& plain) {
     return full == plain || full.substr(full.rfind('.') + 1) == plain;
 }
 
+std::string option_text(const Entry& entry, const Parameter& option) {
+    std::string text = "option of " + signature(*entry.function, call_of(entry)) + "\n";
+    add_parameter_help(text, {option}, "");
+    return text;
+}
+
 }  // namespace
 
 std::string call_of(const Entry& entry) {
@@ -146,6 +152,12 @@ std::string help_for(const Registry& registry, std::string_view name) {
     for (const auto& entry : registry.entries()) {
         if (is_called(*entry, plain)) add(help_text(*entry));
     }
+    if (!text.empty()) return text;
+    for (const auto& entry : registry.entries()) {
+        for (const Parameter& option : entry->function->options) {
+            if (plain_name(option.name) == plain) add(option_text(*entry, option));
+        }
+    }
     return text;
 }
 
@@ -155,6 +167,7 @@ std::vector<std::string> help_names(const Registry& registry) {
         const std::string full = plain_name(call_of(*entry));
         names.push_back(full);
         names.push_back(full.substr(full.rfind('.') + 1));
+        for (const Parameter& option : entry->function->options) names.push_back(option.name);
     }
     for (const auto& library : registry.libraries()) {
         for (const Type& type : library->types) names.push_back(plain_name(type.name));
