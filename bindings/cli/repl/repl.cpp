@@ -5,6 +5,7 @@
 
 #include "bindings/cli/repl/completion.h"
 #include "bindings/cli/repl/display.h"
+#include "bindings/cli/repl/session_text.h"
 #include "bindings/cli/script.h"
 #include "bindings/cli/terminal/line_editor.h"
 #include "bindings/cli/verbs.h"
@@ -112,10 +113,18 @@ class Prompt {
             chunk += "\n" + typed.line;
         }
         editor_.remember(chunk);
+        if (loaded) keep_locals(chunk);
         return loaded ? Typed::chunk : Typed::mistake;
     }
 
   private:
+    // Replaces the chunk on the stack by one whose outermost locals the next lines find.
+    void keep_locals(const std::string& chunk) {
+        const std::string kept = with_session_variables(chunk);
+        if (kept == chunk) return;
+        lua_remove(L_, load(L_, kept) ? -2 : -1);
+    }
+
     Completions completed(const std::string& line) {
         Completions found = completions(L_, before_ + line);
         found.begin -= std::min(found.begin, before_.size());
