@@ -91,31 +91,38 @@ std::string unclaimed_flag(const std::vector<std::string>& words, const ScriptTr
     return traits.reads_words ? "" : lua::first_flag(words);
 }
 
-int refuse_flag(Program& program, const std::string& script, const std::string& flag) {
-    return program.fail(script + ": " + lua::unknown_flag_text(flag, {}) + " (see lissom run " +
-                            script + " --help)",
-                        kUsage);
+// What nothing takes of the words of a script that declares no parameters, as a message, or "".
+std::string unclaimed_text(const std::vector<std::string>& words, const ScriptTraits& traits) {
+    const std::string flag = unclaimed_flag(words, traits);
+    if (!flag.empty()) return lua::unknown_flag_text(flag, {});
+    const bool is_stray = !traits.reads_words && !words.empty() && words.front() != "--";
+    return is_stray ? lua::stray_word_text(words.front()) : "";
 }
 
-// Runs the script, unless its text shows that it does not know a flag of its command line.
+int refuse_words(Program& program, const std::string& script, const std::string& text) {
+    return program.fail(script + ": " + text + " (see lissom run " + script + " --help)", kUsage);
+}
+
+// Runs the script, unless its text shows that it does not take a word of its command line.
 int run_file(Program& program, const lua::ScriptArguments& arguments) {
     const bool from_input = arguments.script == "-";
     const std::optional<std::string> text = script_text(arguments.script);
     const ScriptTraits traits = text ? script_traits(*text) : ScriptTraits{true, true};
     const bool only_help = lua::asks_for_help(arguments.words);
-    const std::string flag = only_help ? "" : unclaimed_flag(arguments.words, traits);
-    if (!flag.empty() && !traits.may_declare) {
-        return refuse_flag(program, arguments.script, flag);
+    const std::string unclaimed = only_help ? "" : unclaimed_text(arguments.words, traits);
+    if (!unclaimed.empty() && !traits.may_declare) {
+        return refuse_words(program, arguments.script, unclaimed);
     }
     Script script(program, arguments);
+    lua::set_reads_words(script.lua(), traits.reads_words);
     const lua::State& state = script.state();
     if (only_help && !traits.may_declare) return print_parameters(program, state);
     const ScriptResult result =
         from_input ? script.run_text(*text) : script.run_file(arguments.script);
     const bool ended_well = result.status == kSuccess;
     if (only_help && ended_well) return print_parameters(program, state);
-    if (ended_well && !flag.empty() && !state.parameters) {
-        return refuse_flag(program, arguments.script, flag);
+    if (ended_well && !unclaimed.empty() && !state.parameters) {
+        return refuse_words(program, arguments.script, unclaimed);
     }
     return ended_well ? kSuccess : report(program, result);
 }

@@ -1,4 +1,5 @@
 #include "bindings/lua/core/call_site.h"
+#include "bindings/lua/core/call_rest.h"
 
 #include <cstring>
 #include <string>
@@ -23,9 +24,10 @@ Fate joined(Fate before, Fate now) {
     return before == Fate::unknown || before == now ? now : Fate::taken;
 }
 
-Fate fate_of(const Instruction& one, const CallCodes& codes) {
+// Results after the first `kept` count.
+Fate fate_of(const Instruction& one, const CallCodes& codes, int kept) {
     if (one.code == codes.tail || one.code == codes.open_tail) return Fate::passed_on;
-    return one.wanted == 0 ? Fate::dropped : Fate::taken;
+    return one.wanted >= 0 && one.wanted <= kept ? Fate::dropped : Fate::taken;
 }
 
 bool calls(const Instruction& one, const CallCodes& codes) {
@@ -169,12 +171,12 @@ std::vector<Instruction> instructions_of(lua_State* L) {
     return DumpReader(bytes).instructions();
 }
 
-Fate find_fate(lua_State* L, int line, int base, const CallCodes& codes) noexcept {
+Fate find_fate(lua_State* L, int line, int base, const CallCodes& codes, int kept) noexcept {
     try {
         Fate fate = Fate::unknown;
         for (const Instruction& one : instructions_of(L)) {
             if (one.line != line || one.base != base || !calls(one, codes)) continue;
-            fate = joined(fate, fate_of(one, codes));
+            fate = joined(fate, fate_of(one, codes, kept));
         }
         return fate;
     } catch (const std::exception&) {
@@ -250,7 +252,7 @@ int line_at(lua_State* L, int function, int place) {
     return line;
 }
 
-Fate find_fate(lua_State* L, int line, int base, const CallCodes& codes) {
+Fate find_fate(lua_State* L, int line, int base, const CallCodes& codes, int kept) {
     const int function = lua_gettop(L);
     if (!push_inspector(L, "funcbc")) return Fate::unknown;
     Fate fate = Fate::unknown;
@@ -258,7 +260,7 @@ Fate find_fate(lua_State* L, int line, int base, const CallCodes& codes) {
     for (int place = 0; word_at(L, place, word); ++place) {
         const Instruction one = decoded(word);
         if (one.base != base || !calls(one, codes) || line_at(L, function, place) != line) continue;
-        fate = joined(fate, fate_of(one, codes));
+        fate = joined(fate, fate_of(one, codes, kept));
     }
     lua_pop(L, 1);
     return fate;
@@ -307,7 +309,7 @@ void push_fates(lua_State* L) {
 }
 
 // Of the function on top of the stack, kept: a loop that fails often asks for one place.
-Fate kept_fate(lua_State* L, int line, int base, const CallCodes& codes) {
+Fate kept_fate(lua_State* L, int line, int base, const CallCodes& codes, int kept) {
     const int function = lua_gettop(L);
     push_fates(L);
     lua_pushvalue(L, function);
@@ -319,12 +321,12 @@ Fate kept_fate(lua_State* L, int line, int base, const CallCodes& codes) {
         lua_pushvalue(L, -2);
         lua_rawset(L, -4);
     }
-    const int place = line * 256 + base;
+    const int place = (line * 256 + base) * 2 + kept;
     lua_rawgeti(L, -1, place);
     Fate fate = static_cast<Fate>(lua_tointeger(L, -1));
     if (lua_isnil(L, -1)) {
         lua_pushvalue(L, function);
-        fate = find_fate(L, line, base, codes);
+        fate = find_fate(L, line, base, codes, kept);
         lua_pop(L, 1);
         lua_pushinteger(L, static_cast<lua_Integer>(fate));
         lua_rawseti(L, function + 2, place);
@@ -360,6 +362,10 @@ CallCodes find_call_codes(lua_State* L) {
 }
 
 bool drops_results(lua_State* L, const CallCodes& codes) {
+    return drops_results_after(0, L, codes);
+}
+
+bool drops_results_after(int kept, lua_State* L, const CallCodes& codes) {
     if (!codes.known) return false;
     luaL_checkstack(L, LUA_MINSTACK, "no room to find the caller");
     constexpr int kDeepest = 100;
@@ -369,7 +375,8 @@ bool drops_results(lua_State* L, const CallCodes& codes) {
         const int base = called_register(L, frame);
         lua_getinfo(L, "Slf", &frame);
         const bool is_lua = frame.what[0] != 'C' && frame.currentline > 0 && base < 256;
-        const Fate fate = is_lua ? kept_fate(L, frame.currentline, base, codes) : Fate::unknown;
+        const Fate fate =
+            is_lua ? kept_fate(L, frame.currentline, base, codes, kept) : Fate::unknown;
         lua_pop(L, 1);
         if (fate != Fate::passed_on) return fate == Fate::dropped;
     }

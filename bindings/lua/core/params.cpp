@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "bindings/lua/core/call.h"
+#include "bindings/lua/core/call_rest.h"
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/core/nearest.h"
@@ -110,7 +111,8 @@ ScriptParameter declared(const Call& call, const char* name) {
 }
 
 // Takes values from the command line. A mistake there, or --help, ends the script (see ScriptEnd).
-void take_arguments(State& state, ParameterSet& set, std::vector<std::string>& rest) {
+void take_arguments(State& state, ParameterSet& set, std::vector<std::string>& rest,
+                    bool drops_rest) {
     const ScriptArguments& arguments = state.host.arguments;
     if (arguments.script.empty()) {
         set.require_values();
@@ -124,6 +126,9 @@ void take_arguments(State& state, ParameterSet& set, std::vector<std::string>& r
     }
     state.script_end = ScriptEnd::usage;
     rest = set.take(words);
+    if (!rest.empty() && drops_rest) {
+        throw ParameterError(stray_word_text(rest.front()));
+    }
     set.require_values();
     for (const ScriptParameter& p : set.list) p.make_folder();
     state.script_end = ScriptEnd::none;
@@ -135,6 +140,9 @@ int declare(Call& call) {
         call.raise("the script's parameters are declared already: once, in one table");
     }
     const int table = call.stack_index("declarations");
+    if (!state.call_codes) state.call_codes = find_call_codes(call.lua());
+    const bool drops_rest =
+        drops_results_after(1, call.lua(), *state.call_codes) && !reads_words(call.lua());
     const auto names = declared_names(call, table);
     auto& list = call.hold<std::vector<ScriptParameter>>();
     for (const char* name : names) {
@@ -151,7 +159,7 @@ int declare(Call& call) {
         state.parameters = set;
         result.set(set);
         try {
-            take_arguments(state, *set, rest);
+            take_arguments(state, *set, rest, drops_rest);
         } catch (const ParameterError& error) {
             state.script_end_text = error.message;
             throw Error(ErrorCode::invalid_argument, error.message);

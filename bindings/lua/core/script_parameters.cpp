@@ -187,6 +187,28 @@ std::string unknown_flag_text(const std::string& flag, const std::vector<std::st
     return text;
 }
 
+std::string stray_word_text(const std::string& word) {
+    return "'" + word +
+           "' is no flag and follows none that takes a value; the script looks at no "
+           "other words";
+}
+
+namespace {
+const char kReadsWords = 0;
+}
+
+void set_reads_words(lua_State* L, bool reads) {
+    lua_pushboolean(L, reads ? 1 : 0);
+    raw_set_pointer(L, LUA_REGISTRYINDEX, &kReadsWords);
+}
+
+bool reads_words(lua_State* L) {
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kReadsWords);
+    const bool reads = lua_isnil(L, -1) || lua_toboolean(L, -1) != 0;
+    lua_pop(L, 1);
+    return reads;
+}
+
 ScriptParameter* ParameterSet::find(std::string_view name) {
     for (ScriptParameter& p : list) {
         if (p.name == name) return &p;
@@ -225,7 +247,10 @@ std::vector<std::string> ParameterSet::take(const std::vector<std::string>& word
             if (p && p->type == ParameterType::boolean) flag.value = "false";
         }
         if (!p) throw ParameterError(unknown_flag_text(words[i], names()));
-        if (!flag.value && p->type == ParameterType::boolean) flag.value = "true";
+        if (!flag.value && p->type == ParameterType::boolean) {
+            const bool value_follows = i + 1 < words.size() && truth(words[i + 1]);
+            flag.value = value_follows ? words[++i] : "true";
+        }
         if (!flag.value) {
             if (i + 1 == words.size()) throw ParameterError("a value must follow " + words[i]);
             flag.value = words[++i];

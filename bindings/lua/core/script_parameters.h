@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "bindings/lua/core/compat.h"
+
 namespace lissom::lua {
 
 /// The order of the choices of `type` in the registration.
@@ -56,6 +58,15 @@ bool is_flag(const std::string& word);
 /// The first flag among the words before "--", or "".
 std::string first_flag(const std::vector<std::string>& words);
 
+/// "'in.obj' is no flag, and ..." for a word that the script never looks at.
+std::string stray_word_text(const std::string& word);
+
+/// Tells the state whether its script looks at the words of its command line by itself, as by
+/// `arg`.
+void set_reads_words(lua_State* L, bool reads);
+/// What was told; true where nothing was.
+bool reads_words(lua_State* L);
+
 /// Whether these words ask for help: --help or -h before "--".
 bool asks_for_help(const std::vector<std::string>& words);
 
@@ -73,7 +84,8 @@ struct ParameterSet {
     void sort();
 
     /// Takes values from the words of a command line and returns the words that are no flags. A
-    /// flag is --name VALUE or --name=VALUE, for a boolean also --name and --no-name; "-" and "_"
+    /// flag is --name VALUE or --name=VALUE, for a boolean also --name and --no-name, where the
+    /// word that follows is its value if it is true, false, yes, no, on, off, 1 or 0; "-" and "_"
     /// are the same in names; "--" ends the flags. Throws ParameterError for flags that no
     /// parameter has, naming the nearest.
     std::vector<std::string> take(const std::vector<std::string>& words);

@@ -291,7 +291,6 @@ TEST_CASE("flags that a script does not declare are refused") {
     CHECK(refused.status == kUsage);
     CHECK(refused.err.find("no parameter '--size': the script declares none") != std::string::npos);
     CHECK(!folder.has("mark"));
-    CHECK(run({"run", plain, "word"}).status == kSuccess);
     CHECK(run({"run", plain, "--", "--size"}).status == kSuccess);
     // It may be declared in another file, which is known in the end.
     folder.write("part.lua", "return 1");
@@ -301,6 +300,43 @@ TEST_CASE("flags that a script does not declare are refused") {
     // A script that reads its words by itself knows them.
     CHECK(run({"run", folder.write("own.lua", "assert(arg[1] == '--size')"), "--size"}).status ==
           kSuccess);
+}
+
+TEST_CASE("words that a script never looks at are refused before it works") {
+    const Folder folder;
+    const std::string mark = folder.path("mark");
+    const std::string lissom = "local lissom = require 'lissom'\n";
+    const std::string fields = "params{ wire = { type = 'boolean', default = false } }\n";
+    const std::string work = "io.open('" + mark + "', 'w'):close()";
+    const auto status = [&](const std::string& code, std::vector<std::string> words) {
+        words.insert(words.begin(), {"run", folder.write("s.lua", code)});
+        return run(words).status;
+    };
+    CHECK(status(work, {"word"}) == kUsage);
+    folder.write("part.lua",
+                 "local t = {} function t.params(list)\n"
+                 "return require 'lissom'.params(list) end return t");
+    for (const std::string& first :
+         {lissom + "local p = lissom.", std::string("p = require('lissom')."),
+          std::string("print(1) local p=require\"lissom\"."),
+          std::string("local p = require('part').")}) {
+        CAPTURE(first);
+        CHECK(status(first + fields + work, {"word"}) == kUsage);
+        CHECK(status(first + fields + work, {"--wire", "maybe"}) == kUsage);
+        CHECK(!folder.has("mark"));
+        CHECK(status(first + fields, {"--wire", "false"}) == kSuccess);
+    }
+    const Ended stray = run({"run", folder.write("s.lua", work), "word"});
+    CHECK(stray.err.find("'word' is no flag") != std::string::npos);
+    // Who may look at them gets them.
+    for (const std::string& start :
+         {lissom + "local p, rest = lissom.", lissom + "local p, rest =\nlissom.",
+          lissom + "print(#arg) local p = lissom.", lissom + "local t = table.pack(lissom.",
+          std::string("local p, rest = require('part').")}) {
+        CAPTURE(start);
+        const std::string end = start.find("pack") == std::string::npos ? "" : ")";
+        CHECK(status(start + fields + end, {"word"}) == kSuccess);
+    }
 }
 
 TEST_CASE("run - reads the script from the standard input") {
@@ -398,6 +434,19 @@ TEST_CASE("the prompt evaluates, continues and goes on after errors") {
     std::cin.rdbuf(old);
     CHECK(ended.status == kFailure);
     CHECK(ended.err == "repl:1: no\n");
+}
+
+TEST_CASE("lines of a script that are pasted at the prompt find the locals of those before") {
+    std::istringstream typed(
+        "local lissom = require 'lissom'\nlocal a <const>, b = 1, { x = 2 } -- two\n"
+        "local c\nlocal function f(n)\nlocal d = n\nreturn d + a\nend\n"
+        "do local e = 5 end for i = 1, 2 do local g = i end\n"
+        "f(b.x), c, d, e, g, lissom.shapes ~= nil\n");
+    std::streambuf* const old = std::cin.rdbuf(typed.rdbuf());
+    const Ended ended = run({"repl"});
+    std::cin.rdbuf(old);
+    CHECK(ended.status == kSuccess);
+    CHECK(ended.out == "3\tnil\tnil\tnil\tnil\ttrue\n");
 }
 
 }  // namespace

@@ -54,6 +54,19 @@ TEST_CASE("booleans have a negative flag") {
     CHECK(!std::get<bool>(*set.find("fast")->value));
 }
 
+TEST_CASE("a boolean takes the word that follows as its value") {
+    for (const char* word : {"true", "false", "yes", "no", "on", "off", "0", "1"}) {
+        CAPTURE(word);
+        ParameterSet set = example();
+        CHECK(set.take({"--fast", word}).empty());
+        CHECK(*set.find("fast")->value == set.find("fast")->from_text(word));
+    }
+    ParameterSet set = example();
+    CHECK(set.take({"--fast", "in.obj", "--no-fast", "off"}) ==
+          std::vector<std::string>{"in.obj", "off"});
+    CHECK(!std::get<bool>(*set.find("fast")->value));
+}
+
 TEST_CASE("what does not fit is refused") {
     CHECK(message_of(example(), {"--local_size", "2"}) ==
           "parameter 'local_size': number from -1 to 1 expected, got '2'");
