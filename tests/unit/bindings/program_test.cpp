@@ -314,8 +314,8 @@ TEST_CASE("words that a script never looks at are refused before it works") {
     };
     CHECK(status(work, {"word"}) == kUsage);
     folder.write("part.lua",
-                 "local t = {} function t.params(list)\n"
-                 "return require 'lissom'.params(list) end return t");
+                 "local lissom, t = require 'lissom', {} function t.params(list)\n"
+                 "return lissom.params(list) end return t");
     for (const std::string& first :
          {lissom + "local p = lissom.", std::string("p = require('lissom')."),
           std::string("print(1) local p=require\"lissom\"."),
