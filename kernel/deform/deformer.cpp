@@ -180,9 +180,7 @@ std::shared_ptr<const ShownResult> Deformer::result() {
 }
 
 void Deformer::show(const ShownResult& result) {
-    if (result.positions.size() != positions().size()) {
-        throw Error(ErrorCode::invalid_argument, "the result belongs to another deformation");
-    }
+    require_frame(*state_->rest, result);
     with_memory_errors([&] { state_->show(result); });
 }
 

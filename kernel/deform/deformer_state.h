@@ -32,7 +32,7 @@ struct Deformer::State {
     State(const Mesh& mesh, const Region& region, const DeformOptions& options,
           const Context& given)
         : context(given),
-          rest(make_rest_shape(mesh, region, options)),
+          rest(make_rest_shape(mesh, region, options, context)),
           holds(std::make_shared<const Holds>()),
           shown(rest_frame(*rest)) {}
 

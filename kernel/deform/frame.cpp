@@ -66,6 +66,14 @@ std::vector<Vec3> take_positions(FrameScratch::State& scratch, const Preparation
     return positions;
 }
 
+const Preparation& required(const std::shared_ptr<const Preparation>& preparation,
+                            const Poses& poses) {
+    require(preparation != nullptr,
+            "there is no preparation; make one by Deformer::preparation or prepare_deformation");
+    require_poses(*preparation->holds, poses);
+    return *preparation;
+}
+
 DeformFrame resting(const Preparation& prepared, const Poses& poses) {
     DeformFrame frame = rest_frame(*prepared.rest);
     frame.poses = poses;
@@ -85,7 +93,7 @@ void FrameScratch::recycle(DeformFrame&& frame) {
 
 DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
                           FrameScratch& scratch, const Context& context) {
-    const Preparation& prepared = *preparation;
+    const Preparation& prepared = required(preparation, poses);
     if (at_rest(*prepared.rest, *prepared.holds, poses)) return resting(prepared, poses);
     if (!prepared.implicit()) return solve_compared(preparation, poses, scratch.state(), context);
     const AskedPart& asked = asked_part(preparation, poses.targets, scratch.state().asked);
@@ -109,7 +117,7 @@ DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation,
 
 DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
                         FrameScratch& given, FrameQuality quality, const Context& context) {
-    const Preparation& prepared = *preparation;
+    const Preparation& prepared = required(preparation, poses);
     FrameScratch::State& scratch = given.state();
     if (at_rest(*prepared.rest, *prepared.holds, poses)) return resting(prepared, poses);
     if (!prepared.implicit()) return solve_compared(preparation, poses, scratch, context);

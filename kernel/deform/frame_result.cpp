@@ -93,6 +93,8 @@ const AskedPart& asked_part(const std::shared_ptr<const Preparation>& preparatio
 
 std::vector<Mat3> frame_gradients(const DeformFrame& frame, FrameScratch& given) {
     if (frame.gradients) return *frame.gradients;
+    require(frame.preparation != nullptr, "the frame has neither gradients nor a preparation");
+    require_poses(*frame.preparation->holds, frame.poses);
     const Preparation& prepared = *frame.preparation;
     FrameScratch::State& scratch = given.state();
     const Motion motion(prepared, frame.poses,

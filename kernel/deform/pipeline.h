@@ -76,11 +76,13 @@ class FrameScratch {
 /// `draft` is for the frames of a drag: about five digits of the size, in half the time.
 enum class FrameQuality { full, draft };
 
-/// Takes the present shape of `mesh` as rest shape. Errors: as Deformer.
+/// Takes the present shape of `mesh` as rest shape. Errors: as Deformer; cancelled.
 std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region& region,
-                                                 const DeformOptions& options = {});
+                                                 const DeformOptions& options = {},
+                                                 const Context& context = {});
 
-/// Assembles and factors what `holds` need. Errors: as Deformer::prepare.
+/// Assembles and factors what `holds` need. Errors: as Deformer::prepare; invalid_argument where
+/// either is null.
 std::shared_ptr<const Preparation> prepare_deformation(std::shared_ptr<const RestShape> rest,
                                                        std::shared_ptr<const Holds> holds,
                                                        const Context& context = {});
@@ -88,24 +90,25 @@ const std::shared_ptr<const RestShape>& rest_of(const Preparation& preparation);
 const std::shared_ptr<const Holds>& holds_of(const Preparation& preparation);
 
 /// As Deformer::set_transform, in `poses`; `turn`, where it is given, says how far the handle
-/// turns. A mirror image moves along. Errors: as there; handle_removed; and then `poses` are as
-/// they were.
+/// turns. A mirror image moves along. Errors: as there; handle_removed; invalid_argument for
+/// poses of other holds; and then `poses` are as they were.
 void pose_handle(const Preparation& preparation, Poses& poses, HandleId handle,
                  const Affine& transform, const Vec3& about = Vec3::Zero(),
                  const std::optional<Vec3>& turn = std::nullopt);
 
 /// The rest shape as a result.
 DeformFrame rest_frame(const RestShape& rest);
-/// The first system alone, or both. Errors: as Deformer::solve.
+/// The first system alone, or both. Errors: as Deformer::solve; invalid_argument without a
+/// preparation, or for poses that have not one entry for each handle and target of its holds.
 DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
                           FrameScratch& scratch, const Context& context = {});
 DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
                         FrameScratch& scratch, FrameQuality quality = FrameQuality::full,
                         const Context& context = {});
-/// As Deformer::gradients, of a frame.
+/// As Deformer::gradients, of a frame. Errors: invalid_argument for a frame that no step made.
 std::vector<Mat3> frame_gradients(const DeformFrame& frame, FrameScratch& scratch);
 
-/// As Deformer::apply_to.
+/// As Deformer::apply_to. Errors of both: also invalid_argument for a frame of another region.
 void write_frame(const RestShape& rest, const DeformFrame& frame, Mesh& mesh);
 /// The rest shape that lies as the frame does; see Deformer::rebase.
 std::shared_ptr<const RestShape> rebased(const RestShape& rest, const DeformFrame& frame);

@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "kernel/deform/holds/mirror.h"
 #include "kernel/deform/rest_shape.h"
@@ -61,6 +62,18 @@ const Handle& handle_of(const Holds& holds, HandleId id) {
         throw Error(ErrorCode::handle_removed, "the handle was removed; add a new one");
     }
     return *holds.handles[id.value];
+}
+
+void require_poses(const Holds& holds, const Poses& poses) {
+    const auto require_as_many = [](std::size_t given, std::size_t expected, const char* what) {
+        if (given == expected) return;
+        throw Error(ErrorCode::invalid_argument,
+                    "the poses are of other holds: they have " + std::to_string(given) + " " +
+                        what + ", but the preparation has " + std::to_string(expected) +
+                        "; take those of Deformer::setup after the last change of the holds");
+    };
+    require_as_many(poses.handles.size(), holds.handles.size(), "handles");
+    require_as_many(poses.targets.size(), holds.targets.size(), "targets");
 }
 
 void pose_handle(const RestShape& rest, const Holds& holds, Poses& poses, HandleId id,

@@ -161,6 +161,7 @@ void prepare_implicit(Preparation& next, Progress& progress, const Context& cont
 std::shared_ptr<const Preparation> prepare_deformation(std::shared_ptr<const RestShape> rest,
                                                        std::shared_ptr<const Holds> holds,
                                                        const Context& context) {
+    require(rest && holds, "a preparation needs a rest shape and holds");
     Progress progress(context, "deform: prepare");
     require_area(rest->patch());
     require_plain_holds(*holds, rest->options());
@@ -188,6 +189,7 @@ const std::shared_ptr<const Holds>& holds_of(const Preparation& preparation) {
 void pose_handle(const Preparation& preparation, Poses& poses, HandleId handle,
                  const Affine& transform, const Vec3& about, const std::optional<Vec3>& turn) {
     (void)handle_of(*preparation.holds, handle);
+    require_poses(*preparation.holds, poses);
     pose_handle(*preparation.rest, *preparation.holds, poses, handle, transform, about,
                 turn.value_or(poses.handles[handle.value].turn));
 }

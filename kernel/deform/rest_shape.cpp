@@ -47,13 +47,19 @@ std::vector<Mat3> no_turns(const RestShape& rest) {
 }  // namespace
 
 std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region& region,
-                                                 const DeformOptions& options) {
+                                                 const DeformOptions& options,
+                                                 const Context& context) {
+    context.checkpoint();
     auto scope = std::make_shared<DeformScope>(DeformScope{region, options});
-    auto work = std::make_shared<WorkingPatch>(
-        build_patch(region, mesh.positions(), kPatchRings, near_order(region, kPatchRings)),
-        options);
+    std::vector<Index> order = near_order(region, kPatchRings);
+    context.checkpoint();
+    Patch patch_at_rest = build_patch(region, mesh.positions(), kPatchRings, std::move(order));
+    context.checkpoint();
+    auto work = std::make_shared<WorkingPatch>(std::move(patch_at_rest), options);
+    context.checkpoint();
     auto rest = std::make_shared<RestShape>(RestShape{
         std::move(scope), std::move(work), {}, {}, 0.0, false, RestDirections(mesh, region), {}});
+    context.checkpoint();
     for (const Index v : region.vertices()) rest->positions.push_back(mesh.position(v));
     const Patch& patch = rest->patch();
     for (Index i = 0; i < patch.mesh_count(); ++i) {
@@ -66,6 +72,7 @@ std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region&
 
 // The patch keeps its faces and numbers; what is around the region stays.
 std::shared_ptr<const RestShape> rebased(const RestShape& rest, const DeformFrame& frame) {
+    require_frame(rest, frame);
     const Patch& before = rest.patch();
     const Region& region = rest.region();
     auto next = std::make_shared<RestShape>(RestShape{
@@ -127,7 +134,20 @@ void require_surroundings(const RestShape& rest, const Mesh& mesh) {
                 std::move(moved));
 }
 
+void require_frame(const RestShape& rest, const DeformFrame& frame) {
+    const auto require_as_many = [](std::size_t given, std::size_t expected, const char* what) {
+        if (given == expected) return;
+        throw Error(ErrorCode::invalid_argument,
+                    "the frame is of another deformation: it has " + std::to_string(given) + " " +
+                        what + ", but the region has " + std::to_string(expected));
+    };
+    require_as_many(frame.positions.size(), rest.positions.size(), "positions");
+    require_as_many(frame.turns_without_faces.size(), rest.directions.without_faces().size(),
+                    "vertices without faces");
+}
+
 void write_frame(const RestShape& rest, const DeformFrame& frame, Mesh& mesh) {
+    require_frame(rest, frame);
     write(rest, frame.positions, frame.turns_without_faces, mesh);
 }
 

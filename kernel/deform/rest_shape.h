@@ -64,6 +64,12 @@ HandlePose reflected(const RestShape& rest, const MirrorPlane& plane, const Hand
 /// Errors: handle_removed.
 const Handle& handle_of(const Holds& holds, HandleId id);
 
+/// Errors: invalid_argument where `poses` are not those of `holds`.
+void require_poses(const Holds& holds, const Poses& poses);
+
+/// Errors: invalid_argument where `frame` is none of this rest shape.
+void require_frame(const RestShape& rest, const DeformFrame& frame);
+
 /// As pose_handle; `turn` is near the one to take.
 void pose_handle(const RestShape& rest, const Holds& holds, Poses& poses, HandleId id,
                  const Affine& transform, const Vec3& about, const Vec3& turn);

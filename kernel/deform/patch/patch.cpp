@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace lissom {
@@ -83,20 +84,54 @@ bool is_convex_quad(std::span<const Vec3> positions, std::span<const Index> face
     return turns_left(a, b, c) && turns_left(b, c, d) && turns_left(c, d, a) && turns_left(d, a, b);
 }
 
-// Splits all triangles at the edge (a, b) at the local vertex `middle`; false where there are none.
-bool split_edge(WeightedTriangles& triangles, Index a, Index b, Index middle) {
-    const std::size_t count = triangles.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        Triangle first = triangles.triangle[i], second = first;
-        const auto at_a = std::find(first.begin(), first.end(), a);
-        const auto at_b = std::find(second.begin(), second.end(), b);
-        if (at_a == first.end() || at_b == second.end()) continue;
-        *at_a = *at_b = middle;
-        triangles.triangle[i] = first;
-        triangles.add(second, triangles.weight[i], triangles.face[i]);
+// Splits triangles at edges of real vertices that were named before.
+class EdgeSplitter {
+  public:
+    explicit EdgeSplitter(WeightedTriangles& triangles) : triangles_(triangles) {}
+
+    void name(Index a, Index b) { around_[std::minmax(a, b)]; }
+
+    // To be called when all edges are named.
+    void find_triangles() {
+        if (around_.empty()) return;
+        for (std::size_t i = 0; i < triangles_.size(); ++i) {
+            const Triangle& t = triangles_.triangle[i];
+            for (int k = 0; k < 3; ++k) {
+                if (auto* list = named(t[k], t[(k + 1) % 3])) list->push_back(i);
+            }
+        }
     }
-    return triangles.size() > count;
-}
+
+    // Splits all triangles at the edge (a, b) at the vertex `middle`; false where there are none.
+    bool split(Index a, Index b, Index middle) {
+        const std::vector<std::size_t> there = std::exchange(*named(a, b), {});
+        for (const std::size_t i : there) {
+            Triangle& first = triangles_.triangle[i];
+            Triangle second = first;
+            *std::find(first.begin(), first.end(), a) = middle;
+            *std::find(second.begin(), second.end(), b) = middle;
+            for (const Index c : second) {
+                if (c == a || c == middle) continue;
+                if (auto* list = named(a, c)) {
+                    std::erase(*list, i);
+                    list->push_back(triangles_.size());
+                }
+            }
+            triangles_.add(second, triangles_.weight[i], triangles_.face[i]);
+        }
+        return !there.empty();
+    }
+
+  private:
+    std::vector<std::size_t>* named(Index a, Index b) {
+        const auto found = around_.find(std::minmax(a, b));
+        return found == around_.end() ? nullptr : &found->second;
+    }
+
+    WeightedTriangles& triangles_;
+    // The triangles at each edge, ascending.
+    std::map<std::pair<Index, Index>, std::vector<std::size_t>> around_;
+};
 
 // The vertex of the region nearest to the mean of all. Positions relative to a vertex are exact
 // where coordinates are large, so that a mesh far from the origin of its coordinates has the same
@@ -179,10 +214,17 @@ void insert_virtual_vertices(Patch& patch) {
     patch.vertex_count = patch.real_count;
     patch.split_triangles = patch.triangles;
     const Rings rings = build_rings(patch.real_count, patch.triangles);
+    EdgeSplitter splitter(patch.split_triangles);
+    std::vector<Index> lonely;
     for (Index v = 0; v < patch.real_count; ++v) {
         if (!patch.in_region[v] || !patch.on_boundary[v] || rings.count(v) != 2) continue;
+        lonely.push_back(v);
+        splitter.name(rings.ring(v)[0], rings.ring(v)[1]);
+    }
+    splitter.find_triangles();
+    for (const Index v : lonely) {
         const Index a = rings.ring(v)[0], b = rings.ring(v)[1];
-        if (!split_edge(patch.split_triangles, a, b, patch.vertex_count)) continue;
+        if (!splitter.split(a, b, patch.vertex_count)) continue;
         ++patch.vertex_count;
         patch.rest.push_back(0.5 * (patch.rest[a] + patch.rest[b]));
         patch.in_region.push_back(1);

@@ -72,6 +72,14 @@ int interrupt_everywhere(const Mesh& rest, const Start& start, const Call& call)
 
 }  // namespace
 
+TEST_CASE("cancel: a rest shape asks the host, too") {
+    const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
+    Context context;
+    context.cancel();
+    CHECK(error_of([&] { make_rest_shape(scene.mesh, scene.all(), {}, context); }).code() ==
+          ErrorCode::cancelled);
+}
+
 TEST_CASE("cancel: at every moment of a frame, of either kind") {
     const Scene scene = large_bar();
     Edit edit = make_edit(scene);

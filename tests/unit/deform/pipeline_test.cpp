@@ -45,6 +45,57 @@ TEST_CASE("a frame is written and taken as rest shape as a Deformer does it") {
           ErrorCode::handle_removed);
 }
 
+TEST_CASE("poses and frames of other holds or another region are refused") {
+    const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
+    Edit edit = make_edit(scene);
+    Deformer& d = edit.deformer;
+    const Affine move = translation({0.5, 0, 0});
+    d.set_transform(edit.low, move);
+    const Poses before = d.setup().poses;
+    const HandleId third = d.add_handle(scene.region({scene.between(0)}));
+    const auto of_third = d.preparation();
+    const Poses three = d.setup().poses;
+    d.constrain({scene.between(9), Vec3(1, 0, 0), {}, {}});
+    const auto prepared = d.preparation();
+    FrameScratch scratch;
+    const auto refused = [&](const std::shared_ptr<const Preparation>& by, const Poses& poses) {
+        CHECK(error_of([&] { (void)solve_frame(by, poses, scratch); }).code() ==
+              ErrorCode::invalid_argument);
+        const Error error = error_of([&] { (void)preview_frame(by, poses, scratch); });
+        CHECK(error.code() == ErrorCode::invalid_argument);
+        return error.message();
+    };
+    CHECK(refused(of_third, before).find("2 handles, but the preparation has 3") !=
+          std::string::npos);
+    CHECK(refused(prepared, three).find("0 targets, but the preparation has 1") !=
+          std::string::npos);
+    (void)refused(prepared, {});
+    (void)refused(of_third, d.setup().poses);
+    (void)refused(nullptr, before);
+    Poses changed = before;
+    CHECK(error_of([&] { pose_handle(*of_third, changed, third, move); }).code() ==
+          ErrorCode::invalid_argument);
+    CHECK(changed == before);
+    CHECK(solve_frame(of_third, three, scratch).positions.size() == d.positions().size());
+
+    Mesh mesh = scene.mesh;
+    const std::uint64_t untouched = hash(mesh);
+    const RestShape& rest = *rest_of(*prepared);
+    const Scene other = make_scene(make_bar({1.0, 5.0, 4, 10}));
+    Edit of_other = make_edit(other);
+    for (const DeformFrame& frame :
+         {DeformFrame(), rest_frame(*rest_of(*of_other.deformer.preparation()))}) {
+        CHECK(error_of([&] { write_frame(rest, frame, mesh); }).code() ==
+              ErrorCode::invalid_argument);
+        CHECK(error_of([&] { (void)rebased(rest, frame); }).code() == ErrorCode::invalid_argument);
+    }
+    CHECK(hash(mesh) == untouched);
+    CHECK(error_of([&] { (void)frame_gradients({}, scratch); }).code() ==
+          ErrorCode::invalid_argument);
+    CHECK(error_of([&] { (void)prepare_deformation(rest_of(*prepared), nullptr); }).code() ==
+          ErrorCode::invalid_argument);
+}
+
 TEST_CASE("undo: what was asked is put back to the bit, whatever was asked in between") {
     const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
     const Index middle = scene.between(0);
