@@ -11,6 +11,10 @@
 namespace lissom {
 namespace {
 
+// Beyond these a bent cactus changes by less than a millionth of its size; from 1e6 its systems
+// lose so many digits that it shows.
+constexpr double kLeastStiffness = 1e-4, kGreatestStiffness = 1e5;
+
 // Throws `code` about those of `vertices` for which `bad` holds, if there are any.
 template <typename Bad>
 void refuse_vertices(const std::vector<Index>& vertices, ErrorCode code, const std::string& message,
@@ -240,8 +244,10 @@ void HoldEdit::remove_handle(HandleId id) {
 
 void HoldEdit::set_stiffness(const Region& vertices, double factor) {
     require_topology(rest.region(), vertices);
-    if (!(factor > 0.0 && std::isfinite(factor))) {
-        throw Error(ErrorCode::invalid_argument, "a stiffness must be above 0; 1 is as usual");
+    if (!(factor >= kLeastStiffness && factor <= kGreatestStiffness)) {
+        throw Error(ErrorCode::invalid_argument,
+                    "a stiffness must be from 1e-4, where the part resists nothing, to 1e5, where "
+                    "it is rigid; 1 is as usual");
     }
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
                     "outside the region there is nothing to make stiff, at ",
