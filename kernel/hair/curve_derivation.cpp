@@ -51,6 +51,10 @@ class Derivation {
     }
 
     DerivedCurve operator()(const Ponytail& ponytail) const {
+        require(ponytail.ragged >= 0.0 && ponytail.ragged <= 1.0,
+                "ragged of a ponytail must be from 0 to 1");
+        require_length(ponytail.tail_length.value_or(0.0),
+                       "the tail length of a ponytail must be 0 or more");
         DerivedCurve result;
         const PonytailShape shape =
             ponytail_shape(smooth_curve(ponytail.spine, 0.5 * step_), step_, ponytail.options);

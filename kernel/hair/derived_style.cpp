@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <utility>
 
 namespace lissom {
@@ -17,6 +18,16 @@ std::shared_ptr<const DerivedCurve> derived_before(const DerivedStyle& before,
         if (one.id == wanted.id && one.curve.shape == wanted.curve.shape) return before.curves[c];
     }
     return nullptr;
+}
+
+DerivedCurve derive(const StyleCurve& curve, std::size_t place, const StyleGround& ground) {
+    try {
+        return derive(curve, ground.scalp, ground.distances);
+    } catch (const Error& error) {
+        if (!ground.names_curves) throw;
+        throw Error(error.code(),
+                    "curve " + std::to_string(place - ground.known + 1) + ": " + error.what());
+    }
 }
 
 std::vector<CurveClaim> settled_claims(const DerivedStyle& style) {
@@ -39,15 +50,16 @@ const DerivedCurve& DerivedStyle::derived(CurveId id) const {
     return *curves[static_cast<std::size_t>(&placed_curve(inputs, id) - inputs.curves.data())];
 }
 
-DerivedStyle derive_style(StyleInputs inputs, const DerivedStyle& before, const Scalp& scalp,
-                          const DistanceGrid& distances) {
+DerivedStyle derive_style(StyleInputs inputs, const DerivedStyle& before, const StyleGround& ground,
+                          const Context& context) {
     DerivedStyle style;
     for (const PlacedCurve& one : inputs.curves) {
-        style.ids.push_back(one.id);
         std::shared_ptr<const DerivedCurve> derived = derived_before(before, one);
         if (!derived) {
-            derived = std::make_shared<DerivedCurve>(derive(one.curve, scalp, distances));
+            context.checkpoint();
+            derived = std::make_shared<DerivedCurve>(derive(one.curve, style.ids.size(), ground));
         }
+        style.ids.push_back(one.id);
         style.curves.push_back(std::move(derived));
     }
     style.inputs = std::move(inputs);

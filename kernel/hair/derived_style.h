@@ -26,10 +26,19 @@ struct DerivedStyle {
     const DerivedCurve& derived(CurveId id) const;
 };
 
+/// Where curves act.
+struct StyleGround {
+    const Scalp& scalp;
+    const DistanceGrid& distances;
+    /// Whether errors name the curve, by its number from 1 behind the first `known` ones.
+    bool names_curves = false;
+    std::size_t known = 0;
+};
+
 /// Derives the curves of `inputs`; those whose shape is that of `before` are taken from there.
-/// Errors: as derive.
-DerivedStyle derive_style(StyleInputs inputs, const DerivedStyle& before, const Scalp& scalp,
-                          const DistanceGrid& distances);
+/// Errors: as derive; cancelled.
+DerivedStyle derive_style(StyleInputs inputs, const DerivedStyle& before, const StyleGround& ground,
+                          const Context& context = {});
 
 /// What the field is given, one a grid point, ascending by point.
 std::vector<GridConstraint> decisive_constraints(const DerivedStyle& style,

@@ -118,9 +118,11 @@ struct Hairstyle::State {
 
     // Takes these inputs, or throws and changes nothing.
     void accept(StyleInputs inputs) {
-        style = with_memory_errors([&] {
-            return derive_style(std::move(inputs), style, *scalp, field.field().distances());
-        });
+        accept(std::move(inputs), {*scalp, field.field().distances()}, {});
+    }
+    void accept(StyleInputs inputs, const StyleGround& ground, const Context& context) {
+        style = with_memory_errors(
+            [&] { return derive_style(std::move(inputs), style, ground, context); });
     }
     bool over_scalp(const Vec3& point) const;
     std::vector<GridConstraint> scalp_step(const ScalpStepOptions& options) const;
@@ -184,6 +186,21 @@ CurveId Hairstyle::add(StyleCurve curve) {
     state_->accept(std::move(wanted));
     state_->last_id = id.value;
     return id;
+}
+
+std::vector<CurveId> Hairstyle::add_all(std::vector<StyleCurve> curves, const Context& context) {
+    StyleInputs wanted = inputs();
+    const std::size_t known = wanted.curves.size();
+    std::vector<CurveId> ids;
+    std::int64_t edit = next_edit(wanted);
+    for (StyleCurve& curve : curves) {
+        const CurveId id{state_->last_id + 1 + static_cast<ConstraintOwner>(ids.size())};
+        ids.push_back(id);
+        wanted.curves.push_back({id, std::move(curve), edit++});
+    }
+    state_->accept(std::move(wanted), {*state_->scalp, field().distances(), true, known}, context);
+    if (!ids.empty()) state_->last_id = ids.back().value;
+    return ids;
 }
 
 void Hairstyle::set(CurveId id, StyleCurve curve) {

@@ -83,6 +83,9 @@ class Hairstyle {
 
     /// Adds a curve behind all others. Errors: as set.
     CurveId add(StyleCurve curve);
+    /// Adds curves behind all others in this order, all or none, and faster than one by one.
+    /// Errors: as set, naming the curve by its number in `curves`, from 1; cancelled.
+    std::vector<CurveId> add_all(std::vector<StyleCurve> curves, const Context& context = {});
     /// Replaces a curve. After an error nothing has changed. Errors: handle_removed for an id;
     /// not_finite; invalid_argument where fewer than two points differ, or for an option out of
     /// range; out_of_range for a curve outside the volume, or a dividing curve off the head;

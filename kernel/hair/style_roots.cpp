@@ -13,6 +13,20 @@ namespace {
 // times more until there are enough.
 constexpr double kSpare = 0.02;
 constexpr double kMore = 4.0;
+// Roots are spread evenly: where as many are all on bare skin, there is nothing else.
+constexpr Index kEnoughToTell = 20'000;
+// Roots between looks whether to stop.
+constexpr std::size_t kRootsAPoll = 4096;
+
+// Takes out the roots on bare skin.
+void keep_hairy(std::vector<Root>& roots, const std::function<bool(const Root&)>& bare,
+                const Context& context) {
+    std::size_t seen = 0;
+    std::erase_if(roots, [&](const Root& root) {
+        if (seen++ % kRootsAPoll == 0) context.checkpoint();
+        return bare(root);
+    });
+}
 
 // Calls `visit` with each dividing curve that leaves bare skin.
 template <typename Visit>
@@ -80,8 +94,9 @@ std::vector<Root> roots_but_for(const Mesh& head, const Scalp& scalp, const Root
     more.count = at_most(std::ceil((1.0 + kSpare) * options.count));
     for (;; more.count = at_most(kMore * more.count)) {
         std::vector<Root> roots = make_roots(head, scalp, more, context);
-        std::erase_if(roots, bare);
-        if (roots.size() >= wanted || more.count >= kMaximumRoots) {
+        keep_hairy(roots, bare, context);
+        const bool enough = roots.size() >= wanted || more.count >= kMaximumRoots;
+        if (enough || (roots.empty() && more.count >= kEnoughToTell)) {
             if (roots.empty()) {
                 throw Error(ErrorCode::region_empty,
                             "the gaps of the dividing curves leave no scalp for hair; make them "

@@ -359,13 +359,7 @@ StyleContent content_of(const Hairstyle& style, std::string head) {
 Hairstyle make_style(const StyleContent& content, const Mesh& head,
                      std::shared_ptr<const Scalp> scalp, const Context& context) {
     Hairstyle style(head, std::move(scalp), content.options, context);
-    for (std::size_t i = 0; i < content.curves.size(); ++i) {
-        try {
-            style.add(content.curves[i]);
-        } catch (const Error& error) {
-            throw Error(error.code(), "curve " + std::to_string(i + 1) + ": " + error.what());
-        }
-    }
+    style.add_all(content.curves, context);
     if (content.avoids_scalp) style.avoid_scalp({}, context);
     return style;
 }

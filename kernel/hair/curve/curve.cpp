@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "kernel/solve/grid/constraint_weight.h"
+
 namespace lissom {
 namespace {
 
@@ -56,6 +58,11 @@ void require_curve(std::span<const Vec3> points) {
         throw Error(ErrorCode::invalid_argument,
                     "a curve needs two points that differ; draw it longer");
     }
+}
+
+void require_curve_weight(double weight) {
+    require(weight >= kLeastConstraintWeight && weight <= kGreatestConstraintWeight,
+            "the weight of a curve must be from 1e-6 to 1e9");
 }
 
 double curve_length(std::span<const Vec3> points) {

@@ -13,6 +13,9 @@ namespace lissom {
 /// differ.
 void require_curve(std::span<const Vec3> points);
 
+/// Errors: invalid_argument for a weight that no constraint may have (constraint_weight.h).
+void require_curve_weight(double weight);
+
 double curve_length(std::span<const Vec3> points);
 
 /// A smooth curve through `points`, of segments at most `step` long: centripetal Catmull-Rom

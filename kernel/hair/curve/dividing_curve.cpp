@@ -64,7 +64,7 @@ void require_dividing(const DividingOptions& o, const Rule& rule) {
     }
     require(o.separation >= 0.0 && o.separation <= 1.0,
             "separation of a dividing curve must be from 0 to 1");
-    require(o.weight > 0.0 && std::isfinite(o.weight), "the weight of a curve must be above 0");
+    require_curve_weight(o.weight);
 }
 
 using Cell = std::array<Index, 3>;

@@ -40,7 +40,7 @@ struct DividingOptions {
     /// curve, and not where the grid is. 0 leaves all vectors at full length, as the thesis has
     /// them. 0.87 steps, half the diagonal of a cell.
     std::optional<double> ramp = std::nullopt;
-    /// omega of equation (4.2).
+    /// omega of equation (4.2), 1e-6 to 1e9.
     double weight = 100.0;
 
     bool operator==(const DividingOptions&) const = default;

@@ -50,7 +50,7 @@ void require_ponytail(const PonytailOptions& o) {
             "ring, lead, clearance and stop_length of a ponytail must be lengths of 0 or more");
     require(std::isfinite(o.spread), "spread of a ponytail must be finite");
     require(is_length(o.grip), "grip of a ponytail must be 0 or more");
-    require(o.weight > 0.0 && std::isfinite(o.weight), "the weight of a curve must be above 0");
+    require_curve_weight(o.weight);
 }
 
 double smooth_step(double from, double to, double x) {

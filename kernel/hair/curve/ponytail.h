@@ -48,7 +48,7 @@ struct PonytailOptions {
     std::optional<double> clearance = std::nullopt;
     /// As StreamOptions::stop_length: beyond the end of the spine.
     double stop_length = 0.04;
-    /// omega of equation (4.2).
+    /// omega of equation (4.2), 1e-6 to 1e9.
     double weight = 100.0;
 
     bool operator==(const PonytailOptions&) const = default;

@@ -73,6 +73,7 @@ std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
     if (!(options.stop_length >= 0.0) || !std::isfinite(options.stop_length)) {
         throw Error(ErrorCode::invalid_argument, "stop_length of a curve must be 0 or more");
     }
+    require_curve_weight(options.weight);
     VectorSplat splat(layout);
     bool inside = false;
     Vec3 tangent = Vec3::Zero();

@@ -15,7 +15,7 @@ struct StreamOptions {
     /// Keeps hair from growing on beyond the end of the curve: it goes on straight for this long,
     /// with vectors that vanish on the way; 0 for not at all.
     double stop_length = 0.04;
-    /// omega of equation (4.2).
+    /// omega of equation (4.2), 1e-6 to 1e9.
     double weight = 100.0;
 
     bool operator==(const StreamOptions&) const = default;

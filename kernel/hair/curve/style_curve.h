@@ -42,7 +42,7 @@ struct Ponytail {
     std::vector<Vec3> spine;
     PonytailOptions options = {};
     /// Of the hair behind the tie; absent: as long as the spine. A share of it that differs from
-    /// strand to strand, up to `ragged`, is missing at the tips.
+    /// strand to strand, up to `ragged`, 0 to 1, is missing at the tips.
     std::optional<double> tail_length = std::nullopt;
     double ragged = 0.45;
 

@@ -5,12 +5,10 @@
 #include <string>
 
 #include "kernel/core/error.h"
+#include "kernel/solve/grid/constraint_weight.h"
 
 namespace lissom {
 namespace {
-
-// The weights whose squares and their inverses are far from the ends of double precision.
-constexpr double kLeastWeight = 1e-6, kGreatestWeight = 1e9;
 
 void require_valid(const GridConstraint& constraint, const GridSize& size) {
     const Elements element{ElementKind::row, 1, {constraint.point}};
@@ -25,7 +23,8 @@ void require_valid(const GridConstraint& constraint, const GridSize& size) {
                     "the vector or the weight of a constraint is not finite; give numbers",
                     element);
     }
-    if (constraint.weight < kLeastWeight || constraint.weight > kGreatestWeight) {
+    if (constraint.weight < kLeastConstraintWeight ||
+        constraint.weight > kGreatestConstraintWeight) {
         throw Error(ErrorCode::invalid_argument,
                     "the weight of a constraint must lie between 1e-6 and 1e9", element);
     }

@@ -8,6 +8,7 @@
 #include "kernel/core/machine_memory.h"
 #include "kernel/hair/curve/length_text.h"
 #include "kernel/hair/strands/strand_measures.h"
+#include "kernel/hair/style_roots.h"
 #include "kernel/solve/field/grid_field.h"
 #include "tests/unit/hair/hair_support.h"
 #include "tests/unit/hair/style_scenes.h"
@@ -186,6 +187,73 @@ TEST_CASE("hairstyle: no hair on the gap of a parting, and as many strands as as
         for (const Vec3& p : course) in_gap += (root - p).norm() < 0.009;
     }
     CHECK(in_gap > 5);
+}
+
+TEST_CASE("hairstyle: gaps that leave no scalp are refused soon, however wide") {
+    Hairstyle style = small_style();
+    StyleCurve line = parting(style);
+    std::get<DividingCurve>(line.shape).gap = 1e308;
+    style.add(line);
+    HairOptions options;
+    options.roots.count = 20;
+    const Error error = error_of([&] { style.grow(options); });
+    CHECK(error.code() == ErrorCode::region_empty);
+    CHECK(error.message().find("narrower") != std::string::npos);
+
+    int tried = 0;
+    const auto bare = [&](const Root&) {
+        if (++tried > 1'000'000) FAIL("roots are tried for ever");
+        return true;
+    };
+    CHECK(error_of([&] {
+              roots_but_for(small_head(), *small_scalp(), options.roots, bare, {});
+          }).code() == ErrorCode::region_empty);
+}
+
+TEST_CASE("hairstyle: curves that come together are those that come one by one, all or none") {
+    Hairstyle one = small_style(), all = small_style();
+    const CurveId first = all.add(stream(side(all, -1)));
+    one.add(stream(side(one, -1)));
+    const std::vector<StyleCurve> more = {stream(side(one, 1)), parting(one), tail(one)};
+    for (const StyleCurve& curve : more) one.add(curve);
+    std::vector<StyleCurve> faulty = more;
+    std::get<DividingCurve>(faulty[1].shape).gap = -1.0;
+    const Error error = error_of([&] { all.add_all(faulty); });
+    CHECK(error.code() == ErrorCode::invalid_argument);
+    CHECK(error.message().rfind("curve 2: the gap", 0) == 0);
+    Context cancelled;
+    cancelled.cancel();
+    CHECK(error_of([&] { all.add_all(more, cancelled); }).code() == ErrorCode::cancelled);
+    CHECK(all.curves().size() == 1);
+    const std::vector<CurveId> ids = all.add_all(more);
+    CHECK(all.inputs() == one.inputs());
+    CHECK(all.curves()[0] == first);
+    CHECK(all.curves()[3] == ids[2]);
+    CHECK(all.add_all({}).empty());
+    CHECK(field_of(all) == field_of(one));
+}
+
+TEST_CASE("hairstyle: what growth would refuse of a curve is refused when it is added") {
+    Hairstyle style = small_style();
+    const auto refused = [&](const StyleCurve& curve, const char* said) {
+        const Error error = error_of([&] { style.add(curve); });
+        CHECK(error.code() == ErrorCode::invalid_argument);
+        CHECK(error.message().find(said) != std::string::npos);
+    };
+    for (const double weight : {0.0, 1e-7, 1e10, std::nan("")}) {
+        CAPTURE(weight);
+        for (StyleCurve curve : {stream(side(style, 1)), parting(style), tail(style)}) {
+            std::visit([&](auto& shape) { shape.options.weight = weight; }, curve.shape);
+            refused(curve, "weight of a curve must be from 1e-6 to 1e9");
+        }
+    }
+    StyleCurve pony = tail(style);
+    std::get<Ponytail>(pony.shape).ragged = 1.5;
+    refused(pony, "ragged");
+    std::get<Ponytail>(pony.shape).ragged = 0.5;
+    std::get<Ponytail>(pony.shape).tail_length = -1.0;
+    refused(pony, "tail length");
+    CHECK(style.curves().empty());
 }
 
 TEST_CASE("hairstyle: strands know their roots, texture and tie") {
