@@ -38,11 +38,14 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Where lua5.4 and luajit look below the prefix: LuaJIT keeps the version of the language it speaks.
+# Optional, as one who builds the program alone has neither.
 if(TARGET lissom_lua54_module)
-    install(TARGETS lissom_lua54_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lua/5.4)
+    install(TARGETS lissom_lua54_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lua/5.4
+            OPTIONAL)
 endif()
 if(TARGET lissom_luajit_module)
-    install(TARGETS lissom_luajit_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lua/5.1)
+    install(TARGETS lissom_luajit_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lua/5.1
+            OPTIONAL)
 endif()
 if(TARGET lissom)
     install(TARGETS lissom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
