@@ -45,7 +45,7 @@ end
 -- tie, hair at the tie's lower edge would fall in front of the tail, by itself; at the side of the head most
 -- hair comes from above.
 local function droop_at(height, side)
-    local knots = { { -90, 0.024, 0.02 }, { -15, 0.024, 0.02 }, { 0, 0.032, 0.02 }, { 30, 0.04, 0.04 },
+    local knots = { { -90, 0.024, 0.02 }, { -15, 0.024, 0.02 }, { 0, 0.034, 0.02 }, { 30, 0.04, 0.04 },
         { 50, 0.05, 0.05 }, { 90, 0.05, 0.05 } }
     local f = math.abs(side)
     local function droop(knot) return (1 - f) * knot[2] + f * knot[3] end
