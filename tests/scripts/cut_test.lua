@@ -55,14 +55,34 @@ local region = ball:region{ plane = { point = { 0, 0.2, 0 }, normal = { 0.3, 1, 
 local part, _, outline = ball:cut{ region = region, smoothing = 0.05 }
 expect.truthy(#part < #ball and outline[1]:mean_turn() < 12)
 
--- A cut that keeps nearly all is told; one by a region names what it keeps.
-local _, _, of_most = ball:cut{ plane = { point = { 0, 0.8, 0 }, normal = { 0, -1, 0 } } }
+-- A path that keeps nearly all is told; a normal, a seed and a region name what they keep.
+local function ring_at(height, sign)
+    local list, r = {}, math.sqrt(1 - height * height)
+    for i = 1, 10 do
+        local angle = sign * i * math.pi / 5
+        list[i] = { r * math.cos(angle), height, r * math.sin(angle) }
+    end
+    return list
+end
+local _, _, of_most = ball:cut{ path = ring_at(0.8, 1) }
 expect.near(of_most.report.kept_fraction, 0.9, 0.01)
 expect.equal(of_most.report.warnings[1].kind, "keeps_most")
-expect.truthy(of_most.report.warnings[1].message:find("the cut keeps 90 % of", 1, true))
+expect.truthy(of_most.report.warnings[1].message:find("the cut keeps %d+ %% of"))
 local most = ball:region{ plane = { point = { 0, 0.8, 0 }, normal = { 0, -1, 0 } } }
-local _, _, of_region = ball:cut{ region = most }
-expect.equal(#of_region.report.warnings, 0)
+for _, by in ipairs{ { region = most }, { path = ring_at(0.8, 1), seed = { 0, -1, 0 } },
+    { plane = { point = { 0, 0.8, 0 }, normal = { 0, -1, 0 } } } } do
+    local _, _, of_named = ball:cut(by)
+    expect.equal(#of_named.report.warnings, 0)
+    expect.near(of_named.report.kept_fraction, 0.9, 0.01)
+end
+
+-- A region with several outlines is cut along all, and that is told.
+local band = most:intersect(ball:region{ plane = { point = { 0, -0.5, 0 }, normal = { 0, 1, 0 } } })
+local _, _, of_band = ball:cut{ region = band }
+expect.equal(#of_band.report.warnings, 1)
+expect.equal(of_band.report.warnings[1].kind, "several_outlines")
+expect.truthy(of_band.report.warnings[1].message:find("2 outlines", 1, true))
+expect.truthy(of_band.report.warnings[1].message:find("1 piece kept, 2 pieces left", 1, true))
 
 -- A preview returns the lines and cuts nothing.
 local lines, nothing = cactus:cut{ plane = { point = arm_height, normal = { 0, 1, 0 } }, preview = true }

@@ -11,8 +11,8 @@ namespace lissom::lua {
 namespace {
 
 // In the order of CutConcern.
-constexpr std::array kConcerns = {"touches_boundary", "folded_line", "lines_nearby", "keeps_most",
-                                  "not_separating"};
+constexpr std::array kConcerns = {"touches_boundary", "folded_line",      "lines_nearby",
+                                  "keeps_most",       "several_outlines", "not_separating"};
 
 // ---- mesh:cut
 
@@ -318,8 +318,9 @@ std::vector<Record> cut_records() {
              {{"string", "kind",
                "touches_boundary: a line ends at an open boundary; folded_line: a line seems to "
                "run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too; "
-               "keeps_most: a plane or path keeps more than 80 % of the area, perhaps the wrong "
-               "part; not_separating, of a preview: the cut would fail, its sides are connected."},
+               "keeps_most: a path without a seed keeps more than 80 % of the area, perhaps the "
+               "wrong part; several_outlines: a region was cut along more than one line; "
+               "not_separating, of a preview: the cut would fail, its sides are connected."},
               {"string", "message", "What was found and what to do about it."},
               {"integer[]", "vertices", "Vertices of before where it was found, at most 100."}}},
             {"lissom.TrimReport",

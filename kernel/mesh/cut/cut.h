@@ -69,8 +69,10 @@ enum class CutConcern {
     folded_line,
     /// The plane crosses the mesh not far from the line that was cut too.
     lines_nearby,
-    /// A plane or path keeps more than 80 % of the mesh's area: perhaps the wrong part.
+    /// A path without a seed keeps more than 80 % of the mesh's area: perhaps the wrong part.
     keeps_most,
+    /// A region has several outlines, which were all cut.
+    several_outlines,
     /// The sides of the lines are connected elsewhere: a cut would fail. Of a preview only.
     not_separating,
 };

@@ -145,6 +145,32 @@ double positive_area(const Mesh& mesh, const std::vector<ContourLine>& lines,
     return sum;
 }
 
+// Number of pieces on one side of the lines that touch a line.
+std::size_t cut_pieces(const Mesh& mesh, const std::vector<ContourLine>& lines,
+                       const std::vector<signed char>& side, signed char counted) {
+    std::vector<char> seen(side.size(), 0);
+    std::vector<Index> queue;
+    std::size_t pieces = 0;
+    const auto reach = [&](Index v) {
+        if (seen[v] || side[v] != counted) return false;
+        seen[v] = 1;
+        queue.push_back(v);
+        return true;
+    };
+    for (const ContourLine& line : lines) {
+        for (const Crossing& c : line.crossings) {
+            if (!reach(counted > 0 ? c.positive : c.negative)) continue;
+            ++pieces;
+            while (!queue.empty()) {
+                const Index v = queue.back();
+                queue.pop_back();
+                for (const Index n : mesh.topology().neighbors(v)) reach(n);
+            }
+        }
+    }
+    return pieces;
+}
+
 }  // namespace
 
 void add_kept_fraction(const Mesh& mesh, const std::vector<ContourLine>& lines,
@@ -156,9 +182,28 @@ void add_kept_fraction(const Mesh& mesh, const std::vector<ContourLine>& lines,
     const auto percent = static_cast<int>(std::floor(100.0 * report.kept_fraction));
     report.warnings.push_back({CutConcern::keeps_most,
                                "the cut keeps " + std::to_string(percent) +
-                                   " % of the mesh's area; to keep the small part, turn the normal "
-                                   "or path around, or give a seed on it",
+                                   " % of the mesh's area, what is left of the path; to keep the "
+                                   "small part, turn the path around or give a seed on it; a seed "
+                                   "on the large one settles it",
                                {}});
+}
+
+void add_outlines(const Mesh& mesh, const std::vector<ContourLine>& lines, const CutSides& sides,
+                  CutReport& report) {
+    if (!sides.outlined || lines.size() < 2) return;
+    const auto count = [](std::size_t n) {
+        return std::to_string(n) + (n == 1 ? " piece" : " pieces");
+    };
+    Elements starts{ElementKind::vertex, 0, {}};
+    for (const ContourLine& line : lines) starts.add(line.crossings.front().positive);
+    report.warnings.push_back(
+        {CutConcern::several_outlines,
+         "the region has " + std::to_string(lines.size()) +
+             " outlines and was cut along all: " + count(cut_pieces(mesh, lines, sides.side, 1)) +
+             " kept, " + count(cut_pieces(mesh, lines, sides.side, -1)) +
+             " left; for one loop take one part of the region (region:connected), fill its holes "
+             "(region:invert, connected, invert) or smooth it",
+         std::move(starts)});
 }
 
 double fullness(const std::vector<Vec3>& points) {

@@ -16,6 +16,10 @@ void add_concerns(const Mesh& mesh, const std::vector<ContourLine>& lines, CutRe
 void add_kept_fraction(const Mesh& mesh, const std::vector<ContourLine>& lines,
                        const CutSides& sides, CutReport& report);
 
+/// Adds how many outlines and pieces the cut of a region has, where there are several outlines.
+void add_outlines(const Mesh& mesh, const std::vector<ContourLine>& lines, const CutSides& sides,
+                  CutReport& report);
+
 /// Area of a closed polyline as a fraction of that of its convex outline, both seen along the
 /// polyline's mean normal: 1 for a convex one, less for one with deep folds. 0 where it has no
 /// area.

@@ -119,6 +119,7 @@ Cut cut_along(const Mesh& mesh, CutLines found, CutSides sides, const CutOptions
     report.whole_components = sides.whole_components;
     add_concerns(mesh, found.lines, report);
     add_kept_fraction(mesh, found.lines, sides, report);
+    add_outlines(mesh, found.lines, sides, report);
     const Splitting splitting{std::move(found.lines), std::move(sides.side), options.slide};
     SplitResult parts = split(mesh, splitting, context);
     report.slid_vertices = std::move(parts.slid);
@@ -145,6 +146,7 @@ CutPreview preview_along(const Mesh& mesh, const CutLines& found,
         kept = sides.kept;
         preview.report.whole_components = sides.whole_components;
         add_kept_fraction(mesh, found.lines, sides, preview.report);
+        add_outlines(mesh, found.lines, sides, preview.report);
     } catch (const Error& error) {
         if (error.code() != ErrorCode::boundary_conflict) throw;
         preview.report.warnings.push_back(

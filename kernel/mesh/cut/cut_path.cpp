@@ -203,6 +203,7 @@ struct FollowedPath {
 
 CutSides sides_by(const Mesh& mesh, const CutPath& path, const SmoothLine& line) {
     CutSides sides{sides_of(mesh, {line.contour()})};
+    sides.named = path.seed.has_value();
     if (path.seed) sides.kept = side_near(mesh, sides.side, *path.seed);
     sides.whole_components =
         assign_whole_components(mesh, sides.side, [&](const auto& component) -> signed char {
@@ -236,7 +237,7 @@ CutLines lines_of(const Mesh& mesh, const CutRegion& region, const CutOptions& o
 
 CutSides sides_by(const Mesh& mesh, const CutRegion& region,
                   const std::vector<ContourLine>& lines) {
-    CutSides sides{sides_of(mesh, lines), 1, true};
+    CutSides sides{sides_of(mesh, lines), 1, true, true};
     const std::vector<char> inside = region.region.mask();
     sides.whole_components =
         assign_whole_components(mesh, sides.side, [&](const auto& component) -> signed char {

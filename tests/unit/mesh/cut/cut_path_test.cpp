@@ -58,6 +58,18 @@ TEST_CASE("the left of the path is kept, or the part with the seed") {
     CHECK(bounds(seeded.kept.mesh).min.y() == Approx(-1.0));
 }
 
+TEST_CASE("a path that keeps more than four fifths is told, unless a seed says what to keep") {
+    const Mesh sphere = make_sphere({.segments = 16});
+    const Path path = ring(0.6, 0.8, 0.02, 10);
+    CHECK(cut(sphere, CutPath{path}).report.warnings.empty());
+    const CutReport large = cut(sphere, CutPath{path.reversed()}).report;
+    REQUIRE(large.warnings.size() == 1);
+    CHECK(large.warnings[0].concern == CutConcern::keeps_most);
+    CHECK(large.warnings[0].message.find("the cut keeps ") == 0);
+    CHECK(cut(sphere, CutPath{path.reversed(), Vec3(0, -1, 0)}).report.warnings.empty());
+    CHECK(cut(sphere, CutPath{path, Vec3(0, -1, 0)}).report.warnings.empty());
+}
+
 TEST_CASE("a path through vertices cuts as one through their places does") {
     const Mesh sphere = make_sphere({.segments = 16});
     const Path free = ring(1.0, 0.3, 0.05, 10);
@@ -78,12 +90,19 @@ TEST_CASE("a region is cut out along all its outlines") {
     CHECK(parts.lines.size() == 2);
     CHECK(parts.kept.mesh.topology().component_count() == 1);
     CHECK(parts.rest.mesh.topology().component_count() == 2);
+    REQUIRE(parts.report.warnings.size() == 1);
+    CHECK(parts.report.warnings[0].concern == CutConcern::several_outlines);
+    CHECK(parts.report.warnings[0].message.find("2 outlines") != std::string::npos);
+    CHECK(parts.report.warnings[0].message.find("1 piece kept, 2 pieces left") !=
+          std::string::npos);
+    CHECK(preview_cut(sphere, CutRegion{band}).report.warnings.size() == 1);
     for (const CutLine& line : parts.lines) {
         CHECK(mean_turn(parts.kept.mesh, line.kept) < 12 * kPi / 180);
     }
     const Mesh cactus = make_cactus({.vertices = 4000});
     const Cut arm = cut(cactus, CutRegion{*cactus.find_region("left_arm")});
     test::check_cut(cactus, arm);
+    CHECK(arm.report.warnings.empty());
     CHECK(arm.kept.mesh.vertex_count() < cactus.vertex_count() / 3);
 }
 
