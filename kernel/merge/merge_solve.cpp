@@ -78,6 +78,8 @@ std::vector<OffsetGuess> guessed_places(const MergePreparation& preparation,
         loops.push_back({&from.source_curves[j], &from.target_curves[j]});
     }
     const auto& directions = preparation.options.directions;
+    const bool stays = preparation.options.configuration == Configuration::fixed;
+    if (stays && directions.empty()) return nearest_offsets(loops);
     std::vector<OffsetGuess> guesses = guess_offsets(loops, directions);
     if (guesses.front().certainty >= kCertain) return guesses;
     const PartShapes::Pair& parts = preparation.parts->of(from, context);

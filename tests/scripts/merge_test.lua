@@ -516,3 +516,29 @@ for _, options in ipairs{
         return nil, message, "invalid_argument"
     end)
 end
+
+-- A join that is written wrongly says which field, and how to get a boundary.
+do
+    local function refused(text, one)
+        expect.error(text, function() lissom.merge{ joins = { one } } end)
+    end
+    refused("no field 'key', did you mean 'keys'?", { source = rim(cap), target = rim(bowl), key = {} })
+    refused("expected in 'source', got lissom.Mesh; write source:boundaries()[1]",
+        { source = cap, target = rim(bowl) })
+    refused("expected in 'target', got table; write mesh:boundaries()[1]",
+        { source = rim(cap), target = bowl:boundaries() })
+end
+
+-- A source that stays where it was put meets what is nearest, and that is no guess.
+do
+    local above = half(ball(16)):transform{ translate = { 0, 0.3, 0 } }
+    local below = half(ball(20), 0, { 0, -1, 0 })
+    local joins = { { source = rim(above), target = rim(below) } }
+    local placed, of_placed = lissom.merge{ configuration = "fixed", joins = joins }
+    expect.truthy(placed:is_closed() and of_placed.joins[1].certainty > 1.5)
+    for _, warning in ipairs(of_placed.warnings) do
+        expect.truthy(not warning:find("guess", 1, true))
+    end
+    local _, of_free = lissom.merge{ joins = joins }
+    expect.truthy(of_free.joins[1].certainty < 1.5)
+end

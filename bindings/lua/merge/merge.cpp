@@ -221,8 +221,9 @@ std::vector<Parameter> merge_parameters(bool intersections) {
               "boundaries meet, and points that do: vertices of the boundaries, or points {x, y, "
               "z} on them, the source's first. Between keys arc length decides. Without keys the "
               "best fit is taken, with the directions below and, where all these leave a choice, "
-              "with the planes of symmetry of the parts; the report says how "
-              "certain it is. All sources lie on one "
+              "with the planes of symmetry of the parts; in the fixed configuration, without "
+              "directions, what lies nearest meets. The report says how certain it is. All sources "
+              "lie on one "
               "mesh; targets may lie on several, and each boundary is in one join."),
         object("source", "lissom.Mesh", "The mesh that is deformed.")
             .optional("the mesh of the joins' sources"),

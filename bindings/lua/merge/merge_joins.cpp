@@ -1,8 +1,12 @@
 // The joins of lissom.merge as scripts write them.
 #include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "bindings/lua/core/failure.h"
 #include "bindings/lua/merge/merge_object.h"
+#include "bindings/lua/mesh/mesh_object.h"
+#include "kernel/core/nearest.h"
 
 namespace lissom::lua {
 namespace {
@@ -55,21 +59,43 @@ std::pair<const KeySpec*, std::size_t> top_keys(const Call& call, const char* pa
     return {keys, count};
 }
 
+constexpr const char* kBoundary =
+    "a boundary, lissom.Path, expected in '%s', got %s; write %s:boundaries()[1]";
+
 // The boundary under `name` in the table at `table`.
 Holder* boundary_field(const Call& call, const char* path, int table, const char* name) {
     lua_State* L = call.lua();
     lua_getfield(L, table, name);
     Holder* holder = find_holder(L, -1, PathObject::kTypeName);
-    if (!holder || !holder->object) call.reject(path, kJoins);
-    return holder;
+    if (holder && holder->object) return holder;
+    if (lua_isnil(L, -1)) call.reject(path, kJoins);
+    const Holder* other = find_holder(L, -1, nullptr);
+    const bool is_mesh = other && std::strcmp(other->type_name, MeshObject::kTypeName) == 0;
+    const char* got = other ? other->type_name : luaL_typename(L, -1);
+    call.reject(path, lua_pushfstring(L, kBoundary, name, got, is_mesh ? name : "mesh"));
+}
+
+// Pushes what is wrong with a field of a join, with no C++ object alive afterwards.
+const char* push_wrong_field(lua_State* L, const char* field) {
+    Failure failure;
+    const bool composed = failure.guard([&] {
+        const std::string text =
+            "a join has no field '" + std::string(field) + "'" +
+            name_hint(field, std::vector<std::string_view>{"source", "target", "keys"});
+        lua_pushlstring(L, text.data(), text.size());
+    });
+    if (!composed) lua_pushstring(L, failure.message);
+    return lua_tostring(L, -1);
 }
 
 void check_fields(const Call& call, const char* path, int table) {
     lua_State* L = call.lua();
     for (lua_pushnil(L); lua_next(L, table) != 0; lua_pop(L, 1)) {
-        const bool text = lua_type(L, -2) == LUA_TSTRING;
-        const std::string_view name = text ? lua_tostring(L, -2) : "";
-        if (name != "source" && name != "target" && name != "keys") call.reject(path, kJoins);
+        if (lua_type(L, -2) != LUA_TSTRING) call.reject(path, kJoins);
+        const char* name = lua_tostring(L, -2);
+        const bool known = std::strcmp(name, "source") == 0 || std::strcmp(name, "target") == 0 ||
+                           std::strcmp(name, "keys") == 0;
+        if (!known) call.reject(path, push_wrong_field(L, name));
     }
 }
 
@@ -77,6 +103,7 @@ JoinSpec top_join(const Call& call, const char* path) {
     lua_State* L = call.lua();
     if (lua_type(L, -1) != LUA_TTABLE) call.reject(path, kJoins);
     const int table = lua_gettop(L);
+    luaL_checkstack(L, 16, "too many joins");
     check_fields(call, path, table);
     JoinSpec join{boundary_field(call, path, table, "source"),
                   boundary_field(call, path, table, "target"), nullptr, 0};

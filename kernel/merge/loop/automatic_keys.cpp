@@ -1,5 +1,6 @@
 #include "kernel/merge/loop/automatic_keys.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -144,6 +145,15 @@ Vec3 square_to(const Vec3& direction, const Vec3& axis) {
     return direction - direction.dot(axis) * axis;
 }
 
+// Turns one unit vector onto another the shortest way; either may be zero.
+Mat3 shortest_turn(const Vec3& from, const Vec3& to) {
+    const Vec3 across = from.cross(to);
+    const double sine = across.norm(), cosine = from.dot(to);
+    if (sine == 0.0 && cosine >= 0.0) return Mat3::Identity();
+    const Vec3 axis = sine > 0.0 ? Vec3(across / sine) : from.unitOrthogonal();
+    return Eigen::AngleAxisd(std::atan2(sine, cosine), axis).toRotationMatrix();
+}
+
 // All joins, to try offsets of the first one.
 class OffsetSearch {
   public:
@@ -261,6 +271,19 @@ std::vector<OffsetGuess> guess_offsets(std::span<const LoopJoin> joins,
     for (std::size_t j = 1; j < joins.size(); ++j) {
         guesses.push_back(
             best_offset([&](double offset) { return search.cost(j, offset, fit); }, kFitFloor));
+    }
+    return guesses;
+}
+
+std::vector<OffsetGuess> nearest_offsets(std::span<const LoopJoin> joins) {
+    const OffsetSearch search(joins);
+    std::vector<OffsetGuess> guesses;
+    for (std::size_t j = 0; j < joins.size(); ++j) {
+        const Loop &source = *joins[j].source, &target = *joins[j].target;
+        const Similarity met{shortest_turn(source.axis(), target.axis()),
+                             target.radius() / source.radius(), source.center(), target.center()};
+        guesses.push_back(
+            best_offset([&](double offset) { return search.cost(j, offset, met); }, kFitFloor));
     }
     return guesses;
 }

@@ -38,4 +38,9 @@ struct OffsetGuess {
 std::vector<OffsetGuess> guess_offsets(std::span<const LoopJoin> joins,
                                        std::span<const DirectionPair> directions = {});
 
+/// The same for a source that stays where it was put: each join has the offset under which its
+/// loops lie nearest to each other, moved together by their centres, scaled by their radii and
+/// turned the shortest way by their axes.
+std::vector<OffsetGuess> nearest_offsets(std::span<const LoopJoin> joins);
+
 }  // namespace lissom

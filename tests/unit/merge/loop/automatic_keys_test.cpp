@@ -51,6 +51,24 @@ TEST_CASE("without keys the loops meet where a similarity brings them together")
     }
 }
 
+TEST_CASE("where the source stays, places decide, however round the loops are") {
+    const Mesh a = round_tube(60, 3);
+    for (const double turned : {0.0, 0.4, 2.5}) {
+        Mesh b = round_tube(60, 3);
+        const Affine turn = rotation(Vec3::UnitZ(), turned, Vec3::Zero());
+        const Affine tilt = rotation(Vec3::UnitX(), 0.3, Vec3::Zero());
+        for (Vec3& p : b.edit_positions()) p = 1.5 * tilt(turn(p)) + Vec3(0, 0, 0.4);
+        const Loop source = first_ring(a, 60), target = first_ring(b, 60);
+        const LoopJoin join{&source, &target};
+        const OffsetGuess guess = nearest_offsets(std::span(&join, 1)).front();
+        const Vec3 expected = 1.5 * tilt(a.position(0)) + Vec3(0, 0, 0.4);
+        double distance = 0.0;
+        const double u = target.parameter_of(target.nearest(expected, distance));
+        CHECK(difference(guess.key.target - guess.key.source, u) < 0.01);
+        CHECK(guess.certainty > 1.5);
+    }
+}
+
 TEST_CASE("a round loop could meet anywhere, and the guess says so") {
     const Mesh a = round_tube(60, 3), b = round_tube(60, 3);
     const Loop source = first_ring(a, 60), target = first_ring(b, 60);
