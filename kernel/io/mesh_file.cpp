@@ -149,13 +149,15 @@ RepairOptions repair_options(const LoadOptions& options, const MeshData& data) {
     return {options.weld.value_or(usual), options.repair};
 }
 
-// What was changed is a warning; that seams were closed, or that a face is poor, is not.
+// What was changed is a warning, and so is a mesh that is wholly inside out, which has a message;
+// that seams were closed, or that a face is poor, is not.
 void log_findings(const Report& report, const Context& context) {
     for (const Finding& finding : report.findings()) {
+        const bool is_quality = finding.kind >= FindingKind::faces_zero_area &&
+                                finding.kind <= FindingKind::components_inverted;
         const bool is_flag = finding.kind == FindingKind::vertices_welded ||
                              finding.kind == FindingKind::points_only ||
-                             (finding.kind >= FindingKind::faces_zero_area &&
-                              finding.kind <= FindingKind::components_inverted);
+                             (is_quality && finding.message.empty());
         std::string text = describe(finding);
         if (!finding.message.empty()) text += ": " + finding.message;
         context.log(is_flag ? LogLevel::info : LogLevel::warning, text);

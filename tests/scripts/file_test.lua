@@ -78,3 +78,25 @@ expect.error("finite number above 0 expected, got 0", function() lissom.load("a.
 expect.error("seams", function() lissom.load("a.obj", { weld = true }) end)
 expect.error("welt", function() lissom.load("a.obj", { welt = "all" }) end)
 os.remove(name)
+
+-- A mesh that is inside out is told, with the call that turns it.
+do
+    local place = os.tmpname() .. ".obj"
+    local told = {}
+    lissom.listen{ log = function(level, text) told[#told + 1] = level .. ": " .. text end }
+    assert(lissom.shapes.sphere():flip():save(place))
+    local inside_out = assert(lissom.load(place))
+    expect.truthy(table.concat(told, "\n"):find("warning: 1 component inside out: the mesh is inside out; "
+        .. "mesh:flip() turns it", 1, true))
+    expect.truthy(inside_out:volume() < 0 and inside_out:flip():volume() > 0)
+    told = {}
+    assert(lissom.shapes.sphere():save(place))
+    assert(lissom.load(place))
+    expect.equal(#told, 0)
+    lissom.listen{}
+    os.remove(place)
+    local none, message = lissom.load("")
+    expect.truthy(none == nil and message:find("the path is empty", 1, true))
+    none, message = lissom.shapes.box():save("")
+    expect.truthy(none == nil and message:find("the path is empty", 1, true))
+end

@@ -67,6 +67,11 @@ void require_no_zero(ErrorCode code, const fs::path& path) {
                           "'; remove it");
 }
 
+void require_name(ErrorCode code, const fs::path& path) {
+    require_no_zero(code, path);
+    if (path.empty()) throw Error(code, "the path is empty; name a file");
+}
+
 // Makes a rename in `folder` durable. Not every file system can; the new content is in place
 // anyway.
 void flush_folder([[maybe_unused]] const fs::path& folder) {
@@ -295,7 +300,7 @@ std::string display_name(const fs::path& path) {
 }
 
 void require_file(const fs::path& path) {
-    require_no_zero(ErrorCode::file_not_found, path);
+    require_name(ErrorCode::file_not_found, path);
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) {
@@ -312,7 +317,7 @@ void require_file(const fs::path& path) {
 }
 
 void require_folder_of(const fs::path& path) {
-    require_no_zero(ErrorCode::file_write_failed, path);
+    require_name(ErrorCode::file_write_failed, path);
     std::error_code error;
     const fs::path folder = folder_of(path);
     if (fs::is_directory(folder, error)) return;

@@ -12,9 +12,10 @@
 namespace lissom {
 namespace {
 
-void add_finding(Report& report, FindingKind kind, ElementKind element, std::vector<Index> ids) {
+void add_finding(Report& report, FindingKind kind, ElementKind element, std::vector<Index> ids,
+                 std::string message = {}) {
     const std::size_t count = ids.size();
-    if (count > 0) report.add({kind, element, false, count, std::move(ids), {}});
+    if (count > 0) report.add({kind, element, false, count, std::move(ids), std::move(message)});
 }
 
 // A triangle with an angle below one degree: its smallest angle lies between its two longest sides.
@@ -75,13 +76,19 @@ bool is_inside_another(const std::vector<Component>& list, const Component& c) {
     });
 }
 
+// Told where the closed components together enclose less than nothing.
+constexpr const char* kInsideOut = "the mesh is inside out; mesh:flip() turns it";
+
 void flag_components(const Mesh& mesh, Report& report) {
     constexpr double kSmall = 1e-3, kFlat = 1e-9;
     // Beyond this many components, looking for hollows would take longer than it is worth.
     constexpr std::size_t kMost = 2000;
     const std::vector<Component> list = measure_components(mesh);
-    double largest = 0.0;
-    for (const Component& c : list) largest = std::max(largest, c.area);
+    double largest = 0.0, enclosed = 0.0;
+    for (const Component& c : list) {
+        largest = std::max(largest, c.area);
+        if (c.closed) enclosed += c.volume;
+    }
     std::vector<Index> small, inverted;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const Component& c = list[i];
@@ -91,8 +98,9 @@ void flag_components(const Mesh& mesh, Report& report) {
             inverted.push_back(static_cast<Index>(i));
     }
     add_finding(report, FindingKind::components_small, ElementKind::component, std::move(small));
+    const bool is_most = !inverted.empty() && enclosed < 0.0;
     add_finding(report, FindingKind::components_inverted, ElementKind::component,
-                std::move(inverted));
+                std::move(inverted), is_most ? kInsideOut : "");
 }
 
 }  // namespace

@@ -280,6 +280,15 @@ TEST_CASE("a consistent mesh that is inside out is flagged and left") {
     const Mesh mesh = repair(soup_of(inside_out));
     CHECK(hash(mesh) == hash(inside_out));
     CHECK(count(mesh, FindingKind::components_inverted) == 1);
+    CHECK(mesh.report().find(FindingKind::components_inverted)->message.find("mesh:flip()") !=
+          std::string::npos);
+
+    // A part that is inside out does not make the whole so.
+    Mesh mostly = make_sphere({});
+    append(mostly, test::moved(inside_out, translation({9, 0, 0})));
+    const Mesh mixed = repair(soup_of(mostly));
+    REQUIRE(count(mixed, FindingKind::components_inverted) == 1);
+    CHECK(mixed.report().find(FindingKind::components_inverted)->message.empty());
 
     Mesh hollow = make_sphere({});
     Mesh wall = make_sphere({});
