@@ -72,21 +72,42 @@ void require_inside(const Region& region, const MeshPoint& point) {
                     "a point lies outside the region, between ", [](Index) { return true; });
 }
 
-// Errors: handle_overlap where handles but `except`, or targets, hold some of `vertices`.
+// "handle 2 (12 vertices)": handles count from 1 in the order in which they were made.
+std::string handle_text(std::size_t number, std::size_t vertices) {
+    return "handle " + std::to_string(number + 1) + " (" + std::to_string(vertices) +
+           (vertices == 1 ? " vertex)" : " vertices)");
+}
+
+bool holds_any(const RestShape& rest, const Handle& handle, const std::vector<Index>& vertices) {
+    return std::any_of(vertices.begin(), vertices.end(), [&](Index v) {
+        return std::find(handle.local.begin(), handle.local.end(), rest.local_vertex(v)) !=
+               handle.local.end();
+    });
+}
+
+// Errors: handle_overlap where handles but `except`, or targets, hold some of `vertices`, which
+// `who` is to hold.
 void require_unheld(const RestShape& rest, const Holds& holds, const std::vector<Index>& vertices,
-                    std::span<const Index> except = {}) {
+                    const std::string& who, std::span<const Index> except = {}) {
     std::vector<char> held(static_cast<std::size_t>(rest.patch().vertex_count), 0);
+    for (const auto& target : holds.targets) {
+        if (target->row.size() == 1) held[target->row.front().first] = 1;
+    }
+    const bool by_target = std::any_of(vertices.begin(), vertices.end(),
+                                       [&](Index v) { return held[rest.local_vertex(v)] != 0; });
+    std::string holders = by_target ? "a constraint" : "";
     for (std::size_t h = 0; h < holds.handles.size(); ++h) {
         const bool left_out =
             std::find(except.begin(), except.end(), static_cast<Index>(h)) != except.end();
         if (left_out || !holds.handles[h]) continue;
-        for (const Index v : holds.handles[h]->local) held[v] = 1;
-    }
-    for (const auto& target : holds.targets) {
-        if (target->row.size() == 1) held[target->row.front().first] = 1;
+        const Handle& handle = *holds.handles[h];
+        for (const Index v : handle.local) held[v] = 1;
+        if (!holds_any(rest, handle, vertices)) continue;
+        holders += (holders.empty() ? "" : ", ") + handle_text(h, handle.region.size());
     }
     refuse_vertices(vertices, ErrorCode::handle_overlap,
-                    "another handle or constraint already holds ",
+                    who + " meets what already holds vertices of it, " + holders +
+                        "; leave out of one of them ",
                     [&](Index v) { return held[rest.local_vertex(v)] != 0; });
 }
 
@@ -119,7 +140,9 @@ void HoldEdit::require_handle_region(const Region& vertices, std::span<const Ind
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
                     "the handle reaches outside the region at ",
                     [&](Index v) { return !rest.region().contains(v); });
-    require_unheld(rest, holds, vertices.vertices(), except);
+    const std::size_t number =
+        except.empty() ? holds.handles.size() : static_cast<std::size_t>(except.front());
+    require_unheld(rest, holds, vertices.vertices(), handle_text(number, vertices.size()), except);
 }
 
 HandleId HoldEdit::add_handle(const Region& vertices, const HandleOptions& options) {
@@ -146,7 +169,7 @@ HandleId HoldEdit::add_handle(std::span<const MeshPoint> points, const HandleOpt
             rows.push_back(local_row(rest, point));
         }
     }
-    require_unheld(rest, holds, held);
+    require_unheld(rest, holds, held, handle_text(holds.handles.size(), held.size()));
     Handle handle{Region(topology, around), options};
     const Region held_region(topology, held);
     for (const Index v : held_region.vertices()) handle.local.push_back(rest.local_vertex(v));
@@ -212,7 +235,10 @@ Handle HoldEdit::mirror_image(Index number, const Handle& handle, const MirrorPl
     refuse_vertices(vertices, ErrorCode::handle_overlap,
                     "the handle meets its mirror image; leave out what is near the plane, as ",
                     [&](Index v) { return handle.region.contains(v); });
-    require_unheld(rest, holds, held, std::array{number, handle.partner});
+    require_unheld(rest, holds, held,
+                   "the mirror image of " +
+                       handle_text(static_cast<std::size_t>(number), handle.region.size()),
+                   std::array{number, handle.partner});
     image.partner = number;
     image.region = Region(rest.region().topology(), vertices);
     image.center = rest.center_of(image);
@@ -285,7 +311,7 @@ Target checked_target(const RestShape& rest, const Holds& holds, const PointCons
         if (!handle) continue;
         const bool held = std::find(handle->local.begin(), handle->local.end(),
                                     target.row.front().first) != handle->local.end();
-        if (held) require_unheld(rest, holds, asked.point.vertices);
+        if (held) require_unheld(rest, holds, asked.point.vertices, "a constraint");
     }
     return target;
 }

@@ -144,6 +144,35 @@ expect.error("weights", function() lissom.deform(mesh, { method = "geodesic", we
 -- Misuse.
 mesh, edit, _, top = bar()
 expect.error("[handle_overlap]", function() edit:handle(mesh:region("top"):grow()) end)
+do -- which handles meet is said, by their numbers
+    local bar = lissom.shapes.bar()
+    local three = lissom.deform(bar)
+    three:handle(bar:region("bottom"))
+    three:handle(bar:region("top"))
+    local count = #bar:region("top")
+    expect.error("handle 3 (" .. #bar:region("top"):grow() .. " vertices)", function()
+        three:handle(bar:region("top"):grow())
+    end)
+    expect.error("handle 2 (" .. count .. " vertices)", function() three:handle(bar:region("top"):grow()) end)
+end
+do -- every part that nothing holds is named, by one vertex
+    local parts = lissom.shapes.box()
+    parts:append(lissom.shapes.box():transform{ translate = { 5, 0, 0 } })
+    parts:append(lissom.shapes.box():transform{ translate = { 9, 0, 0 } })
+    local loose = lissom.deform(parts)
+    local first = parts:region{ fraction = { max = { 0.2 } } }
+    loose:handle(first)
+    local nothing, message, code, elements = loose:solve()
+    expect.equal(nothing, nil)
+    expect.equal(code, "unconstrained")
+    expect.truthy(message:find("2 connected parts, those of vertices 9 and 17", 1, true))
+    expect.near_list(elements.ids, { 9, 17 })
+    -- A handle that holds a vertex of each takes them along.
+    loose = lissom.deform(parts)
+    loose:handle(first:union(parts:region{ ids = { 9, 17 } })):translate(0, 1, 0)
+    assert(loose:solve())
+    expect.near(parts:bounds().min[2], lissom.shapes.box():bounds().min[2] + 1, 1e-9)
+end
 expect.error("[region_empty]", function() edit:handle(mesh:region{ vertices = {} }) end)
 expect.error("[singular_transform]", function() top:scale(0) end)
 expect.error("integer from 1 to 2 expected", function() lissom.deform(mesh, { coherence = 3 }) end)

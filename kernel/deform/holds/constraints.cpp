@@ -80,21 +80,40 @@ Part collect_part(const WorkingPatch& work, const TiesOfVertices& ties, const Kn
     return part;
 }
 
-void require_held(Part part) {
-    if (part.free.empty()) return;
-    if (part.positions > 0.0 && (part.has_gradient || part.spans_space())) return;
+bool is_held(const Part& part) {
+    if (part.free.empty()) return true;
+    return part.positions > 0.0 && (part.has_gradient || part.spans_space());
+}
+
+[[noreturn]] void refuse_part(Part part) {
     std::sort(part.free.begin(), part.free.end());
     Elements vertices{ElementKind::vertex, 0, {}};
     for (const Index v : part.free) vertices.add(v);
     const std::string names = describe(vertices);
     const std::string remedy =
         part.positions == 0.0
-            ? "no position is prescribed; add a handle there, or leave a part out of the region"
+            ? "no position is prescribed; add a handle there, let the region of one hold a vertex "
+              "of it, or leave a part out of the region"
             : "its positions alone do not say how it turns; prescribe a gradient, or four "
               "positions "
               "that are not in one plane";
     throw Error(ErrorCode::unconstrained,
                 "nothing holds the connected part of " + names + ": " + remedy,
+                std::move(vertices));
+}
+
+// Of each part one vertex.
+[[noreturn]] void refuse_parts(const std::vector<Part>& parts) {
+    Elements vertices{ElementKind::vertex, 0, {}};
+    for (const Part& part : parts) {
+        vertices.add(*std::min_element(part.free.begin(), part.free.end()));
+    }
+    const std::string names = describe(vertices);
+    throw Error(ErrorCode::unconstrained,
+                "nothing holds " + std::to_string(parts.size()) + " connected parts, those of " +
+                    names +
+                    ": each needs a handle; let the region of one hold a vertex of each part that "
+                    "is to move along, or leave parts out of the region",
                 std::move(vertices));
 }
 
@@ -200,9 +219,14 @@ Holding find_holding(const WorkingPatch& work, const Holds& holds) {
 void require_constraints(const WorkingPatch& work, const KnownMask& known) {
     const TiesOfVertices ties(work);
     std::vector<char> seen(static_cast<std::size_t>(work.patch.surface_count), 0);
+    std::vector<Part> loose;
     for (Index v = 0; v < work.patch.surface_count; ++v) {
-        if (!seen[v]) require_held(collect_part(work, ties, known, v, seen));
+        if (seen[v]) continue;
+        Part part = collect_part(work, ties, known, v, seen);
+        if (!is_held(part)) loose.push_back(std::move(part));
     }
+    if (loose.size() == 1) refuse_part(std::move(loose.front()));
+    if (!loose.empty()) refuse_parts(loose);
 }
 
 }  // namespace lissom
