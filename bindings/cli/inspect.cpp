@@ -8,6 +8,7 @@
 #include "bindings/cli/json.h"
 #include "bindings/cli/load_flags.h"
 #include "bindings/cli/verbs.h"
+#include "kernel/io/animation_list.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/label_adder.h"
 #include "kernel/mesh/measure/measures.h"
@@ -68,6 +69,14 @@ Json regions_json(const Mesh& mesh) {
     return sizes;
 }
 
+Json animations_json(const Mesh& mesh) {
+    Json list = Json::array();
+    for (const AnimationInfo& info : animations_of(mesh)) {
+        list.push_back({{"name", info.name}, {"seconds", info.seconds}, {"frames", info.frames}});
+    }
+    return list;
+}
+
 Index isolated_count(const Topology& topology) {
     Index count = 0;
     for (Index v = 0; v < topology.vertex_count(); ++v) count += topology.is_isolated(v) ? 1 : 0;
@@ -100,6 +109,7 @@ Json mesh_json(const std::string& file, const Mesh& mesh, const Context& context
     add("attributes", [&] { return attributes_json(mesh); });
     add("labels", [&] { return labels_json(mesh, context); });
     add("regions", [&] { return regions_json(mesh); });
+    add("animations", [&] { return animations_json(mesh); });
     add("report", [&] { return report_json(mesh.report()); });
     return json;
 }
@@ -156,6 +166,13 @@ std::string attributes_text(const Json& list) {
     return text;
 }
 
+// "wave: 2 s, 60 frames".
+std::string animation_text(const Json& animation) {
+    const auto name = animation["name"].get<std::string>();
+    return (name.empty() ? "unnamed" : name) + ": " + number_text(animation["seconds"]) + " s, " +
+           animation["frames"].dump() + " frames";
+}
+
 // "2 faces turned over ...; in the file: faces 3 and 9": a finding on one line.
 std::string finding_text(const Finding& finding) {
     std::string text = describe(finding);
@@ -194,6 +211,7 @@ void print_mesh(const Json& mesh) {
         line(kind + "s", counts_text(counts));
     }
     if (!mesh["regions"].empty()) line("regions", counts_text(mesh["regions"]));
+    for (const Json& animation : mesh["animations"]) line("animation", animation_text(animation));
 }
 
 }  // namespace

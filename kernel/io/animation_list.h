@@ -1,0 +1,24 @@
+/// What a glTF file that a mesh came from says of its animations.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+struct AnimationInfo {
+    /// Empty where the file gives none.
+    std::string name;
+    /// Time of the last key.
+    double seconds = 0.0;
+    /// Keys of the channel that has most.
+    std::size_t frames = 0;
+};
+
+/// The animations that are saved with the mesh, in the order of the file; none for other formats.
+std::vector<AnimationInfo> animations_of(const Mesh& mesh);
+
+}  // namespace lissom
