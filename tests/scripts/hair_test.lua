@@ -250,3 +250,10 @@ expect.error("removed", function() parting:points() end)
 style:close()
 expect.error("closed", function() style:grow{} end)
 expect.error("closed", function() stream:points() end)
+
+-- A map by a function that gives no number is named by its option.
+local mapped = lissom.hairstyle(head, { scalp = scalp, resolution = 6000 })
+for _, name in ipairs{ "length", "density", "lengths" } do
+    local text = "bad option '" .. name .. "' of 'grow' (its function must return a number, not string"
+    expect.error(text, function() mapped:grow{ count = 10, [name] = function() return "x" end } end)
+end

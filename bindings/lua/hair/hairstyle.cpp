@@ -274,17 +274,22 @@ std::span<const double> ask_factors(Call& call, const char* path) {
     auto* factors = call.scratch<double>(static_cast<std::size_t>(count));
     for (Index v = 0; v < count; ++v) {
         if (!style.get() || style->head->mesh.vertex_count() != count) {
-            call.raise("the function of a map must change neither the style nor its head");
+            call.reject(path, "the function must change neither the style nor its head");
         }
         lua_pushvalue(L, call.stack_index(path));
         call.push_id(v);
         call.push_coordinates(style->head->mesh.position(v));
         lua_call(L, 4, 1);
-        if (lua_type(L, -1) != LUA_TNUMBER) call.raise("the function of a map must give a number");
+        if (lua_type(L, -1) != LUA_TNUMBER) {
+            call.reject(path, lua_pushfstring(L,
+                                              "its function must return a number, not %s, for "
+                                              "vertex %d",
+                                              luaL_typename(L, -1), static_cast<int>(v) + 1));
+        }
         factors[v] = lua_tonumber(L, -1);
         lua_pop(L, 1);
     }
-    if (!style.get()) call.raise("the function of a map must not close the style");
+    if (!style.get()) call.reject(path, "the function must not close the style");
     return {factors, static_cast<std::size_t>(count)};
 }
 
@@ -501,18 +506,23 @@ Parameter metres(const std::string& name, double value, const std::string& help)
 
 std::vector<Parameter> growth_fields() {
     const GrowthOptions defaults;
+    const std::string by_vertex =
+        " For the vertices of the head: a list, the name of an attribute, or function(vertex, x, "
+        "y, z), asked with the vertex's number and its place in mesh units.";
     return {
         integer("count", "How many strands; the first n of more are the same.")
             .defaults(100000)
             .between(0, kMaximumRoots),
         integer("seed", "Another seed gives other roots and other chance.").defaults(1).at_least(0),
-        either("length",
-               {number("metres", "Of every strand.").in("metres").at_least(0),
-                function("metres", kOfVertex,
-                         "Asked for each vertex of the head with its number and its place in mesh "
-                         "units; gives metres.")},
-               "Of a strand, at most twice the diagonal of the volume. By a function, for instance "
-               "for a fringe that is shorter than the rest.")
+        either(
+            "length",
+            {number("metres", "Of every strand.").in("metres").at_least(0),
+             function("metres", kOfVertex,
+                      "Asked for each vertex of the head with its number and its place in mesh "
+                      "units; gives metres.")},
+            "Of a strand, at most twice the diagonal of the volume. By function(vertex, x, y, z) "
+            "in metres, for instance for a fringe that is shorter than the rest: it is asked "
+            "for each vertex of the head with its number and its place in mesh units.")
             .in("metres")
             .defaults(defaults.length),
         number("variation", "Share by which strands are longer or shorter at most.")
@@ -521,8 +531,8 @@ std::vector<Parameter> growth_fields() {
         choice("roots", {"poisson", "angles"},
                "Evenly spread, or on the thesis's grid of polar angles.")
             .defaults("poisson"),
-        factors_option("density", "Relative density of hair."),
-        factors_option("lengths", "Factors of the length."),
+        factors_option("density", "Relative density of hair." + by_vertex),
+        factors_option("lengths", "Factors of the length." + by_vertex),
         options("cut",
                 {vector("point", "A point of the plane.").in("mesh units"),
                  vector("normal", "Points to where no hair is left.").optional("down"),
