@@ -157,3 +157,12 @@ expect.error("no method 'rotate'; write mesh:transform{ rotate = ... }", functio
     any:rotate{ axis = "x", angle = 3 }
 end)
 expect.error("did you mean 'regions'?", function() any:regionss() end)
+
+-- Bounds print as numbers, and are a plain table otherwise.
+local extent = any:bounds()
+expect.equal(tostring(extent),
+    "{min = {-1, -1, -1}, max = {1, 1, 1}, center = {0, 0, 0}, diagonal = 3.4641}")
+local keys = {}
+for key in pairs(extent) do keys[#keys + 1] = key end
+table.sort(keys)
+expect.equal(table.concat(keys, " "), "center diagonal max min")

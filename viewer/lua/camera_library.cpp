@@ -214,8 +214,10 @@ Parameter size_argument() {
 std::vector<Parameter> view_options() {
     return {
         choice("view", {"front", "back", "left", "right", "top", "bottom", "three-quarter"},
-               "The side to look from. With y upwards, front looks along -z and right along -x; "
-               "three-quarter stands to the right of the front, and above.")
+               "The side to look from, of the world and not of what is shown: with y upwards the "
+               "camera stands at +z for front, -z for back, +x for right, -x for left. Of a head "
+               "that faces +z, as is usual, left shows its own right side. three-quarter stands "
+               "between front and right, and above.")
             .optional("three-quarter"),
         choice("up", {"y", "z"}, "The axis that points up in the view.").optional("y"),
         boolean("parallel", "Without perspective.").optional("false"),

@@ -230,12 +230,49 @@ int equal_meshes(Call& call) {
 
 }  // namespace
 
+namespace {
+
+// "{min = {0, 0, 0}, max = {1, 1, 1}, center = {0.5, 0.5, 0.5}, diagonal = 1.73205}"
+int bounds_text(lua_State* L) {
+    luaL_checktype(L, 1, LUA_TTABLE);
+    lua_pushliteral(L, "{");
+    for (const char* name : {"min", "max", "center"}) {
+        lua_getfield(L, 1, name);
+        double xyz[3] = {};
+        for (int k = 0; k < 3 && lua_istable(L, -1); ++k) {
+            lua_rawgeti(L, -1, k + 1);
+            xyz[k] = lua_tonumber(L, -1);
+            lua_pop(L, 1);
+        }
+        lua_pop(L, 1);
+        char text[128];
+        std::snprintf(text, sizeof text, "%s = {%.6g, %.6g, %.6g}, ", name, xyz[0], xyz[1], xyz[2]);
+        lua_pushstring(L, text);
+        lua_concat(L, 2);
+    }
+    lua_getfield(L, 1, "diagonal");
+    char text[64];
+    std::snprintf(text, sizeof text, "diagonal = %.6g}", lua_tonumber(L, -1));
+    lua_pop(L, 1);
+    lua_pushstring(L, text);
+    lua_concat(L, 2);
+    return 1;
+}
+
+}  // namespace
+
 int push_bounds(const Call& call, const Box& box) {
     lua_createtable(call.lua(), 0, 4);
     call.set_field("min", call.push_vector(box.min));
     call.set_field("max", call.push_vector(box.max));
     call.set_field("center", call.push_vector(box.center()));
     call.set_field("diagonal", call.push(box.diagonal()));
+    lua_State* L = call.lua();
+    if (luaL_newmetatable(L, "lissom.Bounds")) {
+        lua_pushcfunction(L, bounds_text);
+        lua_setfield(L, -2, "__tostring");
+    }
+    lua_setmetatable(L, -2);
     return 1;
 }
 
