@@ -95,8 +95,8 @@ do
     expect.equal(#told, 0)
     lissom.listen{}
     os.remove(place)
-    local none, message = lissom.load("")
-    expect.truthy(none == nil and message:find("the path is empty", 1, true))
-    none, message = lissom.shapes.box():save("")
-    expect.truthy(none == nil and message:find("the path is empty", 1, true))
+    local none, told_of = lissom.load("")
+    expect.truthy(none == nil and told_of:find("the path is empty", 1, true))
+    none, told_of = lissom.shapes.box():save("")
+    expect.truthy(none == nil and told_of:find("the path is empty", 1, true))
 end

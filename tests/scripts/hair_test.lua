@@ -254,6 +254,6 @@ expect.error("closed", function() stream:points() end)
 -- A map by a function that gives no number is named by its option.
 local mapped = lissom.hairstyle(head, { scalp = scalp, resolution = 6000 })
 for _, name in ipairs{ "length", "density", "lengths" } do
-    local text = "bad option '" .. name .. "' of 'grow' (its function must return a number, not string"
-    expect.error(text, function() mapped:grow{ count = 10, [name] = function() return "x" end } end)
+    local wrong = "bad option '" .. name .. "' of 'grow' (its function must return a number, not string"
+    expect.error(wrong, function() mapped:grow{ count = 10, [name] = function() return "x" end } end)
 end

@@ -531,9 +531,9 @@ end
 
 -- A source that stays where it was put meets what is nearest, and that is no guess.
 do
-    local above = half(ball(16)):transform{ translate = { 0, 0.3, 0 } }
+    local over = half(ball(16)):transform{ translate = { 0, 0.3, 0 } }
     local below = half(ball(20), 0, { 0, -1, 0 })
-    local joins = { { source = rim(above), target = rim(below) } }
+    local joins = { { source = rim(over), target = rim(below) } }
     local placed, of_placed = lissom.merge{ configuration = "fixed", joins = joins }
     expect.truthy(placed:is_closed() and of_placed.joins[1].certainty > 1.5)
     for _, warning in ipairs(of_placed.warnings) do
