@@ -55,7 +55,7 @@ local region = ball:region{ plane = { point = { 0, 0.2, 0 }, normal = { 0.3, 1, 
 local part, _, outline = ball:cut{ region = region, smoothing = 0.05 }
 expect.truthy(#part < #ball and outline[1]:mean_turn() < 12)
 
--- A path that keeps nearly all is told; a normal, a seed and a region name what they keep.
+-- A plane or path that keeps nearly all is told; a seed and a region name what they keep.
 local function ring_at(height, sign)
     local list, r = {}, math.sqrt(1 - height * height)
     for i = 1, 10 do
@@ -64,13 +64,16 @@ local function ring_at(height, sign)
     end
     return list
 end
-local _, _, of_most = ball:cut{ path = ring_at(0.8, 1) }
-expect.near(of_most.report.kept_fraction, 0.9, 0.01)
-expect.equal(of_most.report.warnings[1].kind, "keeps_most")
-expect.truthy(of_most.report.warnings[1].message:find("the cut keeps %d+ %% of"))
+local down = { point = { 0, 0.8, 0 }, normal = { 0, -1, 0 } }
+for _, by in ipairs{ { path = ring_at(0.8, 1) }, { plane = down } } do
+    local _, _, of_most = ball:cut(by)
+    expect.near(of_most.report.kept_fraction, 0.9, 0.01)
+    expect.equal(of_most.report.warnings[1].kind, "keeps_most")
+    expect.truthy(of_most.report.warnings[1].message:find("the cut keeps %d+ %% of"))
+end
 local most = ball:region{ plane = { point = { 0, 0.8, 0 }, normal = { 0, -1, 0 } } }
 for _, by in ipairs{ { region = most }, { path = ring_at(0.8, 1), seed = { 0, -1, 0 } },
-    { plane = { point = { 0, 0.8, 0 }, normal = { 0, -1, 0 } } } } do
+    { plane = down, seed = { 0, -1, 0 } } } do
     local _, _, of_named = ball:cut(by)
     expect.equal(#of_named.report.warnings, 0)
     expect.near(of_named.report.kept_fraction, 0.9, 0.01)

@@ -171,7 +171,7 @@ do -- every part that nothing holds is named, by one vertex
     expect.near_list(elements.ids, { 9, 17 })
     -- A handle that holds a vertex of each takes them along.
     loose = lissom.deform(parts)
-    loose:handle(first:union(parts:region{ ids = { 9, 17 } })):translate(0, 1, 0)
+    loose:handle(first:union(parts:region{ vertices = { 9, 17 } })):translate(0, 1, 0)
     assert(loose:solve())
     expect.near(parts:bounds().min[2], lissom.shapes.box():bounds().min[2] + 1, 1e-9)
 end

@@ -146,7 +146,7 @@ for v = 1, #head do short[v] = 0.5 end
 local half = style:grow{ count = 300, length = 0.1, lengths = short }:stats().mean_length
 expect.near(half / style:grow{ count = 300, length = 0.1 }:stats().mean_length, 0.5, 0.05)
 local function text() return "x" end
-expect.error("must give a number", function() style:grow{ count = 10, density = text } end)
+expect.error("must return a number", function() style:grow{ count = 10, density = text } end)
 expect.error("no attribute", function() style:grow{ count = 10, density = "nothing" } end)
 -- A fringe by length: metres at every vertex, times the factors.
 local function fringe(vertex, _, _, z)
@@ -158,7 +158,7 @@ expect.near(fringed:stats().most_length, 0.1, 2e-3)
 local shortened = style:grow{ count = 300, length = fringe, lengths = short, variation = 0 }
 expect.near(shortened:stats().most_length, 0.05, 1e-3)
 expect.truthy(fringed:select{ where = function(_, _, _, z) return z > 0.05 end }:stats().most_length < 0.051)
-expect.error("must give a number", function() style:grow{ count = 10, length = text } end)
+expect.error("must return a number", function() style:grow{ count = 10, length = text } end)
 expect.error("0.01 to 10", function() style:grow{ count = 10, segment = 1e-9 } end)
 expect.error("at most", function() style:grow{ count = 10, length = 50 } end)
 expect.error("at most", function() pony:set{ radius = 5 } end)

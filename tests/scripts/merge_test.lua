@@ -389,7 +389,7 @@ end
 expect.error("joins", function() lissom.merge{} end)
 expect.error("joins", function() lissom.merge{ joins = {} } end)
 expect.error("list of joins expected", function() lissom.merge{ joins = { { source = rim(cap) } } } end)
-expect.error("list of joins expected", function()
+expect.error("did you mean 'keys'", function()
     lissom.merge{ joins = { { source = rim(cap), target = rim(bowl), key = {} } } }
 end)
 expect.error("keys are pairs", function() lissom.merge{ joins = { join{ { from } } } } end)

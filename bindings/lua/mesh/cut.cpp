@@ -293,44 +293,45 @@ assert(math.abs(tube:boundaries()[1]:mean_turn() - 10) < 1e-6))"}};
 }
 
 std::vector<Record> cut_records() {
-    return {{"lissom.CutLines",
-             "The lines of a cut on the part that is kept, as a list.",
-             {{"lissom.Path", "[integer]",
-               "With the surface on its left; closed unless it ends at open boundaries."},
-              {"lissom.Path[]", "b",
-               "The same lines on the rest: from the same points, the other way."},
-              {"lissom.Path[]|nil", "others",
-               "Of a preview: lines in which the plane crosses too and which would not be cut."},
-              {"lissom.CutReport", "report", "What was found and done."}}},
-            {"lissom.CutReport",
-             "What a cut found and did.",
-             {{"lissom.CutWarning[]", "warnings", "Why the result may not be what was wanted."},
-              {"integer[]", "touched_boundaries",
-               "Open boundaries that lines end at: places in mesh:boundaries() of before."},
-              {"integer", "lines_left", "Lines in which the plane crosses too, not cut."},
-              {"integer", "whole_components", "Components that went to one part as a whole."},
-              {"number", "kept_fraction",
-               "Part of the mesh's area, 0 to 1, on the side of the lines that is kept."},
-              {"integer[]", "slid_vertices", "Vertices of before that slid onto a line."},
-              {"integer", "divided_faces", "Faces that were divided."}}},
-            {"lissom.CutWarning",
-             "Why the result of a cut may not be what was wanted.",
-             {{"string", "kind",
-               "touches_boundary: a line ends at an open boundary; folded_line: a line seems to "
-               "run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too; "
-               "keeps_most: a path without a seed keeps more than 80 % of the area, perhaps the "
-               "wrong part; several_outlines: a region was cut along more than one line; "
-               "not_separating, of a preview: the cut would fail, its sides are connected."},
-              {"string", "message", "What was found and what to do about it."},
-              {"integer[]", "vertices", "Vertices of before where it was found, at most 100."}}},
-            {"lissom.TrimReport",
-             "What was done to smooth a boundary.",
-             {{"number", "before", "Mean turn of the boundary before, in degrees."},
-              {"number", "after", "Mean turn of the new one."},
-              {"number", "smoothing",
-               "The smoothing used: less than asked for where the boundary turns too sharply."},
-              {"integer", "removed_faces", "Faces that are gone."},
-              {"integer", "divided_faces", "Faces that were divided."}}}};
+    return {
+        {"lissom.CutLines",
+         "The lines of a cut on the part that is kept, as a list.",
+         {{"lissom.Path", "[integer]",
+           "With the surface on its left; closed unless it ends at open boundaries."},
+          {"lissom.Path[]", "b",
+           "The same lines on the rest: from the same points, the other way."},
+          {"lissom.Path[]|nil", "others",
+           "Of a preview: lines in which the plane crosses too and which would not be cut."},
+          {"lissom.CutReport", "report", "What was found and done."}}},
+        {"lissom.CutReport",
+         "What a cut found and did.",
+         {{"lissom.CutWarning[]", "warnings", "Why the result may not be what was wanted."},
+          {"integer[]", "touched_boundaries",
+           "Open boundaries that lines end at: places in mesh:boundaries() of before."},
+          {"integer", "lines_left", "Lines in which the plane crosses too, not cut."},
+          {"integer", "whole_components", "Components that went to one part as a whole."},
+          {"number", "kept_fraction",
+           "Part of the mesh's area, 0 to 1, on the side of the lines that is kept."},
+          {"integer[]", "slid_vertices", "Vertices of before that slid onto a line."},
+          {"integer", "divided_faces", "Faces that were divided."}}},
+        {"lissom.CutWarning",
+         "Why the result of a cut may not be what was wanted.",
+         {{"string", "kind",
+           "touches_boundary: a line ends at an open boundary; folded_line: a line seems to "
+           "run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too; "
+           "keeps_most: a plane or path without a seed keeps more than 80 % of the area, "
+           "perhaps the wrong part; several_outlines: a region was cut along more than one line; "
+           "not_separating, of a preview: the cut would fail, its sides are connected."},
+          {"string", "message", "What was found and what to do about it."},
+          {"integer[]", "vertices", "Vertices of before where it was found, at most 100."}}},
+        {"lissom.TrimReport",
+         "What was done to smooth a boundary.",
+         {{"number", "before", "Mean turn of the boundary before, in degrees."},
+          {"number", "after", "Mean turn of the new one."},
+          {"number", "smoothing",
+           "The smoothing used: less than asked for where the boundary turns too sharply."},
+          {"integer", "removed_faces", "Faces that are gone."},
+          {"integer", "divided_faces", "Faces that were divided."}}}};
 }
 
 }  // namespace lissom::lua

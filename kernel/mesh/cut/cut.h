@@ -69,7 +69,8 @@ enum class CutConcern {
     folded_line,
     /// The plane crosses the mesh not far from the line that was cut too.
     lines_nearby,
-    /// A path without a seed keeps more than 80 % of the mesh's area: perhaps the wrong part.
+    /// A plane or path without a seed keeps more than 80 % of the mesh's area: perhaps the wrong
+    /// part.
     keeps_most,
     /// A region has several outlines, which were all cut.
     several_outlines,

@@ -182,9 +182,9 @@ void add_kept_fraction(const Mesh& mesh, const std::vector<ContourLine>& lines,
     const auto percent = static_cast<int>(std::floor(100.0 * report.kept_fraction));
     report.warnings.push_back({CutConcern::keeps_most,
                                "the cut keeps " + std::to_string(percent) +
-                                   " % of the mesh's area, what is left of the path; to keep the "
-                                   "small part, turn the path around or give a seed on it; a seed "
-                                   "on the large one settles it",
+                                   " % of the mesh's area; to keep the small part, turn the normal "
+                                   "or path around, or give a seed on it; a seed on the large one "
+                                   "says that it is meant",
                                {}});
 }
 

@@ -38,8 +38,7 @@ struct CutSides {
     std::vector<signed char> side;
     /// The side that is kept.
     signed char kept = 1;
-    /// The kept part was named, by a normal, a seed or vertex by vertex, and is not what happens to
-    /// lie on the left of a path.
+    /// The kept part was named by a seed or vertex by vertex, not by a direction alone.
     bool named = false;
     /// The lines are all outlines of a region.
     bool outlined = false;

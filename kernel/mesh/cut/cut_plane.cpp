@@ -94,7 +94,8 @@ CutLines lines_of(const Mesh& mesh, const CutPlane& plane, const LevelSet& level
 
 CutSides sides_by(const Mesh& mesh, const CutPlane& plane, const LevelSet& levels,
                   const std::vector<ContourLine>& lines) {
-    CutSides sides{sides_of(mesh, lines), 1, true};
+    CutSides sides{sides_of(mesh, lines)};
+    sides.named = plane.seed.has_value();
     if (plane.seed) sides.kept = side_near(mesh, sides.side, *plane.seed);
     const auto side_of = [&](const std::vector<Index>& component) -> signed char {
         double sum = 0.0;

@@ -326,7 +326,9 @@ TEST_CASE("a line over fins is reported") {
     CHECK(parts.report.warnings[0].concern == CutConcern::folded_line);
     CHECK(parts.report.warnings[0].elements.count > 10);
     const Cut plain = cut(make_cactus({.vertices = 4000}), {{0, 0.5, 0}, {0, 1, 0}});
-    CHECK(plain.report.warnings.empty());
+    for (const CutWarning& warning : plain.report.warnings) {
+        CHECK(warning.concern == CutConcern::keeps_most);
+    }
 }
 
 TEST_CASE("what cannot be cut is refused") {
@@ -345,7 +347,7 @@ TEST_CASE("what cannot be cut is refused") {
           ErrorCode::cancelled);
 }
 
-TEST_CASE("the fraction that a plane keeps is told without a warning: its normal names the part") {
+TEST_CASE("a plane that keeps more than four fifths of the mesh is told, unless a seed says it") {
     const Mesh ball = make_sphere({.segments = 16});
     const CutPlane cap{{0, 0.8, 0}, {0, 1, 0}}, rest{{0, 0.8, 0}, {0, -1, 0}};
     const CutReport small = cut(ball, cap).report, large = cut(ball, rest).report;
@@ -353,7 +355,11 @@ TEST_CASE("the fraction that a plane keeps is told without a warning: its normal
     CHECK(small.kept_fraction == Approx(0.1).epsilon(0.05));
     CHECK(large.kept_fraction == Approx(0.9).epsilon(0.01));
     CHECK(small.warnings.empty());
-    CHECK(large.warnings.empty());
+    REQUIRE(large.warnings.size() == 1);
+    CHECK(large.warnings[0].concern == CutConcern::keeps_most);
+    CHECK(large.warnings[0].message.find("the cut keeps ") == 0);
+    const CutPlane meant{rest.point, rest.normal, Vec3(0, -1, 0)};
+    CHECK(cut(ball, meant).report.warnings.empty());
     // The fraction is that of the parts, up to what faces that are not plane leave open.
     test::Random random(4);
     for (const Mesh& mesh : {make_box({.size = {3, 1, 2}}), make_bar({.across = 2, .along = 3}),
