@@ -175,7 +175,7 @@
 
 ---Why the result of a cut may not be what was wanted.
 ---@class lissom.CutWarning
----@field kind string touches_boundary: a line ends at an open boundary; folded_line: a line seems to run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too; keeps_most: a plane or path keeps more than 80 % of the area, perhaps the wrong part; not_separating, of a preview: the cut would fail, its sides are connected.
+---@field kind string touches_boundary: a line ends at an open boundary; folded_line: a line seems to run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too; keeps_most: a plane or path without a seed keeps more than 80 % of the area, perhaps the wrong part; several_outlines: a region was cut along more than one line; not_separating, of a preview: the cut would fail, its sides are connected.
 ---@field message string What was found and what to do about it.
 ---@field vertices integer[] Vertices of before where it was found, at most 100.
 
@@ -1374,11 +1374,11 @@ function Hairstyle:forget_scalp() end
 ---@class lissom.Hairstyle.GrowOptions
 ---@field count? integer How many strands; the first n of more are the same. Default: 100000.
 ---@field seed? integer Another seed gives other roots and other chance. Default: 1.
----@field length? number|(fun(vertex: integer, x: number, y: number, z: number): number) Of a strand, at most twice the diagonal of the volume. By a function, for instance for a fringe that is shorter than the rest. In metres. Default: 0.25.
+---@field length? number|(fun(vertex: integer, x: number, y: number, z: number): number) Of a strand, at most twice the diagonal of the volume. By function(vertex, x, y, z) in metres, for instance for a fringe that is shorter than the rest: it is asked for each vertex of the head with its number and its place in mesh units. In metres. Default: 0.25.
 ---@field variation? number Share by which strands are longer or shorter at most. Default: 0.1.
 ---@field roots? "poisson"|"angles" Evenly spread, or on the thesis's grid of polar angles. Default: "poisson".
----@field density? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Relative density of hair. Default: 1 everywhere.
----@field lengths? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Factors of the length. Default: 1 everywhere.
+---@field density? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Relative density of hair. For the vertices of the head: a list, the name of an attribute, or function(vertex, x, y, z), asked with the vertex's number and its place in mesh units. Default: 1 everywhere.
+---@field lengths? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Factors of the length. For the vertices of the head: a list, the name of an attribute, or function(vertex, x, y, z), asked with the vertex's number and its place in mesh units. Default: 1 everywhere.
 ---@field cut? lissom.Hairstyle.GrowOptions.Cut Cuts hair off along a plane, but for tails.
 ---@field avoid? boolean Keeps strands outside the head while they grow. Default: true.
 ---@field clearance? number The lowest strands lie this high. In metres. Default: 0.002.
@@ -1943,7 +1943,7 @@ function lissom.deform(mesh, options) end
 ---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergeOptions
----@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, with the directions below and, where all these leave a choice, with the planes of symmetry of the parts; the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
+---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, with the directions below and, where all these leave a choice, with the planes of symmetry of the parts; in the fixed configuration, without directions, what lies nearest meets. The report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
 ---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
@@ -1976,7 +1976,7 @@ function lissom.merge(options) end
 ---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergingOptions
----@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, with the directions below and, where all these leave a choice, with the planes of symmetry of the parts; the report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
+---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, with the directions below and, where all these leave a choice, with the planes of symmetry of the parts; in the fixed configuration, without directions, what lies nearest meets. The report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
 ---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
