@@ -77,6 +77,17 @@ std::shared_ptr<MeshObject> named_head(const std::filesystem::path& style,
         load_mesh(style.parent_path() / style_path(content.head), {}, context));
 }
 
+// The hairstyle of a file. Values that no style can have are the file's mistake, not the script's.
+Hairstyle style_of(const std::filesystem::path& path, const StyleContent& content, const Mesh& head,
+                   const std::shared_ptr<const Scalp>& scalp, const Context& context) {
+    try {
+        return make_style(content, head, scalp, context);
+    } catch (const Error& error) {
+        if (!is_misuse(error.code()) || error.code() == ErrorCode::topology_mismatch) throw;
+        throw Error(ErrorCode::file_syntax, display_name(path) + ": " + error.message());
+    }
+}
+
 int load_style(Call& call) {
     const std::string_view path = call.string("path");
     const bool has_head = call.has("head"), has_scalp = call.has("scalp");
@@ -90,7 +101,7 @@ int load_style(Call& call) {
             has_scalp ? call.object<ScalpObject>("scalp")->scalp
                       : std::make_shared<const Scalp>(mesh->mesh, ScalpOptions{}, call.context());
         result.set(std::make_shared<HairstyleObject>(
-            mesh, make_style(content, mesh->mesh, scalp, call.context())));
+            mesh, style_of(style_path(path), content, mesh->mesh, scalp, call.context())));
     });
     if (!done) return call.fail();
     call.remember(result.get());
