@@ -127,7 +127,7 @@ end
 expect.truthy(rim(0.8) < 0.6 * rim(0))
 
 -- Misuse.
-expect.error("above 0", function() edit:stiffness(bar:region("top"), 0) end)
+expect.error("from 0.0001 to 100000", function() edit:stiffness(bar:region("top"), 0) end)
 expect.error("list of points expected", function() edit:handle({}) end)
 expect.error("list of points expected", function() edit:handle({ 7 }) end)
 expect.error("ids of points are integers", function() edit:handle({ { vertex = 0 } }) end)

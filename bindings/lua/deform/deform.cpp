@@ -567,7 +567,7 @@ edit:solve())"},
              "Sets how much a part of the surface resists being bent and stretched: stiff parts "
              "move rigidly, soft ones take the bend.",
          .arguments = {object("region", "lissom.Region", "The part."),
-                       number("factor", "1 is as usual.").above(0)},
+                       number("factor", "1 is as usual.").between(1e-4, 1e5)},
          .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
          .errors = {ErrorCode::handle_outside_region, ErrorCode::topology_mismatch},
          .example =

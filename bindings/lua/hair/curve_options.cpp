@@ -72,7 +72,7 @@ std::vector<Parameter> common_fields() {
     return {string("name", "For people, and for groups of strands.").optional(),
             boolean("enabled", "Curves that are not have no effect.").optional("true"),
             number("weight", "How firmly the field is held to the curve (omega of the thesis).")
-                .above(0)
+                .between(1e-6, 1e9)
                 .optional("100")};
 }
 
