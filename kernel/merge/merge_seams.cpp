@@ -30,8 +30,22 @@ void note_narrow_band(std::size_t seam, const char* side, double width, double u
                        ", in the unit of the target: the surface has no room for more");
 }
 
+// Where more than this part of a band lies on folds, details land in wrong places.
+constexpr double kFolded = 0.05;
+
+// One side of a transition.
+void note_folded_band(std::size_t seam, const char* side, const TransitionBand& band,
+                      std::vector<std::string>& warnings) {
+    if (!(band.flipped > kFolded * band.vertices)) return;
+    warnings.push_back("join " + std::to_string(seam + 1) +
+                       ": the surface beside the seam on the " + side + " is folded, at " +
+                       std::to_string(band.flipped) +
+                       " triangles of the transition, which may show as pits; look there, choose "
+                       "a width for one side only, or the seam \"fair\" without a transition");
+}
+
 // A transition that went less than this part of its way is told.
-constexpr double kHardly = 0.1;
+constexpr double kHardly = 0.5;
 
 void note_refused_bands(double kept, std::vector<std::string>& warnings) {
     if (!(kept < kHardly)) return;
@@ -79,6 +93,10 @@ void blend(const MergeOptions& options, const Matching& matching, MergedSides& m
                          merged.warnings);
         note_narrow_band(k, "target", widths[k].target, merged.transition.target[k].width,
                          merged.warnings);
+    }
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+        note_folded_band(k, "source", merged.transition.source[k], merged.warnings);
+        note_folded_band(k, "target", merged.transition.target[k], merged.warnings);
     }
     note_refused_bands(merged.transition.kept, merged.warnings);
 }

@@ -289,6 +289,28 @@ local _, of_refused = lissom.merge{ collar = false, transition = { source = 1.5,
     joins = { { source = bent_tube(3, 0):boundaries()[1], target = bent_tube(40, 0.5):boundaries()[1] } } }
 expect.equal(of_refused.transition_kept, 0)
 expect.truthy(table.concat(of_refused.warnings, "\n"):find("the transition was left out", 1, true))
+-- Behind a spike the lines away from the seam meet: the band is folded there, which is told.
+local function spiked_tube(spike)
+    local pipe = lissom.shapes.cylinder{ height = 4, segments = 40, rings = 30, caps = false }
+    for v = 1, #pipe do
+        local x, y, z = pipe:position(v)
+        local k = 1 + spike * math.exp(-(z * z + (y - 1.2) ^ 2) / 0.06)
+        if x > 0 then pipe:set_position(v, x * k, y, z * k) end
+    end
+    return pipe
+end
+local function end_of(pipe, sign)
+    for _, boundary in ipairs(pipe:boundaries()) do
+        if boundary:points()[1][2] * sign > 0 then return boundary end
+    end
+end
+for spike, folded in pairs{ [0] = false, [6] = true } do
+    local _, of_spike = lissom.merge{
+        joins = { { source = end_of(spiked_tube(0), -1), target = end_of(spiked_tube(spike), 1) } },
+        transition = { target = 1.6 },
+    }
+    expect.equal(table.concat(of_spike.warnings, "\n"):find("is folded, at", 1, true) ~= nil, folded)
+end
 local without, of_without = lissom.merge{ joins = { join{ { from, to } } }, transition = false }
 same(without, mesh, 0)
 expect.equal(#of_without.transition, 0)
