@@ -78,13 +78,6 @@ std::string handle_text(std::size_t number, std::size_t vertices) {
            (vertices == 1 ? " vertex)" : " vertices)");
 }
 
-bool holds_any(const RestShape& rest, const Handle& handle, const std::vector<Index>& vertices) {
-    return std::any_of(vertices.begin(), vertices.end(), [&](Index v) {
-        return std::find(handle.local.begin(), handle.local.end(), rest.local_vertex(v)) !=
-               handle.local.end();
-    });
-}
-
 // Errors: handle_overlap where handles but `except`, or targets, hold some of `vertices`, which
 // `who` is to hold.
 void require_unheld(const RestShape& rest, const Holds& holds, const std::vector<Index>& vertices,
@@ -96,13 +89,17 @@ void require_unheld(const RestShape& rest, const Holds& holds, const std::vector
     const bool by_target = std::any_of(vertices.begin(), vertices.end(),
                                        [&](Index v) { return held[rest.local_vertex(v)] != 0; });
     std::string holders = by_target ? "a constraint" : "";
+    std::vector<char> wanted(held.size(), 0);
+    for (const Index v : vertices) wanted[rest.local_vertex(v)] = 1;
     for (std::size_t h = 0; h < holds.handles.size(); ++h) {
         const bool left_out =
             std::find(except.begin(), except.end(), static_cast<Index>(h)) != except.end();
         if (left_out || !holds.handles[h]) continue;
         const Handle& handle = *holds.handles[h];
         for (const Index v : handle.local) held[v] = 1;
-        if (!holds_any(rest, handle, vertices)) continue;
+        const bool meets = std::any_of(handle.local.begin(), handle.local.end(),
+                                       [&](Index v) { return wanted[v] != 0; });
+        if (!meets) continue;
         holders += (holders.empty() ? "" : ", ") + handle_text(h, handle.region.size());
     }
     refuse_vertices(vertices, ErrorCode::handle_overlap,
