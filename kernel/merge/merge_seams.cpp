@@ -44,8 +44,8 @@ void note_folded_band(std::size_t seam, const char* side, const TransitionBand& 
                        "a width for one side only, or the seam \"fair\" without a transition");
 }
 
-// A transition that went less than this part of its way is told.
-constexpr double kHardly = 0.5;
+// A transition that went less than this part of its way is told: the first halving is no fault.
+constexpr double kHardly = 0.4;
 
 void note_refused_bands(double kept, std::vector<std::string>& warnings) {
     if (!(kept < kHardly)) return;
