@@ -54,7 +54,7 @@ std::vector<Vec3> framed_points(const Snapshot& snapshot) {
 class Cells {
   public:
     Cells(const Picture& picture, int width, int height)
-        : width_(width), height_(height), count_(static_cast<int>(picture.meshes.size())) {
+        : width_(width), height_(height), count_(count_of(picture.meshes)) {
         if (picture.columns > 0) columns_ = std::min(picture.columns, std::max(count_, 1));
         if (picture.columns > 0) rows_ = (count_ + columns_ - 1) / columns_;
         rows_ = std::max(rows_, 1);
@@ -72,7 +72,7 @@ class Cells {
 
   private:
     static int edge(int i, int size, int parts) {
-        return static_cast<int>(static_cast<long long>(size) * i / parts);
+        return index_of(static_cast<long long>(size) * i / parts);
     }
 
     int width_, height_, count_;
@@ -123,8 +123,7 @@ double caption_text(int cell_height) {
 // Rows of pixels that captions take in a cell.
 int caption_rows(const Picture& picture, int cell_height) {
     if (picture.captions.empty()) return 0;
-    return std::min(static_cast<int>(std::lround(2.6 * caption_text(cell_height))),
-                    cell_height - 1);
+    return std::min(index_of(std::lround(2.6 * caption_text(cell_height))), cell_height - 1);
 }
 
 // Centred in the last rows of the cell, smaller where it would not fit.
@@ -173,14 +172,13 @@ Image draw_picture(Renderer& renderer, const Picture& picture, const Context& co
     }
     Progress progress(context, "render");
     for (std::size_t i = 0; i < snapshots.size(); ++i) {
-        progress.step(1.0 / static_cast<double>(snapshots.size()));
-        const int cell = static_cast<int>(i);
+        progress.step(1.0 / snapshots.size());
+        const int cell = index_of(i);
         RenderOptions part = options;
         part.width = cells.width(cell);
         part.height = cells.height(cell) - caption_rows(picture, cells.height(cell));
-        const double aspect = picture.captions.empty()
-                                  ? cells.aspect()
-                                  : static_cast<double>(part.width) / part.height;
+        const double aspect =
+            picture.captions.empty() ? cells.aspect() : 1.0 * part.width / part.height;
         const Camera camera = camera_for(picture, picture.fit_each ? snapshots[i] : all, aspect);
         image.paste(renderer.render(snapshots[i], camera, part, context), cells.left(cell),
                     cells.top(cell));

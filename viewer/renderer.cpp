@@ -16,7 +16,7 @@ bool is_power_of_two(int n) {
 }
 
 std::size_t picture_bytes(const RenderOptions& options) {
-    return 4 * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+    return 4 * at(options.width) * options.height;
 }
 
 std::string text_of(GLenum name) {

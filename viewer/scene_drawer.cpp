@@ -23,7 +23,7 @@ gl::Texture make_colormap() {
     for (int i = 0; i < kColormapSize; ++i) {
         const Color color = colormap(i / (kColormapSize - 1.0));
         for (const double part : {color.r, color.g, color.b, 1.0}) {
-            texels.push_back(static_cast<float>(srgb_to_linear(part)));
+            texels.push_back(srgb_to_linear(part));
         }
     }
     gl::Texture texture = gl::make_texture(kColormapSize, 1, GL_RGBA32F, true);
@@ -105,7 +105,7 @@ Image SceneDrawer::picture(Progress& progress) const {
         }
         draw(tile, *target);
         image.paste(read_pixels(target->output), tile.x, options_.height - tile.y - tile.height);
-        progress.update(static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
+        progress.update(i + 1, tiles.size());
     }
     return image;
 }
@@ -213,7 +213,7 @@ Image draw_meshes(const SceneTools& tools, const GpuScene& scene, const SceneVie
 
 Image draw_scene(const SceneTools& tools, const GpuScene& scene, const Camera& camera,
                  const RenderOptions& options, const Context& context) {
-    const double aspect = static_cast<double>(options.width) / options.height;
+    const double aspect = 1.0 * options.width / options.height;
     const SceneView view = see(scene, camera, aspect);
     const Snapshot& snapshot = scene.snapshot();
     if (snapshot.strands.empty()) {

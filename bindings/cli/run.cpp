@@ -25,7 +25,7 @@ struct Words {
         if (i == words.size()) return;
         own.push_back(words[i]);
         script.script = words[i];
-        script.words.assign(words.begin() + static_cast<std::ptrdiff_t>(i) + 1, words.end());
+        script.words.assign(words.begin() + i + 1, words.end());
     }
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -127,6 +128,10 @@ class Progress {
     /// Reports `fraction` (0 to 1) of the current step, or of the whole operation where no step is
     /// open. A checkpoint: throws `cancelled`.
     void update(double fraction);
+    /// `done` of `all` steps.
+    void update(std::integral auto done, std::integral auto all) {
+        update(static_cast<double>(done) / static_cast<double>(all));
+    }
 
   private:
     void report(double fraction);

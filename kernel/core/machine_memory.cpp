@@ -10,7 +10,7 @@ std::size_t machine_memory() {
 #if defined(_SC_PHYS_PAGES) && defined(_SC_PAGESIZE)
     const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
     if (pages > 0 && size > 0) {
-        return static_cast<std::size_t>(pages) * static_cast<std::size_t>(size);
+        return at(pages) * size;
     }
 #endif
     return 0;

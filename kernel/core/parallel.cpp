@@ -68,12 +68,12 @@ void Context::parallel_for(Index begin, Index end, Index grain,
     checkpoint();
     if (begin >= end) return;
     grain = std::max<Index>(1, grain);
-    const auto count = static_cast<std::size_t>((std::int64_t{end} - begin + grain - 1) / grain);
+    const std::size_t count = (std::int64_t{end} - begin + grain - 1) / grain;
     FirstException first;
     const std::function<void(std::size_t)> chunk = [&](std::size_t i) {
         if (cancelled()) return;
-        const auto from = static_cast<Index>(begin + static_cast<std::int64_t>(i) * grain);
-        const auto to = static_cast<Index>(std::min<std::int64_t>(end, std::int64_t{from} + grain));
+        const auto from = index_of(begin + static_cast<std::int64_t>(i) * grain);
+        const auto to = index_of(std::min<std::int64_t>(end, std::int64_t{from} + grain));
         try {
             with_memory_errors([&] { body(from, to); });
         } catch (...) {

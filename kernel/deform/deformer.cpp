@@ -196,7 +196,7 @@ DeformStats Deformer::stats() const {
     stats.region_vertices = rest.region().size();
     stats.zero_area_faces = rest.patch().zero_area_faces;
     stats.inserted_vertices = rest.patch().vertex_count - rest.patch().real_count;
-    stats.handles = static_cast<Index>(
+    stats.handles = index_of(
         std::count_if(handles.begin(), handles.end(), [](const auto& h) { return h != nullptr; }));
     return stats;
 }

@@ -33,7 +33,7 @@ std::vector<Vec3> solved_directly(const Motion& motion) {
     const Preparation& prepared = motion.prepared();
     const GradientSystem& first = *motion.method().first;
     const Mat3 base_gradient = motion.base_linear();
-    std::vector<Vec3> x(static_cast<std::size_t>(motion.patch().vertex_count), Vec3::Zero());
+    std::vector<Vec3> x(motion.patch().vertex_count, Vec3::Zero());
     for (Index v = 0; v < motion.patch().vertex_count; ++v) {
         if (prepared.known.position[v]) x[v] = motion.known_deviation(v);
     }
@@ -47,7 +47,7 @@ std::vector<Vec3> solved_directly(const Motion& motion) {
             [&](Index k) -> Vec3 {
                 return (motion.known_gradient(k) - base_gradient).row(d).transpose();
             },
-            b.data() + static_cast<std::size_t>(d) * rows);
+            b.data() + d * rows);
     }
     std::vector<double> y = first.solve(b, 3);
     for (int d = 0; d < 3; ++d) {
@@ -59,7 +59,7 @@ std::vector<Vec3> solved_directly(const Motion& motion) {
 
 std::vector<Vec4>& weights_of(HandleBasis& basis, Index handle) {
     const auto place = std::find(basis.handles.begin(), basis.handles.end(), HandleId{handle});
-    return basis.weights[static_cast<std::size_t>(place - basis.handles.begin())];
+    return basis.weights[place - basis.handles.begin()];
 }
 
 void add_known(const Motion& motion, HandleBasis& basis) {
@@ -88,12 +88,12 @@ void add_free(const Motion& motion, HandleBasis& basis) {
         if (row == kNoIndex || row >= rest.region().size()) continue;
         Vec4 rest_part = homogeneous(motion.patch().rest[free[f]] + o);
         for (std::size_t h = 0; h < solution.handles().size(); ++h) {
-            Vec4 w = solution.weight(h, static_cast<Index>(f));
+            Vec4 w = solution.weight(h, index_of(f));
             w.head<3>() += w[3] * o;
             weights_of(basis, solution.handles()[h])[row] = w;
             rest_part -= w;
         }
-        basis.fixed[row] = solution.fixed(motion.asked().fixed, static_cast<Index>(f));
+        basis.fixed[row] = solution.fixed(motion.asked().fixed, index_of(f));
         if (solution.base() == kNoIndex) {
             basis.fixed[row] += rest_part.head<3>();
         } else {

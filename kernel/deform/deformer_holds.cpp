@@ -11,7 +11,7 @@ namespace lissom {
 std::vector<HandleId> Deformer::handles() const {
     std::vector<HandleId> ids;
     for (std::size_t h = 0; h < state_->holds->handles.size(); ++h) {
-        if (state_->holds->handles[h]) ids.push_back({static_cast<Index>(h)});
+        if (state_->holds->handles[h]) ids.push_back({index_of(h)});
     }
     return ids;
 }

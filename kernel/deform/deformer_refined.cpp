@@ -49,7 +49,7 @@ class RefinedMesh {
     }
 
     void copy_face(Index f) {
-        const auto corners = static_cast<Index>(topology_.face(f).size());
+        const auto corners = count_of(topology_.face(f));
         faces_.add(topology_.face(f));
         map_.faces.add_copy(f);
         for (Index k = 0; k < corners; ++k) map_.corners.add_copy(topology_.first_corner(f) + k);
@@ -60,7 +60,7 @@ class RefinedMesh {
         const std::span<const Index> face = topology_.face(f);
         const auto corner = [&](Index v) {
             const auto at = std::find(face.begin(), face.end(), patch_.mesh_vertex[v]);
-            return topology_.first_corner(f) + static_cast<Index>(at - face.begin());
+            return topology_.first_corner(f) + index_of(at - face.begin());
         };
         auto part =
             std::lower_bound(part_of_.begin(), part_of_.end(), std::pair(f, std::size_t{0}));
@@ -73,8 +73,7 @@ class RefinedMesh {
                     map_.corners.add_copy(corner(v));
                 } else {
                     vertices.push_back(topology_.vertex_count() + beyond);
-                    map_.corners.add_blend(
-                        sources(patch_.inserted[static_cast<std::size_t>(beyond)], corner));
+                    map_.corners.add_blend(sources(patch_.inserted[beyond], corner));
                 }
             }
             faces_.add(vertices);

@@ -40,7 +40,7 @@ struct Deformer::State {
     const Handle& handle(HandleId id) const { return handle_of(*holds, id); }
     const HandlePose& pose(HandleId id) const {
         (void)handle(id);
-        return poses.handles[id.value];
+        return poses.handles[at(id.value)];
     }
 
     const std::shared_ptr<const Preparation>& prepare(const Context& given);

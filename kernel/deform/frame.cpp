@@ -50,7 +50,7 @@ void place_free(const SecondInput& input, std::span<const Vec4> deviation, const
     const RestShape& rest = *motion.prepared().rest;
     const Vec3 shift = motion.base().topRightCorner<3, 1>();
     const std::vector<Index>& free = motion.method().second->free_vertices();
-    for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
+    for_each_block(context, count_of(free), [&](Index begin, Index end) {
         for (Index row = begin; row < end; ++row) {
             const Index v = free[row];
             const Vec3 at = input.base_rotation * patch.rest[v] + shift + deviation[v].head<3>();
@@ -138,8 +138,7 @@ DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, c
     } else {
         solve_first(motion, context, scratch.deviation);
         if (scratch.sized_for.lock() != preparation) {
-            scratch.rotations.assign(static_cast<std::size_t>(prepared.patch().real_count),
-                                     PaddedMat3::Zero());
+            scratch.rotations.assign(prepared.patch().real_count, PaddedMat3::Zero());
             scratch.sized_for = preparation;
         }
         solve_second(input, scratch, context);

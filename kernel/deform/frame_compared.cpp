@@ -13,13 +13,13 @@ namespace {
 
 void find_sources(const Preparation& next, ComparedMethod& compared) {
     const Patch& patch = next.patch();
-    compared.source.assign(static_cast<std::size_t>(patch.vertex_count), kNoIndex);
+    compared.source.assign(patch.vertex_count, kNoIndex);
     std::map<std::pair<Index, Index>, Index> number;
     for (Index v = 0; v < patch.vertex_count; ++v) {
         if (!next.known.gradient[v]) continue;
         const Index owner = next.owner[v];
         const GradientSource source{owner, owner == kConstrained ? v : kNoIndex};
-        const auto count = static_cast<Index>(compared.sources.size());
+        const auto count = count_of(compared.sources);
         const auto entry = number.emplace(std::pair(source.owner, source.vertex), count);
         if (entry.second) compared.sources.push_back(source);
         compared.source[v] = entry.first->second;
@@ -82,14 +82,13 @@ void prepare_comparison(Preparation& next, const Context& context) {
     const Patch& patch = next.patch();
     ComparedMethod& compared = next.method.emplace<ComparedMethod>();
     find_sources(next, compared);
-    const ComparisonProblem problem{patch, next.known, compared.source,
-                                    static_cast<Index>(compared.sources.size()),
+    const ComparisonProblem problem{patch, next.known, compared.source, count_of(compared.sources),
                                     next.rest->options()};
     try {
         compared.method = make_comparison(problem, context);
     } catch (const Error& error) {
         if (error.code() != ErrorCode::not_positive_definite) throw;
-        std::vector<Index> vertices(static_cast<std::size_t>(patch.real_count));
+        std::vector<Index> vertices(patch.real_count);
         std::iota(vertices.begin(), vertices.end(), 0);
         refuse_singular(patch, error, vertices);
     }
@@ -104,7 +103,7 @@ DeformFrame solve_compared(const std::shared_ptr<const Preparation>& preparation
     const auto& compared = std::get<ComparedMethod>(prepared.method);
     const Motion motion(prepared, poses, asked_part(preparation, poses.targets, scratch.asked));
     const std::vector<SourceMotion> motions = source_motions(compared, motion);
-    std::vector<Vec3> at(static_cast<std::size_t>(patch.real_count), Vec3::Zero());
+    std::vector<Vec3> at(patch.real_count, Vec3::Zero());
     std::vector<Mat3> transforms(at.size(), Mat3::Identity());
     for (Index v = 0; v < patch.real_count; ++v) {
         if (prepared.known.position[v]) at[v] = motion.known_position(v);

@@ -10,10 +10,9 @@ namespace lissom {
 void solve_first(const Motion& motion, const Context& context, Deviation& deviation) {
     const Preparation& prepared = motion.prepared();
     const Patch& patch = motion.patch();
-    deviation.assign(static_cast<std::size_t>(patch.vertex_count), Vec4::Zero());
+    deviation.assign(patch.vertex_count, Vec4::Zero());
     for (std::size_t h = 0; h < prepared.held.size(); ++h) {
-        const Mat4 difference =
-            matrix_of(motion.pose(static_cast<Index>(h)).local_transform) - motion.base();
+        const Mat4 difference = matrix_of(motion.pose(index_of(h)).local_transform) - motion.base();
         for (const Index v : prepared.held[h])
             deviation[v] = difference * homogeneous(patch.rest[v]);
     }
@@ -25,7 +24,7 @@ void solve_first(const Motion& motion, const Context& context, Deviation& deviat
     }
     if (!motion.method().solution) return;
     const std::vector<Index>& free = motion.method().first->free_vertices();
-    for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
+    for_each_block(context, count_of(free), [&](Index begin, Index end) {
         std::array<Vec4, kFrameBlock> x;
         motion.solution().deviations(motion.differences(), motion.asked().fixed, x.data(), begin,
                                      end);

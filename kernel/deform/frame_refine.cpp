@@ -57,7 +57,7 @@ void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation,
     const Motion& motion = input.motion;
     const Patch& patch = motion.patch();
     std::vector<Vec4>& x = absolute;
-    x.resize(static_cast<std::size_t>(patch.real_count));
+    x.resize(patch.real_count);
     for_each_block(context, patch.real_count, [&](Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
             x[v] = padded(Vec3(input.base_rotation * patch.rest[v] + deviation[v].head<3>()));
@@ -68,14 +68,14 @@ void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation,
     const bool scales = motion.scales();
     for (const std::vector<Index>* vertices :
          {&motion.method().gathered, &motion.method().averaged}) {
-        const auto all = static_cast<Index>(vertices->size());
+        const auto all = count_of(*vertices);
         for_each_block(context, all, [&](Index begin, Index end) {
             std::array<Mat3, kFrameBlock> m;
-            const auto count = static_cast<std::size_t>(end - begin);
+            const std::size_t count = end - begin;
             loop.fit(x.data(), vertices->data(), m.data(), begin, end);
             nearest_rotations({m.data(), count}, {m.data(), count});
             for (std::size_t i = 0; i < count; ++i) {
-                const Index v = (*vertices)[static_cast<std::size_t>(begin) + i];
+                const Index v = (*vertices)[begin + i];
                 auto turn = rotations[v].topRows<3>();
                 const Mat3 before = input.base_rotation + turn;
                 const double scale = scales ? uniform_scale(before) : 1.0;

@@ -69,11 +69,11 @@ DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const 
     const Patch& patch = prepared.patch();
     place_held(prepared, poses, positions);
     DeformFrame frame{preparation, poses, {}, {}, prepared.work, {}, {}};
-    const auto own = static_cast<std::ptrdiff_t>(prepared.rest->positions.size());
+    const auto own = std::ssize(prepared.rest->positions);
     frame.inserted.assign(positions.begin() + own, positions.end());
-    positions.resize(static_cast<std::size_t>(own));
+    positions.resize(own);
     for (std::size_t k = 0; k < frame.inserted.size(); ++k) {
-        const Index v = patch.mesh_count() + static_cast<Index>(k);
+        const Index v = patch.mesh_count() + index_of(k);
         if (!prepared.known.position[v]) continue;
         frame.inserted[k] = motion.known_position(v) + patch.origin;
     }

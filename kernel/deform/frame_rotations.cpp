@@ -34,9 +34,9 @@ Deviation spread_moves(const Motion& motion, std::span<const Mat4> differences,
     const Patch& patch = motion.patch();
     const auto number_of = [&](Index owner) {
         const auto found = std::find(handles.begin(), handles.end(), owner);
-        return found == handles.end() ? kNoIndex : static_cast<Index>(found - handles.begin());
+        return found == handles.end() ? kNoIndex : index_of(found - handles.begin());
     };
-    Deviation x(static_cast<std::size_t>(patch.vertex_count), Vec4::Zero());
+    Deviation x(patch.vertex_count, Vec4::Zero());
     for_each_block(context, patch.vertex_count, [&](Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
             const Index n = number_of(motion.prepared().owner[v]);
@@ -44,7 +44,7 @@ Deviation spread_moves(const Motion& motion, std::span<const Mat4> differences,
         }
     });
     const std::vector<Index>& free = motion.method().first->free_vertices();
-    for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
+    for_each_block(context, count_of(free), [&](Index begin, Index end) {
         std::array<Vec4, kFrameBlock> moved;
         motion.solution().handle_part(differences, moved.data(), begin, end);
         for (Index row = begin; row < end; ++row) x[free[row]] = moved[row - begin];
@@ -64,7 +64,7 @@ std::vector<std::vector<Vec3>> find_weight_gradients(const Motion& motion, const
         std::vector<Vec4> unit(handles, Vec4::Zero());
         unit[n] = Vec4::UnitX();
         const std::vector<Vec4> weight = motion.spread(unit, context);
-        for_each_block(context, static_cast<Index>(vertices.size()), [&](Index begin, Index end) {
+        for_each_block(context, count_of(vertices), [&](Index begin, Index end) {
             std::array<Mat3, kFrameBlock> m;
             motion.prepared().gradient_loop().gather(vertices.data(), weight.data(), m.data(),
                                                      begin, end);
@@ -139,7 +139,7 @@ void turn_on(const Motion& motion, const TurnPart& part, const Index* vertices, 
              Index begin, Index end) {
     const Mat3 back = nearest_rotation(motion.base_linear()).transpose();
     const double further = 1.0 / part.fraction - 1.0;
-    const auto count = static_cast<std::size_t>(end - begin);
+    const std::size_t count = end - begin;
     std::array<Mat3, kFrameBlock> rotation, added;
     nearest_rotations({gradient, count}, {rotation.data(), count});
     part.remainder.gather(vertices, added.data(), begin, end);
@@ -153,7 +153,7 @@ void first_rotations(const Motion& motion, const TurnPart* part, std::span<const
     const Index* vertices = motion.method().gathered.data();
     const Vec4* x = part ? part->deviation.data() : deviation.data();
     const Mat3 base = motion.base_linear();
-    const auto count = static_cast<std::size_t>(end - begin);
+    const std::size_t count = end - begin;
     std::array<double, kFrameBlock> scale;
     motion.prepared().gradient_loop().gather(vertices, x, s, begin, end);
     for (std::size_t i = 0; i < count; ++i) s[i] += base;
@@ -171,12 +171,12 @@ void turn_held(const SecondInput& input, Rotations& rotations) {
     for (std::size_t n = 0; n < handles.size(); ++n) {
         const Handle* h = handles[n].get();
         if (!h || h->soft() || !h->options.gradient) continue;
-        const Mat3& linear = motion.pose(static_cast<Index>(n)).transform.linear;
+        const Mat3& linear = motion.pose(index_of(n)).transform.linear;
         const PaddedMat3 turn = padded_columns(rotation_of(motion, linear) - input.base_rotation);
         for (const Index v : prepared.held[n]) rotations[v] = turn;
         for (const SparseRow& row : h->points) {
             for (const auto& [v, c] : row) {
-                if (prepared.owner[v] == static_cast<Index>(n)) rotations[v] = turn;
+                if (prepared.owner[v] == index_of(n)) rotations[v] = turn;
             }
         }
     }
@@ -194,7 +194,7 @@ void find_rotations(const SecondInput& input, std::span<const Vec4> deviation,
     const std::optional<TurnPart> part = part_of_turns(motion, input.greatest_turn, context);
     const TurnPart* const of = part ? &*part : nullptr;
     const std::vector<Index>& vertices = motion.method().gathered;
-    for_each_block(context, static_cast<Index>(vertices.size()), [&](Index begin, Index end) {
+    for_each_block(context, count_of(vertices), [&](Index begin, Index end) {
         std::array<Mat3, kFrameBlock> s;
         first_rotations(motion, of, deviation, s.data(), begin, end);
         for (Index i = begin; i < end; ++i) {

@@ -31,7 +31,7 @@ class MeanOfTurns {
     }
 
     Vec4 at(Index v) const {
-        Sum sum = silent_.empty() ? Sum{} : silent_[static_cast<std::size_t>(v)];
+        Sum sum = silent_.empty() ? Sum{} : silent_[v];
         for (std::size_t n = 0; n < value_.size(); ++n) {
             if (!answers_.weights[n].empty()) sum.add(answers_.weights[n][v], value_[n]);
         }
@@ -57,14 +57,14 @@ class MeanOfTurns {
         const Preparation& prepared = motion.prepared();
         const LinearSolution& solution = motion.solution();
         const std::vector<Index>& free = motion.method().first->free_vertices();
-        silent_.resize(static_cast<std::size_t>(motion.patch().vertex_count));
+        silent_.resize(motion.patch().vertex_count);
         for (std::size_t n = 0; n < value_.size(); ++n) {
             if (!answers_.weights[n].empty()) continue;
             const Index h = solution.handles()[n];
             for (const Index v : prepared.held[h]) silent_[v].add(1.0, value_[n]);
             for (std::size_t row = 0; row < free.size(); ++row) {
                 if (prepared.owner[free[row]] == h) continue;
-                const double weight = solution.translation_weight(n, static_cast<Index>(row));
+                const double weight = solution.translation_weight(n, index_of(row));
                 silent_[free[row]].add(weight, value_[n]);
             }
         }
@@ -93,12 +93,12 @@ TurnAnswers find_answers(const Preparation& prepared, RotationSystem::Scratch& s
     const RotationSystem& second = *prepared.implicit()->second;
     const std::vector<Index>& all = prepared.implicit()->solution->handles();
     const std::vector<Index> movable = movable_handles(prepared);
-    const auto count = static_cast<Index>(movable.size());
+    const auto count = count_of(movable);
     TurnAnswers answers{std::vector<std::vector<double>>(all.size()),
                         Eigen::MatrixXd(count, count)};
     for (Index first = 0; first < count; first += 3) {
         const Index last = std::min(count, first + 3);
-        std::vector<Vec4> x(static_cast<std::size_t>(prepared.patch().vertex_count), Vec4::Zero());
+        std::vector<Vec4> x(prepared.patch().vertex_count, Vec4::Zero());
         for (Index k = first; k < last; ++k) {
             for (const Index v : prepared.held[movable[k]]) x[v][k - first] = 1.0;
         }
@@ -106,7 +106,7 @@ TurnAnswers find_answers(const Preparation& prepared, RotationSystem::Scratch& s
         for (Index k = first; k < last; ++k) {
             const auto n = std::find(all.begin(), all.end(), movable[k]) - all.begin();
             for (const Vec4& row : x) {
-                answers.weights[static_cast<std::size_t>(n)].push_back(row[k - first]);
+                answers.weights[n].push_back(row[k - first]);
             }
         }
         for (Index j = 0; j < count; ++j) {
@@ -137,13 +137,13 @@ Eigen::MatrixXd forces_on(const SecondInput& input, const std::vector<Index>& mo
         std::vector<RotationSystem::Group> groups;
         for (const Index h : movable) {
             const auto n = std::find(all.begin(), all.end(), h) - all.begin();
-            groups.push_back({prepared.held[h], answers.weights[static_cast<std::size_t>(n)]});
+            groups.push_back({prepared.held[h], answers.weights[n]});
         }
         forces = second.solved_forces(rotations.data(), deviation, groups, scratch, context);
     }
-    Eigen::MatrixXd rows(static_cast<Index>(forces.size()), 3);
+    Eigen::MatrixXd rows(count_of(forces), 3);
     for (std::size_t j = 0; j < forces.size(); ++j) {
-        rows.row(static_cast<Index>(j)) = forces[j].transpose();
+        rows.row(index_of(j)) = forces[j].transpose();
     }
     return rows;
 }
@@ -154,7 +154,7 @@ std::vector<Vec4> mismatches(const SecondInput& input, const TurnAnswers& answer
                              RotationSystem::Scratch& scratch, const Context& context) {
     const Motion& motion = input.motion;
     const std::vector<Index> movable = movable_handles(motion.prepared());
-    const auto count = static_cast<Index>(movable.size());
+    const auto count = count_of(movable);
     Eigen::MatrixXd natural(count, 3);
     if (count > 0) {
         natural = answers.stiffness.completeOrthogonalDecomposition().solve(
@@ -181,9 +181,9 @@ void take_mean_turns(const SecondInput& input, const TurnAnswers& answers, const
     const MeanOfTurns mean(motion, answers, turns);
     for (const std::vector<Index>* vertices :
          {&motion.method().gathered, &motion.method().averaged}) {
-        for_each_block(context, static_cast<Index>(vertices->size()), [&](Index begin, Index end) {
+        for_each_block(context, count_of(*vertices), [&](Index begin, Index end) {
             for (Index i = begin; i < end; ++i) {
-                const Index v = (*vertices)[static_cast<std::size_t>(i)];
+                const Index v = (*vertices)[i];
                 const Vec4 turn = mean.at(v);
                 const double scale = scales ? base_scale * std::exp(turn[3]) : 1.0;
                 rotations[v].topRows<3>() =
@@ -239,9 +239,9 @@ void wind_rotations(const SecondInput& input, std::span<const Vec4> deviation,
         share < 1.0 ? part_of_turns(motion, input.greatest_turn, context) : std::nullopt;
 
     const std::vector<Index>& vertices = method.gathered;
-    for_each_block(context, static_cast<Index>(vertices.size()), [&](Index begin, Index end) {
+    for_each_block(context, count_of(vertices), [&](Index begin, Index end) {
         std::array<Mat3, kFrameBlock> now, first;
-        const auto count = static_cast<std::size_t>(end - begin);
+        const std::size_t count = end - begin;
         moves.gather(vertices.data(), now.data(), begin, end);
         bend(input, {vertices.data() + begin, count}, rotations, {now.data(), count});
         if (part) first_rotations(motion, &*part, deviation, first.data(), begin, end);

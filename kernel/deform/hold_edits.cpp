@@ -82,7 +82,7 @@ std::string handle_text(std::size_t number, std::size_t vertices) {
 // `who` is to hold.
 void require_unheld(const RestShape& rest, const Holds& holds, const std::vector<Index>& vertices,
                     const std::string& who, std::span<const Index> except = {}) {
-    std::vector<char> held(static_cast<std::size_t>(rest.patch().vertex_count), 0);
+    std::vector<char> held(rest.patch().vertex_count, 0);
     for (const auto& target : holds.targets) {
         if (target->row.size() == 1) held[target->row.front().first] = 1;
     }
@@ -92,8 +92,7 @@ void require_unheld(const RestShape& rest, const Holds& holds, const std::vector
     std::vector<char> wanted(held.size(), 0);
     for (const Index v : vertices) wanted[rest.local_vertex(v)] = 1;
     for (std::size_t h = 0; h < holds.handles.size(); ++h) {
-        const bool left_out =
-            std::find(except.begin(), except.end(), static_cast<Index>(h)) != except.end();
+        const bool left_out = std::find(except.begin(), except.end(), index_of(h)) != except.end();
         if (left_out || !holds.handles[h]) continue;
         const Handle& handle = *holds.handles[h];
         for (const Index v : handle.local) held[v] = 1;
@@ -127,7 +126,7 @@ HandleId HoldEdit::add(Handle handle, const HandlePose& pose) {
     handle.center = rest.center_of(handle);
     holds.handles.push_back(std::make_shared<const Handle>(std::move(handle)));
     poses.handles.push_back(pose);
-    return {static_cast<Index>(holds.handles.size()) - 1};
+    return {count_of(holds.handles) - 1};
 }
 
 // Errors: as add_handle, beside the handles with numbers in `except`.
@@ -137,8 +136,7 @@ void HoldEdit::require_handle_region(const Region& vertices, std::span<const Ind
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
                     "the handle reaches outside the region at ",
                     [&](Index v) { return !rest.region().contains(v); });
-    const std::size_t number =
-        except.empty() ? holds.handles.size() : static_cast<std::size_t>(except.front());
+    const std::size_t number = except.empty() ? holds.handles.size() : at(except.front());
     require_unheld(rest, holds, vertices.vertices(), handle_text(number, vertices.size()), except);
 }
 
@@ -233,8 +231,7 @@ Handle HoldEdit::mirror_image(Index number, const Handle& handle, const MirrorPl
                     "the handle meets its mirror image; leave out what is near the plane, as ",
                     [&](Index v) { return handle.region.contains(v); });
     require_unheld(rest, holds, held,
-                   "the mirror image of " +
-                       handle_text(static_cast<std::size_t>(number), handle.region.size()),
+                   "the mirror image of " + handle_text(at(number), handle.region.size()),
                    std::array{number, handle.partner});
     image.partner = number;
     image.region = Region(rest.region().topology(), vertices);
@@ -275,9 +272,9 @@ void HoldEdit::set_stiffness(const Region& vertices, double factor) {
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
                     "outside the region there is nothing to make stiff, at ",
                     [&](Index v) { return !rest.region().contains(v); });
-    auto stiffness = holds.stiffness ? std::make_shared<std::vector<double>>(*holds.stiffness)
-                                     : std::make_shared<std::vector<double>>(
-                                           static_cast<std::size_t>(rest.patch().real_count), 1.0);
+    auto stiffness = holds.stiffness
+                         ? std::make_shared<std::vector<double>>(*holds.stiffness)
+                         : std::make_shared<std::vector<double>>(at(rest.patch().real_count), 1.0);
     for (const Index v : vertices.vertices()) (*stiffness)[rest.local_vertex(v)] = factor;
     holds.stiffness = std::move(stiffness);
 }
@@ -319,7 +316,7 @@ TargetPlace find_target(const Holds& holds, const Target& target) {
         const auto place =
             std::lower_bound(holds.targets.begin(), holds.targets.end(), of,
                              [](const auto& a, const Target& b) { return before(*a, b); });
-        return {static_cast<std::size_t>(place - holds.targets.begin()),
+        return {at(place - holds.targets.begin()),
                 place != holds.targets.end() && !before(of, **place)};
     };
     const TargetPlace place = place_of(target);

@@ -109,13 +109,13 @@ double Motion::greatest_turn() const {
 
 std::vector<Vec4> Motion::spread(const std::vector<Vec4>& value, const Context& context) const {
     const std::vector<Index>& free = method().first->free_vertices();
-    std::vector<Vec4> field(static_cast<std::size_t>(patch().vertex_count), Vec4::Zero());
+    std::vector<Vec4> field(patch().vertex_count, Vec4::Zero());
     for (std::size_t n = 0; n < value.size(); ++n) {
         for (const Index v : prepared_.held[solution().handles()[n]]) {
             if (prepared_.known.position[v]) field[v] = value[n];
         }
     }
-    for_each_block(context, static_cast<Index>(free.size()), [&](Index begin, Index end) {
+    for_each_block(context, count_of(free), [&](Index begin, Index end) {
         for (Index row = begin; row < end; ++row) {
             for (std::size_t n = 0; n < value.size(); ++n) {
                 field[free[row]] += solution().translation_weight(n, row) * value[n];
@@ -130,7 +130,7 @@ void Motion::add_asked_moves(std::vector<Vec4>& field) const {
     for (const auto& entry : asked_.at) field[entry.first] += padded(known_deviation(entry.first));
     const std::vector<Index>& free = method().first->free_vertices();
     for (std::size_t row = 0; row < free.size(); ++row) {
-        field[free[row]] += padded(asked_.fixed.at(static_cast<Index>(row)));
+        field[free[row]] += padded(asked_.fixed.at(index_of(row)));
     }
 }
 

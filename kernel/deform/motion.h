@@ -27,7 +27,7 @@ class Motion {
     const DeformOptions& options() const { return prepared_.rest->options(); }
     bool scales() const { return options().local_size == LocalSize::scale; }
     const Patch& patch() const { return prepared_.patch(); }
-    const HandlePose& pose(Index handle) const { return poses_.handles[handle]; }
+    const HandlePose& pose(Index handle) const { return poses_.handles[at(handle)]; }
     const AskedPart& asked() const { return asked_; }
 
     /// The transform that deviations are relative to: of the solution's base, or the identity.

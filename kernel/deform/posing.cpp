@@ -57,8 +57,7 @@ HandlePose reflected(const RestShape& rest, const MirrorPlane& plane, const Hand
 }
 
 const Handle& handle_of(const Holds& holds, HandleId id) {
-    if (id.value < 0 || id.value >= static_cast<Index>(holds.handles.size()) ||
-        !holds.handles[id.value]) {
+    if (id.value < 0 || id.value >= count_of(holds.handles) || !holds.handles[id.value]) {
         throw Error(ErrorCode::handle_removed, "the handle was removed; add a new one");
     }
     return *holds.handles[id.value];

@@ -114,12 +114,12 @@ void number_frame(const Preparation& next, ImplicitMethod& method) {
 void count_costs(Preparation& next, const ImplicitMethod& method) {
     const FactorStats &first = method.first->stats(), &second = method.second->stats();
     DeformStats& stats = next.costs;
-    stats.free_vertices = static_cast<Index>(method.second->free_vertices().size());
+    stats.free_vertices = count_of(method.second->free_vertices());
     for (const Index v : next.patch().of_region) {
         stats.constrained_vertices += next.known.position[v];
     }
-    stats.displaced_vertices = static_cast<Index>(method.gradients.displaced.size());
-    stats.refined_vertices = static_cast<Index>(next.patch().inserted.size());
+    stats.displaced_vertices = count_of(method.gradients.displaced);
+    stats.refined_vertices = count_of(next.patch().inserted);
     stats.first_nonzeros = first.factor_nonzeros;
     stats.second_nonzeros = second.factor_nonzeros;
     stats.factor_bytes = first.factor_bytes + second.factor_bytes;

@@ -21,7 +21,7 @@ constexpr double kMoved = 1e-6;
 void measure(RestShape& rest) {
     const Patch& patch = rest.patch();
     const Region& region = rest.region();
-    rest.region_row.assign(static_cast<std::size_t>(patch.vertex_count), kNoIndex);
+    rest.region_row.assign(patch.vertex_count, kNoIndex);
     for (Index row = 0; row < region.size(); ++row) {
         rest.region_row[patch.of_region[row]] = row;
         rest.size = std::max(rest.size, patch.rest[patch.of_region[row]].norm());
@@ -78,7 +78,7 @@ std::shared_ptr<const RestShape> rebased(const RestShape& rest, const DeformFram
     auto next = std::make_shared<RestShape>(RestShape{
         rest.scope, nullptr, {}, frame.positions, 0.0, false, rest.directions, rest.surroundings});
     next->directions.rebase(region, frame.positions, frame.turns_without_faces);
-    std::vector<Vec3> at(static_cast<std::size_t>(region.topology()->vertex_count()), Vec3::Zero());
+    std::vector<Vec3> at(region.topology()->vertex_count(), Vec3::Zero());
     for (Index i = 0; i < before.real_count; ++i) {
         at[before.mesh_vertex[i]] = before.rest[i] + before.origin;
     }
@@ -95,10 +95,10 @@ Index RestShape::local_vertex(Index mesh_vertex) const {
     const std::vector<Index>& ids = region().vertices();
     const auto place = std::lower_bound(ids.begin(), ids.end(), mesh_vertex);
     if (place != ids.end() && *place == mesh_vertex) {
-        return patch().of_region[static_cast<std::size_t>(place - ids.begin())];
+        return patch().of_region[place - ids.begin()];
     }
     const std::vector<Index>& all = patch().mesh_vertex;
-    return static_cast<Index>(std::find(all.begin(), all.end(), mesh_vertex) - all.begin());
+    return index_of(std::find(all.begin(), all.end(), mesh_vertex) - all.begin());
 }
 
 Vec3 RestShape::position_of(const SparseRow& row) const {
@@ -108,7 +108,7 @@ Vec3 RestShape::position_of(const SparseRow& row) const {
 }
 
 Vec3 RestShape::center_of(const Handle& handle) const {
-    const auto count = static_cast<double>(handle.points.size() + handle.local.size());
+    const double count = handle.points.size() + handle.local.size();
     Vec3 center = Vec3::Zero();
     for (const Index v : handle.local) center += patch().rest[v] / count;
     for (const SparseRow& row : handle.points) center += position_of(row) / count;

@@ -62,7 +62,7 @@ class Derivation {
         result.constraints = ponytail_constraints(distances_, shape, ponytail.options);
         const PonytailSection& first = shape.tie();
         const double behind = curve_length(std::span(shape.spine).subspan(shape.first));
-        const auto from = shape.spine.begin() + static_cast<std::ptrdiff_t>(shape.first);
+        const auto from = shape.spine.begin() + shape.first;
         result.tie = HairTie{first.center,    first.direction,
                              first.radius,    ponytail.tail_length.value_or(behind),
                              ponytail.ragged, {from, shape.spine.end()}};

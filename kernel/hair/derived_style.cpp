@@ -47,7 +47,7 @@ std::vector<CurveClaim> settled_claims(const DerivedStyle& style) {
 }  // namespace
 
 const DerivedCurve& DerivedStyle::derived(CurveId id) const {
-    return *curves[static_cast<std::size_t>(&placed_curve(inputs, id) - inputs.curves.data())];
+    return *curves[&placed_curve(inputs, id) - inputs.curves.data()];
 }
 
 DerivedStyle derive_style(StyleInputs inputs, const DerivedStyle& before, const StyleGround& ground,

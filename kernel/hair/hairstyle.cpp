@@ -36,7 +36,7 @@ GridLayout layout_of(const HairstyleOptions& options) {
 
 // The field, the distance with its sign and gradient, and all as they are read.
 std::size_t needed_bytes(const GridLayout& layout, const GridFieldOptions& field) {
-    const auto points = static_cast<std::size_t>(layout.size());
+    const std::size_t points = layout.size();
     const auto [nx, ny, nz] = layout.counts;
     return GridField::predicted_bytes({nx, ny, nz}, 0, field) +
            points * (13 * sizeof(float) + sizeof(std::uint8_t));
@@ -84,14 +84,12 @@ void require_affordable(const HairstyleOptions& options, const Context& context)
     const std::size_t needed = needed_bytes(layout, options.field);
     if (room == 0 || needed <= room) return;
     constexpr double kGigabyte = 1e9;
-    const double points = layout.size(),
-                 fraction = static_cast<double>(room) / static_cast<double>(needed);
+    const double points = layout.size(), fraction = static_cast<double>(room) / needed;
     throw Error(ErrorCode::memory_limit,
                 "a hairstyle of " + std::to_string(layout.size()) + " grid points needs about " +
-                    quantity(static_cast<double>(needed) / kGigabyte, "GB") + " and " +
+                    quantity(needed / kGigabyte, "GB") + " and " +
                     quantity(kSecondsAPoint * points, "seconds") + ", but there are " +
-                    quantity(static_cast<double>(room) / kGigabyte, "GB") +
-                    "; a resolution of at most " +
+                    quantity(room / kGigabyte, "GB") + "; a resolution of at most " +
                     std::to_string(static_cast<Index>(fraction * points)) +
                     " would fit, and 50000 do for most styles");
 }
@@ -379,8 +377,8 @@ std::size_t Hairstyle::memory_bytes() const {
     const State& s = *state_;
     std::size_t constraints = 0;
     for (const CurveClaim& claim : s.style.claims) constraints += claim.constraints.size();
-    const auto vertices = static_cast<std::size_t>(s.head.vertex_count());
-    const auto points = static_cast<std::size_t>(layout().size());
+    const std::size_t vertices = s.head.vertex_count();
+    const std::size_t points = layout().size();
     const std::size_t roots = s.roots ? s.roots->uvs.size() : 0;
     return GridField::predicted_bytes(field().grid().size(), constraints, s.options.field) +
            13 * points * sizeof(float) + 4 * vertices * sizeof(Vec3) + roots * 64;

@@ -29,7 +29,7 @@ std::int64_t next_edit(const StyleInputs& inputs) {
 
 void reorder_curve(StyleInputs& inputs, CurveId id, Index place) {
     const auto from = inputs.curves.begin() + (&placed_curve(inputs, id) - inputs.curves.data());
-    const auto count = static_cast<Index>(inputs.curves.size());
+    const auto count = count_of(inputs.curves);
     if (place < 0 || place >= count) {
         throw Error(ErrorCode::out_of_range, "a hairstyle of " + std::to_string(count) +
                                                  " curves has no place " + std::to_string(place));

@@ -86,7 +86,7 @@ std::vector<Root> roots_but_for(const Mesh& head, const Scalp& scalp, const Root
     if (!bare || options.count <= 0 || options.count > kMaximumRoots) {
         return make_roots(head, scalp, options, context);
     }
-    const auto wanted = static_cast<std::size_t>(options.count);
+    const std::size_t wanted = options.count;
     const auto at_most = [](double count) {
         return static_cast<Index>(std::min<double>(count, kMaximumRoots));
     };

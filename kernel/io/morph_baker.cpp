@@ -142,7 +142,7 @@ Index MorphBaker::target_of(std::vector<float> differences) {
     const std::size_t hash = hash_of(differences);
     const auto [first, last] = target_by_hash_.equal_range(hash);
     for (auto it = first; it != last; ++it) {
-        if (targets_[static_cast<std::size_t>(it->second)] == differences) return it->second;
+        if (targets_[it->second] == differences) return it->second;
     }
     if (targets_.size() == kMaximumTargets) {
         throw Error(ErrorCode::invalid_argument, "there are more than " +
@@ -151,7 +151,7 @@ Index MorphBaker::target_of(std::vector<float> differences) {
     }
     charges_.push_back(context_.charge(differences.size() * sizeof(float), "a baked shape"));
     targets_.push_back(std::move(differences));
-    const auto target = static_cast<Index>(targets_.size()) - 1;
+    const auto target = count_of(targets_) - 1;
     target_by_hash_.emplace(hash, target);
     return target;
 }
@@ -166,17 +166,15 @@ void MorphBaker::add(double time, const Mesh& shape) {
 
 // Elements that do not move have no value: objects without any have no targets.
 void MorphBaker::write_target(Index target, Mesh& mesh) const {
-    const std::vector<float>& values = targets_[static_cast<std::size_t>(target)];
+    const std::vector<float>& values = targets_[target];
     const std::string prefix = "morph." + std::to_string(target + 1) + ".";
     std::size_t at = 0;
     for (const Channel& channel : channels_) {
         Attribute attribute{prefix + channel.suffix, channel.domain, 3, ScalarType::float32, {}};
-        attribute.values.assign(
-            3 * static_cast<std::size_t>(element_count(mesh.topology(), channel.domain)),
-            std::numeric_limits<double>::quiet_NaN());
+        attribute.values.assign(3 * lissom::at(element_count(mesh.topology(), channel.domain)),
+                                std::numeric_limits<double>::quiet_NaN());
         for (const Index element : channel.elements) {
-            std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(at), 3,
-                        attribute.at(element).begin());
+            std::copy_n(values.begin() + at, 3, attribute.at(element).begin());
             at += 3;
         }
         mesh.attributes().add(std::move(attribute));

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 
@@ -49,8 +50,8 @@ class MorphBaker {
     /// topology_mismatch; memory_limit; cancelled.
     void add(double time, const Mesh& shape);
 
-    Index key_count() const { return static_cast<Index>(times_.size()); }
-    Index target_count() const { return static_cast<Index>(targets_.size()); }
+    Index key_count() const { return count_of(times_); }
+    Index target_count() const { return count_of(targets_); }
 
     /// The rest shape with its targets as attributes "morph.N.position" and so on, and the
     /// animation in its asset. Errors: invalid_argument where no shape was added.

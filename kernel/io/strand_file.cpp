@@ -151,7 +151,7 @@ void change_frame(Strands& strands, int up, double scale, const Context& context
     });
     if (scale == 1.0) return;
     StrandWidths widths = strands.widths();
-    widths.common = static_cast<float>(widths.common * scale);
+    widths.common = widths.common * scale;
     for (float& width : widths.values) width = static_cast<float>(width * scale);
     strands.set_widths(std::move(widths));
 }

@@ -45,10 +45,10 @@ Merge::Merge(Merge&&) noexcept = default;
 Merge& Merge::operator=(Merge&&) noexcept = default;
 
 void Merge::set_keys(Index join, std::vector<KeyPair> keys) try {
-    if (join < 0 || join >= static_cast<Index>(state_->keys.size())) {
+    if (join < 0 || join >= count_of(state_->keys)) {
         throw Error(ErrorCode::out_of_range, "there is no such join");
     }
-    (void)parameters_of(state_->preparation, static_cast<std::size_t>(join), keys);
+    (void)parameters_of(state_->preparation, join, keys);
     state_->keys[join] = std::move(keys);
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();

@@ -69,7 +69,7 @@ void require_distinct(const Mesh& source, std::span<const Mesh* const> targets) 
 // Vertices of the parts of a mesh that the given loops bound.
 Region joined_parts(const Mesh& mesh, const std::vector<std::vector<Index>>& loops) {
     const std::vector<Index>& part = mesh.topology().components();
-    std::vector<char> joined(static_cast<std::size_t>(mesh.topology().component_count()), 0);
+    std::vector<char> joined(mesh.topology().component_count(), 0);
     for (const std::vector<Index>& loop : loops) joined[part[loop.front()]] = 1;
     std::vector<Index> vertices;
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -115,7 +115,7 @@ struct TargetPaths {
 TargetPaths target_paths(std::span<const Join> joins, std::size_t targets) {
     TargetPaths result{std::vector<std::vector<Path>>(targets), {}};
     for (const Join& join : joins) {
-        if (join.target_mesh < 0 || join.target_mesh >= static_cast<Index>(targets)) {
+        if (join.target_mesh < 0 || join.target_mesh >= index_of(targets)) {
             throw Error(ErrorCode::out_of_range, "a join names a target that does not exist");
         }
         result.place.push_back(result.paths[join.target_mesh].size());
@@ -142,12 +142,12 @@ void make_targets(std::span<const Mesh* const> given, std::span<const Join> join
             sides.targets.emplace_back(make_side(*given[t], paths.paths[t], "target"));
         const std::vector<GivenLoop> loops = given_loops(*given[t], side);
         for (std::size_t j = 0; j < joins.size(); ++j) {
-            if (joins[j].target_mesh == static_cast<Index>(t)) {
+            if (joins[j].target_mesh == index_of(t)) {
                 sides.given.target_loops[j] = loops[paths.place[j]];
             }
         }
         orient(side, context);
-        if (side.flipped) sides.found.targets_flipped.push_back(static_cast<Index>(t));
+        if (side.flipped) sides.found.targets_flipped.push_back(index_of(t));
     }
 }
 
@@ -276,8 +276,7 @@ std::vector<Region> carried_features(const MergeSide& source, const MergeOptions
 
 LooseParts loose_parts(const MergeSide& source) {
     const Topology& topology = source.mesh.topology();
-    std::vector<char> joined(static_cast<std::size_t>(topology.component_count()), 0),
-        seen = joined;
+    std::vector<char> joined(topology.component_count(), 0), seen = joined;
     for (const std::vector<Index>& loop : source.loops) joined[topology.components()[loop[0]]] = 1;
     LooseParts result;
     for (Index v = 0; v < topology.vertex_count(); ++v) {

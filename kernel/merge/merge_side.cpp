@@ -152,7 +152,7 @@ void trim_jagged(MergeSide& side, double greatest_turn, const Context& context) 
     for (std::size_t k = 0; k < side.loops.size(); ++k) {
         const Path boundary(side.mesh.shared_topology(), side.loops[k], true);
         // A loop of few vertices turns by much without being jagged.
-        const double smooth = 2.0 * kPi / static_cast<double>(side.loops[k].size());
+        const double smooth = 2.0 * kPi / side.loops[k].size();
         if (side.turns[k] - smooth <= greatest_turn) continue;
         try {
             Trim trimmed = trim(side.mesh, boundary, {}, context);

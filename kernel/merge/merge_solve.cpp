@@ -23,7 +23,7 @@ Key worked_key(const Key& key, const GivenLoop& given, const Loop& loop, std::si
     const auto at = std::find(given.vertices.begin(), given.vertices.end(), *vertex);
     if (at != given.vertices.end()) {
         double distance = 0.0;
-        const auto k = static_cast<std::size_t>(at - given.vertices.begin());
+        const std::size_t k = at - given.vertices.begin();
         return point_of(loop.points(), loop.nearest(given.points[k], distance));
     }
     Elements elements{ElementKind::vertex, 0, {}};
@@ -48,8 +48,7 @@ BoundaryValue common_value(const Mesh& mesh, const Region& feature, const Region
     std::vector<std::size_t> rows;
     for (const Index v : feature.vertices()) {
         const auto& ids = region.vertices();
-        rows.push_back(
-            static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), v) - ids.begin()));
+        rows.push_back(at(std::lower_bound(ids.begin(), ids.end(), v) - ids.begin()));
         from += mesh.position(v) / feature.size();
         to += free.positions[rows.back()] / feature.size();
     }
@@ -66,7 +65,7 @@ BoundaryValue common_value(const Mesh& mesh, const Region& feature, const Region
     if (size > 0.0) products /= size;
     products += 1e-3 * turn / turn.norm();
     rest_center = from;
-    return {to, nearest_rotation(products), std::exp(logs / static_cast<double>(rows.size()))};
+    return {to, nearest_rotation(products), std::exp(logs / rows.size())};
 }
 
 // The shapes of the parts count only where the loops and the given directions leave a choice.
@@ -102,8 +101,8 @@ std::vector<BoundaryValue> values_of(const MergePreparation& preparation, const 
         const std::vector<BoundaryValue> loop = loop_values(
             from.source_curves[j], from.target_curves[j], pair, preparation.method.values);
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            values[static_cast<std::size_t>(
-                std::lower_bound(ids.begin(), ids.end(), pair.source[i]) - ids.begin())] = loop[i];
+            values[std::lower_bound(ids.begin(), ids.end(), pair.source[i]) - ids.begin()] =
+                loop[i];
         }
     }
     return values;
@@ -124,8 +123,7 @@ BoundaryDeformation bent(const MergePreparation& preparation, const Matching& ma
         const BoundaryValue move = common_value(mesh, feature, featured.region(), deformed, center);
         for (const Index v : feature.vertices()) {
             const Vec3 arm = mesh.position(v) - center;
-            values[static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), v) -
-                                            ids.begin())] = {
+            values[std::lower_bound(ids.begin(), ids.end(), v) - ids.begin()] = {
                 move.position + move.scale * (move.rotation * arm), move.rotation, move.scale};
         }
     }
@@ -142,7 +140,7 @@ void follow(const Mesh& mesh, const Region& moved, const BoundaryDeformation& de
     for (const auto& entry : loose) {
         Vec3 center = Vec3::Zero();
         for (const Index v : entry.second) {
-            center += mesh.position(v) / static_cast<double>(entry.second.size());
+            center += mesh.position(v) / count_of(entry.second);
         }
         std::size_t nearest = 0;
         const auto distance = [&](std::size_t row) {
@@ -195,7 +193,7 @@ std::optional<ThesisMerge> thesis_merge(const MergePreparation& preparation,
 void turn_directions(const Mesh& rest, const Region& region, const BoundaryDeformation& deformed,
                      Mesh& moved) {
     RestDirections(rest, region).apply_to(moved, deformed.transforms);
-    std::vector<double> scale(static_cast<std::size_t>(moved.vertex_count()), 1.0);
+    std::vector<double> scale(moved.vertex_count(), 1.0);
     const std::vector<Index>& ids = region.vertices();
     for (std::size_t row = 0; row < ids.size(); ++row) {
         scale[ids[row]] = uniform_scale(deformed.transforms[row]);

@@ -29,7 +29,7 @@ MeshMap flipped_map(const Topology& topology) {
     MeshMap map = identity_map(topology);
     std::vector<Index> corners;
     for (Index f = 0; f < topology.face_count(); ++f) {
-        const auto n = static_cast<Index>(topology.face(f).size());
+        const auto n = count_of(topology.face(f));
         for (Index k = 0; k < n; ++k) corners.push_back(topology.first_corner(f) + (n - k) % n);
     }
     map.corners = ElementMap::copies(corners);
@@ -63,7 +63,7 @@ MeshMap appended_map(const MeshMap& first, const MeshMap& second, const Topology
 }
 
 std::vector<Index> kept_vertices(const ElementMap& map, Index old_count) {
-    std::vector<Index> kept(static_cast<std::size_t>(old_count), kNoIndex);
+    std::vector<Index> kept(old_count, kNoIndex);
     for (Index i = 0; i < map.size(); ++i) {
         if (map[i].size() == 1 && kept[map[i].front().element] == kNoIndex) {
             kept[map[i].front().element] = i;

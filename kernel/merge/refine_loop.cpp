@@ -21,9 +21,9 @@ struct NewCorner {
 class Refinement {
   public:
     Refinement(const Mesh& mesh, const std::vector<Index>& loop) : mesh_(mesh) {
-        std::vector<char> on_loop(static_cast<std::size_t>(mesh.vertex_count()), 0);
+        std::vector<char> on_loop(mesh.vertex_count(), 0);
         for (const Index v : loop) on_loop[v] = 1;
-        split_.assign(static_cast<std::size_t>(mesh.face_count()), 0);
+        split_.assign(mesh.face_count(), 0);
         for (Index f = 0; f < mesh.face_count(); ++f) {
             for (const Index v : mesh.topology().face(f)) split_[f] |= on_loop[v];
         }
@@ -99,18 +99,18 @@ class Refinement {
     // A face with middles on its edges: a triangle splits towards them, a polygon takes them in.
     void fit_face(Index f) {
         const Index first = mesh_.topology().first_corner(f);
-        const auto n = static_cast<Index>(mesh_.topology().face(f).size());
+        const auto n = count_of(mesh_.topology().face(f));
         std::vector<NewCorner> around;
         std::vector<Index> places;
         for (Index k = 0; k < n; ++k) {
             around.push_back(old(first + k));
             const NewCorner m = middle(first + k, first + (k + 1) % n);
             if (m.vertex == kNoIndex) continue;
-            places.push_back(static_cast<Index>(around.size()));
+            places.push_back(count_of(around));
             around.push_back(m);
         }
         if (n > 3 || places.empty()) return add_face(around, f);
-        const auto size = static_cast<Index>(around.size());
+        const auto size = count_of(around);
         const auto at = [&](Index k) { return around[(places[0] + k) % size]; };
         if (places.size() == 1) {
             add_face(std::array{at(0), at(1), at(2)}, f);

@@ -39,9 +39,9 @@ AttributeRole role_of(const Attribute& attribute) {
 
 Index FaceLabels::add(std::string_view label) {
     const auto found = std::find(names.begin(), names.end(), label);
-    if (found != names.end()) return static_cast<Index>(found - names.begin());
+    if (found != names.end()) return index_of(found - names.begin());
     names.emplace_back(label);
-    return static_cast<Index>(names.size()) - 1;
+    return count_of(names) - 1;
 }
 
 Attribute* AttributeSet::find(std::string_view name) {

@@ -36,14 +36,12 @@ struct Attribute {
     ScalarType type = ScalarType::float32;
     std::vector<double> values;
 
-    Index size() const { return static_cast<Index>(values.size()) / width; }
+    Index size() const { return count_of(values) / width; }
     std::span<double> at(Index element) {
-        return {values.data() + static_cast<std::size_t>(element) * width,
-                static_cast<std::size_t>(width)};
+        return {values.data() + lissom::at(element) * lissom::at(width), lissom::at(width)};
     }
     std::span<const double> at(Index element) const {
-        return {values.data() + static_cast<std::size_t>(element) * width,
-                static_cast<std::size_t>(width)};
+        return {values.data() + lissom::at(element) * lissom::at(width), lissom::at(width)};
     }
 };
 

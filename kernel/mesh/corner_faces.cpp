@@ -8,7 +8,7 @@ namespace lissom {
 CornerFaces::CornerFaces(FaceList list)
     : faces(std::move(list)),
       corner_source(faces.vertices.size()),
-      face_source(static_cast<std::size_t>(faces.size())),
+      face_source(faces.size()),
       face_of_corner(faces.vertices.size()) {
     std::iota(corner_source.begin(), corner_source.end(), 0);
     std::iota(face_source.begin(), face_source.end(), 0);
@@ -24,7 +24,7 @@ void CornerFaces::add(const CornerFaces& from, Index face, std::span<const Index
         corner_source.push_back(from.corner_source[c]);
         face_of_corner.push_back(faces.size());
     }
-    faces.offsets.push_back(static_cast<Index>(faces.vertices.size()));
+    faces.offsets.push_back(count_of(faces.vertices));
     face_source.push_back(from.face_source[face]);
 }
 

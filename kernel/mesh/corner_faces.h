@@ -22,12 +22,12 @@ struct CornerFaces {
     void add(const CornerFaces& from, Index face, std::span<const Index> corners);
 
     Index next(Index corner) const {
-        const Index f = face_of_corner[corner];
-        return corner + 1 < faces.offsets[f + 1] ? corner + 1 : faces.offsets[f];
+        const Index f = face_of_corner[at(corner)];
+        return corner + 1 < faces.offsets[at(f + 1)] ? corner + 1 : faces.offsets[at(f)];
     }
     Index previous(Index corner) const {
-        const Index f = face_of_corner[corner];
-        return corner > faces.offsets[f] ? corner - 1 : faces.offsets[f + 1] - 1;
+        const Index f = face_of_corner[at(corner)];
+        return corner > faces.offsets[at(f)] ? corner - 1 : faces.offsets[at(f + 1)] - 1;
     }
     /// The face of every corner.
     std::vector<Index> face_of_corner;

@@ -42,7 +42,7 @@ void normalize(std::span<double> values) {
 
 Attribute carry(const Attribute& old, const ElementMap& map) {
     Attribute result{old.name, old.domain, old.width, old.type, {}};
-    result.values.assign(static_cast<std::size_t>(map.size()) * old.width, kNone);
+    result.values.assign(at(map.size()) * old.width, kNone);
     const bool discrete = is_discrete(old);
     const AttributeRole role = role_of(old);
     for (Index i = 0; i < map.size(); ++i) {
@@ -130,7 +130,7 @@ void carry_attributes(const Mesh& source, const MeshMap& map, Mesh& target,
 void carry_labels(const Mesh& source, const ElementMap& faces, Mesh& target) {
     for (const auto& [kind, old] : source.attributes().labels()) {
         FaceLabels labels{old.names, {}};
-        labels.of_face.reserve(static_cast<std::size_t>(faces.size()));
+        labels.of_face.reserve(faces.size());
         for (Index f = 0; f < faces.size(); ++f) {
             const Index from = faces.main_source(f);
             labels.of_face.push_back(from == kNoIndex ? kNoIndex : old.of_face[from]);
@@ -164,8 +164,8 @@ void require_size(const ElementMap& map, Index expected, const char* what) {
 
 ElementMap ElementMap::identity(Index count) {
     ElementMap map;
-    map.begin_.reserve(static_cast<std::size_t>(count) + 1);
-    map.sources_.reserve(static_cast<std::size_t>(count));
+    map.begin_.reserve(at(count) + 1);
+    map.sources_.reserve(count);
     for (Index i = 0; i < count; ++i) map.add_copy(i);
     return map;
 }
@@ -194,7 +194,7 @@ void ElementMap::add_copy(Index source) {
 }
 
 void ElementMap::add_mean(std::span<const Index> sources) {
-    const double weight = 1.0 / static_cast<double>(sources.size());
+    const double weight = 1.0 / sources.size();
     for (const Index source : sources) sources_.push_back({source, weight});
     begin_.push_back(sources_.size());
 }
@@ -216,7 +216,7 @@ Index ElementMap::main_source(Index element) const {
 
 std::vector<Vec3> blend_positions(const Mesh& source, const ElementMap& vertices) {
     std::vector<Vec3> positions;
-    positions.reserve(static_cast<std::size_t>(vertices.size()));
+    positions.reserve(vertices.size());
     for (Index v = 0; v < vertices.size(); ++v) {
         const std::span<const ElementMap::Source> sources = vertices[v];
         if (sources.size() == 1) {
@@ -233,8 +233,8 @@ std::vector<Vec3> blend_positions(const Mesh& source, const ElementMap& vertices
 Mesh derive(const Mesh& source, std::vector<Vec3> positions, FaceList faces, const MeshMap& map,
             const Context& context) {
     require_complete_attributes(source);
-    require_size(map.vertices, static_cast<Index>(positions.size()), "vertices");
-    require_size(map.corners, static_cast<Index>(faces.vertices.size()), "corners");
+    require_size(map.vertices, count_of(positions), "vertices");
+    require_size(map.corners, count_of(faces.vertices), "corners");
     require_size(map.faces, faces.size(), "faces");
     Mesh result(std::move(positions), std::move(faces), context);
     carry_attributes(source, map, result, context);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {
@@ -33,9 +34,9 @@ class ElementMap {
     /// Weights are scaled to sum 1.
     void add_blend(std::span<const Source> sources);
 
-    Index size() const { return static_cast<Index>(begin_.size()) - 1; }
+    Index size() const { return count_of(begin_) - 1; }
     std::span<const Source> operator[](Index element) const {
-        return {sources_.data() + begin_[element], sources_.data() + begin_[element + 1]};
+        return {sources_.data() + begin_[at(element)], sources_.data() + begin_[at(element + 1)]};
     }
     /// The heaviest source of `element`, the first of equals, or kNoIndex.
     Index main_source(Index element) const;

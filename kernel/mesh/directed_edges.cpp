@@ -3,7 +3,7 @@
 namespace lissom {
 
 DirectedEdges::DirectedEdges(Index vertex_count, const FaceList& faces)
-    : begin_(static_cast<std::size_t>(vertex_count) + 1, 0),
+    : begin_(at(vertex_count) + 1, 0),
       corner_(faces.vertices.size()),
       next_(faces.vertices.size()),
       vertices_(faces.vertices) {
@@ -16,7 +16,7 @@ DirectedEdges::DirectedEdges(Index vertex_count, const FaceList& faces)
     }
     for (std::size_t v = 0; v + 1 < begin_.size(); ++v) begin_[v + 1] += begin_[v];
     std::vector<Index> fill(begin_.begin(), begin_.end() - 1);
-    for (Index c = 0; c < static_cast<Index>(next_.size()); ++c) {
+    for (Index c = 0; c < count_of(next_); ++c) {
         corner_[fill[std::min(vertices_[c], next_[c])]++] = c;
     }
     std::vector<std::uint64_t> keys;
@@ -33,7 +33,7 @@ void DirectedEdges::sort_by_high(Index begin, Index end, std::vector<std::uint64
     }
     std::sort(keys.begin(), keys.end());
     for (const std::uint64_t key : keys) {
-        corner_[begin++] = static_cast<Index>(key & 0xffffffffu);
+        corner_[begin++] = index_of(key & 0xffffffffu);
     }
 }
 
@@ -41,19 +41,19 @@ namespace {
 
 // Where the smallest vertex stands, from which a face is read.
 Index start_of(std::span<const Index> face) {
-    return static_cast<Index>(std::min_element(face.begin(), face.end()) - face.begin());
+    return index_of(std::min_element(face.begin(), face.end()) - face.begin());
 }
 
 // The k-th vertex from `start` on, in the order of the face or against it.
-Index at(std::span<const Index> face, Index start, Index k, bool backward) {
-    const auto n = static_cast<Index>(face.size());
-    return face[static_cast<std::size_t>(backward ? (start + n - k) % n : (start + k) % n)];
+Index vertex_at(std::span<const Index> face, Index start, Index k, bool backward) {
+    const auto n = count_of(face);
+    return face[backward ? (start + n - k) % n : (start + k) % n];
 }
 
 bool same_order(std::span<const Index> f, std::span<const Index> g, bool backward) {
     const Index at_f = start_of(f), at_g = start_of(g);
-    for (Index k = 0; k < static_cast<Index>(f.size()); ++k) {
-        if (at(f, at_f, k, false) != at(g, at_g, k, backward)) return false;
+    for (Index k = 0; k < count_of(f); ++k) {
+        if (vertex_at(f, at_f, k, false) != vertex_at(g, at_g, k, backward)) return false;
     }
     return true;
 }
@@ -64,11 +64,11 @@ std::uint64_t FaceCycles::key(Index f) {
     if (key_[f] != 0) return key_[f];
     const std::span<const Index> face = faces_[f];
     const Index start = start_of(face);
-    const bool backward = at(face, start, 1, true) < at(face, start, 1, false);
+    const bool backward = vertex_at(face, start, 1, true) < vertex_at(face, start, 1, false);
     std::uint64_t hash = face.size();
-    for (Index k = 0; k < static_cast<Index>(face.size()); ++k) {
-        hash =
-            (hash ^ static_cast<std::uint64_t>(at(face, start, k, backward))) * 0x9e3779b97f4a7c15u;
+    for (Index k = 0; k < count_of(face); ++k) {
+        hash = (hash ^ static_cast<std::uint64_t>(vertex_at(face, start, k, backward))) *
+               0x9e3779b97f4a7c15u;
         hash ^= hash >> 29;
     }
     return key_[f] = hash | 1;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {
@@ -17,10 +18,10 @@ class DirectedEdges {
   public:
     DirectedEdges(Index vertex_count, const FaceList& faces);
 
-    Index low(Index c) const { return std::min(vertices_[c], next_[c]); }
-    Index high(Index c) const { return std::max(vertices_[c], next_[c]); }
+    Index low(Index c) const { return std::min(vertices_[at(c)], next_[at(c)]); }
+    Index high(Index c) const { return std::max(vertices_[at(c)], next_[at(c)]); }
     /// Whether the corner's edge runs from its lower vertex to its higher one.
-    bool ascending(Index c) const { return vertices_[c] < next_[c]; }
+    bool ascending(Index c) const { return vertices_[at(c)] < next_[at(c)]; }
 
     /// Calls use(corners) once for each undirected edge, with the corners that run along it, in
     /// ascending order.
@@ -28,8 +29,8 @@ class DirectedEdges {
     void for_each_edge(const Use& use) const {
         for (std::size_t v = 0; v + 1 < begin_.size(); ++v) {
             for (Index i = begin_[v], j = i; i < begin_[v + 1]; i = j) {
-                while (j < begin_[v + 1] && high(corner_[j]) == high(corner_[i])) ++j;
-                use(std::span<const Index>(corner_.data() + i, static_cast<std::size_t>(j - i)));
+                while (j < begin_[v + 1] && high(corner_[at(j)]) == high(corner_[at(i)])) ++j;
+                use(std::span<const Index>(corner_.data() + i, at(j - i)));
             }
         }
     }
@@ -49,8 +50,7 @@ enum class Likeness { none, same, reversed };
 /// Tells which faces are copies of one another.
 class FaceCycles {
   public:
-    explicit FaceCycles(const FaceList& faces)
-        : faces_(faces), key_(static_cast<std::size_t>(faces.size()), 0) {}
+    explicit FaceCycles(const FaceList& faces) : faces_(faces), key_(at(faces.size()), 0) {}
 
     Likeness compare(Index f, Index g);
 

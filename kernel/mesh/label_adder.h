@@ -4,6 +4,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "kernel/core/index.h"
 #include "kernel/mesh/attributes.h"
 
 namespace lissom {
@@ -17,9 +18,9 @@ class LabelAdder {
     /// Index of `label` in the names; adds it where it is new.
     Index add(const std::string& label) {
         for (; known_ < labels_.names.size(); ++known_) {
-            index_.try_emplace(labels_.names[known_], static_cast<Index>(known_));
+            index_.try_emplace(labels_.names[known_], index_of(known_));
         }
-        const auto [entry, is_new] = index_.try_emplace(label, static_cast<Index>(known_));
+        const auto [entry, is_new] = index_.try_emplace(label, index_of(known_));
         if (!is_new) return entry->second;
         labels_.names.push_back(label);
         ++known_;

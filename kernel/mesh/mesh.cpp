@@ -9,7 +9,7 @@ namespace {
 void require_finite(std::span<const Vec3> positions) {
     Elements bad{ElementKind::vertex, 0, {}};
     for (std::size_t v = 0; v < positions.size(); ++v) {
-        if (!positions[v].allFinite()) bad.add(static_cast<Index>(v));
+        if (!positions[v].allFinite()) bad.add(index_of(v));
     }
     if (bad.count == 0) return;
     const std::string names = describe(bad);
@@ -19,7 +19,7 @@ void require_finite(std::span<const Vec3> positions) {
 }
 
 void require_count(std::size_t count, Index expected) {
-    if (count == static_cast<std::size_t>(expected)) return;
+    if (count == at(expected)) return;
     throw Error(ErrorCode::invalid_argument, std::to_string(count) + " positions were given for " +
                                                  std::to_string(expected) + " vertices");
 }
@@ -35,7 +35,7 @@ Mesh::Mesh() : topology_(empty_topology()) {}
 
 Mesh::Mesh(std::vector<Vec3> positions, FaceList faces, const Context& context)
     : Mesh(std::move(positions), nullptr, context) {
-    topology_ = Topology::create(static_cast<Index>(positions_.size()), std::move(faces), context);
+    topology_ = Topology::create(count_of(positions_), std::move(faces), context);
 }
 
 Mesh::Mesh(std::vector<Vec3> positions, std::shared_ptr<const Topology> topology,
@@ -118,12 +118,11 @@ void require_complete_attributes(const Mesh& mesh) {
                                                      std::to_string(needs));
     };
     for (const Attribute& a : mesh.attributes().all()) {
-        const auto elements = static_cast<std::size_t>(element_count(mesh.topology(), a.domain));
+        const std::size_t elements = element_count(mesh.topology(), a.domain);
         require("the attribute \"" + a.name + '"', a.values.size(), elements * a.width);
     }
     for (const auto& [kind, labels] : mesh.attributes().labels()) {
-        require("the list of labels \"" + kind + '"', labels.of_face.size(),
-                static_cast<std::size_t>(mesh.face_count()));
+        require("the list of labels \"" + kind + '"', labels.of_face.size(), mesh.face_count());
     }
 }
 

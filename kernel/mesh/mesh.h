@@ -38,7 +38,7 @@ class Mesh {
     Index face_count() const { return topology_->face_count(); }
 
     std::span<const Vec3> positions() const { return positions_; }
-    const Vec3& position(Index v) const { return positions_[v]; }
+    const Vec3& position(Index v) const { return positions_[at(v)]; }
     /// Errors: out_of_range; not_finite.
     void set_position(Index v, const Vec3& position);
     /// Replaces all positions. Errors: invalid_argument where the count differs; not_finite.

@@ -21,7 +21,7 @@ void require_common_topology(const Region& a, const Region& b) {
 std::vector<Index> selected(const std::vector<char>& mask) {
     std::vector<Index> vertices;
     for (std::size_t v = 0; v < mask.size(); ++v) {
-        if (mask[v]) vertices.push_back(static_cast<Index>(v));
+        if (mask[v]) vertices.push_back(index_of(v));
     }
     return vertices;
 }
@@ -33,7 +33,7 @@ std::vector<char> majority(const Topology& topology, const std::vector<char>& in
         const std::span<const Index> ring = topology.neighbors(v);
         const auto votes =
             std::count_if(ring.begin(), ring.end(), [&](Index n) { return in[n] != 0; });
-        const auto against = static_cast<std::ptrdiff_t>(ring.size()) - votes;
+        const auto against = std::ssize(ring) - votes;
         if (votes != against) next[v] = votes > against;
     }
     return next;
@@ -50,7 +50,7 @@ class FaceOutline {
         std::vector<char> seen(mesh_.n_halfedges(), 0);
         std::vector<std::vector<Index>> loops;
         for (std::size_t h = 0; h < mesh_.n_halfedges(); ++h) {
-            const HalfedgeHandle start(static_cast<int>(h));
+            const HalfedgeHandle start(index_of(h));
             if (seen[h] || !on_outline(start)) continue;
             std::vector<Index> loop;
             for (HalfedgeHandle at = start; !seen[at.idx()]; at = next(at)) {
@@ -92,7 +92,7 @@ Region::Region(std::shared_ptr<const Topology> topology, std::vector<Index> vert
 }
 
 Region Region::all(std::shared_ptr<const Topology> topology) {
-    std::vector<Index> vertices(static_cast<std::size_t>(topology->vertex_count()));
+    std::vector<Index> vertices(topology->vertex_count());
     std::iota(vertices.begin(), vertices.end(), 0);
     return {std::move(topology), std::move(vertices)};
 }
@@ -106,7 +106,7 @@ bool Region::contains(Index v) const {
 }
 
 std::vector<char> Region::mask() const {
-    std::vector<char> mask(static_cast<std::size_t>(topology_->vertex_count()), 0);
+    std::vector<char> mask(topology_->vertex_count(), 0);
     for (const Index v : vertices_) mask[v] = 1;
     return mask;
 }
@@ -189,7 +189,7 @@ std::vector<Index> Region::faces() const {
 }
 
 std::vector<std::vector<Index>> Region::boundaries() const {
-    std::vector<char> in(static_cast<std::size_t>(topology_->face_count()), 0);
+    std::vector<char> in(topology_->face_count(), 0);
     for (const Index f : faces()) in[f] = 1;
     return FaceOutline(*topology_, in).loops();
 }

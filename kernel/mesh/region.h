@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {
@@ -24,7 +25,7 @@ class Region {
     /// Vertices in ascending order.
     const std::vector<Index>& vertices() const& { return vertices_; }
     std::vector<Index> vertices() && { return std::move(vertices_); }
-    Index size() const { return static_cast<Index>(vertices_.size()); }
+    Index size() const { return count_of(vertices_); }
     bool empty() const { return vertices_.empty(); }
     bool contains(Index v) const;
     /// Faces with all vertices inside, ascending.

@@ -64,26 +64,25 @@ std::shared_ptr<const Topology> Topology::create_paired(Index vertex_count, Face
 void Topology::build_halfedges(const std::vector<Index>& twin) {
     OpenMesh::PolyConnectivity& mesh = *halfedges_;
     const Index corners = corner_count();
-    boundary_edge_count_ = static_cast<Index>(std::count(twin.begin(), twin.end(), kNoIndex));
-    const auto edge_total = (static_cast<std::size_t>(corners) + boundary_edge_count_) / 2;
-    mesh.resize(static_cast<std::size_t>(vertex_count_), edge_total,
-                static_cast<std::size_t>(face_count()));
+    boundary_edge_count_ = index_of(std::count(twin.begin(), twin.end(), kNoIndex));
+    const auto edge_total = (at(corners) + boundary_edge_count_) / 2;
+    mesh.resize(vertex_count_, edge_total, face_count());
     edges_.reserve(2 * edge_total);
 
-    std::vector<HalfedgeHandle> of_corner(static_cast<std::size_t>(corners));
+    std::vector<HalfedgeHandle> of_corner(corners);
     for (Index f = 0; f < face_count(); ++f) {
         const std::span<const Index> face = faces_[f];
         triangle_mesh_ = triangle_mesh_ && face.size() == 3;
         const Index first = first_corner(f);
         const FaceHandle face_handle(f);
         for (std::size_t k = 0; k < face.size(); ++k) {
-            const Index corner = first + static_cast<Index>(k);
+            const Index corner = first + index_of(k);
             const Index from = face[k], to = face[(k + 1) % face.size()];
             const Index other = twin[corner];
             if (other != kNoIndex && other < corner) {
                 of_corner[corner] = mesh.opposite_halfedge_handle(of_corner[other]);
             } else {
-                of_corner[corner] = HalfedgeHandle(static_cast<Index>(edges_.size()));
+                of_corner[corner] = HalfedgeHandle(count_of(edges_));
                 mesh.set_vertex_handle(of_corner[corner], VertexHandle(to));
                 mesh.set_vertex_handle(mesh.opposite_halfedge_handle(of_corner[corner]),
                                        VertexHandle(from));
@@ -98,9 +97,8 @@ void Topology::build_halfedges(const std::vector<Index>& twin) {
         }
         mesh.set_halfedge_handle(face_handle, of_corner[first]);
         for (std::size_t k = 0; k < face.size(); ++k) {
-            const Index next = first + static_cast<Index>((k + 1) % face.size());
-            mesh.set_next_halfedge_handle(of_corner[first + static_cast<Index>(k)],
-                                          of_corner[next]);
+            const Index next = first + index_of((k + 1) % face.size());
+            mesh.set_next_halfedge_handle(of_corner[first + index_of(k)], of_corner[next]);
         }
     }
     if (boundary_edge_count_ > 0) link_boundary(mesh, twin, of_corner);
@@ -108,10 +106,10 @@ void Topology::build_halfedges(const std::vector<Index>& twin) {
 
 void Topology::build_rings() {
     const OpenMesh::PolyConnectivity& mesh = *halfedges_;
-    ring_begin_.reserve(static_cast<std::size_t>(vertex_count_) + 1);
-    fan_begin_.reserve(static_cast<std::size_t>(vertex_count_) + 1);
+    ring_begin_.reserve(at(vertex_count_) + 1);
+    fan_begin_.reserve(at(vertex_count_) + 1);
     ring_.reserve(edges_.size());
-    fan_.reserve(static_cast<std::size_t>(corner_count()));
+    fan_.reserve(corner_count());
     ring_begin_.push_back(0);
     fan_begin_.push_back(0);
     for (Index v = 0; v < vertex_count_; ++v) {
@@ -129,14 +127,14 @@ void Topology::build_rings() {
                 halfedge = mesh.ccw_rotated_halfedge_handle(halfedge);
             } while (halfedge != start);
         }
-        ring_begin_.push_back(static_cast<Index>(ring_.size()));
-        fan_begin_.push_back(static_cast<Index>(fan_.size()));
+        ring_begin_.push_back(count_of(ring_));
+        fan_begin_.push_back(count_of(fan_));
     }
 }
 
 void Topology::build_boundary_loops() {
     const OpenMesh::PolyConnectivity& mesh = *halfedges_;
-    std::vector<char> seen(static_cast<std::size_t>(vertex_count_), 0);
+    std::vector<char> seen(vertex_count_, 0);
     for (Index v = 0; v < vertex_count_; ++v) {
         if (seen[v] || !is_boundary(v)) continue;
         // The stored halfedge runs outside, against the faces; walking back gives the faces'
@@ -156,7 +154,7 @@ void Topology::build_boundary_loops() {
 
 void Topology::build_components() {
     // Each vertex points to itself or to a smaller one of its component.
-    components_.resize(static_cast<std::size_t>(vertex_count_));
+    components_.resize(vertex_count_);
     std::iota(components_.begin(), components_.end(), 0);
     const auto root = [&](Index v) {
         while (components_[v] != v) v = components_[v] = components_[components_[v]];
@@ -177,8 +175,7 @@ std::size_t Topology::memory_bytes() const {
                             ring_begin_.size() + ring_.size() + fan_begin_.size() + fan_.size() +
                             components_.size();
     // OpenMesh keeps one index a vertex and face, and two halfedges of four indices an edge.
-    const std::size_t halfedge = static_cast<std::size_t>(vertex_count_) +
-                                 static_cast<std::size_t>(face_count()) + 4 * edges_.size();
+    const std::size_t halfedge = at(vertex_count_) + face_count() + 4 * edges_.size();
     return (own + halfedge) * sizeof(Index);
 }
 

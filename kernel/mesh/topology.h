@@ -25,13 +25,13 @@ struct FaceList {
     std::vector<Index> offsets{0};
     std::vector<Index> vertices;
 
-    Index size() const { return static_cast<Index>(offsets.size()) - 1; }
+    Index size() const { return count_of(offsets) - 1; }
     std::span<const Index> operator[](Index f) const {
-        return {vertices.data() + offsets[f], vertices.data() + offsets[f + 1]};
+        return {vertices.data() + offsets[at(f)], vertices.data() + offsets[at(f + 1)]};
     }
     void add(std::span<const Index> face) {
         vertices.insert(vertices.end(), face.begin(), face.end());
-        offsets.push_back(static_cast<Index>(vertices.size()));
+        offsets.push_back(count_of(vertices));
     }
     void add(std::initializer_list<Index> face) { add(std::span(face.begin(), face.size())); }
 };
@@ -55,33 +55,37 @@ class Topology {
 
     Index vertex_count() const { return vertex_count_; }
     Index face_count() const { return faces_.size(); }
-    Index corner_count() const { return static_cast<Index>(faces_.vertices.size()); }
-    Index edge_count() const { return static_cast<Index>(edges_.size() / 2); }
+    Index corner_count() const { return count_of(faces_.vertices); }
+    Index edge_count() const { return index_of(edges_.size() / 2); }
 
     const FaceList& faces() const { return faces_; }
     /// Vertices of face `f`, counter-clockwise seen from outside.
     std::span<const Index> face(Index f) const { return faces_[f]; }
     /// First corner of face `f`: corner `first_corner(f) + k` is face f at vertex `face(f)[k]`.
-    Index first_corner(Index f) const { return faces_.offsets[f]; }
+    Index first_corner(Index f) const { return faces_.offsets[at(f)]; }
 
     /// One-ring of `v`: the vertices joined to it by an edge, counter-clockwise. At a boundary
     /// vertex it starts at the boundary, so that consecutive neighbours share a face with `v`.
     std::span<const Index> neighbors(Index v) const {
-        return {ring_.data() + ring_begin_[v], ring_.data() + ring_begin_[v + 1]};
+        return {ring_.data() + ring_begin_[at(v)], ring_.data() + ring_begin_[at(v + 1)]};
     }
     /// Faces around `v`, counter-clockwise: the i-th lies between neighbours i and i + 1.
     std::span<const Index> faces_around(Index v) const {
-        return {fan_.data() + fan_begin_[v], fan_.data() + fan_begin_[v + 1]};
+        return {fan_.data() + fan_begin_[at(v)], fan_.data() + fan_begin_[at(v + 1)]};
     }
-    Index valence(Index v) const { return ring_begin_[v + 1] - ring_begin_[v]; }
+    Index valence(Index v) const { return ring_begin_[at(v + 1)] - ring_begin_[at(v)]; }
     /// True where `v` lies on an open boundary. Vertices without faces do not.
-    bool is_boundary(Index v) const { return fan_begin_[v + 1] - fan_begin_[v] < valence(v); }
+    bool is_boundary(Index v) const {
+        return fan_begin_[at(v + 1)] - fan_begin_[at(v)] < valence(v);
+    }
     bool is_isolated(Index v) const { return valence(v) == 0; }
     bool is_closed() const { return boundary_edge_count_ == 0; }
     bool is_triangle_mesh() const { return triangle_mesh_; }
 
     /// Vertices of edge `e`, in the direction of the first face that uses it.
-    std::pair<Index, Index> edge(Index e) const { return {edges_[2 * e], edges_[2 * e + 1]}; }
+    std::pair<Index, Index> edge(Index e) const {
+        return {edges_[at(2 * e)], edges_[at(2 * e + 1)]};
+    }
     Index boundary_edge_count() const { return boundary_edge_count_; }
 
     /// Open boundaries, each a loop of vertices in the direction of the faces next to it (surface

@@ -18,7 +18,7 @@ void check_each_face(Index vertex_count, const FaceList& faces) {
     Elements bad_index{ElementKind::face, 0, {}};
     Elements too_small{ElementKind::face, 0, {}};
     Elements repeated{ElementKind::face, 0, {}};
-    std::vector<Index> last_face(static_cast<std::size_t>(vertex_count), kNoIndex);
+    std::vector<Index> last_face(vertex_count, kNoIndex);
     for (Index f = 0; f < faces.size(); ++f) {
         bool in_range = true, twice = false;
         for (const Index v : faces[f]) {
@@ -71,14 +71,14 @@ struct EdgeDefects {
 
 Index face_of_corner(const FaceList& faces, Index corner) {
     const auto after = std::upper_bound(faces.offsets.begin(), faces.offsets.end(), corner);
-    return static_cast<Index>(after - faces.offsets.begin()) - 1;
+    return index_of(after - faces.offsets.begin()) - 1;
 }
 
 std::vector<Index> pair_edges(Index vertex_count, const FaceList& faces) {
     const DirectedEdges edges(vertex_count, faces);
     FaceCycles cycles(faces);
     std::vector<Index> twin(faces.vertices.size(), kNoIndex);
-    std::vector<char> is_duplicate(static_cast<std::size_t>(faces.size()), 0);
+    std::vector<char> is_duplicate(faces.size(), 0);
     EdgeDefects defects;
     edges.for_each_edge([&](std::span<const Index> corners) {
         if (corners.size() == 1) return;
@@ -108,9 +108,9 @@ std::vector<Index> pair_edges(Index vertex_count, const FaceList& faces) {
 
 // Refuses vertices whose corners do not form a single fan.
 void check_fans(Index vertex_count, const FaceList& faces, const std::vector<Index>& twin) {
-    std::vector<Index> corners_at(static_cast<std::size_t>(vertex_count), 0);
+    std::vector<Index> corners_at(vertex_count, 0);
     std::vector<Index> previous(faces.vertices.size());
-    std::vector<Index> start(static_cast<std::size_t>(vertex_count), kNoIndex);
+    std::vector<Index> start(vertex_count, kNoIndex);
     for (Index f = 0; f < faces.size(); ++f) {
         const Index first = faces.offsets[f], end = faces.offsets[f + 1];
         for (Index c = first; c < end; ++c) {

@@ -25,7 +25,7 @@ class ValuePool {
         const Tuple key = without_negative_zero(values);
         Index& slot = find(key);
         if (slot == kNoIndex) {
-            slot = static_cast<Index>(tuples_.size());
+            slot = count_of(tuples_);
             tuples_.push_back(key);
         }
         return slot;
@@ -64,7 +64,7 @@ class ValuePool {
 
     void grow() {
         slots_.assign(slots_.empty() ? 64 : slots_.size() * 2, kNoIndex);
-        for (std::size_t i = 0; i < tuples_.size(); ++i) find(tuples_[i]) = static_cast<Index>(i);
+        for (std::size_t i = 0; i < tuples_.size(); ++i) find(tuples_[i]) = index_of(i);
     }
 
     std::vector<Tuple> tuples_;

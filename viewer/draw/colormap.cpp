@@ -34,7 +34,7 @@ Color colormap(double t) {
     const double at = kIntervals * std::clamp(t, 0.0, 1.0);
     const int i = std::min(static_cast<int>(at), kIntervals - 1);
     const auto point = [i](int offset) {
-        return kControlPoints[static_cast<std::size_t>(std::clamp(i + offset, 0, kIntervals))];
+        return kControlPoints[std::clamp(i + offset, 0, kIntervals)];
     };
     const Color a = point(-1), b = point(0), c = point(1), d = point(2);
     const double u = at - i;

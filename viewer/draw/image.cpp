@@ -33,16 +33,13 @@ std::vector<std::uint8_t> without_alpha(const Image& image) {
 }
 
 void append(void* target, void* bytes, int count) {
-    static_cast<std::string*>(target)->append(static_cast<const char*>(bytes),
-                                              static_cast<std::size_t>(count));
+    static_cast<std::string*>(target)->append(static_cast<const char*>(bytes), count);
 }
 
 }  // namespace
 
 Image::Image(int image_width, int image_height)
-    : width(image_width),
-      height(image_height),
-      rgba(4 * static_cast<std::size_t>(image_width) * static_cast<std::size_t>(image_height)) {}
+    : width(image_width), height(image_height), rgba(4 * at(image_width) * image_height) {}
 
 Color Image::color(int x, int y) const {
     const std::uint8_t* const p = pixel(x, y);
@@ -58,8 +55,7 @@ bool Image::is_opaque() const {
 
 void Image::paste(const Image& part, int x, int y) {
     for (int row = 0; row < part.height; ++row) {
-        std::copy_n(part.pixel(0, row), 4 * static_cast<std::size_t>(part.width),
-                    pixel(x, y + row));
+        std::copy_n(part.pixel(0, row), 4 * at(part.width), pixel(x, y + row));
     }
 }
 
@@ -68,8 +64,8 @@ std::string encode_png(const Image& image) {
         throw Error(ErrorCode::invalid_argument, "an image without pixels cannot be written");
     }
     const int channels = image.is_opaque() ? 3 : 4;
-    const std::size_t row = static_cast<std::size_t>(image.width) * channels + 1;
-    if (row * static_cast<std::size_t>(image.height) > kMaximumBytes) {
+    const std::size_t row = at(image.width) * channels + 1;
+    if (row * image.height > kMaximumBytes) {
         throw Error(ErrorCode::memory_limit,
                     "the picture is too large for a PNG file; make it smaller");
     }

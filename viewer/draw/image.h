@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "viewer/draw/color.h"
 
 namespace lissom {
@@ -33,10 +34,7 @@ struct Image {
     bool operator==(const Image&) const = default;
 
   private:
-    std::size_t offset(int x, int y) const {
-        return 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                    static_cast<std::size_t>(x));
-    }
+    std::size_t offset(int x, int y) const { return 4 * (at(y) * width + x); }
 };
 
 /// The bytes of a PNG file; without an alpha channel where every pixel is opaque. The same image

@@ -108,9 +108,9 @@ void draw_legend(Image& image, const Legend& legend, const Color& ink) {
     const Measures measures(legend, image.height);
     const double text = measures.text;
     const double left = image.width - measures.width() + kMargin * text;
-    const int x = static_cast<int>(std::lround(left));
-    const int width = static_cast<int>(std::lround(measures.bar_width));
-    const int height = static_cast<int>(std::lround(measures.bar_height));
+    const int x = index_of(std::lround(left));
+    const int width = index_of(std::lround(measures.bar_width));
+    const int height = index_of(std::lround(measures.bar_height));
     const int y = (image.height - height) / 2;
     draw_bar(image, x, y, width, height, ink);
     for (const LegendTick& tick : legend_ticks(legend.range)) {

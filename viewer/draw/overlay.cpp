@@ -47,16 +47,15 @@ class Coverage {
         x1_ = to_pixel(high.x() + radius_ + 2.0, image.width);
         y1_ = to_pixel(high.y() + radius_ + 2.0, image.height);
         if (x0_ >= x1_ || y0_ >= y1_) return;
-        shares_.assign(static_cast<std::size_t>(x1_ - x0_) * static_cast<std::size_t>(y1_ - y0_),
-                       0.0);
+        shares_.assign(at(x1_ - x0_) * (y1_ - y0_), 0.0);
         for (const Stroke& stroke : strokes) add(stroke);
     }
 
     void paint(Image& image, const Color& color) const {
         for (std::size_t i = 0; i < shares_.size(); ++i) {
             if (shares_[i] == 0.0) continue;
-            const int row = static_cast<int>(i) / (x1_ - x0_);
-            const int column = static_cast<int>(i) % (x1_ - x0_);
+            const int row = index_of(i) / (x1_ - x0_);
+            const int column = index_of(i) % (x1_ - x0_);
             blend(image.pixel(x0_ + column, y0_ + row), color, shares_[i]);
         }
     }
@@ -76,7 +75,7 @@ class Coverage {
         for (int y = std::max(y0_, to_pixel(low.y(), y1_)); y < to_pixel(high.y(), y1_); ++y) {
             for (int x = std::max(x0_, to_pixel(low.x(), x1_)); x < to_pixel(high.x(), x1_); ++x) {
                 const double distance = distance_to_segment(Vec2(x + 0.5, y + 0.5), a, b);
-                double& share = shares_[static_cast<std::size_t>(y - y0_) * (x1_ - x0_) + x - x0_];
+                double& share = shares_[at(y - y0_) * (x1_ - x0_) + x - x0_];
                 share = std::max(share, std::clamp(radius_ + 0.5 - distance, 0.0, 1.0));
             }
         }

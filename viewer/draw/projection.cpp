@@ -41,8 +41,8 @@ Mat4 projection_matrix(const Camera& camera, double aspect, const DepthRange& ra
 
 Mat4 tile_matrix(const Tile& tile, int picture_width, int picture_height) {
     Mat4 matrix = Mat4::Identity();
-    matrix(0, 0) = static_cast<double>(picture_width) / tile.width;
-    matrix(1, 1) = static_cast<double>(picture_height) / tile.height;
+    matrix(0, 0) = 1.0 * picture_width / tile.width;
+    matrix(1, 1) = 1.0 * picture_height / tile.height;
     matrix(0, 3) = (picture_width - 2.0 * tile.x) / tile.width - 1.0;
     matrix(1, 3) = (picture_height - 2.0 * tile.y) / tile.height - 1.0;
     return matrix;

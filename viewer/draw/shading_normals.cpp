@@ -59,14 +59,12 @@ class CornerNormals {
         fan_.clear();
         for (const Index f : topology_.faces_around(v)) {
             const std::span<const Index> face = topology_.face(f);
-            const std::size_t at =
-                static_cast<std::size_t>(std::find(face.begin(), face.end(), v) - face.begin());
+            const std::size_t at = std::find(face.begin(), face.end(), v) - face.begin();
             const Vec3 to_next = positions_[face[(at + 1) % face.size()]] - positions_[v];
             const Vec3 to_last =
                 positions_[face[(at + face.size() - 1) % face.size()]] - positions_[v];
             const double angle = std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
-            fan_.push_back(
-                {topology_.first_corner(f) + static_cast<Index>(at), normals_[f], angle});
+            fan_.push_back({topology_.first_corner(f) + index_of(at), normals_[f], angle});
         }
     }
 
@@ -105,7 +103,7 @@ class CornerNormals {
 
 std::vector<Vec3> face_normals(const Topology& topology, std::span<const Vec3> positions,
                                const Context& context) {
-    std::vector<Vec3> normals(static_cast<std::size_t>(topology.face_count()));
+    std::vector<Vec3> normals(topology.face_count());
     context.parallel_for(0, topology.face_count(), kNormalGrain, [&](Index begin, Index end) {
         for (Index f = begin; f < end; ++f) {
             normals[f] = face_normal(topology.face(f), positions);
@@ -117,7 +115,7 @@ std::vector<Vec3> face_normals(const Topology& topology, std::span<const Vec3> p
 std::vector<Vec3> corner_normals(const Topology& topology, std::span<const Vec3> positions,
                                  double crease, const Context& context) {
     const std::vector<Vec3> normals = face_normals(topology, positions, context);
-    std::vector<Vec3> result(static_cast<std::size_t>(topology.corner_count()));
+    std::vector<Vec3> result(topology.corner_count());
     context.parallel_for(0, topology.vertex_count(), kNormalGrain, [&](Index begin, Index end) {
         CornerNormals walk(topology, positions, normals, crease);
         for (Index v = begin; v < end; ++v) walk.write(v, result);

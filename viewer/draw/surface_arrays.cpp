@@ -22,7 +22,7 @@ std::array<float, 3> to_floats(const Vec3& v) {
 }
 
 void require_values(const Mesh& mesh, const std::vector<double>& values) {
-    if (values.empty() || values.size() == static_cast<std::size_t>(mesh.vertex_count())) return;
+    if (values.empty() || values.size() == at(mesh.vertex_count())) return;
     throw Error(ErrorCode::invalid_argument,
                 std::to_string(values.size()) + " values were given to draw on a mesh of " +
                     std::to_string(mesh.vertex_count()) + " vertices; give one a vertex");
@@ -35,7 +35,7 @@ class SurfaceColors {
         : mesh_(mesh),
           style_(style),
           attribute_(style.vertex_colors ? mesh.attributes().find("color") : nullptr),
-          paint_(static_cast<std::size_t>(mesh.face_count()), Paint::own) {
+          paint_(mesh.face_count(), Paint::own) {
         if (attribute_ && attribute_->width < 3) attribute_ = nullptr;
         if (style.region) paint_faces(*style.region, Paint::region, "the region to draw");
         if (!style.values.empty()) paint_values();
@@ -111,7 +111,7 @@ std::vector<Vec3> normals_for(const Topology& topology, std::span<const Vec3> po
     }
     const std::vector<Vec3> of_face = face_normals(topology, positions, context);
     std::vector<Vec3> result;
-    result.reserve(static_cast<std::size_t>(topology.corner_count()));
+    result.reserve(topology.corner_count());
     for (Index f = 0; f < topology.face_count(); ++f) {
         result.insert(result.end(), topology.face(f).size(), of_face[f]);
     }
@@ -129,7 +129,7 @@ template <typename Write>
 void for_each_corner(const SurfaceTriangles& triangles, const Context& context,
                      const Write& write) {
     const int second = triangles.mirrored ? 2 : 1;
-    const Index count = static_cast<Index>(triangles.faces->triangles.size());
+    const Index count = count_of(triangles.faces->triangles);
     context.parallel_for(0, count, kGrain, [&](Index begin, Index end) {
         for (Index t = begin; t < end; ++t) {
             write(t, 0, 0);
@@ -140,7 +140,7 @@ void for_each_corner(const SurfaceTriangles& triangles, const Context& context,
 }
 
 std::size_t entry(Index triangle, int corner) {
-    return 3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(corner);
+    return 3 * at(triangle) + corner;
 }
 
 std::array<float, 3> turned_if(bool mirrored, const std::array<float, 3>& v) {
@@ -215,7 +215,7 @@ std::vector<SurfaceColor> surface_colors(const Mesh& mesh, const MeshStyle& styl
     const Triangulation& faces = *triangles.faces;
     const auto flags_of = [&](Index t) {
         const Index face = faces.face[t];
-        const Index sides = static_cast<Index>(topology.face(face).size());
+        const Index sides = count_of(topology.face(face));
         const std::uint32_t edges =
             edge_flags(faces.corners[t], topology.first_corner(face), sides);
         return (triangles.mirrored ? turned_round(edges) : edges) |
@@ -268,7 +268,7 @@ void add_boundaries(const DrawnMesh& drawn, Overlay& marks) {
 
 void add_loose_vertices(const DrawnMesh& drawn, const Region& handle, Overlay& marks) {
     const Topology& topology = drawn.mesh->topology();
-    std::vector<char> held(static_cast<std::size_t>(topology.vertex_count()), 0);
+    std::vector<char> held(topology.vertex_count(), 0);
     for (const Index f : handle.faces()) {
         for (const Index v : topology.face(f)) held[v] = 1;
     }

@@ -21,7 +21,7 @@ template <typename GetParameter, typename GetLog>
 std::string info_log(GLuint id, GetParameter get_parameter, GetLog get_log) {
     GLint length = 0;
     get_parameter(id, GL_INFO_LOG_LENGTH, &length);
-    std::vector<char> text(static_cast<std::size_t>(length) + 1, '\0');
+    std::vector<char> text(at(length) + 1, '\0');
     get_log(id, static_cast<GLsizei>(text.size()), nullptr, text.data());
     return text.data();
 }

@@ -16,7 +16,7 @@ GpuHairShade upload_shade(const StrandShadow* shadow) {
     shade.volume = gl::make_volume(grid.counts, shadow->on_meshes());
     shade.step = grid.step;
     for (int axis = 0; axis < 3; ++axis) {
-        const Index count = grid.counts[static_cast<std::size_t>(axis)];
+        const Index count = grid.counts[axis];
         shade.scale[axis] = 1.0 / (count * shade.step);
         shade.offset[axis] = 0.5 / count - grid.origin[axis] * shade.scale[axis];
     }

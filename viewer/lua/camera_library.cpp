@@ -38,7 +38,7 @@ int frame_mesh(Call& call) {
     ViewRequest request = ViewRequest::read(call);
     request.framing.fov = call.number("fov") * kDegree;
     const SizeRequest size = SizeRequest::read(call, "size");
-    request.framing.aspect = static_cast<double>(size.width) / size.height;
+    request.framing.aspect = 1.0 * size.width / size.height;
     return new_camera(
         call, [&] { return frame_points(request.view, mesh->mesh.positions(), request.framing); });
 }

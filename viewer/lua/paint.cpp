@@ -90,7 +90,7 @@ void paint_values(Picture& picture, std::string_view attribute) {
 void paint_values(Picture& picture, const std::vector<double>& values) {
     bool found = false;
     for (DrawnMesh& drawn : picture.meshes) {
-        if (values.size() != static_cast<std::size_t>(drawn.mesh->vertex_count())) continue;
+        if (values.size() != at(drawn.mesh->vertex_count())) continue;
         drawn.style.values = values;
         found = true;
     }

@@ -406,7 +406,7 @@ int render(Call& call) {
 std::string text_of(double value) {
     std::array<char, 32> text{};
     const int length = std::snprintf(text.data(), text.size(), "%.4g", value);
-    return {text.data(), static_cast<std::size_t>(length)};
+    return {text.data(), at(length)};
 }
 
 std::vector<Parameter> lobe_options(const std::string& name, const char* help) {

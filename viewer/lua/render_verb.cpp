@@ -31,7 +31,7 @@ struct Request {
 bool read_size(const std::string& text, int& width, int& height) {
     int used = 0;
     const bool read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2;
-    return read && used == static_cast<int>(text.size()) && width > 0 && height > 0;
+    return read && used == count_of(text) && width > 0 && height > 0;
 }
 
 // Checks for the command line: what is wrong with a word, or nothing.

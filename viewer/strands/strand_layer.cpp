@@ -81,8 +81,8 @@ class PointNumbers {
         while (bases_[drawn] > id) --drawn;
         const auto point = static_cast<Index>(id - bases_[drawn]);
         const std::span<const Index> offsets = strands_[drawn].strands->offsets();
-        Index strand = blocks_[drawn][static_cast<std::size_t>(point / kBlock)];
-        while (offsets[static_cast<std::size_t>(strand) + 1] <= point) ++strand;
+        Index strand = blocks_[drawn][point / kBlock];
+        while (offsets[at(strand) + 1] <= point) ++strand;
         return {drawn, strand, point};
     }
     std::uint32_t base(std::size_t drawn) const { return bases_[drawn]; }
@@ -96,7 +96,7 @@ class PointNumbers {
         const std::span<const Index> offsets = drawn.strands->offsets();
         Index strand = 0;
         for (Index point = 0; point < drawn.point_count(); point += kBlock) {
-            while (offsets[static_cast<std::size_t>(strand) + 1] <= point) ++strand;
+            while (offsets[at(strand) + 1] <= point) ++strand;
             result.push_back(strand);
         }
         return result;
@@ -112,15 +112,11 @@ class PointNumbers {
 
 // A random number of a cell of space, and a random point in it.
 std::uint64_t cell_bits(const Eigen::Array3i& cell) {
-    return mixed(static_cast<std::uint32_t>(cell.x()),
-                 static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.y())) << 32 |
-                     static_cast<std::uint32_t>(cell.z()));
+    return mixed(static_cast<std::uint32_t>(cell.x()), pair_key(cell.y(), cell.z()));
 }
 
 Array3f point_in(const Eigen::Array3i& cell, std::uint64_t bits) {
-    const auto part = [&](int shift) {
-        return static_cast<float>(bits >> shift & 0xffff) / 65536.0f;
-    };
+    const auto part = [&](int shift) { return (bits >> shift & 0xffff) / 65536.0f; };
     return cell.cast<float>() + Array3f(part(0), part(16), part(32));
 }
 
@@ -156,8 +152,8 @@ StrandLook look_of(const ViewStrands& drawn, Index strand) {
     const std::uint64_t bits = mixed(drawn.strands->id(strand), 0x68616972);
     StrandLook look;
     look.tone = tone(style.strand_tone, bits);
-    look.shift = static_cast<float>(style.shift_jitter * signed_random(mixed(bits)));
-    const float size = static_cast<float>(style.clump_size);
+    look.shift = style.shift_jitter * signed_random(mixed(bits));
+    const float size = style.clump_size;
     if (root.allFinite() && root.cwiseAbs().maxCoeff() < 1e6f * size) {
         look.tone *= tone(style.clump_tone, mixed(clump_of(root, size)));
     }
@@ -172,8 +168,7 @@ float smooth_step(float low, float high, float x) {
 
 // Dark at the root, light at the tip; `t` along the strand.
 float tone_along(const StrandStyle& style, float t) {
-    const float root = static_cast<float>(style.root_tone),
-                tip = static_cast<float>(style.tip_tone);
+    const float root = static_cast<float>(style.root_tone), tip = style.tip_tone;
     return root + (1.0f - root) * smooth_step(0.0f, 0.25f, t) +
            (tip - 1.0f) * smooth_step(0.25f, 1.0f, t);
 }
@@ -187,10 +182,10 @@ class StrandShader {
                  const PointNumbers& numbers, const Context& context)
         : scene_(scene), shadow_(shadow), screen_(screen), numbers_(numbers) {
         for (const ViewStrands& drawn : scene.strands) {
-            std::vector<StrandLook> looks(static_cast<std::size_t>(drawn.count));
+            std::vector<StrandLook> looks(drawn.count);
             context.parallel_for(0, drawn.count, 4096, [&](Index begin, Index end) {
                 for (Index s = begin; s < end; ++s) {
-                    looks[static_cast<std::size_t>(s)] = look_of(drawn, s);
+                    looks[s] = look_of(drawn, s);
                 }
             });
             looks_.push_back(std::move(looks));
@@ -204,7 +199,7 @@ class StrandShader {
         const Vector3f a = drawn.position(place.point), b = drawn.position(place.point + 1);
         const float share = share_at(a, b, at);
         const Vector3f position = a + share * (b - a);
-        const StrandLook& look = looks_[place.drawn][static_cast<std::size_t>(place.strand)];
+        const StrandLook& look = looks_[place.drawn][place.strand];
         StrandPoint point;
         point.tangent = tangent(drawn, place, share);
         point.to_viewer = screen_.to_viewer(position);
@@ -244,8 +239,7 @@ class StrandShader {
     static Array3f color(const ViewStrands& drawn, const PointNumbers::Place& place, float share) {
         const Index first = drawn.strands->first_point(place.strand);
         const Index segments = drawn.strands->point_count(place.strand) - 1;
-        const float t =
-            (static_cast<float>(place.point - first) + share) / static_cast<float>(segments);
+        const float t = ((place.point - first) + share) / segments;
         const Array3f a = strand_color(drawn, place.strand, place.point);
         const Array3f b = strand_color(drawn, place.strand, place.point + 1);
         return (a + share * (b - a)) * tone_along(*drawn.style, t);
@@ -285,22 +279,21 @@ class Tiles {
     // Calls visit(tile) for the tiles that the rectangle touches.
     template <typename Visit>
     void for_each_in(float left, float top, float right, float bottom, const Visit& visit) const {
-        const int rows = static_cast<int>(tiles_.size()) / columns_;
+        const int rows = count_of(tiles_) / columns_;
         // The tile of a place, or the nearest before or behind them all.
         const auto tile_at = [](float place, int count) {
             const float at = place * (1.0f / kTile) + 1.0f;
             return static_cast<int>(std::min(std::max(at, 0.0f), static_cast<float>(count + 1))) -
                    1;
         };
-        const auto first = static_cast<float>(top_);
+        const float first = top_;
         const int x0 = std::max(tile_at(left, columns_), 0);
         const int x1 = std::min(tile_at(right, columns_), columns_ - 1);
         const int y0 = std::max(tile_at(top - first, rows), 0);
         const int y1 = std::min(tile_at(bottom - first, rows), rows - 1);
         for (int y = y0; y <= y1; ++y) {
             for (int x = x0; x <= x1; ++x) {
-                visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
-                      static_cast<std::size_t>(x));
+                visit(at(y) * columns_ + x);
             }
         }
     }
@@ -339,15 +332,15 @@ void cover_widths(const ViewStrands& drawn, Index strand, std::vector<float>& wi
     const Index first = drawn.strands->first_point(strand);
     const float factor = drawn.scale * drawn.stands_for;
     if (given.profile.empty()) {
-        widths.resize(static_cast<std::size_t>(drawn.strands->point_count(strand)));
+        widths.resize(drawn.strands->point_count(strand));
         for (std::size_t i = 0; i < widths.size(); ++i) {
-            widths[i] = given.at(strand, first + static_cast<Index>(i));
+            widths[i] = given.at(strand, first + index_of(i));
         }
     } else {
         widths_of(*drawn.strands, strand, widths);
     }
     for (std::size_t i = 0; i < widths.size(); ++i) {
-        const float clear = drawn.strands->transparency().at(strand, first + static_cast<Index>(i));
+        const float clear = drawn.strands->transparency().at(strand, first + index_of(i));
         widths[i] *= factor * std::clamp(1.0f - clear, 0.0f, 1.0f);
     }
 }
@@ -371,7 +364,7 @@ void sort_strand(const ViewStrands& drawn, Index strand, std::uint32_t base, con
     cover_widths(drawn, strand, widths);
     Vector3f before = drawn.position(first);
     for (std::size_t i = 1; i < widths.size(); ++i) {
-        const Vector3f here = drawn.position(first + static_cast<Index>(i));
+        const Vector3f here = drawn.position(first + index_of(i));
         Segment segment;
         segment.id = base + static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i) - 1;
         if (project(screen, before, here, widths[i - 1], widths[i], segment)) {
@@ -391,9 +384,7 @@ std::vector<Index> nearest_first(const ViewStrands& drawn) {
     }
     std::vector<Index> order(depths.size());
     std::iota(order.begin(), order.end(), Index{0});
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-        return depths[static_cast<std::size_t>(a)] < depths[static_cast<std::size_t>(b)];
-    });
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return depths[a] < depths[b]; });
     return order;
 }
 
@@ -401,22 +392,21 @@ std::vector<Index> nearest_first(const ViewStrands& drawn) {
 void draw_batch(const ViewStrands& drawn, std::span<const Index> batch, std::uint32_t base,
                 const Screen& screen, Tiles& tiles, const Context& context) {
     std::vector<SortedSegments> chunks(kBatchChunks);
-    const auto size = static_cast<Index>(batch.size());
+    const auto size = count_of(batch);
     const Index grain = (size + kBatchChunks - 1) / kBatchChunks;
     context.parallel_for(0, size, grain, [&](Index begin, Index end) {
-        SortedSegments& sorted = chunks[static_cast<std::size_t>(begin / grain)];
+        SortedSegments& sorted = chunks[begin / grain];
         sorted.of_tile.resize(tiles.size());
         std::vector<float> widths;
         for (Index i = begin; i < end; ++i) {
-            sort_strand(drawn, batch[static_cast<std::size_t>(i)], base, screen, tiles, widths,
-                        sorted);
+            sort_strand(drawn, batch[i], base, screen, tiles, widths, sorted);
         }
     });
-    context.parallel_for(0, static_cast<Index>(tiles.size()), 1, [&](Index tile, Index) {
-        SampleTile& samples = tiles[static_cast<std::size_t>(tile)];
+    context.parallel_for(0, count_of(tiles), 1, [&](Index tile, Index) {
+        SampleTile& samples = tiles[tile];
         for (const SortedSegments& sorted : chunks) {
             if (sorted.of_tile.empty()) continue;
-            for (const std::uint32_t i : sorted.of_tile[static_cast<std::size_t>(tile)]) {
+            for (const std::uint32_t i : sorted.of_tile[tile]) {
                 const Segment& segment = sorted.segments[i];
                 samples.draw_segment(segment.begin, segment.end, segment.id);
             }
@@ -431,7 +421,7 @@ void draw_all(const ViewStrands& drawn, std::span<const Index> order, std::uint3
     Progress progress(context, "render: hair");
     std::size_t first = 0;
     while (first < order.size()) {
-        progress.update(static_cast<double>(first) / static_cast<double>(order.size()));
+        progress.update(first, order.size());
         std::size_t last = first;
         Index points = 0;
         while (last < order.size() && points < kBatchPoints) {
@@ -474,9 +464,9 @@ void draw_meshes(const std::vector<ViewTriangle>& triangles, const Screen& scree
             seen.push_back({a, b, c});
         }
     }
-    context.parallel_for(0, static_cast<Index>(tiles.size()), 1, [&](Index tile, Index) {
-        SampleTile& samples = tiles[static_cast<std::size_t>(tile)];
-        for (const std::uint32_t i : of_tile[static_cast<std::size_t>(tile)]) {
+    context.parallel_for(0, count_of(tiles), 1, [&](Index tile, Index) {
+        SampleTile& samples = tiles[tile];
+        for (const std::uint32_t i : of_tile[tile]) {
             samples.draw_triangle(seen[i]);
         }
         samples.update_depth_blocks();
@@ -507,7 +497,7 @@ StrandPixel pixel_of(const SampleTile& tile, int x, int y, const StrandShader& s
         seen[i].at += tile.position(x, y, k);
     }
     for (std::size_t i = 0; i < count; ++i) {
-        const auto samples = static_cast<float>(seen[i].samples);
+        const float samples = seen[i].samples;
         pixel.color += samples * shader(seen[i].id, seen[i].at / samples);
         pixel.strands += samples;
     }
@@ -525,8 +515,8 @@ int covered_by_meshes(const SampleTile& tile, int x, int y) {
 // Calls visit(x, y) for all pixels of all tiles; those of a tile on one thread.
 template <typename Visit>
 void for_each_pixel(Tiles& tiles, const Context& context, const Visit& visit) {
-    context.parallel_for(0, static_cast<Index>(tiles.size()), 1, [&](Index i, Index) {
-        const SampleTile& tile = tiles[static_cast<std::size_t>(i)];
+    context.parallel_for(0, count_of(tiles), 1, [&](Index i, Index) {
+        const SampleTile& tile = tiles[i];
         for (int y = tile.top(); y < tile.top() + tile.height(); ++y) {
             for (int x = tile.left(); x < tile.left() + tile.width(); ++x) visit(tile, x, y);
         }
@@ -535,9 +525,8 @@ void for_each_pixel(Tiles& tiles, const Context& context, const Visit& visit) {
 
 // Rows of fine pixels that are drawn at one time: whole tiles.
 int band_height(int width, int height) {
-    const std::size_t row = static_cast<std::size_t>(width) * SampleTile::kSamples;
-    const int rows =
-        static_cast<int>(std::min(kMostSamples / row, static_cast<std::size_t>(height)));
+    const std::size_t row = at(width) * SampleTile::kSamples;
+    const int rows = index_of(std::min(kMostSamples / row, at(height)));
     return std::max(rows / kTile, 1) * kTile;
 }
 
@@ -551,7 +540,7 @@ Array3f linear_color(const std::uint8_t* rgb) {
     static const std::array<float, 256> linear = [] {
         std::array<float, 256> values{};
         for (std::size_t i = 0; i < values.size(); ++i) {
-            values[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255.0));
+            values[i] = srgb_to_linear(i / 255.0);
         }
         return values;
     }();
@@ -576,7 +565,7 @@ void write_pixel(std::uint8_t* to, const Light& light) {
 // A pixel of strands, the pixel under it and the background together. `under` shows meshes and,
 // where they leave room, marks beside them; strands hide both in the same proportion.
 Light light_of(const StrandPixel& over, const std::uint8_t* under, const Light& background) {
-    const float alpha = static_cast<float>(under[3]) / 255.0f;
+    const float alpha = under[3] / 255.0f;
     float covered = alpha;
     if (over.strands > 0.0f) {
         const float room = 1.0f - over.all_meshes;
@@ -628,8 +617,7 @@ Light filtered(const std::vector<Light>& lights, int width, int height, int x, i
     Light sum;
     float weights = 0.0f;
     for_each_near(width, height, x, y, [&](int i, int j, float weight) {
-        const Light& light = lights[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
-                                    static_cast<std::size_t>(i)];
+        const Light& light = lights[at(j) * width + i];
         sum.color += weight * light.color;
         sum.alpha += weight * light.alpha;
         weights += weight;
@@ -647,31 +635,27 @@ StrandLayer draw_strands(const StrandScene& scene, const StrandShadow& shadow,
     const PointNumbers numbers(scene.strands);
     const StrandShader shader(scene, shadow, screen, numbers, context);
     StrandLayer layer{options.width, options.height, {}};
-    const std::size_t pixels =
-        static_cast<std::size_t>(layer.width) * static_cast<std::size_t>(layer.height);
+    const std::size_t pixels = at(layer.width) * layer.height;
     const int band = band_height(width, height);
-    const MemoryCharge charge = context.charge(
-        pixels * sizeof(StrandPixel) + static_cast<std::size_t>(width) *
-                                           static_cast<std::size_t>(std::min(band, height)) *
-                                           (SampleTile::kSamples * 8 + 5),
-        "the strands of the picture");
+    const MemoryCharge charge =
+        context.charge(pixels * sizeof(StrandPixel) +
+                           at(width) * std::min(band, height) * (SampleTile::kSamples * 8 + 5),
+                       "the strands of the picture");
     layer.pixels.resize(pixels);
-    const float weight = 1.0f / static_cast<float>(fine * fine * SampleTile::kSamples);
+    const float weight = 1.0f / (fine * fine * SampleTile::kSamples);
     const auto pixel_at = [&](int x, int y) -> StrandPixel& {
-        return layer
-            .pixels[static_cast<std::size_t>(y / fine) * static_cast<std::size_t>(layer.width) +
-                    static_cast<std::size_t>(x / fine)];
+        return layer.pixels[at(y / fine) * layer.width + (x / fine)];
     };
     std::vector<std::vector<Index>> orders;
     for (const ViewStrands& drawn : scene.strands) orders.push_back(nearest_first(drawn));
     Progress progress(context, "render: hair");
-    const double of_all = static_cast<double>(band) / height;
+    const double of_all = 1.0 * band / height;
     for (int top = 0; top < height; top += band) {
         progress.step(0.6 * of_all);
         Tiles tiles(width, top, std::min(band, height - top));
         draw_meshes(scene.triangles, screen, tiles, context);
         for_each_pixel(tiles, context, [&](const SampleTile& tile, int x, int y) {
-            pixel_at(x, y).all_meshes += weight * static_cast<float>(covered_by_meshes(tile, x, y));
+            pixel_at(x, y).all_meshes += weight * covered_by_meshes(tile, x, y);
         });
         for (std::size_t i = 0; i < scene.strands.size(); ++i) {
             draw_all(scene.strands[i], orders[i], numbers.base(i), screen, tiles, context);

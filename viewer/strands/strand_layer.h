@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "viewer/draw/image.h"
 #include "viewer/draw/render_options.h"
 #include "viewer/draw/view_parameters.h"
@@ -26,10 +27,7 @@ struct StrandLayer {
     /// Row by row from the top left.
     std::vector<StrandPixel> pixels;
 
-    std::size_t place(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-               static_cast<std::size_t>(x);
-    }
+    std::size_t place(int x, int y) const { return at(y) * width + x; }
 };
 
 /// A drawing with strands as the camera sees it.

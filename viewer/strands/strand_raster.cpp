@@ -30,19 +30,19 @@ struct Pattern {
 constexpr unsigned kPatterns = 16;
 
 constexpr float fraction(float x) {
-    return x - static_cast<float>(static_cast<int>(x));
+    return x - static_cast<int>(x);
 }
 
 constexpr std::array<Pattern, kPatterns> make_patterns() {
     std::array<Pattern, kPatterns> patterns;
     for (unsigned i = 0; i < kPatterns; ++i) {
-        const float shift_x = fraction(0.7548777f * static_cast<float>(i) + 0.03f);
-        const float shift_y = fraction(0.5698403f * static_cast<float>(i) + 0.03f);
+        const float shift_x = fraction(0.7548777f * i + 0.03f);
+        const float shift_y = fraction(0.5698403f * i + 0.03f);
         for (unsigned k = 0; k < SampleTile::kSamples; ++k) {
             const unsigned reversed = (k & 1) << 3 | (k & 2) << 1 | (k & 4) >> 1 | (k & 8) >> 3;
             const unsigned column = k ^ i, row = reversed ^ ((7 * i + 5) & 15);
-            patterns[i].x[k] = (static_cast<float>(column) + shift_x) / SampleTile::kSamples;
-            patterns[i].y[k] = (static_cast<float>(row) + shift_y) / SampleTile::kSamples;
+            patterns[i].x[k] = (column + shift_x) / SampleTile::kSamples;
+            patterns[i].y[k] = (row + shift_y) / SampleTile::kSamples;
         }
     }
     return patterns;
@@ -63,7 +63,7 @@ struct PixelRange {
 };
 
 PixelRange pixels_between(float a, float b, float reach, int low, int count) {
-    const auto least = static_cast<float>(low), end = static_cast<float>(low + count);
+    const float least = low, end = low + count;
     const float first = std::min(a, b) - reach, last = std::max(a, b) + reach;
     if (!(first < end) || !(last >= least)) return {0, -1};
     // Numbers from 0 on are cut off as they are rounded down, but much faster.
@@ -75,15 +75,13 @@ PixelRange pixels_between(float a, float b, float reach, int low, int count) {
 
 SampleTile::SampleTile(int left, int top, int width, int height)
     : left_(left), top_(top), width_(width), height_(height) {
-    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const std::size_t pixels = at(width) * height;
     keys_.assign(pixels * kSamples, kEmpty);
     pixel_depth_.assign(pixels, std::numeric_limits<float>::infinity());
     puts_.assign(pixels, 0);
     block_columns_ = (width + kBlock - 1) / kBlock;
     const int block_rows = (height + kBlock - 1) / kBlock;
-    block_depth_.assign(
-        static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows),
-        std::numeric_limits<float>::infinity());
+    block_depth_.assign(at(block_columns_) * block_rows, std::numeric_limits<float>::infinity());
 }
 
 void SampleTile::update_depth_blocks() {
@@ -110,13 +108,13 @@ bool SampleTile::occludes(float left, float top, float right, float bottom, floa
 
 Eigen::Vector2f SampleTile::position(int x, int y, int sample) const {
     const Pattern& samples = pattern(x, y);
-    const auto at = static_cast<std::size_t>(sample);
-    return {static_cast<float>(x) + samples.x[at], static_cast<float>(y) + samples.y[at]};
+    const std::size_t at = sample;
+    return {x + samples.x[at], y + samples.y[at]};
 }
 
 void SampleTile::put(std::size_t pixel, int sample, float depth, std::uint32_t id) {
     const std::uint64_t key = std::uint64_t{std::bit_cast<std::uint32_t>(depth)} << 32 | id;
-    std::uint64_t& seen = keys_[pixel * kSamples + static_cast<std::size_t>(sample)];
+    std::uint64_t& seen = keys_[pixel * kSamples + sample];
     if (key >= seen) return;
     seen = key;
     if (++puts_[pixel] == kPutsToUpdate) update_pixel_depth(pixel);
@@ -153,7 +151,7 @@ void SampleTile::draw_along(const ScreenPoint& begin, const ScreenPoint& end, st
         return a_across + slope * (std::min(std::max(along, low), high) - a);
     };
     for (int row = rows.first; row <= rows.last; ++row) {
-        const float from = static_cast<float>(row) - radius;
+        const float from = row - radius;
         const PixelRange columns =
             pixels_between(across_at(from), across_at(from + 1.0f + 2.0f * radius), radius,
                            steep ? left_ : top_, steep ? width_ : height_);
@@ -172,10 +170,8 @@ void SampleTile::cover(int x, int y, const ScreenPoint& begin, const ScreenPoint
     const float dx = end.x - begin.x, dy = end.y - begin.y;
     const float square = dx * dx + dy * dy;
     const float inverse = square > 1e-12f ? 1.0f / square : 0.0f;
-    const Samples px =
-        Eigen::Map<const Samples>(samples.x.data()) + (static_cast<float>(x) - begin.x);
-    const Samples py =
-        Eigen::Map<const Samples>(samples.y.data()) + (static_cast<float>(y) - begin.y);
+    const Samples px = Eigen::Map<const Samples>(samples.x.data()) + (x - begin.x);
+    const Samples py = Eigen::Map<const Samples>(samples.y.data()) + (y - begin.y);
     const Samples share = ((px * dx + py * dy) * inverse).max(0.0f).min(1.0f);
     const Samples radius = begin.radius + share * (end.radius - begin.radius);
     const Samples beyond =
@@ -185,7 +181,7 @@ void SampleTile::cover(int x, int y, const ScreenPoint& begin, const ScreenPoint
         if (!(beyond.segment<4>(first).minCoeff() < 0.0f)) continue;
         for (Eigen::Index k = first; k < first + 4; ++k) {
             if (!(beyond[k] < 0.0f)) continue;
-            put(pixel, static_cast<int>(k), begin.depth + share[k] * (end.depth - begin.depth), id);
+            put(pixel, index_of(k), begin.depth + share[k] * (end.depth - begin.depth), id);
         }
     }
 }
@@ -219,7 +215,7 @@ void SampleTile::draw_triangle(const std::array<ScreenPoint, 3>& corners) {
                 const double depth = a.depth + wb * (static_cast<double>(b.depth) - a.depth) +
                                      wc * (static_cast<double>(c.depth) - a.depth);
                 if (depth < 0.0) continue;
-                put(place(x, y), static_cast<int>(k), static_cast<float>(depth), kSurface);
+                put(place(x, y), index_of(k), static_cast<float>(depth), kSurface);
             }
         }
     }

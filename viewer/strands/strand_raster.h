@@ -52,8 +52,7 @@ class SampleTile {
 
     /// Pixels count from the top left of the picture.
     std::uint32_t id(int x, int y, int sample) const {
-        return static_cast<std::uint32_t>(
-            keys_[place(x, y) * kSamples + static_cast<std::size_t>(sample)]);
+        return static_cast<std::uint32_t>(keys_[place(x, y) * kSamples + sample]);
     }
     /// Where a sample lies in the picture.
     Eigen::Vector2f position(int x, int y, int sample) const;
@@ -62,14 +61,8 @@ class SampleTile {
     // Pixels along a side of a block, for `occludes`.
     static constexpr int kBlock = 4;
 
-    std::size_t place(int x, int y) const {
-        return static_cast<std::size_t>(y - top_) * static_cast<std::size_t>(width_) +
-               static_cast<std::size_t>(x - left_);
-    }
-    std::size_t block(int x, int y) const {
-        return static_cast<std::size_t>(y / kBlock) * static_cast<std::size_t>(block_columns_) +
-               static_cast<std::size_t>(x / kBlock);
-    }
+    std::size_t place(int x, int y) const { return at(y - top_) * width_ + (x - left_); }
+    std::size_t block(int x, int y) const { return at(y / kBlock) * block_columns_ + (x / kBlock); }
     template <bool steep>
     void draw_along(const ScreenPoint& begin, const ScreenPoint& end, std::uint32_t id);
     void cover(int x, int y, const ScreenPoint& begin, const ScreenPoint& end, std::uint32_t id);

@@ -79,8 +79,7 @@ ViewGrid fit(std::span<const ViewStrands> strands, std::span<const ViewTriangle>
     grid.step = std::max(grid.step, extent.maxCoeff() / 1000.0f);
     grid.origin = low;
     for (int axis = 0; axis < 3; ++axis) {
-        grid.counts[static_cast<std::size_t>(axis)] =
-            static_cast<Index>(std::ceil(extent[axis] / grid.step)) + 1;
+        grid.counts[axis] = static_cast<Index>(std::ceil(extent[axis] / grid.step)) + 1;
     }
     return grid;
 }
@@ -97,10 +96,10 @@ void splat_segment(const ViewGrid& grid, std::vector<float>& values, const Vecto
     if (!(length > 0.0f) || !std::isfinite(length)) return;
     const int parts = static_cast<int>(std::min(std::ceil(length / grid.step), 256.0f));
     const float volume = grid.step * grid.step * grid.step;
-    const float amount = length / static_cast<float>(parts) * area_of_length / volume;
+    const float amount = length / parts * area_of_length / volume;
     for (int part = 0; part < parts; ++part) {
-        const float jitter = random_share(mixed(number + static_cast<std::uint64_t>(part)));
-        const float t = (static_cast<float>(part) + jitter) / static_cast<float>(parts);
+        const float jitter = random_share(mixed(number + part));
+        const float t = (part + jitter) / parts;
         splat(grid, values, a + t * (b - a), amount);
     }
 }
@@ -110,11 +109,10 @@ void splat_strands(const ViewGrid& grid, std::vector<float>& values, const ViewS
                    Index first, Index last, Index stride) {
     const Strands& strands = *drawn.strands;
     const float lost = kLostShare * static_cast<float>(drawn.style->shadow) * drawn.stands_for *
-                       drawn.scale * static_cast<float>(stride);
+                       drawn.scale * stride;
     for (Index s = first; s < last; s += stride) {
         Vector3f before = drawn.position(strands.first_point(s));
-        for (Index p = strands.first_point(s) + 1;
-             p < strands.offsets()[static_cast<std::size_t>(s) + 1]; ++p) {
+        for (Index p = strands.first_point(s) + 1; p < strands.offsets()[at(s) + 1]; ++p) {
             const Vector3f here = drawn.position(p);
             const float width =
                 strands.widths().at(s, p) * (1.0f - strands.transparency().at(s, p));
@@ -136,7 +134,7 @@ std::vector<float> extinction_of(const ViewGrid& grid, std::span<const ViewStran
         const Index grain = (drawn.count + kChunks - 1) / kChunks / stride * stride + stride;
         std::vector<std::vector<float>> parts(kChunks);
         context.parallel_for(0, drawn.count, grain, [&](Index begin, Index end) {
-            std::vector<float>& part = parts[static_cast<std::size_t>(begin / grain)];
+            std::vector<float>& part = parts[begin / grain];
             part.assign(grid.size(), 0.0f);
             splat_strands(grid, part, drawn, begin, end, stride);
         });
@@ -159,15 +157,15 @@ void splat_triangle(const ViewGrid& grid, std::vector<float>& values,
     const float longest = std::max({u.norm(), v.norm(), (u - v).norm()});
     const int n =
         static_cast<int>(std::clamp(std::ceil(longest / (0.7f * grid.step)), 1.0f, 400.0f));
-    const float part = 0.5f * twice_area / static_cast<float>(n * n);
+    const float part = 0.5f * twice_area / (n * n);
     const float amount = kMeshDepth * part / (grid.step * grid.step * grid.step);
     const Vector3f base = triangle[0] - kMeshSunk * grid.step / twice_area * normal;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < 2 * (n - i) - 1; ++j) {
             const int pair = j / 2;
             const float third = (j & 1) ? 2.0f / 3.0f : 1.0f / 3.0f;
-            const float a = (static_cast<float>(i) + third) / static_cast<float>(n);
-            const float b = (static_cast<float>(pair) + third) / static_cast<float>(n);
+            const float a = (i + third) / n;
+            const float b = (pair + third) / n;
             splat(grid, values, base + a * u + b * v, amount);
         }
     }
@@ -182,7 +180,7 @@ RootDensity root_density(const ViewGrid& grid, std::span<const ViewStrands> stra
     RootDensity density{std::vector<float>(grid.size(), 0.0f),
                         std::vector<float>(grid.size(), 0.0f)};
     for (const ViewStrands& drawn : strands) {
-        const auto tint = static_cast<float>(drawn.style->scalp_tint);
+        const float tint = drawn.style->scalp_tint;
         for (Index s = 0; s < drawn.count; ++s) {
             if (drawn.strands->point_count(s) < 2) continue;
             const Vector3f root = drawn.position(drawn.strands->first_point(s));
@@ -204,7 +202,7 @@ std::vector<float> scalp_tint(const ViewGrid& grid, std::span<const ViewStrands>
         squares += static_cast<double>(r) * r;
     }
     if (!(sum > 0.0)) return tint;
-    const auto usual = static_cast<float>(squares / sum);
+    const float usual = squares / sum;
     const float metres = grid.step / largest_scale(strands);
     const float strength = std::min(usual / (kFullRoots * metres * metres), 1.0f);
     for (std::size_t i = 0; i < tint.size(); ++i) {
@@ -270,11 +268,11 @@ Cell cell_at(const ViewGrid& grid, const Vector3f& position) {
     Cell cell{};
     const Vector3f at = (position - grid.origin) / grid.step;
     for (int axis = 0; axis < 3; ++axis) {
-        const Index last = grid.counts[static_cast<std::size_t>(axis)] - 1;
+        const Index last = grid.counts[axis] - 1;
         const float x = std::clamp(at[axis], 0.0f, static_cast<float>(last));
         const Index corner = std::min(static_cast<Index>(x), std::max(last - 1, Index{0}));
-        cell.corner[static_cast<std::size_t>(axis)] = corner;
-        cell.share[axis] = x - static_cast<float>(corner);
+        cell.corner[axis] = corner;
+        cell.share[axis] = x - corner;
     }
     return cell;
 }
@@ -289,7 +287,7 @@ void for_each_corner(const ViewGrid& grid, const Vector3f& position, const Visit
         for (int axis = 0; axis < 3; ++axis) {
             const bool far = (corner >> axis & 1) != 0;
             weight *= far ? cell.share[axis] : 1.0f - cell.share[axis];
-            if (far) ++at[static_cast<std::size_t>(axis)];
+            if (far) ++at[axis];
         }
         if (weight > 0.0f) visit(grid.index(at[0], at[1], at[2]), weight);
     }
@@ -301,7 +299,7 @@ void splat(const ViewGrid& grid, std::vector<float>& values, const Vector3f& pos
            float amount) {
     const Vector3f at = (position - grid.origin) / grid.step;
     for (int axis = 0; axis < 3; ++axis) {
-        const auto last = static_cast<float>(grid.counts[static_cast<std::size_t>(axis)] - 1);
+        const float last = grid.counts[axis] - 1;
         if (!(at[axis] >= 0.0f && at[axis] <= last)) return;
     }
     for_each_corner(grid, position,
@@ -313,21 +311,19 @@ std::vector<float> light_through(const ViewGrid& grid, const std::vector<float>&
     const Vector3f d = to_light.normalized();
     int major = 0;
     d.cwiseAbs().maxCoeff(&major);
-    const std::array<std::size_t, 3> axis{static_cast<std::size_t>(major),
-                                          static_cast<std::size_t>((major + 1) % 3),
-                                          static_cast<std::size_t>((major + 2) % 3)};
+    const std::array<std::size_t, 3> axis{at(major), at((major + 1) % 3), at((major + 2) % 3)};
     const std::array<std::ptrdiff_t, 3> strides{
         1, grid.counts[0], static_cast<std::ptrdiff_t>(grid.counts[0]) * grid.counts[1]};
     const auto stride = [&](std::size_t i) { return strides[axis[i]]; };
     const auto count = [&](std::size_t i) { return grid.counts[axis[i]]; };
     const Index towards = d[major] > 0.0f ? 1 : -1;
     // One plane nearer to the light, the ray to it is so many cells aside.
-    const float aside_u = d[static_cast<int>(axis[1])] / std::abs(d[major]);
-    const float aside_v = d[static_cast<int>(axis[2])] / std::abs(d[major]);
+    const float aside_u = d[index_of(axis[1])] / std::abs(d[major]);
+    const float aside_v = d[index_of(axis[2])] / std::abs(d[major]);
     const auto cell_u = static_cast<Index>(std::floor(aside_u));
     const auto cell_v = static_cast<Index>(std::floor(aside_v));
-    const float share_u = aside_u - static_cast<float>(cell_u);
-    const float share_v = aside_v - static_cast<float>(cell_v);
+    const float share_u = aside_u - cell_u;
+    const float share_v = aside_v - cell_v;
     const std::array<float, 4> weights{(1 - share_u) * (1 - share_v), share_u * (1 - share_v),
                                        (1 - share_u) * share_v, share_u * share_v};
     const float half_way = 0.5f * grid.step / std::abs(d[major]);
@@ -340,21 +336,21 @@ std::vector<float> light_through(const ViewGrid& grid, const std::vector<float>&
             for (Index u = 0; u < count(1); ++u) {
                 const std::ptrdiff_t here = plane * stride(0) + u * stride(1) + v * stride(2);
                 float arriving = n == 0 ? 1.0f : 0.0f;
-                float passed = extinction[static_cast<std::size_t>(here)];
+                float passed = extinction[here];
                 for (int corner = 0; n > 0 && corner < 4; ++corner) {
                     const Index cu = u + cell_u + (corner & 1), cv = v + cell_v + (corner >> 1);
-                    const float weight = weights[static_cast<std::size_t>(corner)];
+                    const float weight = weights[corner];
                     if (cu < 0 || cv < 0 || cu >= count(1) || cv >= count(2)) {
                         arriving += weight;
                         continue;
                     }
-                    const auto there = static_cast<std::size_t>((plane + towards) * stride(0) +
-                                                                cu * stride(1) + cv * stride(2));
+                    const std::size_t there =
+                        (plane + towards) * stride(0) + cu * stride(1) + cv * stride(2);
                     arriving += weight * light[there];
                     passed += weight * extinction[there];
                 }
                 if (passed > 0.0f) arriving *= std::exp(-half_way * passed);
-                light[static_cast<std::size_t>(here)] = arriving;
+                light[here] = arriving;
             }
         }
     }
@@ -380,23 +376,22 @@ StrandShadow::StrandShadow(std::span<const ViewStrands> strands,
 void StrandShadow::compute(const std::vector<float>& hair, const std::vector<float>& everything,
                            const std::vector<float>& tint, const Context& context) {
     const std::vector<AmbientDirection> around = ambient_directions();
-    const auto directions = static_cast<Index>(around.size());
+    const auto directions = count_of(around);
     const Index grain = directions / kChunks;
     std::vector<std::array<std::vector<float>, 2>> ambient(kChunks);
     std::array<std::vector<float>, 3> lights;
     Progress progress(context, "render: shadows of hair");
     context.parallel_for(0, 3, 1, [&](Index which, Index) {
-        lights[static_cast<std::size_t>(which)] =
-            light_through(grid_, which == 2 ? hair : everything,
-                          which == 1 ? kRimLight.direction : kKeyLight.direction);
+        lights[which] = light_through(grid_, which == 2 ? hair : everything,
+                                      which == 1 ? kRimLight.direction : kKeyLight.direction);
     });
     // Each chunk adds one direction at a time, so that progress can be told in between.
     for (Index round = 0; round < grain; ++round) {
-        progress.update(static_cast<double>(round + 1) / static_cast<double>(grain + 1));
+        progress.update(round + 1, grain + 1);
         context.parallel_for(0, kChunks, 1, [&](Index chunk, Index) {
-            const AmbientDirection& from = around[static_cast<std::size_t>(chunk * grain + round)];
+            const AmbientDirection& from = around[chunk * grain + round];
             for (std::size_t which = 0; which < 2; ++which) {
-                std::vector<float>& sum = ambient[static_cast<std::size_t>(chunk)][which];
+                std::vector<float>& sum = ambient[chunk][which];
                 sum.resize(grid_.size(), 0.0f);
                 const auto light =
                     light_through(grid_, which == 0 ? everything : hair, from.direction);

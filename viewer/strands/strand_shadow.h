@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "viewer/strands/strand_shading.h"
 #include "viewer/strands/view_strands.h"
 
@@ -18,16 +19,10 @@ struct ViewGrid {
     float step = 1.0f;
     std::array<Index, 3> counts{1, 1, 1};
 
-    std::size_t size() const {
-        return static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]) *
-               static_cast<std::size_t>(counts[2]);
-    }
+    std::size_t size() const { return at(counts[0]) * counts[1] * counts[2]; }
     /// x runs fastest.
     std::size_t index(Index i, Index j, Index k) const {
-        return static_cast<std::size_t>(i) +
-               static_cast<std::size_t>(counts[0]) *
-                   (static_cast<std::size_t>(j) +
-                    static_cast<std::size_t>(counts[1]) * static_cast<std::size_t>(k));
+        return i + counts[0] * (j + at(counts[1]) * k);
     }
 };
 

@@ -69,8 +69,7 @@ ViewStrands in_view(const DrawnStrands& drawn, const Affine& to_view) {
     result.offset = map.translation.cast<float>();
     result.scale = std::cbrt(std::abs(result.linear.determinant()));
     if (result.count > 0) {
-        result.stands_for =
-            static_cast<float>(drawn.strands->size()) / static_cast<float>(result.count);
+        result.stands_for = static_cast<float>(drawn.strands->size()) / result.count;
     }
     return result;
 }
@@ -85,7 +84,7 @@ Eigen::Array3f linear(const Color& color) {
 Index drawn_count(const StrandStyle& style, Index size) {
     if (size == 0) return 0;
     if (style.count) return std::min(*style.count, size);
-    const auto count = static_cast<Index>(std::lround(style.level * size));
+    const auto count = index_of(std::lround(style.level * size));
     return std::clamp(count, Index{1}, size);
 }
 
@@ -106,9 +105,7 @@ std::vector<ViewTriangle> view_triangles(const Snapshot& snapshot, const Mat4& v
         for (const Vec3& p : drawn.mesh->positions()) points.push_back(map(p).cast<float>());
         const auto faces = triangulate_faces(drawn.mesh->topology(), drawn.mesh->positions());
         for (const Triangle& t : faces.triangles) {
-            const auto corner = [&](std::size_t i) {
-                return points[static_cast<std::size_t>(t[i])];
-            };
+            const auto corner = [&](std::size_t i) { return points[t[i]]; };
             result.push_back({corner(0), corner(1), corner(2)});
         }
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/strands/strands.h"
 #include "viewer/draw/snapshot.h"
 
@@ -26,13 +27,11 @@ struct ViewStrands {
     float stands_for = 1.0f;
 
     Eigen::Vector3f position(Index point) const {
-        const float* const p = strands->points().data() + 3 * static_cast<std::size_t>(point);
+        const float* const p = strands->points().data() + 3 * at(point);
         return linear * Eigen::Map<const Eigen::Vector3f>(p) + offset;
     }
     /// Points of the strands that are drawn.
-    Index point_count() const {
-        return count == 0 ? 0 : strands->offsets()[static_cast<std::size_t>(count)];
-    }
+    Index point_count() const { return count == 0 ? 0 : strands->offsets()[count]; }
 };
 
 using ViewTriangle = std::array<Eigen::Vector3f, 3>;

@@ -166,7 +166,7 @@ OptionPlace option_place(Lookup& lookup, std::string_view text, std::vector<std:
 
 void add_options(const OptionPlace& place, std::vector<std::string>& words) {
     for (const Entry::Slot& slot : place.entry->slots) {
-        const int index = static_cast<int>(&slot - place.entry->slots.data());
+        const int index = index_of(&slot - place.entry->slots.data());
         if (index < place.entry->arguments) continue;
         const std::string& path = slot.path;
         if (path.compare(0, place.prefix.size(), place.prefix) != 0) continue;

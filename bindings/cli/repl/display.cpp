@@ -172,7 +172,7 @@ class Display {
             broken = broken || part.find('\n') != std::string::npos;
         }
         if (parts.empty()) return "{}";
-        const std::string step = "\n" + std::string(static_cast<std::size_t>(depth + 1) * 2, ' ');
+        const std::string step = "\n" + std::string(at(depth + 1) * 2, ' ');
         const bool one_line = width <= kWidth && !broken;
         std::string text = "{";
         for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -43,7 +43,7 @@ char* next_word(const char*, int state) {
 char** complete_word(const char* text, int, int end) {
     if (!typing_options || !typing_options->complete) return nullptr;
     try {
-        const std::string line(rl_line_buffer, static_cast<std::size_t>(end));
+        const std::string line(rl_line_buffer, end);
         Completions found = typing_options->complete(line);
         if (found.in_string) return nullptr;
         rl_attempted_completion_over = 1;

@@ -20,7 +20,7 @@ void ProgressBar::show(std::string_view label, double fraction) {
     if (now - begin_ < kPatience || (visible_ && now - shown_ < kInterval)) return;
     constexpr int kWidth = 30;
     const double part = std::clamp(fraction, 0.0, 1.0);
-    const auto filled = static_cast<std::size_t>(std::lround(part * kWidth));
+    const std::size_t filled = std::lround(part * kWidth);
     const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
     const std::string percent = std::to_string(std::lround(100.0 * part));
     out_ << "\r[" << bar << "] " << std::string(3 - percent.size(), ' ') << percent << " % "

@@ -100,7 +100,7 @@ std::span<const Index> Call::ids(const char* path) const {
 
 IdLists Call::id_lists(const char* path) const {
     const Value& v = value(path);
-    const auto total = static_cast<std::size_t>(v.offsets[v.size]);
+    const std::size_t total = v.offsets[v.size];
     return {{v.offsets, v.size + 1}, {static_cast<const Index*>(v.data), total}};
 }
 
@@ -226,10 +226,10 @@ void Call::push_elements() const {
     push_count(failure_.count);
     lua_setfield(L_, -2, "count");
     if (failure_.kind == ElementKind::edge) {
-        lua_createtable(L_, static_cast<int>(failure_.id_count / 2), 0);
+        lua_createtable(L_, index_of(failure_.id_count / 2), 0);
         for (std::size_t i = 0; i + 1 < failure_.id_count; i += 2) {
             push_ids({failure_.ids + i, 2});
-            lua_rawseti(L_, -2, static_cast<int>(i / 2) + 1);
+            lua_rawseti(L_, -2, index_of(i / 2) + 1);
         }
     } else {
         push_ids({failure_.ids, failure_.id_count});
@@ -242,7 +242,7 @@ void Call::charge_bytes(std::size_t bytes) const {
     if (state_->uncharged_bytes < kChargeStep || !lua_gc(L_, LUA_GCISRUNNING, 0)) return;
     const std::size_t kilobytes = std::min<std::size_t>(state_->uncharged_bytes >> 10, 1u << 30);
     state_->uncharged_bytes = 0;
-    lua_gc(L_, LUA_GCSTEP, static_cast<int>(kilobytes));
+    lua_gc(L_, LUA_GCSTEP, index_of(kilobytes));
 }
 
 int Call::push(bool value) const {
@@ -276,10 +276,10 @@ int Call::push_id(Index zero_based) const {
 }
 
 int Call::push_ids(std::span<const Index> zero_based) const {
-    lua_createtable(L_, static_cast<int>(zero_based.size()), 0);
+    lua_createtable(L_, count_of(zero_based), 0);
     for (std::size_t i = 0; i < zero_based.size(); ++i) {
         push_id(zero_based[i]);
-        lua_rawseti(L_, -2, static_cast<int>(i) + 1);
+        lua_rawseti(L_, -2, index_of(i) + 1);
     }
     return 1;
 }
@@ -289,10 +289,10 @@ int Call::push_vector(const Vec3& value) const {
 }
 
 int Call::push_numbers(std::span<const double> values) const {
-    lua_createtable(L_, static_cast<int>(values.size()), 0);
+    lua_createtable(L_, count_of(values), 0);
     for (std::size_t i = 0; i < values.size(); ++i) {
         lua_pushnumber(L_, values[i]);
-        lua_rawseti(L_, -2, static_cast<int>(i) + 1);
+        lua_rawseti(L_, -2, index_of(i) + 1);
     }
     return 1;
 }

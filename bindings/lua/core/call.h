@@ -86,7 +86,7 @@ class Call {
         return static_cast<Enum>(integer(path));
     }
     /// 0-based.
-    Index id(const char* path) const { return static_cast<Index>(integer(path)); }
+    Index id(const char* path) const { return integer(path); }
     /// Also of factors and of an axis.
     Vec3 vector(const char* path) const;
     Mat3 matrix3(const char* path) const;

@@ -82,7 +82,7 @@ class DumpReader {
         constexpr int kDeepest = 200;
         if (depth > kDeepest) valid_ = false;
         skip_string();
-        const int first_line = static_cast<int>(number());
+        const int first_line = index_of(number());
         number();
         skip(3);
         read_code(list);
@@ -135,7 +135,7 @@ class DumpReader {
         std::vector<int> full;
         for (std::size_t i = 0; valid_ && i < marks; ++i) {
             number();
-            full.push_back(static_cast<int>(number()));
+            full.push_back(index_of(number()));
         }
         if (!valid_ || !list) return;
         std::size_t next = 0;
@@ -245,7 +245,7 @@ int line_at(lua_State* L, int function, int place) {
     int line = 0;
     if (lua_pcall(L, 2, 1, 0) == 0 && lua_istable(L, -1)) {
         lua_getfield(L, -1, "currentline");
-        line = static_cast<int>(lua_tointeger(L, -1));
+        line = index_of(lua_tointeger(L, -1));
         lua_pop(L, 1);
     }
     lua_pop(L, 1);
@@ -275,7 +275,7 @@ Instruction instruction_in(lua_State* L, const char* chunk, std::size_t from_end
     int count = 0;
     std::uint32_t word = 0;
     while (word_at(L, count, word)) ++count;
-    if (word_at(L, count - 1 - static_cast<int>(from_end), word)) found = decoded(word);
+    if (word_at(L, count - 1 - index_of(from_end), word)) found = decoded(word);
     lua_pop(L, 2);
     return found;
 }

@@ -17,13 +17,13 @@ void keep_dropped(State& state) {
 
 int failures(Call& call) {
     const std::vector<DroppedFailure>& list = call.state().dropped;
-    lua_createtable(call.lua(), static_cast<int>(list.size()), 0);
+    lua_createtable(call.lua(), count_of(list), 0);
     for (std::size_t i = 0; i < list.size(); ++i) {
         lua_createtable(call.lua(), 0, 3);
         call.set_field("place", call.push(std::string_view(list[i].place)));
         call.set_field("message", call.push(std::string_view(list[i].message)));
         call.set_field("code", call.push(std::string_view(list[i].code)));
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }

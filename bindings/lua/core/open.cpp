@@ -276,18 +276,18 @@ const char* push_table_for(lua_State* L, int module, const char* path, int box) 
     const char* dot = std::strrchr(path, '.');
     lua_pushvalue(L, module);
     if (!dot) return path;
-    lua_pushlstring(L, path, static_cast<std::size_t>(dot - path));
+    lua_pushlstring(L, path, dot - path);
     lua_rawget(L, module);
     if (lua_isnil(L, -1)) {
         lua_pop(L, 1);
         lua_newtable(L);
         lua_newtable(L);
-        lua_pushlstring(L, path, static_cast<std::size_t>(dot - path) + 1);
+        lua_pushlstring(L, path, at(dot - path) + 1);
         lua_pushvalue(L, box);
         lua_pushcclosure(L, missing_function, 2);
         lua_setfield(L, -2, "__index");
         lua_setmetatable(L, -2);
-        lua_pushlstring(L, path, static_cast<std::size_t>(dot - path));
+        lua_pushlstring(L, path, dot - path);
         lua_pushvalue(L, -2);
         lua_rawset(L, module);
     }

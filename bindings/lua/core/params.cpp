@@ -166,10 +166,10 @@ int declare(Call& call) {
         }
     });
     if (!done) return call.fail();
-    lua_createtable(call.lua(), static_cast<int>(rest.size()), 0);
+    lua_createtable(call.lua(), count_of(rest), 0);
     for (std::size_t i = 0; i < rest.size(); ++i) {
         call.push(std::string_view(rest[i]));
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 2;
 }
@@ -250,7 +250,7 @@ int set_value(Call& call) {
 }
 
 int parameter_count(Call& call) {
-    return call.push(static_cast<int>(call.self<ParameterSet>()->list.size()));
+    return call.push(count_of(call.self<ParameterSet>()->list));
 }
 
 void push_parameter(const Call& call, const ScriptParameter& p) {
@@ -267,27 +267,26 @@ void push_parameter(const Call& call, const ScriptParameter& p) {
     call.set_field("group", call.push(std::string_view(p.group)));
     call.set_field("help", call.push(std::string_view(p.help)));
     if (p.choices.empty()) return;
-    lua_createtable(L, static_cast<int>(p.choices.size()), 0);
+    lua_createtable(L, count_of(p.choices), 0);
     for (std::size_t i = 0; i < p.choices.size(); ++i) {
         call.push(std::string_view(p.choices[i]));
-        lua_rawseti(L, -2, static_cast<int>(i) + 1);
+        lua_rawseti(L, -2, index_of(i) + 1);
     }
     lua_setfield(L, -2, "choices");
 }
 
 int schema(Call& call) {
     const auto self = call.self<ParameterSet>();
-    lua_createtable(call.lua(), static_cast<int>(self->list.size()), 0);
+    lua_createtable(call.lua(), count_of(self->list), 0);
     for (std::size_t i = 0; i < self->list.size(); ++i) {
         push_parameter(call, self->list[i]);
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }
 
 int parameters_text(Call& call) {
-    lua_pushfstring(call.lua(), "lissom.Params: %d",
-                    static_cast<int>(call.self<ParameterSet>()->list.size()));
+    lua_pushfstring(call.lua(), "lissom.Params: %d", count_of(call.self<ParameterSet>()->list));
     return 1;
 }
 

@@ -186,7 +186,7 @@ std::string expectation(const Parameter& p) {
 }
 
 void Parser::run() {
-    const int slots = static_cast<int>(entry_.slots.size());
+    const int slots = count_of(entry_.slots);
     luaL_checkstack(L_, LUA_MINSTACK + 3 * slots, "too many arguments");
     for (int i = 0; i < slots; ++i) call_.values_[i] = Value{};
     const int given = lua_gettop(L_);
@@ -372,7 +372,7 @@ void Parser::fill_default(const Parameter& p, Value& value) {
         value.data = text->c_str();
         value.size = text->size();
         const auto found = std::find(p.choices.begin(), p.choices.end(), *text);
-        value.number = static_cast<double>(found - p.choices.begin());
+        value.number = found - p.choices.begin();
         if (p.kind == Kind::axis) set_axis(text->c_str(), value);
     }
 }
@@ -477,7 +477,7 @@ void Parser::read_choice(const Parameter& p, int index, Value& value, const Plac
     const auto found = std::find(p.choices.begin(), p.choices.end(), given);
     if (found == p.choices.end()) mismatch(p, index, place);
     value.data = given;
-    value.number = static_cast<double>(found - p.choices.begin());
+    value.number = found - p.choices.begin();
 }
 
 Holder* Parser::read_object(const Parameter& p, int index, const Place& place) {
@@ -539,13 +539,13 @@ void Parser::read_axis(const Parameter& p, int index, Value& value, const Place&
 void Parser::read_matrix(const Parameter& p, int index, Value& value, const Place& place) {
     const int columns = p.kind == Kind::affine ? 4 : 3;
     if (lua_type(L_, index) != LUA_TTABLE) mismatch(p, index, place);
-    const int rows = static_cast<int>(raw_length(L_, index));
+    const int rows = index_of(raw_length(L_, index));
     if (rows != columns) mismatch(p, index, place);
-    auto* entries = call_.scratch<double>(static_cast<std::size_t>(rows) * columns);
+    auto* entries = call_.scratch<double>(at(rows) * columns);
     for (int row = 0; row < rows; ++row) {
         lua_rawgeti(L_, index, row + 1);
         const int at = lua_gettop(L_);
-        if (lua_type(L_, at) != LUA_TTABLE || static_cast<int>(raw_length(L_, at)) != columns) {
+        if (lua_type(L_, at) != LUA_TTABLE || index_of(raw_length(L_, at)) != columns) {
             mismatch(p, index, place);
         }
         for (int column = 0; column < columns; ++column) {
@@ -565,7 +565,7 @@ void Parser::read_matrix(const Parameter& p, int index, Value& value, const Plac
 void Parser::read_list(const Parameter& p, int index, Value& value, const Place& place) {
     if (lua_type(L_, index) != LUA_TTABLE) mismatch(p, index, place);
     const std::size_t size = raw_length(L_, index);
-    if (size > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
+    if (size > at(std::numeric_limits<Index>::max())) {
         refuse(place, "shorter list", "too many entries");
     }
     value.size = size;
@@ -619,8 +619,8 @@ void Parser::read_list(const Parameter& p, int index, Value& value, const Place&
 template <typename Read>
 void Parser::for_each_item(int index, std::size_t size, const Place& place, const Read& read_item) {
     for (std::size_t i = 0; i < size; ++i) {
-        lua_rawgeti(L_, index, static_cast<int>(i) + 1);
-        read_item(lua_gettop(L_), i, Place{place.argument, place.path, static_cast<int>(i) + 1});
+        lua_rawgeti(L_, index, index_of(i) + 1);
+        read_item(lua_gettop(L_), i, Place{place.argument, place.path, index_of(i) + 1});
         lua_pop(L_, 1);
     }
 }
@@ -633,7 +633,7 @@ void Parser::read_id_lists(const Parameter& p, int index, Value& value, const Pl
         if (lua_type(L_, at) != LUA_TTABLE) mismatch(p, at, item);
         total += raw_length(L_, at);
     });
-    if (size + total > static_cast<std::size_t>(std::numeric_limits<Index>::max()) - 1) {
+    if (size + total > at(std::numeric_limits<Index>::max()) - 1) {
         refuse(place, "shorter list", "too many entries");
     }
     auto* offsets = call_.scratch<Index>(size + 1);
@@ -643,11 +643,11 @@ void Parser::read_id_lists(const Parameter& p, int index, Value& value, const Pl
     for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
         const std::size_t length = raw_length(L_, at);
         for (std::size_t k = 0; k < length; ++k) {
-            lua_rawgeti(L_, at, static_cast<int>(k) + 1);
+            lua_rawgeti(L_, at, index_of(k) + 1);
             ids[filled++] = read_whole(p, lua_gettop(L_), item) - 1;
             lua_pop(L_, 1);
         }
-        offsets[i + 1] = static_cast<Index>(filled);
+        offsets[i + 1] = index_of(filled);
     });
     value.data = ids;
     value.offsets = offsets;

@@ -58,9 +58,9 @@ void check_function(const std::string& where, const Function& function) {
 // Gives the parameters of one level places next to each other, then the fields of each.
 std::pair<int, int> add_slots(std::vector<Entry::Slot>& slots,
                               const std::vector<Parameter>& parameters, const std::string& prefix) {
-    const int first = static_cast<int>(slots.size());
+    const int first = count_of(slots);
     for (const Parameter& p : parameters) slots.push_back({prefix + p.name, &p, 0, 0});
-    const int last = static_cast<int>(slots.size());
+    const int last = count_of(slots);
     for (int i = first; i < last; ++i) {
         const Parameter& p = *slots[i].parameter;
         if (p.fields.empty()) continue;
@@ -103,7 +103,7 @@ void Registry::add_entry(const Function& function, const Type* type) {
     const auto [first, last] = add_slots(entry->slots, function.options, "");
     entry->options_first = first;
     entry->options_last = last;
-    if (entry->slots.size() > static_cast<std::size_t>(Entry::kMaximumSlots)) {
+    if (entry->slots.size() > at(Entry::kMaximumSlots)) {
         inconsistent(where, "there are too many parameters");
     }
     entries_.push_back(std::move(entry));

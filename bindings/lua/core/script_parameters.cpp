@@ -232,8 +232,7 @@ std::vector<std::string> ParameterSet::take(const std::vector<std::string>& word
     std::vector<std::string> rest;
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (words[i] == "--") {
-            rest.insert(rest.end(), words.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                        words.end());
+            rest.insert(rest.end(), words.begin() + i + 1, words.end());
             break;
         }
         if (!is_flag(words[i])) {

@@ -212,18 +212,18 @@ int stats(Call& call) {
     const struct {
         const char* name;
         std::size_t value;
-    } counts[] = {{"region_vertices", static_cast<std::size_t>(s.region_vertices)},
-                  {"free_vertices", static_cast<std::size_t>(s.free_vertices)},
-                  {"constrained_vertices", static_cast<std::size_t>(s.constrained_vertices)},
-                  {"handles", static_cast<std::size_t>(s.handles)},
-                  {"displaced_vertices", static_cast<std::size_t>(s.displaced_vertices)},
-                  {"inserted_vertices", static_cast<std::size_t>(s.inserted_vertices)},
-                  {"refined_vertices", static_cast<std::size_t>(s.refined_vertices)},
-                  {"zero_area_faces", static_cast<std::size_t>(s.zero_area_faces)},
+    } counts[] = {{"region_vertices", at(s.region_vertices)},
+                  {"free_vertices", at(s.free_vertices)},
+                  {"constrained_vertices", at(s.constrained_vertices)},
+                  {"handles", at(s.handles)},
+                  {"displaced_vertices", at(s.displaced_vertices)},
+                  {"inserted_vertices", at(s.inserted_vertices)},
+                  {"refined_vertices", at(s.refined_vertices)},
+                  {"zero_area_faces", at(s.zero_area_faces)},
                   {"first_nonzeros", s.first_nonzeros},
                   {"second_nonzeros", s.second_nonzeros},
                   {"factor_bytes", s.factor_bytes},
-                  {"factorizations", static_cast<std::size_t>(s.factorizations)}};
+                  {"factorizations", at(s.factorizations)}};
     const struct {
         const char* name;
         double value;
@@ -264,10 +264,10 @@ int handles(Call& call) {
     const auto edit = call.self<DeformObject>();
     auto& ids = call.hold<std::vector<HandleId>>();
     if (!call.attempt_quick([&] { ids = edit->deformer().handles(); })) return call.fail();
-    lua_createtable(call.lua(), static_cast<int>(ids.size()), 0);
+    lua_createtable(call.lua(), count_of(ids), 0);
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (!push_handle(call, edit, ids[i])) return call.fail();
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }
@@ -280,13 +280,13 @@ int basis(Call& call) {
     call.charge(edit);
     lua_createtable(L, 0, 4);
     call.set_field("vertices", call.push_ids(found.vertices));
-    lua_createtable(L, static_cast<int>(found.handles.size()), 0);
-    lua_createtable(L, static_cast<int>(found.handles.size()), 0);
+    lua_createtable(L, count_of(found.handles), 0);
+    lua_createtable(L, count_of(found.handles), 0);
     for (std::size_t h = 0; h < found.handles.size(); ++h) {
         if (!push_handle(call, edit, found.handles[h])) return call.fail();
-        lua_rawseti(L, -3, static_cast<int>(h) + 1);
+        lua_rawseti(L, -3, index_of(h) + 1);
         if (!push_rows(call, found.weights[h])) return call.fail();
-        lua_rawseti(L, -2, static_cast<int>(h) + 1);
+        lua_rawseti(L, -2, index_of(h) + 1);
     }
     lua_setfield(L, -3, "weights");
     lua_setfield(L, -2, "handles");
@@ -312,7 +312,7 @@ int deformation_text(Call& call) {
     int vertices = 0, count = 0;
     const bool current = call.attempt_quick([&] {
         vertices = edit->deformer().region().size();
-        count = static_cast<int>(edit->deformer().handles().size());
+        count = count_of(edit->deformer().handles());
     });
     if (!current) return call.push("lissom.Deformation (of an older topology)");
     lua_pushfstring(call.lua(), "lissom.Deformation: %d vertices, %d handles", vertices, count);

@@ -142,13 +142,13 @@ struct BakeRequest {
         if (has_times) {
             const auto times = call.numbers("times");
             request.times = times.data();
-            request.count = static_cast<int>(times.size());
+            request.count = count_of(times);
             return request;
         }
         const double fps = call.number("fps"), frames = std::round(call.number("duration") * fps);
         if (!(frames < kMaximumFrames)) call.reject("duration", "that is more than 10000 frames");
         request.count = static_cast<int>(frames) + 1;
-        auto* times = call.scratch<double>(static_cast<std::size_t>(request.count));
+        auto* times = call.scratch<double>(at(request.count));
         for (int i = 0; i < request.count; ++i) times[i] = i / fps;
         request.times = times;
         return request;

@@ -38,7 +38,7 @@ std::span<const T> top_list(const Call& call, const char* path, const Read& read
     const int list = lua_gettop(L);
     T* values = call.scratch<T>(count);
     for (std::size_t i = 0; i < count; ++i) {
-        lua_rawgeti(L, list, static_cast<int>(i) + 1);
+        lua_rawgeti(L, list, index_of(i) + 1);
         values[i] = read();
         lua_pop(L, 1);
     }
@@ -110,7 +110,7 @@ std::span<const PointSpec> read_points(const Call& call, const char* path) {
     PointSpec* points = call.scratch<PointSpec>(count);
     for (std::size_t i = 0; i < count; ++i) {
         luaL_checkstack(L, 16, "too many points");
-        lua_rawgeti(L, list, static_cast<int>(i) + 1);
+        lua_rawgeti(L, list, index_of(i) + 1);
         if (lua_type(L, -1) != LUA_TTABLE) call.reject(path, kExpected);
         points[i] = read_point(call, path, lua_gettop(L));
     }

@@ -58,10 +58,10 @@ int push_curve_points(Call& call, const Points& points_of) {
         scalp = &style.scalp();
     });
     if (!done) return call.fail();
-    lua_createtable(call.lua(), static_cast<int>(list->size()), 0);
+    lua_createtable(call.lua(), count_of(*list), 0);
     for (std::size_t i = 0; i < list->size(); ++i) {
         call.push_vector(scalp->from_metres((*list)[i]));
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }
@@ -176,7 +176,7 @@ int curve_text(Call& call) {
         const StyleCurve& found = curve->owner->style().curve(curve->id);
         kind = kind_name(found);
         name = found.name;
-        count = static_cast<int>(drawn_points(found).size());
+        count = count_of(drawn_points(found));
     });
     if (!present) return call.push("lissom.Curve (removed)");
     lua_pushfstring(call.lua(), "lissom.Curve: %s '%s', %d points", kind.data(), name.data(),

@@ -220,8 +220,8 @@ void CurveReader::read_profiles() {
     for (int side = 0; side < 2; ++side) {
         lua_rawgeti(L, call_.stack_index("profiles"), side + 1);
         if (!lua_istable(L, -1)) call_.reject("profiles", "{points, points} expected");
-        const auto count = static_cast<int>(raw_length(L, -1));
-        auto* list = call_.scratch<Vec3>(static_cast<std::size_t>(count));
+        const auto count = index_of(raw_length(L, -1));
+        auto* list = call_.scratch<Vec3>(at(count));
         lua_insert(L, -2);
         for (int i = 0; i < count; ++i) {
             lua_rawgeti(L, -1, i + 1);
@@ -232,7 +232,7 @@ void CurveReader::read_profiles() {
             }
         }
         lua_pop(L, 1);
-        profiles_[side] = {list, static_cast<std::size_t>(count)};
+        profiles_[side] = {list, at(count)};
     }
 }
 

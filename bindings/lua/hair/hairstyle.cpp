@@ -145,17 +145,17 @@ int style_curves(Call& call) {
         owner = style.share();
     });
     if (!done) return call.fail();
-    lua_createtable(call.lua(), static_cast<int>(ids.size()), 0);
+    lua_createtable(call.lua(), count_of(ids), 0);
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (!push_curve(call, owner, ids[i])) return call.fail();
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }
 
 // Places of curves among all of a style, from 0.
 Index place_of(std::span<const CurveId> order, CurveId id) {
-    return static_cast<Index>(std::find(order.begin(), order.end(), id) - order.begin());
+    return index_of(std::find(order.begin(), order.end(), id) - order.begin());
 }
 
 int style_constraints(Call& call) {
@@ -168,7 +168,7 @@ int style_constraints(Call& call) {
     });
     if (!done) return call.fail();
     const Scalp& scalp = own->scalp();
-    lua_createtable(call.lua(), static_cast<int>(list.size()), 0);
+    lua_createtable(call.lua(), count_of(list), 0);
     for (std::size_t i = 0; i < list.size(); ++i) {
         const StyleConstraint& one = list[i];
         lua_createtable(call.lua(), 0, 5);
@@ -177,7 +177,7 @@ int style_constraints(Call& call) {
         call.set_field("kind", call.push(kind_name(one.kind)));
         call.set_field("weight", call.push(one.weight));
         if (one.curve) call.set_field("curve", call.push_id(place_of(own->curves(), *one.curve)));
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }
@@ -282,7 +282,7 @@ std::span<const double> ask_factors(Call& call, const char* path) {
     lua_State* L = call.lua();
     const auto style = call.self<HairstyleObject>();
     const Index count = style->head->mesh.vertex_count();
-    auto* factors = call.scratch<double>(static_cast<std::size_t>(count));
+    auto* factors = call.scratch<double>(at(count));
     for (Index v = 0; v < count; ++v) {
         if (!style.get() || style->head->mesh.vertex_count() != count) {
             call.reject(path, "the function must change neither the style nor its head");
@@ -295,13 +295,13 @@ std::span<const double> ask_factors(Call& call, const char* path) {
             call.reject(path, lua_pushfstring(L,
                                               "its function must return a number, not %s, for "
                                               "vertex %d",
-                                              luaL_typename(L, -1), static_cast<int>(v) + 1));
+                                              luaL_typename(L, -1), index_of(v) + 1));
         }
         factors[v] = lua_tonumber(L, -1);
         lua_pop(L, 1);
     }
     if (!style.get()) call.reject(path, "the function must not close the style");
-    return {factors, static_cast<std::size_t>(count)};
+    return {factors, at(count)};
 }
 
 void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
@@ -384,7 +384,7 @@ int style_stats(Call& call) {
         const Hairstyle& own = style->style();
         layout = own.layout();
         constraints = own.field().grid().constraint_count();
-        curves = static_cast<int>(own.curves().size());
+        curves = index_of(own.curves().size());
     });
     if (!done) return call.fail();
     lua_createtable(call.lua(), 0, 4);
@@ -399,7 +399,7 @@ int style_text(Call& call) {
     const auto style = call.self<HairstyleObject>();
     int curves = 0, points = 0;
     const bool open = call.attempt_quick([&] {
-        curves = static_cast<int>(style->style().curves().size());
+        curves = index_of(style->style().curves().size());
         points = style->style().layout().size();
     });
     if (!open) return call.push("lissom.Hairstyle (closed)");
@@ -571,7 +571,7 @@ std::vector<Parameter> growth_fields() {
             .defaults(std::round(defaults.greatest_turn * 180.0 / kPi))
             .between(0, 180),
         integer("most_segments", "A strand has no more segments.")
-            .defaults(static_cast<int>(defaults.most_segments))
+            .defaults(index_of(defaults.most_segments))
             .at_least(1),
         object("into", "lissom.Strands",
                "Strands whose place the new ones take. After an error they are as they were, or "
@@ -658,7 +658,7 @@ std::vector<Parameter> style_fields() {
     return {object("scalp", "lissom.Scalp", "Where hair grows.").optional("guessed"),
             integer("resolution",
                     "Grid points of the field. 25,000 do for smooth styles, 50,000 for ponytails.")
-                .defaults(static_cast<int>(HairstyleOptions{}.resolution))
+                .defaults(index_of(HairstyleOptions{}.resolution))
                 .between(kMinimumResolution, kMaximumResolution),
             options("volume", {vector("min", "A corner."), vector("max", "The opposite corner.")},
                     "A box in metres of an average head, around the center of its frame: x to its "

@@ -19,8 +19,8 @@ int push_points(Call& call, Index first, Index last) {
     const bool done = call.attempt([&] {
         auto buffer = std::make_shared<BufferObject>();
         const std::span<const Index> offsets = strands_of(call).offsets();
-        const auto begin = 3 * static_cast<std::size_t>(offsets[static_cast<std::size_t>(first)]);
-        const auto end = 3 * static_cast<std::size_t>(offsets[static_cast<std::size_t>(last)]);
+        const auto begin = 3 * at(offsets[first]);
+        const auto end = 3 * at(offsets[last]);
         const auto points = strands_of(call).points().subspan(begin, end - begin);
         buffer->values.assign(points.begin(), points.end());
         buffer->width = 3;
@@ -43,7 +43,7 @@ int strand_root(Call& call) {
     if (!call.attempt_quick([&] { require_strand(strands_of(call), s); })) return call.fail();
     const Strands& strands = strands_of(call);
     const StrandRoots& roots = strands.roots();
-    const auto i = static_cast<std::size_t>(s);
+    const std::size_t i = s;
     lua_createtable(call.lua(), 0, 6);
     call.set_field("id", call.push(static_cast<double>(strands.id(s))));
     call.set_field("position", call.push_vector(strands.root(s).cast<double>()));
@@ -58,7 +58,7 @@ int strand_root(Call& call) {
         call.set_field("uv", call.push_numbers(uv));
     }
     if (strands.group(s) != kNoIndex) {
-        const auto group = static_cast<std::size_t>(strands.group(s));
+        const std::size_t group = strands.group(s);
         call.set_field("group", call.push(std::string_view(strands.group_names()[group])));
     }
     return 1;
@@ -80,10 +80,10 @@ int point_counts(Call& call) {
 
 int groups(Call& call) {
     const std::vector<std::string>& names = strands_of(call).group_names();
-    lua_createtable(call.lua(), static_cast<int>(names.size()), 0);
+    lua_createtable(call.lua(), count_of(names), 0);
     for (std::size_t i = 0; i < names.size(); ++i) {
         call.push(std::string_view(names[i]));
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }

@@ -18,7 +18,7 @@ std::span<const Index> ask_function(Call& call) {
     lua_State* L = call.lua();
     const auto self = call.self<StrandsObject>();
     const Index count = self->strands.size();
-    auto* selected = call.scratch<Index>(static_cast<std::size_t>(count));
+    auto* selected = call.scratch<Index>(at(count));
     std::size_t size = 0;
     for (Index s = 0; s < count; ++s) {
         if (!self.get() || self->strands.size() != count) {
@@ -106,8 +106,8 @@ int resample_strands(Call& call) {
 
 // What a list has one value for: each strand, or each point.
 StrandDomain domain_of(std::size_t count, const Strands& strands, const char* what) {
-    if (count == static_cast<std::size_t>(strands.size())) return StrandDomain::strand;
-    if (count == static_cast<std::size_t>(strands.point_count())) return StrandDomain::point;
+    if (count == at(strands.size())) return StrandDomain::strand;
+    if (count == at(strands.point_count())) return StrandDomain::point;
     throw Error(ErrorCode::invalid_argument,
                 std::to_string(count) + " " + what + " were given for " +
                     std::to_string(strands.size()) + " strands of " +
@@ -121,7 +121,7 @@ std::vector<float> factors_of(std::span<const double> numbers, const char* what)
         if (number < 0.0) {
             throw Error(ErrorCode::out_of_range, std::string(what) + " must not be negative");
         }
-        result.push_back(static_cast<float>(number));
+        result.push_back(number);
     }
     return result;
 }
@@ -136,7 +136,7 @@ int set_widths(Call& call) {
     return change_strands(call, [&](Strands& strands) {
         StrandWidths widths = strands.widths();
         if (call.has("width")) {
-            widths.common = static_cast<float>(call.number("width"));
+            widths.common = call.number("width");
             widths.domain = StrandDomain::all;
             widths.values.clear();
         }

@@ -29,7 +29,7 @@ int load(Call& call) {
 }
 
 void push_findings(const Call& call, const StrandReport& report) {
-    lua_createtable(call.lua(), static_cast<int>(report.findings.size()), 0);
+    lua_createtable(call.lua(), count_of(report.findings), 0);
     int i = 0;
     for (const StrandFinding& finding : report.findings) {
         lua_createtable(call.lua(), 0, 4);

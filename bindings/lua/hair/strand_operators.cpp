@@ -9,7 +9,7 @@ namespace lissom::lua {
 namespace {
 
 std::uint64_t seed(const Call& call) {
-    return static_cast<std::uint64_t>(call.integer("seed"));
+    return call.integer("seed");
 }
 
 int clump_strands(Call& call) {

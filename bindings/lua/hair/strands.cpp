@@ -12,11 +12,11 @@ int make_strands(Call& call) {
     return new_strands(call, [&] {
         std::vector<float> numbers;
         for (const Vec3& p : points) {
-            for (const double x : p) numbers.push_back(static_cast<float>(x));
+            for (const double x : p) numbers.push_back(x);
         }
         std::vector<Index> offsets = {0};
         for (const Index count : counts) {
-            if (count > static_cast<Index>(points.size()) - offsets.back()) {
+            if (count > count_of(points) - offsets.back()) {
                 throw Error(ErrorCode::invalid_argument, "the counts add up to more than the " +
                                                              std::to_string(points.size()) +
                                                              " points");
@@ -35,7 +35,7 @@ int strands_text(Call& call) {
     char text[96];
     const int length = std::snprintf(text, sizeof text, "lissom.Strands: %d strands, %d points",
                                      strands_of(call).size(), strands_of(call).point_count());
-    return call.push(std::string_view(text, static_cast<std::size_t>(length)));
+    return call.push(std::string_view(text, length));
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ struct MeshesOfJoins {
 
     Index target_of(Holder* holder) const {
         const auto at = std::find(targets.begin(), targets.end(), &mesh_of(holder));
-        return static_cast<Index>(at - targets.begin());
+        return index_of(at - targets.begin());
     }
 };
 
@@ -165,7 +165,7 @@ std::shared_ptr<MergingObject> make_merging(const Call& call, const MergeCall& a
         merging->inputs.vertices.push_back(mesh->vertex_count());
         merging->inputs.faces.push_back(mesh->face_count());
     }
-    merging->joins = static_cast<Index>(asked.joins.size());
+    merging->joins = count_of(asked.joins);
     return merging;
 }
 

@@ -47,11 +47,11 @@ std::pair<const KeySpec*, std::size_t> top_keys(const Call& call, const char* pa
     const std::size_t count = raw_length(L, list);
     KeySpec* keys = call.scratch<KeySpec>(2 * count + 1);
     for (std::size_t i = 0; i < count; ++i) {
-        lua_rawgeti(L, list, static_cast<int>(i) + 1);
+        lua_rawgeti(L, list, index_of(i) + 1);
         if (lua_type(L, -1) != LUA_TTABLE || raw_length(L, -1) != 2) call.reject(path, kKeys);
         for (int side = 0; side < 2; ++side) {
             lua_rawgeti(L, -1, side + 1);
-            keys[2 * i + static_cast<std::size_t>(side)] = top_key(call, path);
+            keys[2 * i + side] = top_key(call, path);
             lua_pop(L, 1);
         }
         lua_pop(L, 1);
@@ -140,7 +140,7 @@ std::span<const JoinSpec> read_joins(const Call& call, const char* path) {
     JoinSpec* joins = call.scratch<JoinSpec>(count);
     for (std::size_t i = 0; i < count; ++i) {
         luaL_checkstack(L, 16, "too many joins");
-        lua_rawgeti(L, list, static_cast<int>(i) + 1);
+        lua_rawgeti(L, list, index_of(i) + 1);
         joins[i] = top_join(call, path);
     }
     return {joins, count};

@@ -7,7 +7,7 @@
 namespace lissom::lua {
 
 std::size_t ProvenanceObject::memory_bytes() const {
-    const auto count = static_cast<std::size_t>(vertices.size() + faces.size());
+    const std::size_t count = vertices.size() + faces.size();
     return count * (sizeof(std::size_t) + sizeof(ElementMap::Source));
 }
 
@@ -57,18 +57,18 @@ void push_join(const Call& call, const JoinReport& join) {
 }
 
 void push_joins(const Call& call, const std::vector<JoinReport>& joins) {
-    lua_createtable(call.lua(), static_cast<int>(joins.size()), 0);
+    lua_createtable(call.lua(), count_of(joins), 0);
     for (std::size_t j = 0; j < joins.size(); ++j) {
         push_join(call, joins[j]);
-        lua_rawseti(call.lua(), -2, static_cast<int>(j) + 1);
+        lua_rawseti(call.lua(), -2, index_of(j) + 1);
     }
 }
 
 void push_texts(const Call& call, const std::vector<std::string>& texts) {
-    lua_createtable(call.lua(), static_cast<int>(texts.size()), 0);
+    lua_createtable(call.lua(), count_of(texts), 0);
     for (std::size_t i = 0; i < texts.size(); ++i) {
         call.push(texts[i]);
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
 }
 
@@ -83,7 +83,7 @@ void push_times(const Call& call, const MergeReport& report) {
 
 // Vertices of faces that come from one side.
 Region side_region(const Mesh& mesh, const std::vector<SeamSide>& side_of_face, SeamSide side) {
-    std::vector<char> inside(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    std::vector<char> inside(mesh.vertex_count(), 0);
     for (Index f = 0; f < mesh.face_count(); ++f) {
         if (side_of_face[f] != side) continue;
         for (const Index v : mesh.topology().face(f)) inside[v] = 1;
@@ -102,11 +102,11 @@ void push_flips(const Call& call, const MergeReport& report) {
 }
 
 void push_intersections(const Call& call, const std::vector<FacePair>& pairs) {
-    lua_createtable(call.lua(), static_cast<int>(pairs.size()), 0);
+    lua_createtable(call.lua(), count_of(pairs), 0);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Index ids[] = {pairs[i].first, pairs[i].second};
         call.push_ids(ids);
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
 }
 
@@ -121,14 +121,14 @@ void push_band(const Call& call, const TransitionBand& band) {
 // One pair of bands a seam; an empty list without a transition.
 void push_transition(const Call& call, const TransitionReport& transition) {
     const std::size_t count = std::min(transition.source.size(), transition.target.size());
-    lua_createtable(call.lua(), static_cast<int>(count), 0);
+    lua_createtable(call.lua(), index_of(count), 0);
     for (std::size_t i = 0; i < count; ++i) {
         lua_createtable(call.lua(), 0, 2);
         push_band(call, transition.source[i]);
         call.set_field("source");
         push_band(call, transition.target[i]);
         call.set_field("target");
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
 }
 
@@ -143,16 +143,16 @@ std::pair<std::size_t, Index> placed(const std::vector<Index>& counts, Index ele
 
 int push_sources(const Call& call, std::span<const ElementMap::Source> sources,
                  const std::vector<Index>& counts, const char* element) {
-    lua_createtable(call.lua(), static_cast<int>(sources.size()), 0);
+    lua_createtable(call.lua(), count_of(sources), 0);
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const auto [mesh, id] = placed(counts, sources[i].element);
         const bool from_source = mesh + 1 == counts.size();
         lua_createtable(call.lua(), 0, 4);
         call.set_field("side", call.push(from_source ? "source" : "target"));
-        if (!from_source) call.set_field("target", call.push(static_cast<int>(mesh) + 1));
+        if (!from_source) call.set_field("target", call.push(index_of(mesh) + 1));
         call.set_field(element, call.push_id(id));
         call.set_field("weight", call.push(sources[i].weight));
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }

@@ -74,8 +74,7 @@ int get_number(Call& call) {
     std::span<double> numbers;
     if (!find_numbers(call, numbers, false)) return call.fail();
     const double place = lua_tonumber(call.lua(), 2);
-    const bool exists =
-        place >= 1 && place <= static_cast<double>(numbers.size()) && place == std::floor(place);
+    const bool exists = place >= 1 && place <= numbers.size() && place == std::floor(place);
     if (!exists) {
         lua_pushnil(call.lua());
         return 1;
@@ -103,10 +102,9 @@ int set_number(Call& call) {
     const double value = checked_number(call, 3, needs_finite(call));
     std::span<double> numbers;
     if (!find_numbers(call, numbers, true)) return call.fail();
-    if (!(place >= 1 && place <= static_cast<double>(numbers.size())) ||
-        place != std::floor(place)) {
-        call.raise(lua_pushfstring(call.lua(), "the buffer has the places 1 to %d",
-                                   static_cast<int>(numbers.size())));
+    if (!(place >= 1 && place <= numbers.size()) || place != std::floor(place)) {
+        call.raise(
+            lua_pushfstring(call.lua(), "the buffer has the places 1 to %d", count_of(numbers)));
     }
     numbers[static_cast<std::size_t>(place) - 1] = value;
     return 0;
@@ -124,7 +122,7 @@ int buffer_text(Call& call) {
     const bool usable = call.attempt_quick([&] { count = buffer->numbers().size(); });
     lua_pushfstring(call.lua(),
                     usable ? "lissom.Buffer: %d numbers, %d a row" : "lissom.Buffer (out of date)",
-                    static_cast<int>(count), static_cast<int>(buffer->width));
+                    index_of(count), buffer->width);
     return 1;
 }
 
@@ -137,8 +135,7 @@ int row_width(Call& call) {
 int row_count(Call& call) {
     std::span<double> numbers;
     if (!find_numbers(call, numbers, false)) return call.fail();
-    return call.push_count(numbers.size() /
-                           static_cast<std::size_t>(call.self<BufferObject>()->width));
+    return call.push_count(numbers.size() / call.self<BufferObject>()->width);
 }
 
 // Checks a row number; fails with out_of_range.
@@ -161,9 +158,9 @@ bool find_row(Call& call, bool edit, std::span<double>& row) {
 int get_row(Call& call) {
     std::span<double> row;
     if (!find_row(call, false, row)) return call.fail();
-    luaL_checkstack(call.lua(), static_cast<int>(row.size()), "the row is too wide");
+    luaL_checkstack(call.lua(), count_of(row), "the row is too wide");
     for (const double value : row) lua_pushnumber(call.lua(), value);
-    return static_cast<int>(row.size());
+    return count_of(row);
 }
 
 int set_row(Call& call) {
@@ -172,7 +169,7 @@ int set_row(Call& call) {
     if (!find_row(call, true, row)) return call.fail();
     if (values.size() != row.size()) {
         call.raise(lua_pushfstring(call.lua(), "a row of this buffer has %d numbers, got %d",
-                                   static_cast<int>(row.size()), static_cast<int>(values.size())));
+                                   count_of(row), count_of(values)));
     }
     std::copy(values.begin(), values.end(), row.begin());
     return call.push_argument();
@@ -194,7 +191,7 @@ int changed(Call& call) {
         Elements bad{ElementKind::vertex, 0, {}};
         for (std::size_t i = 0; i < numbers.size(); i += 3) {
             const bool finite = std::isfinite(numbers[i] + numbers[i + 1] + numbers[i + 2]);
-            if (!finite) bad.add(static_cast<Index>(i / 3));
+            if (!finite) bad.add(index_of(i / 3));
         }
         if (bad.count == 0) return;
         const std::string names = describe(bad);
@@ -270,7 +267,7 @@ int mesh_attribute(Call& call) {
 
 int mesh_attributes(Call& call) {
     const auto& all = call.self<MeshObject>()->mesh.attributes().all();
-    lua_createtable(call.lua(), static_cast<int>(all.size()), 0);
+    lua_createtable(call.lua(), count_of(all), 0);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Attribute& attribute = all[i];
         lua_createtable(call.lua(), 0, 5);
@@ -279,7 +276,7 @@ int mesh_attributes(Call& call) {
         call.set_field("width", call.push(attribute.width));
         call.set_field("type", call.push(name_of(kTypeNames, attribute.type)));
         call.set_field("count", call.push(attribute.size()));
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }
@@ -308,12 +305,11 @@ int add_attribute(Call& call) {
     const bool done = call.attempt([&] {
         Attribute attribute{call.string("name"),
                             call.choice<Domain>("domain"),
-                            static_cast<Index>(call.integer("width")),
+                            call.integer("width"),
                             call.choice<ScalarType>("type"),
                             {}};
         const Index count = element_count(mesh->mesh.topology(), attribute.domain);
-        attribute.values = attribute_values(call, static_cast<std::size_t>(attribute.width),
-                                            static_cast<std::size_t>(count));
+        attribute.values = attribute_values(call, attribute.width, count);
         const Attribute& added = mesh->mesh.attributes().add(std::move(attribute));
         mesh->changed();
         result.set(attribute_buffer(mesh.share(), added));

@@ -67,14 +67,14 @@ auto with_cut(const Call& call, const Work& work) {
 }
 
 void push_warnings(Call& call, const std::vector<CutWarning>& warnings) {
-    lua_createtable(call.lua(), static_cast<int>(warnings.size()), 0);
+    lua_createtable(call.lua(), count_of(warnings), 0);
     for (std::size_t i = 0; i < warnings.size(); ++i) {
         const CutWarning& warning = warnings[i];
         lua_createtable(call.lua(), 0, 3);
         call.set_field("kind", call.push(kConcerns[static_cast<std::size_t>(warning.concern)]));
         call.set_field("message", call.push(std::string_view(warning.message)));
         call.set_field("vertices", call.push_ids(warning.elements.ids));
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
 }
 

@@ -124,7 +124,7 @@ int mesh_check(Call& call) {
                   {"edges", topology.edge_count()},
                   {"faces", topology.face_count()},
                   {"components", topology.component_count()},
-                  {"boundaries", static_cast<int>(topology.boundary_loops().size())},
+                  {"boundaries", count_of(topology.boundary_loops())},
                   {"genus", genus_found},
                   {"euler", euler}};
     lua_createtable(call.lua(), 0, 12);
@@ -142,7 +142,7 @@ int mesh_self_intersections(Call& call) {
     if (!call.attempt([&] { pairs = self_intersections(own_mesh(call), {}, call.context()); })) {
         return call.fail();
     }
-    lua_createtable(call.lua(), static_cast<int>(pairs.size()), 0);
+    lua_createtable(call.lua(), count_of(pairs), 0);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         call.push_ids(std::array{pairs[i].first, pairs[i].second});
         lua_rawseti(call.lua(), -2, static_cast<lua_Integer>(i) + 1);
@@ -172,7 +172,7 @@ int vertex_normal(Call& call) {
     const Index v = call.id("vertex");
     if (!check_id(call, v, mesh->mesh.vertex_count(), ElementKind::vertex)) return call.fail();
     Vec3 normal = Vec3::Zero();
-    if (!call.attempt([&] { normal = mesh->normals()[static_cast<std::size_t>(v)]; })) {
+    if (!call.attempt([&] { normal = mesh->normals()[v]; })) {
         return call.fail();
     }
     return call.push_coordinates(normal);
@@ -212,11 +212,11 @@ int mesh_text(Call& call) {
     int length = std::snprintf(text, sizeof text, "lissom.Mesh: %d vertices, %d faces",
                                mesh.vertex_count(), mesh.face_count());
     if (!box.empty()) {
-        length += std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length),
+        length += std::snprintf(text + length, sizeof text - length,
                                 ", from (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g)", box.min.x(),
                                 box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z());
     }
-    return call.push(std::string_view(text, static_cast<std::size_t>(length)));
+    return call.push(std::string_view(text, length));
 }
 
 int equal_meshes(Call& call) {

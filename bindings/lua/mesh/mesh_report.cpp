@@ -12,10 +12,10 @@ void push_finding_ids(const Call& call, const Finding& finding) {
         return;
     }
     const std::size_t count = finding.ids.size() / 2;
-    lua_createtable(call.lua(), static_cast<int>(count), 0);
+    lua_createtable(call.lua(), index_of(count), 0);
     for (std::size_t i = 0; i < count; ++i) {
         call.push_ids({finding.ids.data() + 2 * i, 2});
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
 }
 
@@ -41,7 +41,7 @@ int mesh_report(Call& call) {
         for (const Finding& finding : findings) summaries.push_back(describe(finding));
     });
     if (!done) return call.fail();
-    const auto count = static_cast<int>(findings.size());
+    const auto count = count_of(findings);
     lua_createtable(call.lua(), count, count);
     for (int i = 0; i < count; ++i) {
         push_finding(call, findings[i], summaries[i]);

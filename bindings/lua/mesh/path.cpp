@@ -12,13 +12,13 @@ const Path& PathObject::current() const {
 }
 
 int push_paths(Call& call, const std::shared_ptr<MeshObject>& mesh, std::vector<Path>& paths) {
-    lua_createtable(call.lua(), static_cast<int>(paths.size()), 0);
+    lua_createtable(call.lua(), count_of(paths), 0);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const auto result = call.create<PathObject>();
         const bool done = call.attempt_quick(
             [&] { result.set(std::make_shared<PathObject>(mesh, std::move(paths[i]))); });
         if (!done) return call.fail();
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }
@@ -105,10 +105,10 @@ int path_points(Call& call) {
     if (!call.attempt([&] { points = self->current().points(self->mesh->mesh); })) {
         return call.fail();
     }
-    lua_createtable(call.lua(), static_cast<int>(points.size()), 0);
+    lua_createtable(call.lua(), count_of(points), 0);
     for (std::size_t i = 0; i < points.size(); ++i) {
         call.push_vector(points[i]);
-        lua_rawseti(call.lua(), -2, static_cast<int>(i) + 1);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;
 }
@@ -185,14 +185,14 @@ int path_mesh(Call& call) {
 }
 
 int path_size(Call& call) {
-    return call.push(static_cast<int>(call.self<PathObject>()->path.size()));
+    return call.push(call.self<PathObject>()->path.size());
 }
 
 int path_text(Call& call) {
     const auto self = call.self<PathObject>();
     const bool current = call.attempt_quick([&] { self->current(); });
     if (!current) return call.push("lissom.Path (of an older topology)");
-    lua_pushfstring(call.lua(), "lissom.Path: %d vertices, %s", static_cast<int>(self->path.size()),
+    lua_pushfstring(call.lua(), "lissom.Path: %d vertices, %s", self->path.size(),
                     self->path.closed() ? "closed" : "open");
     return 1;
 }

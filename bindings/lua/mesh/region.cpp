@@ -36,7 +36,7 @@ std::span<const Index> ask_function(Call& call) {
     const auto mesh = call.self<MeshObject>();
     const Topology* topology = &mesh->mesh.topology();
     const Index count = mesh->mesh.vertex_count();
-    auto* selected = call.scratch<Index>(static_cast<std::size_t>(count));
+    auto* selected = call.scratch<Index>(at(count));
     std::size_t size = 0;
     for (Index v = 0; v < count; ++v) {
         if (!mesh.get() || &mesh->mesh.topology() != topology) {
@@ -157,7 +157,7 @@ int remove_named_region(Call& call) {
 
 int region_names(Call& call) {
     const auto& regions = call.self<MeshObject>()->mesh.regions();
-    lua_createtable(call.lua(), static_cast<int>(regions.size()), 0);
+    lua_createtable(call.lua(), count_of(regions), 0);
     int i = 0;
     for (const auto& [name, region] : regions) {
         call.push(std::string_view(name));
@@ -294,16 +294,15 @@ int region_mesh(Call& call) {
 
 int region_size(Call& call) {
     const auto self = call.self<RegionObject>();
-    return compute(call, [&] { return static_cast<int>(self->current().size()); });
+    return compute(call, [&] { return self->current().size(); });
 }
 
 int region_text(Call& call) {
     const auto self = call.self<RegionObject>();
     const bool current = call.attempt_quick([&] { self->current(); });
     if (!current) return call.push("lissom.Region (of an older topology)");
-    lua_pushfstring(call.lua(), "lissom.Region: %d of %d vertices",
-                    static_cast<int>(self->region.size()),
-                    static_cast<int>(self->mesh->mesh.vertex_count()));
+    lua_pushfstring(call.lua(), "lissom.Region: %d of %d vertices", self->region.size(),
+                    self->mesh->mesh.vertex_count());
     return 1;
 }
 

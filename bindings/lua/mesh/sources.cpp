@@ -21,7 +21,7 @@ std::span<const double> read_numbers(const Call& call, const char* path, int lis
     const std::size_t count = raw_length(L, list);
     double* values = call.scratch<double>(count);
     for (std::size_t i = 0; i < count; ++i) {
-        lua_rawgeti(L, list, static_cast<int>(i) + 1);
+        lua_rawgeti(L, list, index_of(i) + 1);
         if (lua_type(L, -1) != LUA_TNUMBER) call.reject(path, kExpectedSource);
         values[i] = lua_tonumber(L, -1);
         lua_pop(L, 1);
@@ -33,7 +33,7 @@ SourceSpec point_source(const Call& call, const char* path, std::span<const doub
     SourceSpec source{{}, true, {}};
     if (xyz.size() != 3) call.reject(path, kExpectedSource);
     for (int k = 0; k < 3; ++k) {
-        source.xyz[k] = xyz[static_cast<std::size_t>(k)];
+        source.xyz[k] = xyz[k];
         if (!std::isfinite(source.xyz[k])) call.reject(path, "the point is NaN or infinite");
     }
     return source;

@@ -224,7 +224,7 @@
 ---@field target_size integer Vertices of the target's.
 ---@field scale number How much the source grew there.
 ---@field guessed boolean No keys were given.
----@field certainty number|nil Where it was guessed: how much worse the second best place is; below 1.5 give a key.
+---@field certainty number|nil Where it was guessed: runner-up cost / best cost; below 1.5 give a key.
 ---@field source_turn number Mean turn of the source's boundary at a vertex, as given.
 ---@field target_turn number The same of the target's.
 ---@field source_trimmed boolean It was jagged and has been trimmed.

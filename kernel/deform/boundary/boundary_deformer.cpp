@@ -84,7 +84,7 @@ struct Base {
 };
 
 void require_values(std::span<const BoundaryValue> values, Index count) {
-    if (static_cast<Index>(values.size()) != count) {
+    if (count_of(values) != count) {
         throw Error(ErrorCode::invalid_argument,
                     "give one value for each held vertex: " + std::to_string(count));
     }
@@ -201,7 +201,7 @@ BoundaryDeformer::State::State(const Mesh& mesh, const Region& given, const Regi
 // Outside the region, and without faces, vertices stay; held ones go where they are told.
 void BoundaryDeformer::State::find_knowledge() {
     const Patch& patch = work.patch;
-    const auto n = static_cast<std::size_t>(patch.vertex_count);
+    const std::size_t n = patch.vertex_count;
     known = {std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 0)};
     for (Index i = 0; i < patch.surface_count; ++i) {
         const bool lonely = work.rings.count(i) == 0;
@@ -212,7 +212,7 @@ void BoundaryDeformer::State::find_knowledge() {
     const std::vector<Index>& ids = region.vertices();
     for (const Index v : held.vertices()) {
         const auto row = std::lower_bound(ids.begin(), ids.end(), v) - ids.begin();
-        held_local.push_back(patch.of_region[static_cast<std::size_t>(row)]);
+        held_local.push_back(patch.of_region[row]);
         known.position[held_local.back()] = known.gradient[held_local.back()] = 1;
     }
     for (Index i = 0; i < patch.surface_count; ++i) {
@@ -245,8 +245,8 @@ void BoundaryDeformer::State::factor(const Context& context) {
     const FactorStats &a = first->stats(), &b = second->stats();
     stats.region_vertices = region.size();
     stats.constrained_vertices = held.size();
-    stats.free_vertices = static_cast<Index>(second->free_vertices().size());
-    stats.displaced_vertices = static_cast<Index>(stencils.displaced.size());
+    stats.free_vertices = count_of(second->free_vertices());
+    stats.displaced_vertices = count_of(stencils.displaced);
     stats.zero_area_faces = work.patch.zero_area_faces;
     stats.first_nonzeros = a.factor_nonzeros;
     stats.second_nonzeros = b.factor_nonzeros;
@@ -266,7 +266,7 @@ Base BoundaryDeformer::State::find_base(std::span<const BoundaryValue> values) c
         sum += value.position - values.front().position;
         logs += std::log(value.scale);
     }
-    const auto count = static_cast<double>(values.size());
+    const double count = values.size();
     base.center = values.front().position + sum / count;
     base.scale = std::exp(logs / count);
     base.length = base.scale * normal_form.unit;
@@ -281,7 +281,7 @@ Base BoundaryDeformer::State::find_base(std::span<const BoundaryValue> values) c
 }
 
 void BoundaryDeformer::State::place_held(std::span<const BoundaryValue> values, const Base& base) {
-    const auto n = static_cast<std::size_t>(work.patch.vertex_count);
+    const std::size_t n = work.patch.vertex_count;
     deviation.assign(n, Vec3::Zero());
     known_turn.assign(n, Mat3::Zero());
     size.assign(n, 1.0 / base.scale);
@@ -302,7 +302,7 @@ void BoundaryDeformer::State::solve_first() {
     for (int d = 0; d < 3; ++d) {
         first->right_hand_side([&](Index k) { return deviation[k][d]; },
                                [&](Index k) { return Vec3(known_turn[k].row(d)); },
-                               right.data() + static_cast<std::size_t>(d) * rows);
+                               right.data() + d * rows);
     }
     const std::vector<double> columns = first->solve(right, 3);
     for (std::size_t r = 0; r < rows; ++r) {
@@ -335,7 +335,7 @@ Mat3 BoundaryDeformer::State::gathered(Index v, const Mat3& base) const {
 std::vector<Mat3> BoundaryDeformer::State::gradients_of(const Base& base,
                                                         const Context& context) const {
     const auto exists = [&](Index v) { return known.gradient[v] || stencils.defined[v]; };
-    std::vector<Mat3> m(static_cast<std::size_t>(work.patch.real_count), base.rotation);
+    std::vector<Mat3> m(work.patch.real_count, base.rotation);
     for_each_block(context, work.patch.real_count, [&](Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
             if (exists(v)) {
@@ -359,10 +359,10 @@ void BoundaryDeformer::State::interpolate_sizes(const Context& context) {
     const Index n = work.patch.surface_count;
     const auto weight = [&](Index e) { return std::max(work.geometry.cotangent[e], kLeastWeight); };
     if (!harmonic) {
-        harmonic_row.assign(static_cast<std::size_t>(n), kNoIndex);
+        harmonic_row.assign(n, kNoIndex);
         for (Index v = 0; v < n; ++v) {
             if (known.position[v]) continue;
-            harmonic_row[v] = static_cast<Index>(harmonic_vertex.size());
+            harmonic_row[v] = count_of(harmonic_vertex);
             harmonic_vertex.push_back(v);
         }
         std::vector<Triplet> entries;
@@ -377,8 +377,7 @@ void BoundaryDeformer::State::interpolate_sizes(const Context& context) {
             }
             entries.push_back({harmonic_row[v], harmonic_row[v], sum});
         }
-        const SymmetricMatrix matrix =
-            symmetric_from_triplets(static_cast<Index>(harmonic_vertex.size()), entries);
+        const SymmetricMatrix matrix = symmetric_from_triplets(count_of(harmonic_vertex), entries);
         harmonic = std::make_unique<SparseSystem>();
         harmonic->analyze(matrix, context);
         harmonic->factor(matrix, context);
@@ -441,8 +440,8 @@ BoundaryDeformation BoundaryDeformer::State::result(std::span<const BoundaryValu
     const std::vector<Index>& ids = region.vertices();
     for (std::size_t i = 0; i < values.size(); ++i) {
         const auto row = std::lower_bound(ids.begin(), ids.end(), held.vertices()[i]) - ids.begin();
-        out.positions[static_cast<std::size_t>(row)] = values[i].position;
-        out.transforms[static_cast<std::size_t>(row)] = values[i].scale * values[i].rotation;
+        out.positions[row] = values[i].position;
+        out.transforms[row] = values[i].scale * values[i].rotation;
     }
     return out;
 }

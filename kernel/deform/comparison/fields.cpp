@@ -44,7 +44,7 @@ double front_arrival(const Vec3& a, const Vec3& b, const Vec3& c, double ta, dou
 class FastMarch {
   public:
     FastMarch(const Patch& patch, const Rings& rings) : patch_(patch), rings_(rings) {
-        begin_.assign(static_cast<std::size_t>(rings.size()) + 1, 0);
+        begin_.assign(at(rings.size()) + 1, 0);
         const auto& triangles = patch.triangles.triangle;
         for (const Triangle& t : triangles) {
             for (const Index v : t) ++begin_[v + 1];
@@ -53,12 +53,12 @@ class FastMarch {
         around_.resize(3 * triangles.size());
         std::vector<Index> fill(begin_.begin(), begin_.end() - 1);
         for (std::size_t n = 0; n < triangles.size(); ++n) {
-            for (const Index v : triangles[n]) around_[fill[v]++] = static_cast<Index>(n);
+            for (const Index v : triangles[n]) around_[fill[v]++] = index_of(n);
         }
     }
 
     std::vector<double> run(std::span<const Index> source, Index from) {
-        distance_.assign(static_cast<std::size_t>(rings_.size()), kInfinity);
+        distance_.assign(rings_.size(), kInfinity);
         done_.assign(distance_.size(), 0);
         for (Index v = 0; v < rings_.size(); ++v) {
             if (source[v] == from) reach(v, 0.0);
@@ -86,7 +86,7 @@ class FastMarch {
         for (const Index n : rings_.ring(v)) reach(n, distance_[v] + (at[n] - at[v]).norm());
         for (Index e = begin_[v]; e < begin_[v + 1]; ++e) {
             const Triangle& t = patch_.triangles.triangle[around_[e]];
-            const auto k = static_cast<std::size_t>(std::find(t.begin(), t.end(), v) - t.begin());
+            const std::size_t k = std::find(t.begin(), t.end(), v) - t.begin();
             for (const std::size_t step : {1, 2}) {
                 const Index a = t[(k + step) % 3], c = t[(k + 3 - step) % 3];
                 if (!done_[a] || done_[c]) continue;
@@ -107,7 +107,7 @@ class FastMarch {
 
 // Throws where a connected part has vertices without a gradient and no source.
 void require_sources(const ComparisonProblem& problem, const Rings& rings) {
-    std::vector<char> reached(static_cast<std::size_t>(rings.size()), 0);
+    std::vector<char> reached(rings.size(), 0);
     std::vector<Index> stack;
     for (Index v = 0; v < rings.size(); ++v) {
         if (problem.source[v] == kNoIndex) continue;
@@ -135,11 +135,10 @@ void require_sources(const ComparisonProblem& problem, const Rings& rings) {
 
 SourceWeights no_weights(const ComparisonProblem& problem, const Rings& rings) {
     SourceWeights weights{problem.source_count, {}};
-    weights.value.assign(
-        static_cast<std::size_t>(rings.size()) * static_cast<std::size_t>(weights.sources), 0.0);
+    weights.value.assign(at(rings.size()) * weights.sources, 0.0);
     for (Index v = 0; v < rings.size(); ++v) {
         const Index s = problem.source[v];
-        if (s != kNoIndex) weights.value[static_cast<std::size_t>(v) * weights.sources + s] = 1.0;
+        if (s != kNoIndex) weights.value[at(v) * weights.sources + s] = 1.0;
     }
     return weights;
 }
@@ -167,13 +166,12 @@ SourceWeights geodesic_weights(const ComparisonProblem& problem, const Rings& ri
         const std::vector<double> distance = march.run(problem.source, s);
         for (Index v = 0; v < rings.size(); ++v) {
             if (problem.source[v] != kNoIndex) continue;
-            weights.value[static_cast<std::size_t>(v) * weights.sources + s] =
+            weights.value[at(v) * weights.sources + s] =
                 1.0 / std::max(distance[v], kSmallestDistance);
         }
     }
     for (Index v = 0; v < rings.size(); ++v) {
-        normalise({weights.value.data() + static_cast<std::size_t>(v) * weights.sources,
-                   static_cast<std::size_t>(weights.sources)});
+        normalise({weights.value.data() + at(v) * weights.sources, at(weights.sources)});
     }
     return weights;
 }
@@ -214,13 +212,11 @@ SourceWeights harmonic_weights(const ComparisonProblem& problem, const Rings& ri
         for (Index v = 0; v < rings.size(); ++v) x[v] = problem.source[v] == s ? 1.0 : 0.0;
         system.solve({}, x, 1, context);
         for (const Index v : system.free_unknowns()) {
-            weights.value[static_cast<std::size_t>(v) * weights.sources + s] =
-                std::clamp(x[v], 0.0, 1.0);
+            weights.value[at(v) * weights.sources + s] = std::clamp(x[v], 0.0, 1.0);
         }
     }
     for (const Index v : system.free_unknowns()) {
-        normalise({weights.value.data() + static_cast<std::size_t>(v) * weights.sources,
-                   static_cast<std::size_t>(weights.sources)});
+        normalise({weights.value.data() + at(v) * weights.sources, at(weights.sources)});
     }
     return weights;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/deform/comparison/method.h"
 #include "kernel/deform/patch/patch.h"
 
@@ -19,8 +20,7 @@ struct SourceWeights {
     std::vector<double> value;
 
     std::span<const double> at(Index v) const {
-        return {value.data() + static_cast<std::size_t>(v) * sources,
-                static_cast<std::size_t>(sources)};
+        return {value.data() + lissom::at(v) * lissom::at(sources), lissom::at(sources)};
     }
 };
 

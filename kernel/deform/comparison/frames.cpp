@@ -23,7 +23,7 @@ class Frames : public ComparisonMethod {
             }
         }
         const std::span<const char> known = problem.known.position;
-        system_.factor(known.first(static_cast<std::size_t>(rings_.size())), context);
+        system_.factor(known.first(rings_.size()), context);
     }
 
     // Solved for deviations from the rigid part of the base transform.

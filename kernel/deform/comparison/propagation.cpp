@@ -26,7 +26,7 @@ class Propagation : public ComparisonMethod {
                        : harmonic_weights(problem, rings, context, costs_);
         for (std::size_t n = 0; n < triangles_.size(); ++n) add_triangle(n);
         const std::span<const char> known = problem.known.position;
-        system_.factor(known.first(static_cast<std::size_t>(rings.size())), context);
+        system_.factor(known.first(rings.size()), context);
     }
 
     // Solved for deviations from the base transform of the rest shape, whose gradients are its
@@ -56,7 +56,7 @@ class Propagation : public ComparisonMethod {
             positions[i] = frame.base(rest_[i]) + Vec3(x[i], x[n + i], x[2 * n + i]);
         }
         for (std::size_t i = 0; i < n; ++i) {
-            gradients[i] = blend(frame, stretch, weights_.at(static_cast<Index>(i)));
+            gradients[i] = blend(frame, stretch, weights_.at(index_of(i)));
         }
     }
 
@@ -108,7 +108,7 @@ class Propagation : public ComparisonMethod {
     // `mean` is scratch.
     Mat3 triangle_transform(const ComparisonFrame& frame, const std::vector<Mat3>& stretch,
                             std::size_t n, std::vector<double>& mean) const {
-        mean.assign(static_cast<std::size_t>(weights_.sources), 0.0);
+        mean.assign(weights_.sources, 0.0);
         for (const Index v : triangles_.triangle[n]) {
             const std::span<const double> w = weights_.at(v);
             for (std::size_t s = 0; s < mean.size(); ++s) mean[s] += w[s] / 3.0;

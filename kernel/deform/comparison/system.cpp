@@ -25,7 +25,7 @@ void LeastSquares::add(Index column, double coefficient) {
 }
 
 void LeastSquares::end_row(double weight) {
-    rows_.begin.push_back(static_cast<Index>(rows_.column.size()));
+    rows_.begin.push_back(count_of(rows_.column));
     weight_.push_back(weight);
 }
 
@@ -33,7 +33,7 @@ void LeastSquares::factor(std::span<const char> known, const Context& context) {
     row_of_.assign(known.size(), kNoIndex);
     for (Index i = 0; i < rows_.columns; ++i) {
         if (known[i]) continue;
-        row_of_[i] = static_cast<Index>(free_.size());
+        row_of_[i] = count_of(free_);
         free_.push_back(i);
     }
     transpose();
@@ -50,7 +50,7 @@ void LeastSquares::factor(std::span<const char> known, const Context& context) {
 }
 
 void LeastSquares::transpose() {
-    const auto size = static_cast<std::size_t>(rows_.columns);
+    const std::size_t size = rows_.columns;
     columns_.columns = rows_.rows();
     columns_.begin.assign(size + 1, 0);
     for (const Index c : rows_.column) ++columns_.begin[c + 1];
@@ -85,25 +85,24 @@ void LeastSquares::assemble(std::span<const char> known, const Context& context)
             matrix_.row.push_back(row_of_[j]);
             matrix_.value.push_back(value);
         });
-        matrix_.begin.push_back(static_cast<Index>(matrix_.row.size()));
+        matrix_.begin.push_back(count_of(matrix_.row));
     }
 }
 
 void LeastSquares::solve(std::span<const double> b, std::span<double> x, Index columns,
                          const Context& context) const {
     if (free_.empty()) return;
-    const auto unknowns = static_cast<std::size_t>(rows_.columns);
-    const auto rows = static_cast<std::size_t>(rows_.rows());
+    const std::size_t unknowns = rows_.columns;
+    const std::size_t rows = rows_.rows();
     const std::size_t count = free_.size();
-    std::vector<long double> right(count * static_cast<std::size_t>(columns));
+    std::vector<long double> right(count * columns);
     std::vector<double> residual(rows);
     for (Index c = 0; c < columns; ++c) {
         context.checkpoint();
-        const std::span<double> values =
-            x.subspan(static_cast<std::size_t>(c) * unknowns, unknowns);
+        const std::span<double> values = x.subspan(c * unknowns, unknowns);
         for (const Index i : free_) values[i] = 0.0;
         for (Index r = 0; r < rows_.rows(); ++r) {
-            double sum = b.empty() ? 0.0 : b[static_cast<std::size_t>(c) * rows + r];
+            double sum = b.empty() ? 0.0 : b[c * rows + r];
             for (Index e = rows_.begin[r]; e < rows_.begin[r + 1]; ++e) {
                 sum -= rows_.value[e] * values[rows_.column[e]];
             }
@@ -114,15 +113,14 @@ void LeastSquares::solve(std::span<const double> b, std::span<double> x, Index c
             for (Index t = columns_.begin[free_[f]]; t < columns_.begin[free_[f] + 1]; ++t) {
                 sum += static_cast<long double>(columns_.value[t]) * residual[columns_.column[t]];
             }
-            right[static_cast<std::size_t>(c) * count + f] = sum;
+            right[c * count + f] = sum;
         }
     }
     std::vector<double> solution(right.size());
     system_.solve_refined(matrix_, right, solution, columns);
     for (Index c = 0; c < columns; ++c) {
         for (std::size_t f = 0; f < count; ++f) {
-            x[static_cast<std::size_t>(c) * unknowns + free_[f]] =
-                solution[static_cast<std::size_t>(c) * count + f];
+            x[c * unknowns + free_[f]] = solution[c * count + f];
         }
     }
 }

@@ -23,13 +23,13 @@ class AnchorBuilder {
     WorkingPatch build() {
         if (holds_.stiffness) stiffen(*holds_.stiffness);
         for (std::size_t h = 0; h < holds_.handles.size(); ++h) {
-            if (holds_.handles[h]) add_handle(*holds_.handles[h], static_cast<Index>(h));
+            if (holds_.handles[h]) add_handle(*holds_.handles[h], index_of(h));
         }
         for (std::size_t t = 0; t < holds_.targets.size(); ++t) {
             const Target& target = *holds_.targets[t];
             if (target.is_hard_vertex()) continue;
-            add_point(target.row, kConstrained, static_cast<Index>(t), target.weight,
-                      target.position, target.gradient);
+            add_point(target.row, kConstrained, index_of(t), target.weight, target.position,
+                      target.gradient);
         }
         if (transition_ > 0.0) add_transition();
         return std::move(work_);
@@ -112,7 +112,7 @@ class AnchorBuilder {
     // its share of their area.
     void add_handle(const Handle& handle, Index h) {
         const HandleOptions& options = handle.options;
-        const double points = static_cast<double>(handle.points.size() + handle.local.size());
+        const double points = handle.points.size() + handle.local.size();
         if (handle.soft()) {
             double area = 0.0;
             for (const Index v : handle.local) area += work_.geometry.area[v];
@@ -147,7 +147,7 @@ class AnchorBuilder {
 
 // Lengthens what is given for each vertex by nothing for each anchor.
 void add_empty_anchors(WorkingPatch& work) {
-    const auto n = static_cast<std::size_t>(work.patch.vertex_count);
+    const std::size_t n = work.patch.vertex_count;
     work.rings.begin.resize(n + 1, work.rings.begin.back());
     work.geometry.area.resize(n, 0.0);
     work.geometry.normal.resize(n, Vec3::Zero());

@@ -84,7 +84,7 @@ std::vector<Edge> of_coarse_pieces(const Patch& patch, const std::vector<Edge>& 
 SparseRow mean_of(const std::vector<SparseRow>& rows) {
     std::map<Index, double> sum;
     for (const SparseRow& row : rows) {
-        for (const auto& [v, c] : row) sum[v] += c / static_cast<double>(rows.size());
+        for (const auto& [v, c] : row) sum[v] += c / rows.size();
     }
     return {sum.begin(), sum.end()};
 }
@@ -92,9 +92,7 @@ SparseRow mean_of(const std::vector<SparseRow>& rows) {
 class Refiner {
   public:
     Refiner(Patch patch, const Holding& holding)
-        : patch_(std::move(patch)),
-          holding_(holding),
-          around_(static_cast<std::size_t>(patch_.real_count)) {
+        : patch_(std::move(patch)), holding_(holding), around_(patch_.real_count) {
         for (std::size_t t = 0; t < triangles().size(); ++t) {
             for (const Index v : triangles().triangle[t]) around_[v].push_back(t);
         }
@@ -125,7 +123,7 @@ class Refiner {
 
     SparseRow row_of(Index v) const {
         if (v < patch_.mesh_count()) return {{v, 1.0}};
-        return patch_.inserted[static_cast<std::size_t>(v - patch_.mesh_count())];
+        return patch_.inserted[v - patch_.mesh_count()];
     }
 
     std::vector<std::size_t> triangles_at(Index a, Index b) {
@@ -152,13 +150,13 @@ class Refiner {
         char in_region = 0;
         for (const Index v : between) {
             rows.push_back(row_of(v));
-            at += patch_.rest[v] / static_cast<double>(between.size());
+            at += patch_.rest[v] / count_of(between);
             in_region = static_cast<char>(in_region | patch_.in_region[v]);
         }
         patch_.inserted.push_back(mean_of(rows));
         patch_.rest.push_back(at);
         patch_.in_region.push_back(in_region);
-        patch_.on_boundary.push_back(static_cast<char>(on_boundary));
+        patch_.on_boundary.push_back(on_boundary);
         held_.push_back(common_holder(patch_.inserted.back(), holding_) != kFree);
         around_.emplace_back();
         return patch_.real_count++;
@@ -218,7 +216,7 @@ class Refiner {
             Triangle second = triangles().triangle[t];
             const auto at_b = std::find(second.begin(), second.end(), b) - second.begin();
             *std::find(second.begin(), second.end(), a) = middle;
-            put(t, static_cast<int>(at_b), middle);
+            put(t, index_of(at_b), middle);
             for (const Index v : second) around_[v].push_back(triangles().size());
             triangles().add(second, triangles().weight[t], triangles().face[t]);
         }

@@ -118,7 +118,7 @@ bool is_held(const Part& part) {
 }
 
 Holding known_nothing(const WorkingPatch& work) {
-    const auto n = static_cast<std::size_t>(work.patch.vertex_count);
+    const std::size_t n = work.patch.vertex_count;
     const std::vector<char> none(n, 0);
     Holding holding{std::vector<Index>(n, kFree), {none, none, none}, {}};
     for (Index i = 0; i < work.patch.surface_count; ++i) {
@@ -143,7 +143,7 @@ void hold_handle(const WorkingPatch& work, const Handle& handle, Index h, Holdin
 // Vertices of a refinement between vertices of one holder are its own.
 void hold_inserted(const Patch& patch, Holding& holding) {
     for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
-        const SparseRow& row = patch.inserted[static_cast<std::size_t>(v - patch.mesh_count())];
+        const SparseRow& row = patch.inserted[v - patch.mesh_count()];
         const Index holder = common_holder(row, holding), first = row.front().first;
         if (holder == kFree) continue;
         holding.owner[v] = holder;
@@ -186,7 +186,7 @@ bool changes_patch(const Holds& holds, double transition) {
 Holding find_holding(const WorkingPatch& work, const Holds& holds) {
     Holding holding = known_nothing(work);
     for (std::size_t h = 0; h < holds.handles.size(); ++h) {
-        if (holds.handles[h]) hold_handle(work, *holds.handles[h], static_cast<Index>(h), holding);
+        if (holds.handles[h]) hold_handle(work, *holds.handles[h], index_of(h), holding);
     }
     for (const auto& target : holds.targets) {
         if (!target->is_hard_vertex()) continue;
@@ -201,13 +201,13 @@ Holding find_holding(const WorkingPatch& work, const Holds& holds) {
         const Handle* handle = holds.handles[h].get();
         if (!handle || handle->soft() || !handle->options.gradient) continue;
         for (const SparseRow& row : handle->points) {
-            turn_around(row, static_cast<Index>(h), kNoIndex, holding);
+            turn_around(row, index_of(h), kNoIndex, holding);
         }
     }
     for (std::size_t t = 0; t < holds.targets.size(); ++t) {
         const Target& target = *holds.targets[t];
         if (target.is_hard_vertex() || target.weight || !target.gradient) continue;
-        turn_around(target.row, kConstrained, static_cast<Index>(t), holding);
+        turn_around(target.row, kConstrained, index_of(t), holding);
     }
     for (Index i = 0; i < work.patch.surface_count; ++i) {
         holding.known.gradient_wanted[i] = !holding.known.gradient[i] && work.rings.count(i) > 0;
@@ -218,7 +218,7 @@ Holding find_holding(const WorkingPatch& work, const Holds& holds) {
 
 void require_constraints(const WorkingPatch& work, const KnownMask& known) {
     const TiesOfVertices ties(work);
-    std::vector<char> seen(static_cast<std::size_t>(work.patch.surface_count), 0);
+    std::vector<char> seen(work.patch.surface_count, 0);
     std::vector<Part> loose;
     for (Index v = 0; v < work.patch.surface_count; ++v) {
         if (seen[v]) continue;

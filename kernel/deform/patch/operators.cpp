@@ -54,8 +54,8 @@ RingGeometry ring_geometry(const Rings& rings, const WeightedTriangles& triangle
                            std::span<const Vec3> positions, double smallest_angle) {
     RingGeometry geometry;
     geometry.cotangent.assign(rings.neighbor.size(), 0.0);
-    geometry.area.assign(static_cast<std::size_t>(rings.size()), 0.0);
-    geometry.normal.assign(static_cast<std::size_t>(rings.size()), Vec3::Zero());
+    geometry.area.assign(rings.size(), 0.0);
+    geometry.normal.assign(rings.size(), Vec3::Zero());
     for (std::size_t n = 0; n < triangles.size(); ++n) {
         const Triangle& t = triangles.triangle[n];
         const double weight = triangles.weight[n];
@@ -87,9 +87,9 @@ Vec3 Laplacian::apply(const Rings& rings, std::span<const Vec3> x, Index i) cons
 Laplacian make_laplacian(const Rings& rings, const RingGeometry& geometry, LaplacianWeights weights,
                          bool scale_free) {
     Laplacian laplacian;
-    laplacian.self.assign(static_cast<std::size_t>(rings.size()), 0.0);
+    laplacian.self.assign(rings.size(), 0.0);
     laplacian.neighbor.assign(rings.neighbor.size(), 0.0);
-    laplacian.weight.assign(static_cast<std::size_t>(rings.size()), 0.0);
+    laplacian.weight.assign(rings.size(), 0.0);
     const bool uniform = weights == LaplacianWeights::uniform;
     for (Index i = 0; i < rings.size(); ++i) {
         if (rings.count(i) == 0 || !(geometry.area[i] > 0.0)) continue;
@@ -129,7 +129,7 @@ double mean_edge_length_of(const Rings& rings, std::span<const Vec3> positions) 
     for (Index i = 0; i < rings.size(); ++i) {
         for (const Index j : rings.ring(i)) sum += (positions[i] - positions[j]).norm();
     }
-    return rings.neighbor.empty() ? 0.0 : sum / static_cast<double>(rings.neighbor.size());
+    return rings.neighbor.empty() ? 0.0 : sum / rings.neighbor.size();
 }
 
 }  // namespace lissom

@@ -16,8 +16,8 @@ constexpr double kZeroAreaRatio = 1e-12;
 
 // Faces around the vertices within `rings` rings of the region, ascending.
 std::vector<Index> faces_within(const Topology& topology, const Region& region, Index rings) {
-    std::vector<char> vertex_seen(static_cast<std::size_t>(topology.vertex_count()), 0);
-    std::vector<char> face_seen(static_cast<std::size_t>(topology.face_count()), 0);
+    std::vector<char> vertex_seen(topology.vertex_count(), 0);
+    std::vector<char> face_seen(topology.face_count(), 0);
     std::vector<Index> front = region.vertices(), next, faces;
     for (const Index v : front) vertex_seen[v] = 1;
     for (Index ring = 0; ring <= rings; ++ring) {
@@ -57,14 +57,14 @@ bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 void find_zero_areas(Patch& patch) {
-    std::vector<char> has(static_cast<std::size_t>(patch.real_count), 0);
-    std::vector<char> has_face(static_cast<std::size_t>(patch.real_count), 0);
+    std::vector<char> has(patch.real_count, 0);
+    std::vector<char> has_face(patch.real_count, 0);
     for (const Triangle& t : patch.triangles.triangle) {
         const bool positive = has_area(patch.rest[t[0]], patch.rest[t[1]], patch.rest[t[2]]);
         patch.zero_area_faces += positive ? 0 : 1;
         for (const Index v : t) {
             has_face[v] = 1;
-            has[v] |= static_cast<char>(positive);
+            has[v] |= positive;
         }
     }
     for (const Index v : patch.of_region) {
@@ -152,7 +152,7 @@ Index middle_vertex(std::span<const Vec3> positions, const Region& region) {
 
 Index Rings::entry(Index i, Index j) const {
     const auto first = neighbor.begin() + begin[i], last = neighbor.begin() + begin[i + 1];
-    return static_cast<Index>(std::lower_bound(first, last, j) - neighbor.begin());
+    return index_of(std::lower_bound(first, last, j) - neighbor.begin());
 }
 
 WeightedTriangles weighted_triangles(const Topology& topology, std::span<const Vec3> positions,
@@ -178,12 +178,12 @@ WeightedTriangles weighted_triangles(const Topology& topology, std::span<const V
 
 Rings build_rings(Index vertex_count, const WeightedTriangles& triangles) {
     // Every triangle offers both its edges at a vertex; repeats go after sorting each ring.
-    std::vector<Index> begin(static_cast<std::size_t>(vertex_count) + 1, 0);
+    std::vector<Index> begin(at(vertex_count) + 1, 0);
     for (const Triangle& t : triangles.triangle) {
         for (const Index v : t) begin[v + 1] += 2;
     }
     for (Index v = 0; v < vertex_count; ++v) begin[v + 1] += begin[v];
-    std::vector<Index> offered(static_cast<std::size_t>(begin.back()));
+    std::vector<Index> offered(begin.back());
     std::vector<Index> fill(begin.begin(), begin.end() - 1);
     for (const Triangle& t : triangles.triangle) {
         for (int k = 0; k < 3; ++k) {
@@ -199,7 +199,7 @@ Rings build_rings(Index vertex_count, const WeightedTriangles& triangles) {
         const auto first = offered.begin() + begin[v], last = offered.begin() + begin[v + 1];
         std::sort(first, last);
         rings.neighbor.insert(rings.neighbor.end(), first, std::unique(first, last));
-        rings.begin.push_back(static_cast<Index>(rings.neighbor.size()));
+        rings.begin.push_back(count_of(rings.neighbor));
     }
     return rings;
 }
@@ -207,7 +207,7 @@ Rings build_rings(Index vertex_count, const WeightedTriangles& triangles) {
 // Splits the edge opposite each boundary vertex of valence 2 in the region. One split may serve the
 // vertices on both sides.
 void insert_virtual_vertices(Patch& patch) {
-    const auto real = static_cast<std::size_t>(patch.real_count);
+    const std::size_t real = patch.real_count;
     patch.rest.resize(real);
     patch.in_region.resize(real);
     patch.on_boundary.resize(real);
@@ -237,7 +237,7 @@ std::vector<Index> near_order(const Region& region, Index rings) {
     const Topology& topology = *region.topology();
     const std::vector<Index> vertices =
         vertices_of(topology, faces_within(topology, region, rings), region);
-    std::vector<char> waiting(static_cast<std::size_t>(topology.vertex_count()), 0);
+    std::vector<char> waiting(topology.vertex_count(), 0);
     for (const Index v : vertices) waiting[v] = 1;
     std::vector<Index> order;
     order.reserve(vertices.size());
@@ -260,14 +260,14 @@ Patch build_patch(const Region& region, std::span<const Vec3> positions, Index r
     patch.mesh_vertex = order.empty() ? vertices_of(topology, faces, region) : std::move(order);
     patch.real_count = patch.mesh_count();
 
-    std::vector<Index> local(static_cast<std::size_t>(topology.vertex_count()), kNoIndex);
+    std::vector<Index> local(topology.vertex_count(), kNoIndex);
     for (Index i = 0; i < patch.real_count; ++i) local[patch.mesh_vertex[i]] = i;
     for (const Index v : region.vertices()) patch.of_region.push_back(local[v]);
     patch.origin = positions[middle_vertex(positions, region)];
-    patch.in_region.assign(static_cast<std::size_t>(patch.real_count), 0);
+    patch.in_region.assign(patch.real_count, 0);
     for (const Index v : patch.of_region) patch.in_region[v] = 1;
     for (const Index v : patch.mesh_vertex) {
-        patch.on_boundary.push_back(static_cast<char>(topology.is_boundary(v)));
+        patch.on_boundary.push_back(topology.is_boundary(v));
         patch.rest.push_back(positions[v] - patch.origin);
     }
     patch.triangles = weighted_triangles(topology, positions, faces);

@@ -19,10 +19,10 @@ struct Rings {
     std::vector<Index> begin, neighbor;
 
     std::span<const Index> ring(Index i) const {
-        return {neighbor.data() + begin[i], neighbor.data() + begin[i + 1]};
+        return {neighbor.data() + begin[at(i)], neighbor.data() + begin[at(i + 1)]};
     }
-    Index count(Index i) const { return begin[i + 1] - begin[i]; }
-    Index size() const { return static_cast<Index>(begin.size()) - 1; }
+    Index count(Index i) const { return begin[at(i + 1)] - begin[at(i)]; }
+    Index size() const { return count_of(begin) - 1; }
     /// Position of neighbour j of i in the flat arrays.
     Index entry(Index i, Index j) const;
 };
@@ -77,7 +77,7 @@ struct Patch {
     Elements zero_area_vertices{ElementKind::vertex, 0, {}};
     Index zero_area_faces = 0;
 
-    Index mesh_count() const { return static_cast<Index>(mesh_vertex.size()); }
+    Index mesh_count() const { return count_of(mesh_vertex); }
 };
 
 /// Mesh vertices of a patch in an order in which neighbours are near each other, so that loops over

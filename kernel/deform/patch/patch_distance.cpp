@@ -15,8 +15,7 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 struct Fans {
     std::vector<Index> begin, triangle;
 
-    explicit Fans(const Patch& patch)
-        : begin(static_cast<std::size_t>(patch.surface_count) + 1, 0) {
+    explicit Fans(const Patch& patch) : begin(at(patch.surface_count) + 1, 0) {
         const std::vector<Triangle>& triangles = patch.split_triangles.triangle;
         for (const Triangle& t : triangles) {
             for (const Index v : t) ++begin[v + 1];
@@ -25,7 +24,7 @@ struct Fans {
         triangle.resize(3 * triangles.size());
         std::vector<Index> fill(begin.begin(), begin.end() - 1);
         for (std::size_t n = 0; n < triangles.size(); ++n) {
-            for (const Index v : triangles[n]) triangle[fill[v]++] = static_cast<Index>(n);
+            for (const Index v : triangles[n]) triangle[fill[v]++] = index_of(n);
         }
     }
 };
@@ -63,7 +62,7 @@ std::vector<double> patch_distances(const Patch& patch,
                                     const std::vector<std::pair<Index, double>>& sources,
                                     double limit) {
     const Fans fans(patch);
-    std::vector<double> distance(static_cast<std::size_t>(patch.surface_count), kFar);
+    std::vector<double> distance(patch.surface_count, kFar);
     std::vector<char> done(distance.size(), 0);
     using Entry = std::pair<double, Index>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;

@@ -13,8 +13,7 @@ template <typename Value>
 class RowAccumulator {
   public:
     /// A row over columns [0, size).
-    explicit RowAccumulator(Index size)
-        : value_(static_cast<std::size_t>(size)), in_(static_cast<std::size_t>(size), 0) {}
+    explicit RowAccumulator(Index size) : value_(at(size)), in_(at(size), 0) {}
 
     void add(Index column, const Value& value) {
         if (in_[column]) {
@@ -48,7 +47,7 @@ template <typename Value>
 void append_rows(std::vector<Index>& begin, std::vector<Index>& column, std::vector<Value>& value,
                  const std::vector<Index>& part_begin, const std::vector<Index>& part_column,
                  const std::vector<Value>& part_value) {
-    const auto shift = static_cast<Index>(column.size());
+    const auto shift = count_of(column);
     for (std::size_t i = 1; i < part_begin.size(); ++i) begin.push_back(part_begin[i] + shift);
     column.insert(column.end(), part_column.begin(), part_column.end());
     value.insert(value.end(), part_value.begin(), part_value.end());

@@ -34,7 +34,7 @@ std::vector<Triplet> add_existing(SymmetricMatrix& matrix, const std::vector<Tri
         if (at == last || *at != e.row) {
             missing.push_back(e);
         } else {
-            matrix.value[static_cast<std::size_t>(at - matrix.row.begin())] += e.value;
+            matrix.value[at - matrix.row.begin()] += e.value;
         }
     }
     return missing;
@@ -53,7 +53,7 @@ void add_missing(SymmetricMatrix& matrix, const std::vector<Triplet>& entries) {
             sum.row.push_back(take_extra ? extra.row[b] : matrix.row[a]);
             sum.value.push_back(take_extra ? extra.value[b++] : matrix.value[a++]);
         }
-        sum.begin.push_back(static_cast<Index>(sum.row.size()));
+        sum.begin.push_back(count_of(sum.row));
     }
     matrix = std::move(sum);
 }
@@ -64,7 +64,7 @@ void Ties::add(SparseRow over, Index at, double w, bool exact) {
     row.push_back(std::move(over));
     anchor.push_back(at);
     weight.push_back(w);
-    hard.push_back(static_cast<char>(exact));
+    hard.push_back(exact);
 }
 
 TieRows::TieRows(const Ties& ties, const std::vector<Index>& row_of, double unit,
@@ -116,13 +116,13 @@ void TieRows::prepare(
     for (const Tie& tie : ties_) {
         if (tie.hard) hard.push_back(&tie);
     }
-    const auto count = static_cast<Index>(hard.size());
+    const auto count = count_of(hard);
     response_.setZero(unknowns, count);
     if (count == 0) return;
     for (Index n = 0; n < count; ++n) {
         for (const auto& [row, c] : hard[n]->free) response_(row, n) = c;
     }
-    const std::size_t size = static_cast<std::size_t>(response_.size());
+    const std::size_t size = response_.size();
     solve({response_.data(), size}, {response_.data(), size}, count);
     Eigen::MatrixXd schur = Eigen::MatrixXd::Zero(count, count);
     for (Index n = 0; n < count; ++n) {
@@ -133,7 +133,7 @@ void TieRows::prepare(
 
 std::size_t TieRows::response_bytes(const Ties& ties, Index unknowns) {
     const auto count = std::count(ties.hard.begin(), ties.hard.end(), char{1});
-    return static_cast<std::size_t>(count) * static_cast<std::size_t>(unknowns) * sizeof(double);
+    return at(count) * unknowns * sizeof(double);
 }
 
 std::vector<Index> dependent_ties(const Ties& ties, const std::vector<char>& position_known) {

@@ -25,7 +25,7 @@ struct Ties {
     std::vector<double> weight;
     std::vector<char> hard;
 
-    Index size() const { return static_cast<Index>(row.size()); }
+    Index size() const { return count_of(row); }
     void add(SparseRow over, Index at, double w, bool exact);
 };
 
@@ -82,7 +82,7 @@ class TieRows {
             for (const Tie& tie : ties_) {
                 if (!tie.hard) continue;
                 double sum = known_part(tie, position);
-                for (const auto& [row, c] : tie.free) sum += c * x[row];
+                for (const auto& [row, c] : tie.free) sum += c * x[at(row)];
                 miss[n++] = sum;
             }
             if (miss.isZero(0.0)) return;

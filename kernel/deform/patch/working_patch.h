@@ -33,7 +33,7 @@ struct WorkingPatch {
 
     /// Mean stiffness of two vertices.
     double stiffness_between(Index a, Index b) const {
-        return stiffness.empty() ? 1.0 : 0.5 * (stiffness[a] + stiffness[b]);
+        return stiffness.empty() ? 1.0 : 0.5 * (stiffness[at(a)] + stiffness[at(b)]);
     }
 
     /// Weight of a tie of weight 1 in the first system, for squared distances and for squared

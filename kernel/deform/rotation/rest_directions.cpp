@@ -69,10 +69,10 @@ RestDirections::RestDirections(const Mesh& mesh, const Region& region) {
     for (const Index v : around.vertices()) {
         places.push_back(collect_sectors(mesh, v, by_corner ? normals : nullptr));
         if (!mesh.topology().is_isolated(v)) continue;
-        sectors_.back().alone = static_cast<Index>(without_faces_.size());
+        sectors_.back().alone = count_of(without_faces_);
         const std::vector<Index>& rows = region.vertices();
         const auto row = std::lower_bound(rows.begin(), rows.end(), v) - rows.begin();
-        without_faces_.push_back(static_cast<Index>(row));
+        without_faces_.push_back(index_of(row));
     }
     for (const Attribute& attribute : all) {
         if (is_carried(attribute)) collect_values(attribute, places);
@@ -106,14 +106,14 @@ void RestDirections::collect_faces(const Mesh& mesh, const Region& around) {
 
 Index RestDirections::local_vertex(Index vertex) const {
     const auto at = std::lower_bound(vertices_.begin(), vertices_.end(), vertex);
-    return static_cast<Index>(at - vertices_.begin());
+    return index_of(at - vertices_.begin());
 }
 
 Index RestDirections::add_sector(std::span<const Wedge> wedges) {
-    const auto begin = static_cast<Index>(wedges_.size());
+    const auto begin = count_of(wedges_);
     wedges_.insert(wedges_.end(), wedges.begin(), wedges.end());
-    sectors_.push_back({begin, static_cast<Index>(wedges_.size()), kNoIndex, Vec3::Zero()});
-    return static_cast<Index>(sectors_.size()) - 1;
+    sectors_.push_back({begin, count_of(wedges_), kNoIndex, Vec3::Zero()});
+    return count_of(sectors_) - 1;
 }
 
 // The fan is cut where `normals` of neighbouring corners differ; without them it is whole.
@@ -126,18 +126,18 @@ RestDirections::Place RestDirections::collect_sectors(const Mesh& mesh, Index v,
         const std::span<const Index> face = topology.face(f);
         const auto corner = std::find(face.begin(), face.end(), v) - face.begin();
         const auto id = std::lower_bound(face_ids_.begin(), face_ids_.end(), f);
-        const auto local = static_cast<Index>(id - face_ids_.begin());
+        const auto local = index_of(id - face_ids_.begin());
         const std::span<const Index> of_local = faces_[local];
-        const std::size_t n = face.size(), k = static_cast<std::size_t>(corner);
+        const std::size_t n = face.size(), k = corner;
         fan.push_back({local, of_local[(k + n - 1) % n], of_local[k], of_local[(k + 1) % n]});
-        corners.push_back(topology.first_corner(f) + static_cast<Index>(corner));
+        corners.push_back(topology.first_corner(f) + index_of(corner));
     }
     Place place{v, add_sector(fan), {}};
     std::vector<char> cut(fan.size(), 0);
     if (normals && !fan.empty()) cut = cuts_of(topology, v, corners, *normals);
     const auto pieces = std::count(cut.begin(), cut.end(), 1);
     Index sector = place.whole;
-    const auto first = static_cast<std::size_t>(std::find(cut.begin(), cut.end(), 1) - cut.begin());
+    const std::size_t first = std::find(cut.begin(), cut.end(), 1) - cut.begin();
     for (std::size_t i = 0; i < fan.size(); ++i) {
         const std::size_t k = (first + i) % fan.size();
         if (pieces > 1 && cut[k]) {
@@ -274,8 +274,7 @@ void RestDirections::rebase(const Region& region, std::span<const Vec3> position
     std::vector<Vec3> at = rest_;
     for (Index row = 0; row < region.size(); ++row) {
         const Index v = region.vertices()[row], local = local_vertex(v);
-        const bool has_faces =
-            local < static_cast<Index>(vertices_.size()) && vertices_[local] == v;
+        const bool has_faces = local < count_of(vertices_) && vertices_[local] == v;
         if (has_faces) at[local] = positions[row];
     }
     const std::vector<Mat3> rotation = rotations(at, alone);

@@ -12,7 +12,7 @@ GradientResidual::GradientResidual(const WorkingPatch& work, const GradientStenc
       gradients_(gradients),
       known_(known),
       coherence_weight_(coherence_weight),
-      delta_(static_cast<std::size_t>(work.rings.size()), Vec3::Zero()) {
+      delta_(work.rings.size(), Vec3::Zero()) {
     for (Index v = 0; v < work.rings.size(); ++v) {
         if (has_gradient(v))
             delta_[v] = work.laplacian.apply(work.rings, gradients.displaced_rest, v);
@@ -21,7 +21,7 @@ GradientResidual::GradientResidual(const WorkingPatch& work, const GradientStenc
 
 std::vector<Mat3> GradientResidual::all_gradients(std::span<const Vec3> x,
                                                   std::span<const Mat3> m) const {
-    std::vector<Mat3> all(static_cast<std::size_t>(work_.rings.size()), Mat3::Zero());
+    std::vector<Mat3> all(work_.rings.size(), Mat3::Zero());
     for (Index v = 0; v < work_.rings.size(); ++v) {
         if (known_.gradient[v]) {
             all[v] = m[v];
@@ -63,7 +63,7 @@ void GradientResidual::scatter(Index v, const Mat3& pull, std::vector<Vec3>& res
 
 std::vector<Vec3> GradientResidual::find(std::span<const Vec3> x, std::span<const Mat3> m) const {
     const std::vector<Mat3> gradient = all_gradients(x, m);
-    std::vector<Vec3> residual(static_cast<std::size_t>(work_.rings.size()), Vec3::Zero());
+    std::vector<Vec3> residual(work_.rings.size(), Vec3::Zero());
     for (Index v = 0; v < work_.rings.size(); ++v) {
         if (!has_gradient(v)) continue;
         Mat3 pull = Mat3::Zero();

@@ -26,7 +26,7 @@ class GradientResidual {
     std::vector<Vec3> find(std::span<const Vec3> x, std::span<const Mat3> m) const;
 
   private:
-    bool has_gradient(Index v) const { return known_.gradient[v] || gradients_.defined[v]; }
+    bool has_gradient(Index v) const { return known_.gradient[at(v)] || gradients_.defined[at(v)]; }
     std::vector<Mat3> all_gradients(std::span<const Vec3> x, std::span<const Mat3> m) const;
     void add_laplacian_term(Index v, std::span<const Vec3> x, const Mat3& m,
                             std::vector<Vec3>& residual, Mat3& pull) const;

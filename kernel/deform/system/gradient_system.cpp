@@ -47,8 +47,8 @@ class Assembler {
           gradients_(gradients),
           known_(known),
           options_(options),
-          delta_(static_cast<std::size_t>(rings_.size()), Vec3::Zero()),
-          row_of_(static_cast<std::size_t>(rings_.size()), kNoIndex) {
+          delta_(rings_.size(), Vec3::Zero()),
+          row_of_(rings_.size(), kNoIndex) {
         for (Index i = 0; i < rings_.size(); ++i) {
             if (has_row(i)) delta_[i] = laplacian_.apply(rings_, gradients.displaced_rest, i);
         }
@@ -61,7 +61,7 @@ class Assembler {
         std::vector<Index> free;
         for (Index i = 0; i < rings_.size(); ++i) {
             if (known_.position[i]) continue;
-            row_of_[i] = static_cast<Index>(free.size());
+            row_of_[i] = count_of(free);
             free.push_back(i);
         }
         return free;
@@ -71,7 +71,7 @@ class Assembler {
         const Index grain = assembly_grain(rings_.size());
         std::vector<CoherenceRows> parts(chunk_count(rings_.size()));
         context.parallel_for(0, rings_.size(), grain, [&](Index begin, Index end) {
-            parts[static_cast<std::size_t>(begin / grain)] = coherence_rows(begin, end);
+            parts[begin / grain] = coherence_rows(begin, end);
         });
         std::size_t entries = 0;
         for (const CoherenceRows& part : parts) entries += part.column.size();
@@ -82,18 +82,18 @@ class Assembler {
 
     std::vector<SystemRows> build_rows(const std::vector<Index>& free,
                                        const Context& context) const {
-        const auto rows = static_cast<Index>(free.size());
+        const auto rows = count_of(free);
         const Index grain = assembly_grain(rows);
         std::vector<SystemRows> parts(chunk_count(rows));
         context.parallel_for(0, rows, grain, [&](Index begin, Index end) {
-            parts[static_cast<std::size_t>(begin / grain)] = system_rows(free, begin, end);
+            parts[begin / grain] = system_rows(free, begin, end);
         });
         return parts;
     }
 
   private:
     static std::size_t chunk_count(Index size) {
-        return static_cast<std::size_t>((size + assembly_grain(size) - 1) / assembly_grain(size));
+        return (size + assembly_grain(size) - 1) / assembly_grain(size);
     }
 
     bool has_gradient(Index i) const { return known_.gradient[i] || gradients_.defined[i]; }
@@ -169,8 +169,8 @@ class Assembler {
                 rows.known_column.push_back(c);
                 rows.known_value.push_back(v);
             });
-            rows.begin.push_back(static_cast<Index>(rows.column.size()));
-            rows.known_begin.push_back(static_cast<Index>(rows.known_column.size()));
+            rows.begin.push_back(count_of(rows.column));
+            rows.known_begin.push_back(count_of(rows.known_column));
         }
         return rows;
     }
@@ -249,9 +249,9 @@ class Assembler {
             rows.gradient_column.push_back(k);
             rows.gradient_value.push_back(value);
         });
-        rows.matrix_begin.push_back(static_cast<Index>(rows.matrix_column.size()));
-        rows.position_begin.push_back(static_cast<Index>(rows.position_column.size()));
-        rows.gradient_begin.push_back(static_cast<Index>(rows.gradient_column.size()));
+        rows.matrix_begin.push_back(count_of(rows.matrix_column));
+        rows.position_begin.push_back(count_of(rows.position_column));
+        rows.gradient_begin.push_back(count_of(rows.gradient_column));
     }
 
     const WorkingPatch& work_;
@@ -305,13 +305,13 @@ GradientSystem::GradientSystem(const WorkingPatch& work, const GradientStencils&
     ties_ = TieRows(work.ties, assembler.row_of(), work.position_unit(),
                     [&](Index v) { return final_position(work, gradients, v); });
     ties_.add_to(matrix_);
-    tie_bytes_ = TieRows::response_bytes(work.ties, static_cast<Index>(free_.size()));
+    tie_bytes_ = TieRows::response_bytes(work.ties, count_of(free_));
 }
 
 void GradientSystem::factor(const Context& context) {
     factor_firmly(system_, matrix_, context);
     ties_charge_ = context.charge(tie_bytes_, "points that are held");
-    ties_.prepare(static_cast<Index>(free_.size()),
+    ties_.prepare(count_of(free_),
                   [&](std::span<const double> b, std::span<double> x, Index columns) {
                       const std::vector<long double> exact(b.begin(), b.end());
                       system_.solve_refined(matrix_, exact, x, columns);

@@ -48,7 +48,7 @@ class GradientSystem {
             for (Index e = gradients_begin_[row]; e < gradients_begin_[row + 1]; ++e) {
                 const Vec3 known = gradient(gradients_column_[e]);
                 for (int d = 0; d < 3; ++d) {
-                    sum -= static_cast<long double>(gradients_value_[e][d]) * known[d];
+                    sum -= static_cast<long double>(gradients_value_[at(e)][d]) * known[d];
                 }
             }
             b[row] = sum;

@@ -171,8 +171,8 @@ class Displacer {
     }
 
     void fill_stencils() {
-        result_.defined.assign(static_cast<std::size_t>(rings_.size()), 0);
-        result_.self.assign(static_cast<std::size_t>(rings_.size()), Vec3::Zero());
+        result_.defined.assign(rings_.size(), 0);
+        result_.self.assign(rings_.size(), Vec3::Zero());
         result_.neighbor.assign(rings_.neighbor.size(), Vec3::Zero());
         for (Index i = 0; i < rings_.size(); ++i) {
             if (!known_.gradient_wanted[i] || is_degenerate(i)) continue;

@@ -9,9 +9,9 @@ namespace {
 
 // Row of each local vertex in the system, or kNoIndex.
 std::vector<Index> rows_of(const LinearProblem& problem) {
-    std::vector<Index> row(static_cast<std::size_t>(problem.patch.vertex_count), kNoIndex);
+    std::vector<Index> row(problem.patch.vertex_count, kNoIndex);
     const std::vector<Index>& free = problem.system.free_vertices();
-    for (std::size_t r = 0; r < free.size(); ++r) row[free[r]] = static_cast<Index>(r);
+    for (std::size_t r = 0; r < free.size(); ++r) row[free[r]] = index_of(r);
     return row;
 }
 
@@ -50,7 +50,7 @@ LinearSolution::LinearSolution(const LinearProblem& problem, const Context& cont
     const std::vector<Index> row = rows_of(problem);
     fold_of_.assign(free.size(), kNoIndex);
     for (std::size_t f = 0; f < problem.gradients.displaced.size(); ++f) {
-        fold_of_[row[problem.gradients.displaced[f]]] = static_cast<Index>(f);
+        fold_of_[row[problem.gradients.displaced[f]]] = index_of(f);
     }
     choose_base(problem);
     charge_ = context.charge(memory_bytes(), "the handle basis");
@@ -69,9 +69,9 @@ void LinearSolution::choose_base(const LinearProblem& problem) {
     for (std::size_t h = 0; h < problem.handles.size(); ++h) {
         if (!problem.handles[h]) continue;
         if (!surrounded && base_ == kNoIndex) {
-            base_ = static_cast<Index>(h);
+            base_ = index_of(h);
         } else {
-            handles_.push_back(static_cast<Index>(h));
+            handles_.push_back(index_of(h));
         }
     }
 }
@@ -92,7 +92,7 @@ void LinearSolution::solve_handles(const LinearProblem& problem, const Context& 
                                                return holds(k) && c < 3 ? Vec3(Vec3::Unit(c))
                                                                         : Vec3(Vec3::Zero());
                                            },
-                                           right.data() + static_cast<std::size_t>(c) * rows);
+                                           right.data() + c * rows);
         }
         std::vector<double> columns = problem.system.solve(right, 4);
         for (int c = 0; c < 4; ++c) {
@@ -104,7 +104,7 @@ void LinearSolution::solve_handles(const LinearProblem& problem, const Context& 
             weight[r] = {columns[r], columns[rows + r], columns[2 * rows + r],
                          columns[3 * rows + r]};
         }
-        progress.update(static_cast<double>(weight_.size()) / static_cast<double>(handles_.size()));
+        progress.update(weight_.size(), handles_.size());
     }
 }
 
@@ -138,7 +138,7 @@ FixedPart LinearSolution::fixed_part(const LinearProblem& problem,
                 if (found == constraints.end() || !found->second.gradient) return Vec3::Zero();
                 return found->second.gradient->row(d).transpose() - Vec3::Unit(d);
             },
-            right.data() + static_cast<std::size_t>(d) * rows);
+            right.data() + d * rows);
     }
     std::vector<double> columns = problem.system.solve(right, 3);
     for (int d = 0; d < 3; ++d) {

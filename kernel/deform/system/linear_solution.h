@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/deform/holds/constraints.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/system/gradient_system.h"
@@ -37,7 +38,7 @@ struct LinearProblem {
 struct FixedPart {
     std::vector<Vec3> value, fold;
 
-    Vec3 at(Index row) const { return value.empty() ? Vec3(Vec3::Zero()) : value[row]; }
+    Vec3 at(Index row) const { return value.empty() ? Vec3(Vec3::Zero()) : value[lissom::at(row)]; }
 };
 
 /// With T the transform of the base and D_h = T_h - T those of the other handles relative to it, a
@@ -57,7 +58,7 @@ class LinearSolution {
     FixedPart fixed_part(const LinearProblem& problem, const VertexConstraints& constraints) const;
 
     /// Number of free vertices.
-    Index rows() const { return static_cast<Index>(rest_.size()); }
+    Index rows() const { return count_of(rest_); }
     /// Handle whose transform is T, or kNoIndex where T is the identity.
     Index base() const { return base_; }
     /// Handles with weights of their own.
@@ -75,17 +76,18 @@ class LinearSolution {
 
     /// The weight of the translation of handle number h of `handles()`, degenerate vertices
     /// displaced.
-    double translation_weight(std::size_t h, Index row) const { return weight_[h][row][3]; }
+    double translation_weight(std::size_t h, Index row) const { return weight_[h][at(row)][3]; }
 
     /// Weight of handle number h of `handles()` in `positions`, and the part that no handle moves.
     Vec4 weight(std::size_t h, Index row) const {
-        const Index f = fold_of_[row];
-        return f == kNoIndex ? weight_[h][row] : Vec4(weight_[h][row] + fold_[h][f]);
+        const Index f = fold_of_[at(row)];
+        return f == kNoIndex ? weight_[h][at(row)] : Vec4(weight_[h][at(row)] + fold_[h][at(f)]);
     }
     Vec3 fixed(const FixedPart& fixed, Index row) const {
-        const Index f = fold_of_[row];
-        return fixed.value.empty() || f == kNoIndex ? fixed.at(row)
-                                                    : Vec3(fixed.value[row] + fixed.fold[f]);
+        const Index f = fold_of_[at(row)];
+        return fixed.value.empty() || f == kNoIndex
+                   ? fixed.at(row)
+                   : Vec3(fixed.value[at(row)] + fixed.fold[at(f)]);
     }
 
   private:

@@ -128,27 +128,27 @@ void RotationSystem::fade_laplacian(const Patch& patch, const std::vector<char>&
 }
 
 void RotationSystem::add_ties(const WorkingPatch& work) {
-    std::vector<Index> row_of(static_cast<std::size_t>(vertex_count_), kNoIndex);
-    for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = static_cast<Index>(r);
+    std::vector<Index> row_of(vertex_count_, kNoIndex);
+    for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = index_of(r);
     ties_ = TieRows(work.ties, row_of, tie_unit_, [](Index v) { return SparseRow{{v, 1.0}}; });
     ties_.add_to(matrix_);
-    tie_bytes_ = TieRows::response_bytes(work.ties, static_cast<Index>(free_.size()));
+    tie_bytes_ = TieRows::response_bytes(work.ties, count_of(free_));
 }
 
 void RotationSystem::assemble(const std::vector<char>& position_known, const Context& context) {
     std::vector<Index> row_of(rest_.size(), kNoIndex);
-    for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = static_cast<Index>(r);
+    for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = index_of(r);
     std::vector<double> coefficient_sum(rest_.size(), 0.0);
     for (Index i = 0; i < rings_.size(); ++i) {
         for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
             coefficient_sum[i] += coefficient_[e];
         }
     }
-    const auto count = static_cast<Index>(free_.size());
+    const auto count = count_of(free_);
     const Index grain = assembly_grain(count);
-    std::vector<SymmetricMatrix> parts(static_cast<std::size_t>((count + grain - 1) / grain));
+    std::vector<SymmetricMatrix> parts((count + grain - 1) / grain);
     context.parallel_for(0, count, grain, [&](Index begin, Index end) {
-        SymmetricMatrix& rows = parts[static_cast<std::size_t>(begin / grain)];
+        SymmetricMatrix& rows = parts[begin / grain];
         RowAccumulator<double> row(rings_.size());
         // The row of a in C, times g_a and the coefficient of i in it. Below the diagonal the
         // matrix is known from its upper part.
@@ -176,7 +176,7 @@ void RotationSystem::assemble(const std::vector<char>& position_known, const Con
                 rows.row.push_back(row_of[k]);
                 rows.value.push_back(value);
             });
-            rows.begin.push_back(static_cast<Index>(rows.row.size()));
+            rows.begin.push_back(count_of(rows.row));
         }
     });
     std::size_t entries = 0;
@@ -196,10 +196,8 @@ void RotationSystem::factor(const Context& context) {
 
 void RotationSystem::finish(const Context& context) {
     ties_charge_ = context.charge(tie_bytes_, "points that are held");
-    ties_.prepare(static_cast<Index>(free_.size()),
-                  [&](std::span<const double> b, std::span<double> x, Index columns) {
-                      system_.solve(b, x, columns);
-                  });
+    ties_.prepare(count_of(free_), [&](std::span<const double> b, std::span<double> x,
+                                       Index columns) { system_.solve(b, x, columns); });
     single_ = system_.single_factor(context);
     const double contraction = measure_contraction(context);
     if (!(contraction <= kLargestContraction)) {
@@ -222,7 +220,7 @@ EnergyLoop RotationSystem::energy() const {
 // solution and of two waves over the numbers of the vertices.
 double RotationSystem::measure_contraction(const Context& context) const {
     Scratch scratch;
-    std::vector<Vec4> x(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
+    std::vector<Vec4> x(vertex_count_, Vec4::Zero());
     // A lone free vertex may rest at the origin.
     double size = 1e-300;
     for (const Index v : free_) size = std::max(size, rest_[v].cwiseAbs().maxCoeff());
@@ -257,7 +255,7 @@ void RotationSystem::correct_further(std::span<Vec4> x, Scratch& scratch,
                                      const Context& context) const {
     for (int pass = 1; pass < corrections_; ++pass) {
         // What the last correction leaves of the residual.
-        scratch.step.assign(static_cast<std::size_t>(vertex_count_), Vec4::Zero());
+        scratch.step.assign(vertex_count_, Vec4::Zero());
         add_correction(scratch, scratch.step);
         find_residual(nullptr, scratch.step, scratch.change, scratch, context);
         for (std::size_t r = 0; r < free_.size(); ++r) scratch.residual[r] += scratch.change[r];
@@ -290,7 +288,7 @@ Vec3 RotationSystem::bent_force(const PaddedMat3* transforms, std::span<const Ve
                                 std::span<const Index> vertices, std::span<const Vec4> bent) const {
     std::vector<Vec3> parts(vertices.size());
     energy().descend(transforms, x.data(), bent.data(), vertices.data(), parts.data(), 0,
-                     static_cast<Index>(vertices.size()));
+                     count_of(vertices));
     Vec3 sum = Vec3::Zero();
     for (const Vec3& part : parts) sum += part;
     return sum;
@@ -302,13 +300,12 @@ std::vector<Vec3> RotationSystem::solved_forces(const PaddedMat3* transforms,
                                                 const Context& context) const {
     bend(transforms, x, scratch.bent, context);
     const EnergyLoop loop = energy();
-    const auto count = static_cast<Index>(free_.size());
-    std::vector<std::vector<Vec3>> parts(
-        static_cast<std::size_t>((count + kFrameGrain - 1) / kFrameGrain),
-        std::vector<Vec3>(groups.size(), Vec3::Zero()));
+    const auto count = count_of(free_);
+    std::vector<std::vector<Vec3>> parts(at((count + kFrameGrain - 1) / kFrameGrain),
+                                         std::vector<Vec3>(groups.size(), Vec3::Zero()));
     for_each_block(context, count, [&](Index begin, Index end) {
         std::array<Vec3, kFrameBlock> residual;
-        std::vector<Vec3>& sum = parts[static_cast<std::size_t>(begin / kFrameGrain)];
+        std::vector<Vec3>& sum = parts[begin / kFrameGrain];
         loop.descend(transforms, x.data(), scratch.bent.data(), free_.data() + begin,
                      residual.data(), 0, end - begin);
         for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -332,7 +329,7 @@ void RotationSystem::find_residual(const PaddedMat3* transforms, std::span<const
     bend(transforms, x, scratch.bent, context);
     const EnergyLoop loop = energy();
     residual.resize(free_.size());
-    const auto count = static_cast<Index>(free_.size());
+    const auto count = count_of(free_);
     context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
         loop.descend(transforms, x.data(), scratch.bent.data(), free_.data(), residual.data(),
                      begin, end);

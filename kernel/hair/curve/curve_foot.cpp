@@ -63,7 +63,7 @@ Vec3 point_at_arc_length(std::span<const Vec3> curve, std::span<const double> le
     const auto behind = std::upper_bound(lengths.begin(), lengths.end(), at);
     if (behind == lengths.begin()) return curve.front();
     if (behind == lengths.end()) return curve.back();
-    const auto i = static_cast<std::size_t>(behind - lengths.begin());
+    const std::size_t i = behind - lengths.begin();
     const double t = (at - lengths[i - 1]) / (lengths[i] - lengths[i - 1]);
     return (1.0 - t) * curve[i - 1] + t * curve[i];
 }

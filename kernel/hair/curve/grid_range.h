@@ -16,9 +16,9 @@ void for_grid_points_in(const GridLayout& layout, const Box& box, const Visit& v
     std::array<Index, 3> first{}, end{};
     for (int axis = 0; axis < 3; ++axis) {
         // Clamped before it must fit an Index.
-        const auto cells_below = [&](double at) {
-            const double cell = std::floor((at - layout.origin[axis]) / layout.step);
-            return static_cast<Index>(std::clamp(cell, -1.0, layout.counts[axis] - 1.0)) + 1;
+        const auto cells_below = [&](double coordinate) {
+            const double cell = std::floor((coordinate - layout.origin[axis]) / layout.step);
+            return static_cast<Index>(std::clamp(cell, -1.0, layout.counts[at(axis)] - 1.0)) + 1;
         };
         first[axis] = cells_below(box.min[axis]);
         end[axis] = cells_below(box.max[axis]);

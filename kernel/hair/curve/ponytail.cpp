@@ -152,7 +152,7 @@ template <typename Value>
 double mean(const std::vector<Profile>& profiles, const Value& value) {
     double sum = 0.0;
     for (const Profile& profile : profiles) sum += value(profile);
-    return sum / static_cast<double>(profiles.size());
+    return sum / profiles.size();
 }
 
 // Where the cross sections of a spine are and how wide, by arc length.

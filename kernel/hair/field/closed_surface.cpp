@@ -85,7 +85,7 @@ void add_caps(const Mesh& mesh, ClosedSurface& surface) {
         rim.length += (a - b).norm();
     }
     for (auto& [hole, rim] : rims) {
-        rim.center = static_cast<Index>(surface.positions.size());
+        rim.center = count_of(surface.positions);
         surface.positions.emplace_back(rim.length > 0.0 ? Vec3(rim.sum / rim.length)
                                                         : mesh.position(hole));
     }

@@ -22,7 +22,7 @@ std::optional<SpatialTree> tree_of_caps(const ClosedSurface& surface, const Cont
     std::vector<Vec3> positions;
     FaceList faces;
     for (std::size_t t = surface.first_cap; t < surface.triangles.size(); ++t) {
-        const auto first = static_cast<Index>(positions.size());
+        const auto first = count_of(positions);
         for (const Index v : surface.triangles[t]) positions.push_back(surface.positions[v]);
         faces.add({first, first + 1, first + 2});
     }
@@ -62,7 +62,7 @@ class Lattice {
         for (int axis = 0; axis < 3; ++axis) {
             counts_[axis] = (grid.counts[axis] - 2) / kStride + 2;
         }
-        values_.resize(static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2]);
+        values_.resize(at(counts_[0]) * counts_[1] * counts_[2]);
         context.parallel_for(0, counts_[1] * counts_[2], 1, [&](Index from, Index to) {
             for (Index row = from; row < to; ++row) fill_row(row, surface);
         });
@@ -111,8 +111,7 @@ class Lattice {
         return std::min(lattice * kStride, grid_.counts[axis] - 1);
     }
     std::size_t index(Index i, Index j, Index k) const {
-        return static_cast<std::size_t>(i) + static_cast<std::size_t>(counts_[0]) *
-                                                 (j + static_cast<std::size_t>(counts_[1]) * k);
+        return i + counts_[0] * (j + at(counts_[1]) * k);
     }
 
     void fill_row(Index row, const Surface& surface) {
@@ -152,7 +151,7 @@ DistanceGrid::DistanceGrid(const Mesh& head, const GridLayout& layout,
     : layout_(layout) {
     require_layout(layout, options);
     Progress progress(context, "distance grid");
-    const auto size = static_cast<std::size_t>(layout.size());
+    const std::size_t size = layout.size();
     charge_ = context.charge(size * sizeof(float), "the distance grid");
     const auto flags_charge = context.charge(size, "the inside of the distance grid");
     progress.step(0.2);
@@ -175,7 +174,7 @@ DistanceGrid::DistanceGrid(const Mesh& head, const GridLayout& layout,
                     far ? estimate.value : surface.distance(layout.point(i, j, k), bound);
                 known = far ? kInfinity : distance;
                 const Index at = layout.index(i, j, k);
-                values_[at] = static_cast<float>(inside[at] ? -distance : distance);
+                values_[at] = inside[at] ? -distance : distance;
             }
         }
     });

@@ -31,7 +31,9 @@ class DistanceGrid {
     const GridLayout& layout() const { return layout_; }
     /// One distance a grid point, in the mesh's unit, x fastest.
     std::span<const float> values() const { return values_; }
-    float at(Index i, Index j, Index k) const { return values_[layout_.index(i, j, k)]; }
+    float at(Index i, Index j, Index k) const {
+        return values_[lissom::at(layout_.index(i, j, k))];
+    }
 
     /// Distance at a point, trilinear between grid points. Outside the grid: that of the nearest
     /// point of its box, plus the distance to it. NaN for a point that is.

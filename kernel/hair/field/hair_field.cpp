@@ -30,9 +30,8 @@ std::vector<float> gradients_of(std::span<const float> values, const GridLayout&
                     const Index low = place[axis] > 0 ? 1 : 0,
                                 high = place[axis] + 1 < counts[axis] ? 1 : 0;
                     const Index from = here - low * strides[axis], to = here + high * strides[axis];
-                    gradients[4 * static_cast<std::size_t>(here) + axis] =
-                        (values[at(to)] - values[at(from)]) /
-                        static_cast<float>((low + high) * layout.step);
+                    gradients[4 * at(here) + axis] = (values[at(to)] - values[at(from)]) /
+                                                     static_cast<float>((low + high) * layout.step);
                 }
             }
         }

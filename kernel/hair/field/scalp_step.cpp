@@ -24,10 +24,10 @@ void require_options(const ScalpStepOptions& options) {
 
 // Which grid points have constraints.
 std::vector<bool> constrained_points(const GridField& grid) {
-    std::vector<bool> constrained(static_cast<std::size_t>(grid.size().count()), false);
+    std::vector<bool> constrained(grid.size().count(), false);
     for (const ConstraintOwner owner : grid.constraints().owners()) {
         for (const GridConstraint& c : grid.constraints().of(owner)) {
-            constrained[static_cast<std::size_t>(c.point)] = true;
+            constrained[c.point] = true;
         }
     }
     return constrained;
@@ -42,7 +42,7 @@ Vec3 outward(const DistanceGrid& distances, const std::array<Index, 3>& point) {
         std::array<Index, 3> low = point, high = point;
         low[axis] = std::max(point[axis] - 1, 0);
         high[axis] = std::min(point[axis] + 1, layout.counts[axis] - 1);
-        gradient[static_cast<Index>(axis)] =
+        gradient[index_of(axis)] =
             (distances.at(high[0], high[1], high[2]) - distances.at(low[0], low[1], low[2])) /
             (high[axis] - low[axis]);
     }
@@ -65,9 +65,9 @@ std::vector<GridConstraint> scalp_step(const HairField& field, const ScalpStepOp
     const std::vector<bool> constrained = constrained_points(field.grid());
     std::vector<GridConstraint> result;
     for (Index point = 0; point < layout.size(); ++point) {
-        const float* quad = field.values().data() + 4 * static_cast<std::size_t>(point);
-        const double distance = field.distances().values()[static_cast<std::size_t>(point)];
-        if (!(std::abs(distance) < band) || constrained[static_cast<std::size_t>(point)]) continue;
+        const float* quad = field.values().data() + 4 * at(point);
+        const double distance = field.distances().values()[point];
+        if (!(std::abs(distance) < band) || constrained[point]) continue;
         const GridPoint at = field.grid().size().point(point);
         if (options.where && !options.where(layout.point(at.x, at.y, at.z))) continue;
         const Vec3 normal = outward(field.distances(), {at.x, at.y, at.z});

@@ -33,13 +33,12 @@ class Lowering {
         find_cell(p, corners, weights);
         double value = 0.0, squares = 0.0;
         for (std::size_t c = 0; c < 8; ++c) {
-            value += weights[c] * values_[static_cast<std::size_t>(corners[c])];
+            value += weights[c] * values_[corners[c]];
             squares += weights[c] * weights[c];
         }
         if (!(value > trusted_)) return;
         for (std::size_t c = 0; c < 8; ++c) {
-            values_[static_cast<std::size_t>(corners[c])] -=
-                static_cast<float>(weights[c] * (value - trusted_) / squares);
+            values_[corners[c]] -= static_cast<float>(weights[c] * (value - trusted_) / squares);
         }
     }
 
@@ -69,11 +68,10 @@ class Lowering {
         }
         for (int c = 0; c < 8; ++c) {
             const std::array<int, 3> up{c & 1, (c >> 1) & 1, c >> 2};
-            corners[static_cast<std::size_t>(c)] =
-                layout_.index(cell[0] + up[0], cell[1] + up[1], cell[2] + up[2]);
+            corners[c] = layout_.index(cell[0] + up[0], cell[1] + up[1], cell[2] + up[2]);
             double weight = 1.0;
             for (int axis = 0; axis < 3; ++axis) weight *= up[axis] ? t[axis] : 1.0 - t[axis];
-            weights[static_cast<std::size_t>(c)] = weight;
+            weights[c] = weight;
         }
     }
 
@@ -93,9 +91,7 @@ std::vector<float> collision_distances(const DistanceGrid& distances, const Mesh
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         if (t % kTrianglesPerCheckpoint == 0) context.checkpoint();
         const auto& [a, b, c] = triangles[t];
-        lowering.triangle(positions[static_cast<std::size_t>(a)],
-                          positions[static_cast<std::size_t>(b)],
-                          positions[static_cast<std::size_t>(c)]);
+        lowering.triangle(positions[a], positions[b], positions[c]);
     }
     return lowering.take();
 }

@@ -28,7 +28,7 @@ std::pair<Index, Index> plane_range(double low, double high, double origin, doub
 }
 
 Planes sort_into_planes(const ClosedSurface& surface, const GridLayout& grid) {
-    const auto count = static_cast<std::size_t>(grid.counts[2]);
+    const std::size_t count = grid.counts[2];
     std::vector<std::pair<Index, Index>> ranges;
     Planes planes;
     planes.begin.assign(count + 1, 0);
@@ -44,7 +44,7 @@ Planes sort_into_planes(const ClosedSurface& surface, const GridLayout& grid) {
     std::vector<std::size_t> end = planes.begin;
     for (std::size_t t = 0; t < ranges.size(); ++t) {
         for (Index k = ranges[t].first; k <= ranges[t].second; ++k) {
-            planes.list[end[k]++] = static_cast<Index>(t);
+            planes.list[end[k]++] = index_of(t);
         }
     }
     return planes;
@@ -75,7 +75,7 @@ double crossing_x(const Vec3& a, const Vec3& b, const Vec3& c, double y, double 
 std::vector<std::vector<Crossing>> crossings_of_plane(const ClosedSurface& surface,
                                                       const GridLayout& grid, const Planes& planes,
                                                       Index k) {
-    std::vector<std::vector<Crossing>> rows(static_cast<std::size_t>(grid.counts[1]));
+    std::vector<std::vector<Crossing>> rows(grid.counts[1]);
     const double z = grid.origin.z() + grid.step * k;
     for (std::size_t i = planes.begin[k]; i < planes.begin[k + 1]; ++i) {
         const Triangle& t = surface.triangles[planes.list[i]];
@@ -99,7 +99,7 @@ std::vector<std::vector<Crossing>> crossings_of_plane(const ClosedSurface& surfa
 std::vector<std::uint8_t> inside_flags(const ClosedSurface& surface, const GridLayout& grid,
                                        const Context& context) {
     const Planes planes = sort_into_planes(surface, grid);
-    std::vector<std::uint8_t> inside(static_cast<std::size_t>(grid.size()), 0);
+    std::vector<std::uint8_t> inside(grid.size(), 0);
     // A row that enters an outward triangle (its normal against +x) sees it clockwise.
     const Index direction = surface.volume < 0.0 ? 1 : -1;
     context.parallel_for(0, grid.counts[2], 1, [&](Index from, Index to) {

@@ -81,7 +81,7 @@ void require_options(const GrowthOptions& o, Index head_vertices) {
     require_lengths(o);
     require(o.placement.is_finite() && o.placement.linear.determinant() != 0.0,
             "the placement of hair must be finite and must not flatten it");
-    require(o.length_map.empty() || o.length_map.size() == static_cast<std::size_t>(head_vertices),
+    require(o.length_map.empty() || o.length_map.size() == at(head_vertices),
             "a length map needs one factor for every vertex of the head");
     require(std::all_of(o.length_map.begin(), o.length_map.end(), is_length),
             "factors of a length map must be finite and not negative");
@@ -163,15 +163,15 @@ CutRule cut_rule(const HairCut& cut, const GridLayout& layout) {
 
 GrowthRules rules_of(const GridLayout& layout, const GrowthOptions& options) {
     GrowthRules rules{};
-    rules.segment = static_cast<float>(options.segment);
-    rules.least_speed = static_cast<float>(options.least_speed);
-    rules.least_move = static_cast<float>(least_move(layout, options));
+    rules.segment = options.segment;
+    rules.least_speed = options.least_speed;
+    rules.least_move = least_move(layout, options);
     // Cosines of rounded vectors may lie below -1.
     rules.least_cosine =
         options.greatest_turn < kPi ? static_cast<float>(std::cos(options.greatest_turn)) : -2.0f;
-    rules.lift = static_cast<float>(options.lift);
-    rules.inverse_ramp = static_cast<float>(1.0 / std::max(options.ramp / layout.step, 1e-6));
-    rules.inverse_step = static_cast<float>(1.0 / layout.step);
+    rules.lift = options.lift;
+    rules.inverse_ramp = 1.0 / std::max(options.ramp / layout.step, 1e-6);
+    rules.inverse_step = 1.0 / layout.step;
     rules.avoid = options.avoid;
     rules.spare_tied = options.spare_tied;
     rules.most_segments = options.most_segments;
@@ -188,7 +188,7 @@ QuadGrid grid_of(const HairField& field) {
     QuadGrid grid{
         field.values().data(), field.gradients().data(), counts[0], counts[0] * counts[1], {}};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        grid.last[axis] = static_cast<float>(counts[axis] - 1);
+        grid.last[axis] = counts[axis] - 1;
     }
     return grid;
 }
@@ -229,7 +229,7 @@ class StrandCollector {
     StrandCollector(Index strands, Strands& into, const Context& context)
         : strands_(into), context_(context), count_(strands) {
         strands_.release(points_, offsets_);
-        offsets_.resize(static_cast<std::size_t>(strands) + 1);
+        offsets_.resize(at(strands) + 1);
         offsets_[0] = 0;
     }
 
@@ -263,9 +263,8 @@ Index StrandCollector::list_wave(const GrowthRoots& roots, Index first,
     Index next = first;
     for (const StrandBatch& batch : batches) {
         for (const StrandBatch::Strand& strand : batch.strands) {
-            const auto root = static_cast<std::size_t>(roots.number(next++));
-            wave_[root - static_cast<std::size_t>(first)] =
-                batch.lists[strand.list].data() + strand.first;
+            const std::size_t root = roots.number(next++);
+            wave_[root - first] = batch.lists[strand.list].data() + strand.first;
             offsets_[root + 1] = strand.count;
             ++report.ends[static_cast<std::size_t>(strand.end)];
             if (!report.ties.empty()) report.ties[root] = strand.tie;
@@ -275,21 +274,20 @@ Index StrandCollector::list_wave(const GrowthRoots& roots, Index first,
 }
 
 void StrandCollector::number_points(Index first, Index last) {
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-        const std::size_t end =
-            static_cast<std::size_t>(offsets_[i]) + static_cast<std::size_t>(offsets_[i + 1]);
+    for (std::size_t i = first; i < at(last); ++i) {
+        const std::size_t end = at(offsets_[i]) + offsets_[i + 1];
         require(end <= kMostPoints,
                 "hair has more points than can be numbered; grow fewer or shorter strands, or "
                 "longer segments");
-        offsets_[i + 1] = static_cast<Index>(end);
+        offsets_[i + 1] = index_of(end);
     }
 }
 
 // Room for the first `done` strands, and for the others to come.
 void StrandCollector::make_room(Index done) {
-    const auto needed = 3 * static_cast<std::size_t>(offsets_[static_cast<std::size_t>(done)]);
+    const auto needed = 3 * at(offsets_[done]);
     if (needed <= points_.size()) return;
-    const double all = kSlack * static_cast<double>(needed) * count_ / done;
+    const double all = kSlack * needed * count_ / done;
     const std::size_t size = done == count_ ? needed : static_cast<std::size_t>(all);
     charge_ = {};
     charge_ = context_.charge(size * sizeof(float), "strands");
@@ -302,17 +300,15 @@ void StrandCollector::take(const GrowthRoots& roots, Index first,
     number_points(first, last);
     make_room(last);
     context_.parallel_for(first, last, kCopied, [&](Index begin, Index end) {
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            const auto from = static_cast<std::size_t>(offsets_[i]),
-                       to = static_cast<std::size_t>(offsets_[i + 1]);
-            std::copy_n(wave_[i - static_cast<std::size_t>(first)], 3 * (to - from),
-                        points_.data() + 3 * from);
+        for (std::size_t i = begin; i < at(end); ++i) {
+            const std::size_t from = offsets_[i], to = offsets_[i + 1];
+            std::copy_n(wave_[i - first], 3 * (to - from), points_.data() + 3 * from);
         }
     });
 }
 
 void StrandCollector::finish(const StrandRoots& roots) {
-    points_.resize(3 * static_cast<std::size_t>(offsets_.back()));
+    points_.resize(3 * at(offsets_.back()));
     strands_ = Strands(std::move(points_), std::move(offsets_));
     strands_.set_roots(roots);
 }
@@ -341,7 +337,7 @@ GrowthReport StrandGrower::grow(const HairField& field, const GrowthOptions& opt
     StrandCollector collector(size(), strands, context);
     roots.set_seed(options.seed, context);
     roots.set_length_map(options.length_map, context);
-    if (!options.ties.empty()) collector.report.ties.resize(static_cast<std::size_t>(size()));
+    if (!options.ties.empty()) collector.report.ties.resize(size());
 
     const GrowthRules rules = rules_of(field.layout(), options);
     const QuadGrid grid = grid_of(field);
@@ -351,7 +347,7 @@ GrowthReport StrandGrower::grow(const HairField& field, const GrowthOptions& opt
     for (Index first = 0; first < size(); first += kGrowthWave) {
         const Index last = std::min(size(), first + kGrowthWave);
         context.parallel_for(first, last, kBatchStrands, [&](Index begin, Index end) {
-            const auto number = static_cast<std::size_t>((begin - first) / kBatchStrands);
+            const std::size_t number = (begin - first) / kBatchStrands;
             std::vector<StrandSeed>& seeds = state_->seeds[number];
             seeds.clear();
             for (Index i = begin; i < end; ++i) {
@@ -359,8 +355,7 @@ GrowthReport StrandGrower::grow(const HairField& field, const GrowthOptions& opt
             }
             grow_batch(grid, rules, seeds, loop, state_->batches[number]);
         });
-        const auto grown =
-            static_cast<std::size_t>((last - first + kBatchStrands - 1) / kBatchStrands);
+        const std::size_t grown = (last - first + kBatchStrands - 1) / kBatchStrands;
         collector.take(roots, first, std::span(state_->batches).first(grown));
     }
     collector.finish(roots.strand_roots());

@@ -14,7 +14,7 @@ constexpr Index kGrain = 4096;
 constexpr int kCellBits = 10;
 
 Elements element_of(std::size_t root) {
-    return {ElementKind::row, 1, {static_cast<Index>(root)}};
+    return {ElementKind::row, 1, {index_of(root)}};
 }
 
 void require_roots(const Mesh& head, std::span<const Root> roots) {
@@ -94,16 +94,14 @@ void GrowthRoots::put_in_order(std::span<const Root> roots, const Context& conte
     Box box;
     for (const Root& root : roots) box.extend(root.position);
     numbers_.resize(roots.size());
-    context.parallel_for(0, static_cast<Index>(roots.size()), kGrowthWave,
-                         [&](Index begin, Index end) {
-                             std::vector<std::pair<std::uint64_t, Index>> order;
-                             for (Index i = begin; i < end; ++i) {
-                                 order.emplace_back(morton_code(roots[at(i)].position, box), i);
-                             }
-                             std::sort(order.begin(), order.end());
-                             for (Index i = begin; i < end; ++i)
-                                 numbers_[at(i)] = order[at(i - begin)].second;
-                         });
+    context.parallel_for(0, count_of(roots), kGrowthWave, [&](Index begin, Index end) {
+        std::vector<std::pair<std::uint64_t, Index>> order;
+        for (Index i = begin; i < end; ++i) {
+            order.emplace_back(morton_code(roots[at(i)].position, box), i);
+        }
+        std::sort(order.begin(), order.end());
+        for (Index i = begin; i < end; ++i) numbers_[at(i)] = order[at(i - begin)].second;
+    });
 }
 
 void GrowthRoots::set_seed(std::uint64_t seed, const Context& context) {
@@ -113,7 +111,7 @@ void GrowthRoots::set_seed(std::uint64_t seed, const Context& context) {
     context.parallel_for(0, size(), kGrain, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             const auto random = [&](std::uint64_t stream) {
-                return signed_random(mixed(seed, static_cast<std::uint64_t>(number(i)), stream));
+                return signed_random(mixed(seed, number(i), stream));
             };
             chances_[at(i)] = {static_cast<float>(random(0)), static_cast<float>(random(1)),
                                static_cast<float>(random(2)),
@@ -135,7 +133,7 @@ void GrowthRoots::set_length_map(const std::vector<double>& map, const Context& 
             for (int k = 0; k < 3; ++k) {
                 factor += barycentrics_[at(i)][k] * map[at(triangles_[at(i)][k])];
             }
-            factors[at(i)] = static_cast<float>(factor);
+            factors[at(i)] = factor;
         }
     });
     factors_ = std::move(factors);

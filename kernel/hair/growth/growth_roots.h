@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/scalp/roots.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/mesh/mesh.h"
@@ -34,7 +35,7 @@ class GrowthRoots {
     /// cancelled.
     GrowthRoots(const Mesh& head, std::span<const Root> roots, const Context& context);
 
-    Index size() const { return static_cast<Index>(numbers_.size()); }
+    Index size() const { return count_of(numbers_); }
     Index number(Index i) const { return numbers_[at(i)]; }
     const Vec3& position(Index i) const { return positions_[at(i)]; }
     const Eigen::Vector3f& normal(Index i) const { return normals_[at(i)]; }
@@ -51,7 +52,6 @@ class GrowthRoots {
     void set_length_map(const std::vector<double>& map, const Context& context);
 
   private:
-    static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
     void put_in_order(std::span<const Root> roots, const Context& context);
 
     Index head_vertices_ = 0;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "kernel/core/index.h"
 #include "kernel/hair/growth/growth_lanes.h"
 #include "kernel/hair/growth/growth_loops.h"
 
@@ -66,7 +67,7 @@ inline void set(Floats3& v, int k, const Eigen::Vector3f& to) {
     v.z[k] = to[2];
 }
 
-inline Eigen::Vector3f at(const Floats3& v, int k) {
+inline Eigen::Vector3f get(const Floats3& v, int k) {
     return {v.x[k], v.y[k], v.z[k]};
 }
 
@@ -150,9 +151,8 @@ class LaneGrower {
     // distance along y and z as the last two of four numbers.
     LISSOM_INLINE void read(std::int32_t cell, float ty, float tz, EightFloats& quads,
                             EightFloats& slopes) const {
-        const float* from = grid_.values + 4 * static_cast<std::size_t>(cell);
-        const std::size_t nx = 4 * static_cast<std::size_t>(grid_.nx),
-                          nxy = 4 * static_cast<std::size_t>(grid_.nxy);
+        const float* from = grid_.values + 4 * at(cell);
+        const std::size_t nx = 4 * at(grid_.nx), nxy = 4 * at(grid_.nxy);
         const EightFloats a = load(from), b = load(from + nx);
         const EightFloats low_z = load(from + nxy) - a, high_z = load(from + nxy + nx) - b;
         const EightFloats low = a + tz * low_z, along_y = (b + tz * high_z) - low;
@@ -189,11 +189,10 @@ class LaneGrower {
         std::memcpy(cells, &cell_, sizeof(cells));
         std::memcpy(ty, &place_.y, sizeof(ty));
         std::memcpy(tz, &place_.z, sizeof(tz));
-        const std::size_t nx = 4 * static_cast<std::size_t>(grid_.nx),
-                          nxy = 4 * static_cast<std::size_t>(grid_.nxy);
+        const std::size_t nx = 4 * at(grid_.nx), nxy = 4 * at(grid_.nxy);
         EightFloats gradients[kLanes];
         for (int k = 0; k < kLanes; ++k) {
-            const float* from = grid_.gradients + 4 * static_cast<std::size_t>(cells[k]);
+            const float* from = grid_.gradients + 4 * at(cells[k]);
             const EightFloats a = load(from), b = load(from + nx);
             const EightFloats low = a + tz[k] * (load(from + nxy) - a),
                               high = b + tz[k] * (load(from + nxy + nx) - b);
@@ -250,9 +249,9 @@ class LaneGrower {
                     const Ints& passes, const Floats& share) {
         for (int k = 0; k < kLanes; ++k) {
             if (!passes[k]) continue;
-            const Eigen::Vector3f off = at(at_, k) + share[k] * at(next.way, k) - tie.center;
+            const Eigen::Vector3f off = get(at_, k) + share[k] * get(next.way, k) - tie.center;
             if (off.squaredNorm() > tie.square_radius) continue;
-            tie_[k] = static_cast<std::int32_t>(number);
+            tie_[k] = index_of(number);
             tail_length_[k] = tie.tail_length * (1.0f - tie.ragged * tail_[k]);
             length_[k] = grown_[k] + share[k] * next.length[k] + tail_length_[k];
             plane_[k] = 0;
@@ -265,20 +264,20 @@ class LaneGrower {
         const Ints tied = next.go & no(tie_ < all(0));
         if (!any(tied)) return;
         for (int k = 0; k < kLanes; ++k) {
-            if (tied[k]) pass_planes(rules_.ties[static_cast<std::size_t>(tie_[k])], next, k);
+            if (tied[k]) pass_planes(rules_.ties[tie_[k]], next, k);
         }
     }
 
     void pass_planes(const TieRule& tie, const Segments& next, int k) {
-        for (auto i = static_cast<std::size_t>(plane_[k]); i < tie.planes.size(); ++i) {
+        for (std::size_t i = plane_[k]; i < tie.planes.size(); ++i) {
             const TailPlane& plane = tie.planes[i];
             if (plane.behind >= tail_length_[k]) return;
-            const float after = plane.direction.dot(at(to_, k) - plane.center);
+            const float after = plane.direction.dot(get(to_, k) - plane.center);
             if (after < 0.0f) return;
-            const float before = plane.direction.dot(at(at_, k) - plane.center);
+            const float before = plane.direction.dot(get(at_, k) - plane.center);
             const float share = before < 0.0f ? before / (before - after) : 0.0f;
             length_[k] = grown_[k] + share * next.length[k] + (tail_length_[k] - plane.behind);
-            plane_[k] = static_cast<std::int32_t>(i) + 1;
+            plane_[k] = index_of(i) + 1;
         }
     }
 
@@ -345,9 +344,9 @@ class LaneGrower {
         Floats3 normal{};
         for (std::size_t k = 0; k < count; ++k) {
             const StrandSeed& seed = seeds_[first + k];
-            set(to_, static_cast<int>(k), seed.at);
-            set(normal, static_cast<int>(k), seed.normal);
-            length_[static_cast<int>(k)] = seed.length;
+            set(to_, index_of(k), seed.at);
+            set(normal, index_of(k), seed.normal);
+            length_[index_of(k)] = seed.length;
         }
         locate();
         const Floats3 v = read_all().vector;
@@ -358,8 +357,8 @@ class LaneGrower {
         to_ = sum(to_, scaled(lifted, scale));
         const Ints end = ends_of_roots(root(dot(v, v)), speed);
         for (std::size_t k = 0; k < count; ++k) {
-            const int lane = static_cast<int>(k);
-            sprouts_[first + k] = {at(to_, lane), end[lane]};
+            const int lane = index_of(k);
+            sprouts_[first + k] = {get(to_, lane), end[lane]};
         }
     }
 
@@ -394,7 +393,7 @@ class LaneGrower {
         if (any(full)) enlarge_lanes(full);
     }
 
-    std::vector<float>& list(int k) { return batch_.lists[static_cast<std::size_t>(k)]; }
+    std::vector<float>& list(int k) { return batch_.lists[k]; }
 
     void enlarge_lanes(const Ints& full) {
         for (int k = 0; k < kLanes; ++k) {
@@ -406,15 +405,15 @@ class LaneGrower {
 
     // Room for the beginning of a strand behind those that are done.
     void make_room(int k) {
-        const std::size_t needed = starts_[static_cast<std::size_t>(k)] + 3 * kFirstBuffer;
+        const std::size_t needed = starts_[k] + 3 * kFirstBuffer;
         if (list(k).size() < needed) list(k).resize(2 * needed);
         place_strand(k);
     }
 
     void place_strand(int k) {
-        const std::size_t start = starts_[static_cast<std::size_t>(k)];
+        const std::size_t start = starts_[k];
         ends_[k] = list(k).data() + start + 3;
-        capacity_[k] = static_cast<std::int32_t>((list(k).size() - start) / 3) - 3;
+        capacity_[k] = index_of((list(k).size() - start) / 3) - 3;
     }
 
     void end_lanes(const Ints& end) {
@@ -428,10 +427,10 @@ class LaneGrower {
 
     void record(int k, std::int32_t end) {
         const Index count = segments_[k] + 1;
-        const auto lane = static_cast<std::size_t>(k);
+        const std::size_t lane = k;
         batch_.strands[seed_of_[k]] = {lane, starts_[lane], count, tie_[k],
                                        static_cast<StrandEnd>(end - 1)};
-        starts_[lane] += 3 * static_cast<std::size_t>(count);
+        starts_[lane] += 3 * at(count);
         make_room(k);
     }
 

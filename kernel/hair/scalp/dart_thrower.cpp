@@ -43,7 +43,7 @@ class PointTable {
         Index& head = heads_[slot(cell_of(p))];
         next_.push_back(head);
         points_.push_back(p);
-        head = static_cast<Index>(next_.size()) - 1;
+        head = count_of(next_) - 1;
     }
 
     bool any_within(const Vec3& p, double radius) const {
@@ -75,7 +75,7 @@ class PointTable {
 
     // From `x` to a cell's side, along an axis.
     double gap(std::int64_t cell, double x) const {
-        const double low = static_cast<double>(cell) / cells_;
+        const double low = cell / cells_;
         return std::max({low - x, x - low - 1.0 / cells_, 0.0});
     }
 
@@ -106,11 +106,10 @@ class DartThrower {
 
     std::vector<Root> run() {
         Progress progress(context_, "roots");
-        roots_.reserve(static_cast<std::size_t>(options_.count));
+        roots_.reserve(options_.count);
         while (missing() > 0) {
-            progress.update(static_cast<double>(roots_.size()) / options_.count);
-            radius_ = shrink_ * kRadius *
-                      std::sqrt(surface_.mass() / static_cast<double>(roots_.size() + 1));
+            progress.update(roots_.size(), options_.count);
+            radius_ = shrink_ * kRadius * std::sqrt(surface_.mass() / (roots_.size() + 1));
             if (roots_.empty() || table_.full()) table_.reset(roots_, radius_);
             throw_round();
         }
@@ -118,23 +117,21 @@ class DartThrower {
     }
 
   private:
-    std::size_t missing() const { return static_cast<std::size_t>(options_.count) - roots_.size(); }
+    std::size_t missing() const { return options_.count - roots_.size(); }
 
     void throw_round() {
-        const auto known = static_cast<Index>(roots_.size());
+        const auto known = count_of(roots_);
         const Index darts = std::clamp(known / 2, kFewestDarts, kMostDarts);
         find_triangles(darts);
         find_room(by_triangle(darts));
         for (Index i = 0; i < darts && missing() > 0; ++i) {
             if (triangle_[i] != kNone) place(i);
         }
-        if (static_cast<Index>(roots_.size()) - known < darts / kLeastShare) shrink_ *= kShrink;
-        thrown_ += static_cast<std::uint64_t>(darts);
+        if (count_of(roots_) - known < darts / kLeastShare) shrink_ *= kShrink;
+        thrown_ += darts;
     }
 
-    CountedRandom random_of(Index dart) const {
-        return {options_.seed, thrown_ + static_cast<std::uint64_t>(dart)};
-    }
+    CountedRandom random_of(Index dart) const { return {options_.seed, thrown_ + dart}; }
 
     double radius_at(double density) const {
         return radius_ / std::sqrt(std::max(density, kLeastDensity));
@@ -142,7 +139,7 @@ class DartThrower {
 
     // The triangle that each dart falls on, or kNone where it is lost to a lower density.
     void find_triangles(Index darts) {
-        triangle_.resize(static_cast<std::size_t>(darts));
+        triangle_.resize(darts);
         context_.parallel_for(0, darts, 2048, [&](Index from, Index to) {
             for (Index i = from; i < to; ++i) {
                 CountedRandom random = random_of(i);
@@ -156,12 +153,12 @@ class DartThrower {
     // Darts that are not lost, those of a triangle together, so that what is near in space is near
     // in time.
     std::vector<Index> by_triangle(Index darts) const {
-        std::vector<Index> begin(static_cast<std::size_t>(surface_.triangle_count()) + 1, 0);
+        std::vector<Index> begin(at(surface_.triangle_count()) + 1, 0);
         for (Index i = 0; i < darts; ++i) {
             if (triangle_[i] != kNone) ++begin[triangle_[i] + 1];
         }
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        std::vector<Index> order(static_cast<std::size_t>(begin.back()));
+        std::vector<Index> order(begin.back());
         for (Index i = 0; i < darts; ++i) {
             if (triangle_[i] != kNone) order[begin[triangle_[i]]++] = i;
         }
@@ -170,7 +167,7 @@ class DartThrower {
 
     // Takes out the darts that are too near to the roots of earlier rounds.
     void find_room(const std::vector<Index>& order) {
-        context_.parallel_for(0, static_cast<Index>(order.size()), 2048, [&](Index from, Index to) {
+        context_.parallel_for(0, count_of(order), 2048, [&](Index from, Index to) {
             for (Index i = from; i < to; ++i) {
                 CountedRandom random = random_of(order[i]);
                 const RootSurface::Dart dart = surface_.random_dart(random);

@@ -108,7 +108,7 @@ void require_hairline(const std::vector<HairlinePoint>& hairline) {
 
 std::vector<double> margins_of_hairline(const Mesh& head, const std::vector<Vec3>& normals,
                                         const HairlineTest& test) {
-    std::vector<double> margins(static_cast<std::size_t>(head.vertex_count()), -kMost);
+    std::vector<double> margins(head.vertex_count(), -kMost);
     std::vector<char> inside(margins.size(), 0);
     Index top = kNoIndex;
     double height = 0.0;
@@ -130,7 +130,7 @@ std::vector<double> margins_of_hairline(const Mesh& head, const std::vector<Vec3
 }
 
 std::vector<double> margins_of_region(const Mesh& head, const Region& region, double softness) {
-    std::vector<double> margins(static_cast<std::size_t>(head.vertex_count()), -kMost);
+    std::vector<double> margins(head.vertex_count(), -kMost);
     const std::vector<char> in = region.mask();
     std::vector<Index> outline;
     for (const Index v : region.vertices()) {

@@ -30,7 +30,7 @@ struct Part {
 
 Part part_of(const Mesh& mesh, const std::vector<Index>& vertices) {
     Part part;
-    std::vector<char> in(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    std::vector<char> in(mesh.vertex_count(), 0);
     for (const Index v : vertices) {
         in[v] = 1;
         part.points.push_back(mesh.position(v));
@@ -116,7 +116,7 @@ double roughness_of(const Slice& slice) {
         const Vec2 d = 2.0 * (p - slice.center());
         sum += std::abs(std::hypot(d.x() / slice.width(), d.y() / slice.length()) - 1.0);
     }
-    return 0.5 * sum / static_cast<double>(slice.points.size());
+    return 0.5 * sum / slice.points.size();
 }
 
 // Mean distance of the points of the head to the mirror image of its surface, in widths.
@@ -129,7 +129,7 @@ double asymmetry_of(const Part& part, const SpatialTree& tree, const HeadFrame& 
     if (near.empty()) return 1.0;
     double sum = 0.0;
     for (int i = 0; i < kMirrorSamples; ++i) {
-        const Vec3& q = near[near.size() * static_cast<std::size_t>(i) / kMirrorSamples];
+        const Vec3& q = near[near.size() * i / kMirrorSamples];
         sum += tree.nearest(frame.world(Vec3(-q.x(), q.y(), q.z()))).distance;
     }
     return sum / (kMirrorSamples * frame.width);
@@ -365,11 +365,11 @@ std::vector<Mat3> slanted_axes(const Landmarks& landmarks) {
 std::vector<Index> largest_component(const Mesh& mesh) {
     const std::vector<Index>& component = mesh.topology().components();
     const std::vector<double> areas = face_areas(mesh);
-    std::vector<double> sum(static_cast<std::size_t>(mesh.topology().component_count()), 0.0);
+    std::vector<double> sum(mesh.topology().component_count(), 0.0);
     for (Index f = 0; f < mesh.face_count(); ++f) {
         sum[component[mesh.topology().face(f)[0]]] += areas[f];
     }
-    const auto largest = static_cast<Index>(std::max_element(sum.begin(), sum.end()) - sum.begin());
+    const auto largest = index_of(std::max_element(sum.begin(), sum.end()) - sum.begin());
     std::vector<Index> vertices;
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         if (component[v] == largest) vertices.push_back(v);

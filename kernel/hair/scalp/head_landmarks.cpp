@@ -11,9 +11,9 @@ namespace {
 Spot spot_of(const Mesh& mesh, std::span<const Index> vertices) {
     Spot spot;
     for (const Index v : vertices) spot.center += mesh.position(v);
-    spot.center /= static_cast<double>(vertices.size());
+    spot.center /= vertices.size();
     for (const Index v : vertices) spot.radius += (mesh.position(v) - spot.center).norm();
-    spot.radius /= static_cast<double>(vertices.size());
+    spot.radius /= vertices.size();
     return spot;
 }
 
@@ -22,11 +22,11 @@ constexpr std::size_t kMostSpots = 400;
 
 std::vector<Spot> components_beside(const Mesh& mesh, Index largest) {
     const std::vector<Index>& component = mesh.topology().components();
-    const auto count = static_cast<std::size_t>(mesh.topology().component_count());
+    const std::size_t count = mesh.topology().component_count();
     if (count > kMostSpots) return {};
     std::vector<std::vector<Index>> vertices(count);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
-        if (component[v] != largest) vertices[static_cast<std::size_t>(component[v])].push_back(v);
+        if (component[v] != largest) vertices[component[v]].push_back(v);
     }
     std::vector<Spot> spots;
     for (const std::vector<Index>& list : vertices) {
@@ -75,11 +75,11 @@ Landmarks landmarks_of(const Mesh& mesh, const std::vector<Index>& part, double 
     // A neck is about as long as this, in roots of the area.
     constexpr double kLeastOpening = 1.0;
     Landmarks found;
-    const Index component = mesh.topology().components()[static_cast<std::size_t>(part.front())];
+    const Index component = mesh.topology().components()[part.front()];
     std::vector<Spot> openings;
     const std::vector<Index>* greatest = nullptr;
     for (const std::vector<Index>& loop : mesh.topology().boundary_loops()) {
-        if (mesh.topology().components()[static_cast<std::size_t>(loop.front())] != component) {
+        if (mesh.topology().components()[loop.front()] != component) {
             continue;
         }
         openings.push_back(spot_of(mesh, loop));

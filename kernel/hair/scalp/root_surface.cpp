@@ -10,7 +10,7 @@ namespace {
 
 std::vector<double> relative_density(const Mesh& head, const Scalp& scalp,
                                      const std::vector<double>& density) {
-    const auto count = static_cast<std::size_t>(head.vertex_count());
+    const std::size_t count = head.vertex_count();
     if (density.empty()) return std::vector<double>(count, 1.0);
     if (density.size() != count) {
         throw Error(ErrorCode::invalid_argument,
@@ -19,7 +19,7 @@ std::vector<double> relative_density(const Mesh& head, const Scalp& scalp,
     }
     Elements bad{ElementKind::vertex, 0, {}};
     for (std::size_t v = 0; v < count; ++v) {
-        if (!(density[v] >= 0.0 && std::isfinite(density[v]))) bad.add(static_cast<Index>(v));
+        if (!(density[v] >= 0.0 && std::isfinite(density[v]))) bad.add(index_of(v));
     }
     if (bad.count > 0) {
         throw Error(ErrorCode::not_finite,
@@ -46,7 +46,7 @@ RootSurface::RootSurface(const Mesh& head, const Scalp& scalp, const RootOptions
       scalp_(scalp),
       density_(relative_density(head, scalp, options.density)),
       triangles_(triangulate_faces(head.topology(), head.positions(), scalp.root_faces())),
-      on_scalp_(static_cast<std::size_t>(head.face_count()), 0) {
+      on_scalp_(head.face_count(), 0) {
     for (const Index f : scalp.root_faces()) on_scalp_[f] = 1;
     std::vector<double> areas;
     for (const Triangle& t : triangles_.triangles) areas.push_back(triangle_area(head, t));
@@ -67,7 +67,7 @@ RootSurface::RootSurface(const Mesh& head, const Scalp& scalp, const RootOptions
 }
 
 void RootSurface::build_alias_table(const std::vector<double>& areas) {
-    const auto count = static_cast<Index>(areas.size());
+    const auto count = count_of(areas);
     double total = 0.0;
     for (const double area : areas) total += area;
     if (!(total > 0.0)) throw Error(ErrorCode::region_empty, "the scalp has no area");
@@ -92,9 +92,9 @@ void RootSurface::build_alias_table(const std::vector<double>& areas) {
 }
 
 Index RootSurface::random_triangle(CountedRandom& random) const {
-    const double at = random.uniform() * static_cast<double>(keep_.size());
+    const double at = random.uniform() * keep_.size();
     const auto slot = std::min(static_cast<std::size_t>(at), keep_.size() - 1);
-    return at - static_cast<double>(slot) < keep_[slot] ? static_cast<Index>(slot) : alias_[slot];
+    return at - slot < keep_[slot] ? index_of(slot) : alias_[slot];
 }
 
 RootSurface::Dart RootSurface::random_dart(CountedRandom& random) const {

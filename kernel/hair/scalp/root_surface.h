@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/hair/scalp/roots.h"
 
 namespace lissom {
@@ -47,7 +48,7 @@ class RootSurface {
         Vec3 barycentric = Vec3::Zero();
     };
     Dart random_dart(CountedRandom& random) const;
-    Index triangle_count() const { return static_cast<Index>(triangles_.triangles.size()); }
+    Index triangle_count() const { return count_of(triangles_.triangles); }
     Vec3 position(const Dart& dart) const;
     /// Relative to the largest, 0 to 1.
     double density(const Dart& dart) const;

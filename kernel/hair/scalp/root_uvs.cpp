@@ -16,7 +16,7 @@ Vec2 uv_at(const Mesh& head, const Attribute& uv, Index face, Index vertex) {
     if (uv.domain == Domain::corner) {
         const auto corners = head.topology().face(face);
         const auto found = std::find(corners.begin(), corners.end(), vertex);
-        element = head.topology().first_corner(face) + static_cast<Index>(found - corners.begin());
+        element = head.topology().first_corner(face) + index_of(found - corners.begin());
     }
     return {uv.at(element)[0], uv.at(element)[1]};
 }

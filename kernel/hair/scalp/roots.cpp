@@ -26,8 +26,7 @@ Vec2 grid_point(std::uint32_t n, std::uint64_t seed) {
     x ^= random.bits() >> 32;
     y ^= random.bits() >> 32;
     CountedRandom within(seed, 1 + static_cast<std::uint64_t>(n));
-    return {(static_cast<double>(x) + within.uniform()) * 0x1p-32,
-            (static_cast<double>(y) + within.uniform()) * 0x1p-32};
+    return {(x + within.uniform()) * 0x1p-32, (y + within.uniform()) * 0x1p-32};
 }
 
 class AngleSampler {
@@ -39,17 +38,16 @@ class AngleSampler {
     std::vector<Root> run() {
         Progress progress(context_, "roots");
         std::vector<Root> roots;
-        roots.reserve(static_cast<std::size_t>(options_.count));
+        roots.reserve(options_.count);
         std::vector<std::optional<Root>> batch(kBatch);
-        for (std::uint32_t first = 0; static_cast<Index>(roots.size()) < options_.count;
-             first += kBatch) {
-            progress.update(static_cast<double>(roots.size()) / options_.count);
+        for (std::uint32_t first = 0; count_of(roots) < options_.count; first += kBatch) {
+            progress.update(roots.size(), options_.count);
             require_progress(first, roots.size());
             context_.parallel_for(0, kBatch, 256, [&](Index from, Index to) {
                 for (Index i = from; i < to; ++i) batch[i] = root_of(first + i);
             });
             for (const std::optional<Root>& root : batch) {
-                if (root && static_cast<Index>(roots.size()) < options_.count) {
+                if (root && count_of(roots) < options_.count) {
                     roots.push_back(*root);
                 }
             }
@@ -102,13 +100,12 @@ std::vector<Root> make_roots(const Mesh& head, const Scalp& scalp, const RootOpt
                                                  std::to_string(kMaximumRoots) + ", not " +
                                                  std::to_string(options.count));
     }
-    const auto charge =
-        context.charge(static_cast<std::size_t>(options.count) * 2 * sizeof(Root), "roots");
+    const auto charge = context.charge(at(options.count) * 2 * sizeof(Root), "roots");
     const RootSurface surface(head, scalp, options);
     std::vector<Root> roots = options.pattern == RootPattern::poisson
                                   ? throw_darts(surface, options, context)
                                   : AngleSampler(scalp, surface, options, context).run();
-    context.parallel_for(0, static_cast<Index>(roots.size()), 4096, [&](Index from, Index to) {
+    context.parallel_for(0, count_of(roots), 4096, [&](Index from, Index to) {
         for (Index i = from; i < to; ++i) {
             roots[i].normal = scalp.normal_at(roots[i].triangle, roots[i].barycentric);
         }

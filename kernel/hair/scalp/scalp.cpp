@@ -78,9 +78,7 @@ Scalp::Scalp(const Mesh& head, const ScalpOptions& options, const Context& conte
       region_(Region::none(head.shared_topology())),
       normals_(vertex_normals(head)),
       tree_(head, context) {
-    charge_ = context.charge(
-        static_cast<std::size_t>(head.vertex_count()) * (sizeof(Vec3) + sizeof(double)),
-        "the scalp");
+    charge_ = context.charge(head.vertex_count() * (sizeof(Vec3) + sizeof(double)), "the scalp");
     knows_unit_ = options.unit || usual_unit(frame_.width);
     choose_region(head, options);
     if (region_.empty() || root_faces_.empty()) {

@@ -51,7 +51,7 @@ std::vector<Index> guide_strands(const Strands& strands, Index count) {
     const auto lower = [&](Index a, Index b) {
         return std::pair(strands.id(a), a) < std::pair(strands.id(b), b);
     };
-    const auto last = list.begin() + std::min(count, static_cast<Index>(list.size()));
+    const auto last = list.begin() + std::min(count, count_of(list));
     std::partial_sort(list.begin(), last, list.end(), lower);
     list.erase(last, list.end());
     return list;

@@ -137,10 +137,10 @@ std::vector<std::uint32_t> joined_ids(const Strands& a, const Strands& b) {
 void join_groups(const Strands& a, const Strands& b, Strands& result) {
     std::vector<std::string> names = a.group_names();
     std::unordered_map<std::string, Index> places;
-    for (std::size_t i = 0; i < names.size(); ++i) places.emplace(names[i], static_cast<Index>(i));
+    for (std::size_t i = 0; i < names.size(); ++i) places.emplace(names[i], index_of(i));
     std::vector<Index> place;
     for (const std::string& name : b.group_names()) {
-        const auto [found, added] = places.emplace(name, static_cast<Index>(names.size()));
+        const auto [found, added] = places.emplace(name, count_of(names));
         if (added) names.push_back(name);
         place.push_back(found->second);
     }
@@ -179,7 +179,7 @@ double scale_of(const Affine& map) {
 
 void scale_widths(Strands& strands, double scale) {
     StrandWidths widths = strands.widths();
-    widths.common = static_cast<float>(widths.common * scale);
+    widths.common = widths.common * scale;
     for (float& width : widths.values) width = static_cast<float>(width * scale);
     strands.set_widths(std::move(widths));
 }
@@ -206,7 +206,7 @@ Strands select(const Strands& strands, std::span<const Index> list) {
     for (const Index s : list) {
         require_strand(strands, s);
         total += at(strands.point_count(s));
-        offsets.push_back(static_cast<Index>(total));
+        offsets.push_back(index_of(total));
     }
     if (total > at(std::numeric_limits<Index>::max())) {
         throw Error(ErrorCode::invalid_argument, "the list has more points than can be numbered");

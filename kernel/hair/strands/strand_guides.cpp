@@ -67,7 +67,7 @@ GuideKey guide_key(const StrandView& strand, double apart) {
 
 GuideTree::GuideTree(std::vector<GuideKey> keys) : keys_(std::move(keys)), order_(keys_.size()) {
     std::iota(order_.begin(), order_.end(), 0);
-    build(0, static_cast<Index>(order_.size()), 0);
+    build(0, count_of(order_), 0);
 }
 
 void GuideTree::build(Index begin, Index end, int axis) {
@@ -99,7 +99,7 @@ void GuideTree::search(const GuideKey& key, Index begin, Index end, int axis, Be
 
 Index GuideTree::nearest(const GuideKey& key) const {
     Best best{std::numeric_limits<double>::infinity(), kNoIndex};
-    search(key, 0, static_cast<Index>(order_.size()), 0, best);
+    search(key, 0, count_of(order_), 0, best);
     return best.guide;
 }
 
@@ -119,7 +119,7 @@ GuideCurve::GuideCurve(const StrandView& strand) {
 GuideCurve::Point GuideCurve::at(double t) const {
     if (points_.size() == 1) return {points_.front(), frames_.front()};
     const StrandPlace place = place_at(t_, t);
-    const std::size_t below = static_cast<std::size_t>(place.below);
+    const std::size_t below = place.below;
     const Vec3& p = points_[below];
     const Vec3 position = p + place.u * (points_[below + 1] - p);
     const Mat3 &a = frames_[below], &b = frames_[below + 1];

@@ -59,7 +59,7 @@ class Collector {
     void add(Index s, const StrandView& strand) {
         StrandStatistics one;
         one.strands = 1;
-        one.points = one.least_points = one.most_points = static_cast<Index>(strand.cols());
+        one.points = one.least_points = one.most_points = index_of(strand.cols());
         if (strand.allFinite()) {
             measure(s, strand, one);
         } else {
@@ -160,10 +160,10 @@ double length(const StrandView& strand) {
 }
 
 void arc_fractions(const StrandView& strand, std::vector<double>& t) {
-    const auto count = static_cast<std::size_t>(strand.cols());
+    const std::size_t count = strand.cols();
     t.assign(count, 0.0);
     for (std::size_t k = 1; k < count; ++k) {
-        const auto i = static_cast<Index>(k);
+        const auto i = index_of(k);
         t[k] = t[k - 1] + (point(strand, i) - point(strand, i - 1)).norm();
     }
     const double whole = t.back();
@@ -175,9 +175,9 @@ void arc_fractions(const StrandView& strand, std::vector<double>& t) {
 void widths_of(const Strands& strands, Index s, std::vector<float>& widths) {
     const StrandWidths& source = strands.widths();
     const Index first = strands.first_point(s);
-    widths.resize(static_cast<std::size_t>(strands.point_count(s)));
+    widths.resize(strands.point_count(s));
     for (std::size_t k = 0; k < widths.size(); ++k) {
-        widths[k] = source.at(s, first + static_cast<Index>(k));
+        widths[k] = source.at(s, first + index_of(k));
     }
     if (source.profile.empty()) return;
     std::vector<double> t;
@@ -199,12 +199,11 @@ StrandStatistics strand_statistics(const Strands& strands, const StrandStatistic
                                    const Context& context) {
     Progress progress(context, "measure strands");
     const Index count = strands.size();
-    std::vector<StrandStatistics> parts(
-        static_cast<std::size_t>((count + kMeasureGrain - 1) / kMeasureGrain));
+    std::vector<StrandStatistics> parts((count + kMeasureGrain - 1) / kMeasureGrain);
     context.parallel_for(0, count, kMeasureGrain, [&](Index begin, Index end) {
         Collector part(options);
         for (Index s = begin; s < end; ++s) part.add(s, strands.strand(s));
-        parts[static_cast<std::size_t>(begin / kMeasureGrain)] = part.sum();
+        parts[begin / kMeasureGrain] = part.sum();
     });
     Collector whole(options);
     for (const StrandStatistics& part : parts) whole.add(part);

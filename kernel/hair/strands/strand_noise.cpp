@@ -60,7 +60,7 @@ void require_noise(const NoiseOptions& options) {
 
 // The direction of a strand at one of its points; zero where its neighbours coincide.
 Vec3 direction_at(const StrandView& strand, Index k) {
-    const Index next = std::min(k + 1, static_cast<Index>(strand.cols()) - 1);
+    const Index next = std::min(k + 1, index_of(strand.cols()) - 1);
     const Vec3 along = (strand.col(next) - strand.col(k - 1)).cast<double>();
     const double size = along.norm();
     return size > 0.0 ? Vec3(along / size) : Vec3::Zero();
@@ -72,7 +72,7 @@ class Deviations {
     Deviations(const StrandView& strand, const NoiseOptions& options)
         : strand_(strand), options_(options), length_(length(strand)) {
         arc_fractions(strand, t_);
-        usual_ = 1.0 / static_cast<double>(t_.size() - 1);
+        usual_ = 1.0 / (t_.size() - 1);
         root_ = strand.col(0).cast<double>() / options.across;
         at_root_ = sample(0.0);
     }
@@ -80,7 +80,7 @@ class Deviations {
     void add_to(StrandEdit& made) const {
         Vec3 sum = Vec3::Zero(), deviation = Vec3::Zero();
         for (Index k = 1; k < strand_.cols(); ++k) {
-            const auto i = static_cast<std::size_t>(k);
+            const std::size_t i = k;
             const Vec3 wanted =
                 std::pow(t_[i], options_.shape) * (sample(t_[i] * length_) - at_root_);
             sum = options_.cumulative ? Vec3(sum + (t_[i] - t_[i - 1]) * wanted) : wanted;
@@ -121,7 +121,7 @@ Vec3 smooth_noise(const Vec3& place, std::uint64_t seed) {
     Vec3 inside, fade;
     for (int k = 0; k < 3; ++k) {
         const double floor = std::floor(place[k]);
-        cell[static_cast<std::size_t>(k)] = cell_of(floor);
+        cell[k] = cell_of(floor);
         inside[k] = place[k] - floor;
         fade[k] = fade_curve(inside[k]);
     }

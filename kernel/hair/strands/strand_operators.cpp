@@ -53,7 +53,7 @@ void taper(Strands& strands, const TaperOptions& options) {
     std::vector<float> profile(std::max(kProfileSamples, widths.profile.size()));
     for (std::size_t i = 0; i < profile.size(); ++i) {
         const double t = double(i) / double(profile.size() - 1);
-        profile[i] = static_cast<float>(widths.factor(t) * taper_at(t, options));
+        profile[i] = widths.factor(t) * taper_at(t, options);
     }
     widths.profile = std::move(profile);
     strands.set_widths(std::move(widths));

@@ -33,7 +33,7 @@ constexpr std::array<UsualUnit, 6> kUsualUnits = {{{1.0, "metres"},
 double spread(const std::vector<Vec3>& points) {
     Vec3 center = Vec3::Zero();
     for (const Vec3& p : points) center += p;
-    center /= static_cast<double>(points.size());
+    center /= points.size();
     double sum = 0.0;
     for (const Vec3& p : points) sum += (p - center).squaredNorm();
     return std::sqrt(sum);
@@ -46,8 +46,7 @@ std::optional<Vec3> place_on(const Mesh& mesh, Index face, const Eigen::Vector3f
     const auto corners = mesh.topology().face(face);
     Vec3 place = Vec3::Zero();
     for (int i = 0; i < 3; ++i) {
-        place += static_cast<double>(barycentric[i]) *
-                 mesh.position(corners[static_cast<std::size_t>(i)]);
+        place += static_cast<double>(barycentric[i]) * mesh.position(corners[i]);
     }
     return place;
 }
@@ -60,7 +59,7 @@ std::optional<double> unit_of_roots(const Strands& strands, const Mesh& mesh) {
     const std::size_t stride = std::max(roots.faces.size() / kLookedAt, std::size_t{1});
     for (std::size_t s = 0; s < roots.faces.size(); s += stride) {
         const auto place = place_on(mesh, roots.faces[s], roots.barycentrics[s]);
-        const Vec3 point = strands.root(static_cast<Index>(s)).cast<double>();
+        const Vec3 point = strands.root(index_of(s)).cast<double>();
         if (!place) return std::nullopt;
         if (!point.allFinite()) continue;
         places.push_back(*place);

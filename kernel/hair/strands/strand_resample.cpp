@@ -39,7 +39,7 @@ std::vector<Run> find_runs(const Strands& strands, const Find& find, const Conte
             places.clear();
             find(s, places);
             run.places.insert(run.places.end(), places.begin(), places.end());
-            run.counts.push_back(static_cast<Index>(places.size()));
+            run.counts.push_back(count_of(places));
         }
     });
     return runs;
@@ -54,7 +54,7 @@ std::vector<Index> offsets_of(const std::vector<Run>& runs) {
             if (total > std::numeric_limits<Index>::max()) {
                 refuse_points();
             }
-            offsets.push_back(static_cast<Index>(total));
+            offsets.push_back(index_of(total));
         }
     }
     return offsets;
@@ -164,10 +164,10 @@ Strands at_places(const Strands& strands, const Find& find, const Context& conte
 
 StrandPlace place_at(const std::vector<double>& fractions, double t) {
     const auto above = std::upper_bound(fractions.begin() + 1, fractions.end() - 1, t);
-    const auto k = static_cast<std::size_t>(above - fractions.begin()) - 1;
+    const auto k = at(above - fractions.begin()) - 1;
     const double size = fractions[k + 1] - fractions[k];
     const double u = size > 0.0 ? std::clamp((t - fractions[k]) / size, 0.0, 1.0) : 0.0;
-    return {static_cast<Index>(k), static_cast<float>(u)};
+    return {index_of(k), static_cast<float>(u)};
 }
 
 Strands resample(const Strands& strands, const ResampleOptions& options, const Context& context) {
@@ -175,8 +175,7 @@ Strands resample(const Strands& strands, const ResampleOptions& options, const C
     Progress progress(context, "resample strands");
     const std::vector<Index> segments = all_segments(strands, options);
     const std::int64_t points = std::accumulate(segments.begin(), segments.end(), std::int64_t{0});
-    const MemoryCharge charge =
-        context.charge(sizeof(StrandPlace) * static_cast<std::size_t>(points), "places on strands");
+    const MemoryCharge charge = context.charge(sizeof(StrandPlace) * points, "places on strands");
     const auto find = [&](Index s, std::vector<StrandPlace>& places) {
         const StrandView strand = strands.strand(s);
         const Index count = segments[at(s)];
@@ -185,7 +184,7 @@ Strands resample(const Strands& strands, const ResampleOptions& options, const C
         std::vector<double> fractions;
         arc_fractions(strand, fractions);
         for (Index k = 1; k < count; ++k) places.push_back(place_at(fractions, double(k) / count));
-        places.push_back({static_cast<Index>(strand.cols()) - 1, 0.0f});
+        places.push_back({index_of(strand.cols()) - 1, 0.0f});
     };
     return at_places(strands, find, context);
 }

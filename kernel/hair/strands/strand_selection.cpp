@@ -52,7 +52,7 @@ class Tube {
 std::vector<Index> marked(const std::vector<char>& marks) {
     std::vector<Index> list;
     for (std::size_t s = 0; s < marks.size(); ++s) {
-        if (marks[s]) list.push_back(static_cast<Index>(s));
+        if (marks[s]) list.push_back(index_of(s));
     }
     return list;
 }
@@ -65,8 +65,8 @@ std::vector<Index> strands_rooted_in(const Strands& strands, const Region& regio
         throw Error(ErrorCode::invalid_argument,
                     "it is not known where these strands are rooted; grow them on a head");
     }
-    std::vector<char> inside(static_cast<std::size_t>(region.topology()->face_count()), 0);
-    for (const Index f : region.faces()) inside[static_cast<std::size_t>(f)] = 1;
+    std::vector<char> inside(region.topology()->face_count(), 0);
+    for (const Index f : region.faces()) inside[f] = 1;
     std::vector<char> marks;
     for (const Index f : faces) {
         if (f >= region.topology()->face_count()) {
@@ -74,7 +74,7 @@ std::vector<Index> strands_rooted_in(const Strands& strands, const Region& regio
                         "strands are rooted on a face that the region's mesh does not have; give a "
                         "region of the head that they grew on");
         }
-        marks.push_back(f >= 0 ? inside[static_cast<std::size_t>(f)] : 0);
+        marks.push_back(f >= 0 ? inside[f] : 0);
     }
     return marked(marks);
 }
@@ -86,10 +86,10 @@ std::vector<Index> strands_near_curve(const Strands& strands, std::span<const Ve
         throw Error(ErrorCode::invalid_argument, "the radius around a curve must be 0 or more");
     }
     const Tube tube(curve, radius);
-    std::vector<char> marks(static_cast<std::size_t>(strands.size()), 0);
+    std::vector<char> marks(strands.size(), 0);
     context.parallel_for(0, strands.size(), kSelectionGrain, [&](Index begin, Index end) {
         for (Index s = begin; s < end; ++s) {
-            marks[static_cast<std::size_t>(s)] = tube.meets(strands.strand(s)) ? 1 : 0;
+            marks[s] = tube.meets(strands.strand(s)) ? 1 : 0;
         }
     });
     return marked(marks);

@@ -38,7 +38,7 @@ double part_before_plane(const StrandView& strand, const std::vector<double>& fr
     double before = 0.0;
     for (Index k = 0; k < strand.cols(); ++k) {
         const double side = (strand.col(k).cast<double>() - plane.point).dot(normal) - shift;
-        const auto i = static_cast<std::size_t>(k);
+        const std::size_t i = k;
         if (side > 0.0 && k == 0) return 0.0;
         if (side > 0.0) {
             const double u = before / (before - side);
@@ -71,7 +71,7 @@ void trim(Strands& strands, const StrandTrimOptions& options, const Context& con
     Progress progress(context, "trim strands");
     const auto find = [&](Index s, std::vector<StrandPlace>& places) {
         const StrandView strand = strands.strand(s);
-        const auto last = static_cast<Index>(strand.cols()) - 1;
+        const auto last = index_of(strand.cols()) - 1;
         StrandPlace end{last, 0.0f};
         if (last > 0) {
             std::vector<double> fractions;

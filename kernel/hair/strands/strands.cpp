@@ -19,7 +19,7 @@ void require_offsets(const std::vector<float>& points, const std::vector<Index>&
     if (points.size() / 3 > kMaximum || offsets.size() > kMaximum) {
         refuse("there are more points or strands than can be numbered");
     }
-    const auto count = static_cast<Index>(points.size() / 3);
+    const auto count = index_of(points.size() / 3);
     if (offsets.empty() || offsets.front() != 0 || offsets.back() != count) {
         refuse("offsets must begin with 0 and end with the number of points, " +
                std::to_string(count));
@@ -28,11 +28,11 @@ void require_offsets(const std::vector<float>& points, const std::vector<Index>&
     if (stuck == offsets.end()) return;
     throw Error(ErrorCode::invalid_argument,
                 "offsets must grow: every strand has at least one point",
-                {ElementKind::strand, 1, {static_cast<Index>(stuck - offsets.begin())}});
+                {ElementKind::strand, 1, {index_of(stuck - offsets.begin())}});
 }
 
 void require_length(std::size_t found, Index expected, const char* what) {
-    if (found == static_cast<std::size_t>(expected)) return;
+    if (found == at(expected)) return;
     refuse("there are " + std::to_string(found) + " " + what + " for " + std::to_string(expected) +
            " elements");
 }
@@ -54,10 +54,10 @@ std::size_t bytes_of(const std::vector<T>& list) {
 
 float StrandWidths::factor(double t) const {
     if (profile.empty()) return 1.0f;
-    const double at = std::clamp(t, 0.0, 1.0) * static_cast<double>(profile.size() - 1);
+    const double at = std::clamp(t, 0.0, 1.0) * (profile.size() - 1);
     const auto below = std::min(static_cast<std::size_t>(at), profile.size() - 1);
     const std::size_t above = std::min(below + 1, profile.size() - 1);
-    const double u = at - static_cast<double>(below);
+    const double u = at - below;
     return static_cast<float>((1.0 - u) * profile[below] + u * profile[above]);
 }
 
@@ -76,8 +76,7 @@ void Strands::release(std::vector<float>& points, std::vector<Index>& offsets) {
 
 Index Strands::find_group(std::string_view name) const {
     const auto found = std::find(group_names_.begin(), group_names_.end(), name);
-    return found == group_names_.end() ? kNoIndex
-                                       : static_cast<Index>(found - group_names_.begin());
+    return found == group_names_.end() ? kNoIndex : index_of(found - group_names_.begin());
 }
 
 void Strands::set_widths(StrandWidths widths) {
@@ -87,15 +86,14 @@ void Strands::set_widths(StrandWidths widths) {
 
 void Strands::set_roots(StrandRoots roots) {
     if (!roots.faces.empty()) require_length(roots.faces.size(), size(), "root faces");
-    require_length(roots.barycentrics.size(), static_cast<Index>(roots.faces.size()),
-                   "barycentric coordinates");
+    require_length(roots.barycentrics.size(), count_of(roots.faces), "barycentric coordinates");
     if (!roots.uvs.empty()) require_length(roots.uvs.size(), size(), "root uvs");
     roots_ = std::move(roots);
 }
 
 void Strands::set_groups(std::vector<Index> groups, std::vector<std::string> names) {
     if (!groups.empty()) require_length(groups.size(), size(), "groups");
-    const auto count = static_cast<Index>(names.size());
+    const auto count = count_of(names);
     for (const Index group : groups) {
         if (group < kNoIndex || group >= count) {
             refuse("group " + std::to_string(group) + " is none of the " + std::to_string(count) +

@@ -34,7 +34,7 @@ struct StrandValues {
     /// The value at a point; `point` counts over all strands.
     const Value& at(Index strand, Index point) const {
         if (domain == StrandDomain::all) return common;
-        return values[static_cast<std::size_t>(domain == StrandDomain::strand ? strand : point)];
+        return values[lissom::at(domain == StrandDomain::strand ? strand : point)];
     }
 };
 
@@ -74,7 +74,7 @@ class Strands {
     /// end with the number of points.
     Strands(std::vector<float> points, std::vector<Index> offsets);
 
-    Index size() const { return static_cast<Index>(offsets_.size()) - 1; }
+    Index size() const { return count_of(offsets_) - 1; }
     bool empty() const { return size() == 0; }
     /// Points of all strands together, and of one.
     Index point_count() const { return offsets_.back(); }
@@ -131,7 +131,6 @@ class Strands {
     std::size_t memory_bytes() const;
 
   private:
-    static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
     const float* data(Index s) const { return points_.data() + 3 * at(first_point(s)); }
 
     std::vector<float> points_;

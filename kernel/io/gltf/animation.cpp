@@ -107,11 +107,11 @@ std::size_t add_floats(GltfAsset& asset, const std::vector<float>& values) {
 
 // For each key a weight of each target.
 std::vector<float> weights_of(const MorphKeys& keys) {
-    const auto width = static_cast<std::size_t>(keys.target_count);
+    const std::size_t width = keys.target_count;
     std::vector<float> weights(keys.times.size() * width, 0.0f);
     for (std::size_t k = 0; k < keys.targets.size(); ++k) {
         if (keys.targets[k] == kNoIndex) continue;
-        weights[k * width + static_cast<std::size_t>(keys.targets[k])] = 1.0f;
+        weights[k * width + keys.targets[k]] = 1.0f;
     }
     return weights;
 }

@@ -43,7 +43,7 @@ class AccessorKeeper {
                    "the data of animations and skins overlap in the file");
         }
         left_ -= packed.bytes.size();
-        Json json = document_.json["accessors"][static_cast<std::size_t>(number)];
+        Json json = document_.json["accessors"][number];
         for (const char* key : {"bufferView", "byteOffset", "sparse", "extensions", "min", "max"}) {
             json.erase(key);
         }
@@ -252,7 +252,7 @@ std::shared_ptr<const GltfAsset> keep_asset(GltfDocument& document, const Access
     asset->images = std::move(document.images);
     for (const GltfInstance& instance : instances) {
         if (instance.node < 0) continue;
-        asset->node_of_object[instance.label] = static_cast<std::size_t>(instance.node);
+        asset->node_of_object[instance.label] = instance.node;
     }
     for (std::size_t m = 0; m < materials.size(); ++m) asset->material_of_label[materials[m]] = m;
     asset->json = std::move(document.json);

@@ -86,7 +86,7 @@ struct Forest {
     std::vector<std::size_t> parent;
 };
 
-constexpr auto kNoParent = static_cast<std::size_t>(-1);
+constexpr std::size_t kNoParent = -1;
 
 void find_roots(const Json& nodes, Forest& forest) {
     forest.parent.assign(nodes.size(), kNoParent);
@@ -138,7 +138,7 @@ Forest forest_of(const Json& document) {
 
 void require_default_scene(const Json& document) {
     const int scene = index_member(document, "scene", "the file");
-    if (scene < 0 || static_cast<std::size_t>(scene) < list_of(document, "scenes").size()) return;
+    if (scene < 0 || at(scene) < list_of(document, "scenes").size()) return;
     refuse(ErrorCode::file_syntax,
            "the default scene " + std::to_string(scene) + " does not exist");
 }
@@ -147,8 +147,7 @@ void require_default_scene(const Json& document) {
 std::vector<std::size_t> scene_nodes(const Json& document, const Forest& forest) {
     const Json& scenes = list_of(document, "scenes");
     if (scenes.empty()) return forest.roots;
-    const auto scene =
-        static_cast<std::size_t>(std::max(index_member(document, "scene", "the file"), 0));
+    const std::size_t scene = std::max(index_member(document, "scene", "the file"), 0);
     return node_list(scenes[scene], "nodes", forest.parent.size(), "a scene");
 }
 
@@ -176,8 +175,7 @@ std::string name_of(const Json& list, std::size_t number, const std::string& fal
 
 std::size_t checked_mesh(const Json& node, std::size_t number, std::size_t mesh_count) {
     const int mesh = index_member(node, "mesh", node_name(number));
-    if (mesh >= 0 && static_cast<std::size_t>(mesh) < mesh_count)
-        return static_cast<std::size_t>(mesh);
+    if (mesh >= 0 && at(mesh) < mesh_count) return mesh;
     refuse(ErrorCode::file_syntax,
            node_name(number) + " has mesh " + std::to_string(mesh) + ", which does not exist");
 }
@@ -187,7 +185,7 @@ std::vector<GltfInstance> meshes_alone(const Json& meshes) {
     UniqueNames names;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const std::string name = name_of(meshes, m, "mesh " + std::to_string(m));
-        result.push_back({static_cast<int>(m), -1, {}, names.take(name)});
+        result.push_back({index_of(m), -1, {}, names.take(name)});
     }
     return result;
 }
@@ -204,7 +202,7 @@ void report_unused(const std::vector<char>& used, Report& report) {
 Json array_of(const AccessorValues& values, std::size_t i) {
     Json list = Json::array();
     for (Index k = 0; k < values.width; ++k) {
-        list.push_back(values.values[i * static_cast<std::size_t>(values.width) + k]);
+        list.push_back(values.values[i * values.width + k]);
     }
     return list;
 }
@@ -242,10 +240,9 @@ constexpr std::size_t kElementsPerNode = 64;
 std::size_t count_of_accessor(const Json& document, const Json& owner, const char* key) {
     const Json& accessors = list_of(document, "accessors");
     const int accessor = index_member(owner, key, "a primitive");
-    if (accessor < 0 || static_cast<std::size_t>(accessor) >= accessors.size()) return 0;
-    const int count =
-        index_member(accessors[static_cast<std::size_t>(accessor)], "count", "accessor");
-    return count > 0 ? static_cast<std::size_t>(count) : 0;
+    if (accessor < 0 || at(accessor) >= accessors.size()) return 0;
+    const int count = index_member(accessors[accessor], "count", "accessor");
+    return count > 0 ? at(count) : 0;
 }
 
 // Vertices and corners of the mesh of a node.
@@ -329,8 +326,8 @@ std::vector<GltfInstance> find_instances(const Json& document, Report& report) {
         used[mesh] = 1;
         const std::string name = name_of(nodes, n, name_of(meshes, mesh, node_name(n)));
         const bool is_skinned = member(nodes[n], "skin") != nullptr;
-        result.push_back({static_cast<int>(mesh), static_cast<int>(n),
-                          is_skinned ? Affine() : world[n], names.take(name)});
+        result.push_back(
+            {index_of(mesh), index_of(n), is_skinned ? Affine() : world[n], names.take(name)});
     }
     report_unused(used, report);
     return result;

@@ -40,7 +40,7 @@ class SurfaceReader {
         only_points_ = !has_faces(instances);
         Progress progress(context_, "read glTF");
         for (std::size_t i = 0; i < instances.size(); ++i) {
-            progress.update(double(i) / double(instances.size()));
+            progress.update(i, instances.size());
             read_instance(instances[i]);
         }
         finish();
@@ -49,7 +49,7 @@ class SurfaceReader {
 
   private:
     const tinygltf::Mesh& mesh_of(const GltfInstance& instance) const {
-        return document_.model.meshes[static_cast<std::size_t>(instance.mesh)];
+        return document_.model.meshes[instance.mesh];
     }
 
     bool has_faces(const std::vector<GltfInstance>& instances) const {
@@ -101,7 +101,7 @@ class SurfaceReader {
         if (primitive.indices >= 0) return accessors_.indices(primitive.indices, vertex_count);
         budget_.charge(vertex_count);
         std::vector<Index> all(vertex_count);
-        for (std::size_t i = 0; i < vertex_count; ++i) all[i] = static_cast<Index>(i);
+        for (std::size_t i = 0; i < vertex_count; ++i) all[i] = index_of(i);
         return all;
     }
 
@@ -129,7 +129,7 @@ class SurfaceReader {
         skipped_.add("indices that make no triangle", left_over);
         budget_.charge(faces.vertices.size());
         if (first > 0) {
-            for (Index& v : faces.vertices) v += static_cast<Index>(first);
+            for (Index& v : faces.vertices) v += index_of(first);
         }
         for (Index f = 0; mirrored && f < faces.size(); ++f) {
             std::reverse(faces.vertices.data() + faces.offsets[f] + 1,
@@ -146,27 +146,24 @@ class SurfaceReader {
             for (Index f = 0; f < faces.size(); ++f) add_face(mesh_.faces, faces[f]);
         }
         const bool has_material =
-            primitive.material >= 0 &&
-            static_cast<std::size_t>(primitive.material) < material_labels_.names.size();
-        material_labels_.of_face.resize(static_cast<std::size_t>(mesh_.faces.size()),
+            primitive.material >= 0 && at(primitive.material) < material_labels_.names.size();
+        material_labels_.of_face.resize(mesh_.faces.size(),
                                         has_material ? primitive.material : kNoIndex);
     }
 
     void label_faces(const std::string& label, Index first_face) {
         if (mesh_.faces.size() == first_face) return;
         object_labels_.names.push_back(label);
-        object_labels_.of_face.resize(static_cast<std::size_t>(mesh_.faces.size()),
-                                      static_cast<Index>(object_labels_.names.size()) - 1);
+        object_labels_.of_face.resize(mesh_.faces.size(), count_of(object_labels_.names) - 1);
     }
 
     void read_extras(const GltfInstance& instance, std::size_t first_vertex, Index first_face) {
-        const Json& json = document_.json["meshes"][static_cast<std::size_t>(instance.mesh)];
+        const Json& json = document_.json["meshes"][instance.mesh];
         if (!json.contains("extras")) return;
         Json mesh{{"extras", json["extras"]}};
         bool fits = true;
-        const MeshExtras extras =
-            take_extras(mesh, vertices_.positions().size() - first_vertex,
-                        static_cast<std::size_t>(mesh_.faces.size() - first_face), fits);
+        const MeshExtras extras = take_extras(mesh, vertices_.positions().size() - first_vertex,
+                                              mesh_.faces.size() - first_face, fits);
         fits = fits && join_parts(extras.parts, first_face);
         if (!fits) {
             skipped_.add("regions and groups that no longer fit the surface");
@@ -184,7 +181,7 @@ class SurfaceReader {
         corner_attributes_.insert(extras.corners.begin(), extras.corners.end());
         for (const auto& [name, vertices] : extras.regions) {
             std::vector<Index>& region = mesh_.regions[name];
-            for (const Index v : vertices) region.push_back(v + static_cast<Index>(first_vertex));
+            for (const Index v : vertices) region.push_back(v + index_of(first_vertex));
         }
     }
 
@@ -192,7 +189,7 @@ class SurfaceReader {
     // do not make one.
     bool join_parts(const std::vector<Index>& parts, Index first_face) {
         if (parts.empty()) return true;
-        material_labels_.of_face.resize(static_cast<std::size_t>(mesh_.faces.size()), kNoIndex);
+        material_labels_.of_face.resize(mesh_.faces.size(), kNoIndex);
         FaceList joined;
         std::vector<Index> materials, outline;
         Index f = first_face;
@@ -202,13 +199,13 @@ class SurfaceReader {
             materials.push_back(material_labels_.of_face[f]);
             f += count;
         }
-        mesh_.faces.offsets.resize(static_cast<std::size_t>(first_face) + 1);
-        mesh_.faces.vertices.resize(static_cast<std::size_t>(mesh_.faces.offsets.back()));
+        mesh_.faces.offsets.resize(at(first_face) + 1);
+        mesh_.faces.vertices.resize(mesh_.faces.offsets.back());
         for (Index g = 0; g < joined.size(); ++g) mesh_.faces.add(joined[g]);
-        material_labels_.of_face.resize(static_cast<std::size_t>(first_face));
+        material_labels_.of_face.resize(first_face);
         material_labels_.of_face.insert(material_labels_.of_face.end(), materials.begin(),
                                         materials.end());
-        object_labels_.of_face.resize(static_cast<std::size_t>(mesh_.faces.size()));
+        object_labels_.of_face.resize(mesh_.faces.size());
         return true;
     }
 
@@ -221,9 +218,9 @@ class SurfaceReader {
         for (const Index count : copies) {
             for (Index k = 0; k < count; ++k) {
                 if (positions[v + k] != positions[v]) return;
-                same_as.push_back(static_cast<Index>(v));
+                same_as.push_back(index_of(v));
             }
-            v += static_cast<std::size_t>(count);
+            v += count;
         }
         fill_same_as(first_vertex);
         mesh_.same_as.insert(mesh_.same_as.end(), same_as.begin(), same_as.end());
@@ -233,7 +230,7 @@ class SurfaceReader {
     // Up to `vertex_count`, vertices are only the same as themselves.
     void fill_same_as(std::size_t vertex_count) {
         while (mesh_.same_as.size() < vertex_count)
-            mesh_.same_as.push_back(static_cast<Index>(mesh_.same_as.size()));
+            mesh_.same_as.push_back(count_of(mesh_.same_as));
     }
 
     // Gives faces of a mesh that was several objects the labels that they had.
@@ -244,7 +241,7 @@ class SurfaceReader {
         }
         for (std::size_t i = 0; i < labels.of_face.size(); ++i) {
             const Index label = labels.of_face[i];
-            object_labels_.of_face[static_cast<std::size_t>(first_face) + i] =
+            object_labels_.of_face[first_face + i] =
                 label == kNoIndex ? kNoIndex : renumbered[label];
         }
     }
@@ -252,7 +249,7 @@ class SurfaceReader {
     // Makes the corner at place `turns[i]` of face `first_face` + i its first.
     void turn_faces(const std::vector<Index>& turns, Index first_face) {
         for (std::size_t i = 0; i < turns.size(); ++i) {
-            const auto f = static_cast<std::size_t>(first_face) + i;
+            const auto f = first_face + i;
             const auto begin = mesh_.faces.vertices.begin() + mesh_.faces.offsets[f];
             const auto end = mesh_.faces.vertices.begin() + mesh_.faces.offsets[f + 1];
             if (turns[i] < end - begin) std::rotate(begin, begin + turns[i], end);
@@ -262,7 +259,7 @@ class SurfaceReader {
     // Gives the values of vertices to corners.
     void move_to_corners(Attribute& attribute) const {
         std::vector<double> values;
-        values.reserve(mesh_.faces.vertices.size() * static_cast<std::size_t>(attribute.width));
+        values.reserve(mesh_.faces.vertices.size() * attribute.width);
         for (const Index v : mesh_.faces.vertices) {
             const std::span<const double> value = std::as_const(attribute).at(v);
             values.insert(values.end(), value.begin(), value.end());
@@ -273,7 +270,7 @@ class SurfaceReader {
 
     void add_labels(const std::string& kind, const FaceLabels& labels, Index first_face) {
         FaceLabels& all = mesh_.attributes.labels()[kind];
-        all.of_face.resize(static_cast<std::size_t>(first_face), kNoIndex);
+        all.of_face.resize(first_face, kNoIndex);
         std::vector<Index> renumbered;
         LabelAdder& adder = adders_.try_emplace(kind, all).first->second;
         for (const std::string& name : labels.names) renumbered.push_back(adder.add(name));
@@ -297,7 +294,7 @@ class SurfaceReader {
             std::any_of(of_face.begin(), of_face.end(), [](Index m) { return m != kNoIndex; });
         if (has_materials) labels["material"] = std::move(material_labels_);
         for (auto& [kind, list] : labels) {
-            list.of_face.resize(static_cast<std::size_t>(mesh_.faces.size()), kNoIndex);
+            list.of_face.resize(mesh_.faces.size(), kNoIndex);
         }
         skipped_.finish(mesh_.report);
     }

@@ -60,7 +60,7 @@ std::size_t add_colors(const Strands& strands, GltfBinary& binary) {
 
 std::size_t add_lines(const Strands& strands, GltfBinary& binary) {
     std::vector<std::uint32_t> indices;
-    indices.reserve(2 * static_cast<std::size_t>(strands.point_count() - strands.size()));
+    indices.reserve(2 * at(strands.point_count() - strands.size()));
     for (Index s = 0; s < strands.size(); ++s) {
         const auto first = static_cast<std::uint32_t>(strands.first_point(s));
         const auto count = static_cast<std::uint32_t>(strands.point_count(s));

@@ -98,13 +98,13 @@ class DocumentWriter {
         std::vector<Index> pool_of_face;
         const std::vector<SurfaceObject> objects =
             divide_surface(mesh, objects_, materials_, pool_of_face);
-        const auto count = static_cast<Index>(objects.size());
+        const auto count = count_of(objects);
         const VertexPools pools(mesh, pool_of_face, count, attributes_.of_corners());
         const bool are_joined = std::any_of(objects.begin(), objects.end(),
                                             [](const SurfaceObject& o) { return o.is_joined; });
         writer.states_copies = are_joined || seams_are_ambiguous(mesh, pools, count);
         for (Index o = 0; o < count; ++o) {
-            progress.update(double(o) / double(count));
+            progress.update(o, count);
             write_object(objects[o], pools, o, writer);
         }
         writer.float_loss().require_small("glTF", !moves_origin_, context_);
@@ -148,17 +148,16 @@ class DocumentWriter {
         if (is_skinned(node)) {
             const int skin = index_member(json, "skin", "a node");
             const Json* skins = member(json_, "skins");
-            if (skins && static_cast<std::size_t>(skin) < skins->size()) {
-                place.joint_count =
-                    size_of_member((*skins)[static_cast<std::size_t>(skin)], "joints");
+            if (skins && at(skin) < skins->size()) {
+                place.joint_count = size_of_member((*skins)[skin], "joints");
             }
         } else {
             json.erase("skin");
             place.to_node = NodeTransform(world_[node]).inverse();
         }
         const int mesh = old_mesh_[node];
-        if (mesh >= 0 && static_cast<std::size_t>(mesh) < old_meshes_.size()) {
-            place.mesh = old_meshes_[static_cast<std::size_t>(mesh)];
+        if (mesh >= 0 && at(mesh) < old_meshes_.size()) {
+            place.mesh = old_meshes_[mesh];
         }
         return place;
     }
@@ -220,9 +219,9 @@ class DocumentWriter {
         const Json* animations = member(json_, "animations");
         if (!animations) return false;
         for_each_object(*animations, [&](const Json& object) {
-            is_animated = is_animated ||
-                          (text_member(object, "path") == "weights" &&
-                           index_member(object, "node", "an animation") == static_cast<int>(node));
+            is_animated =
+                is_animated || (text_member(object, "path") == "weights" &&
+                                index_member(object, "node", "an animation") == index_of(node));
         });
         return is_animated;
     }
@@ -261,7 +260,7 @@ class DocumentWriter {
             number = new_materials_[name] = materials.size();
             materials.push_back({{"name", name}});
         }
-        return {static_cast<int>(number), uv_count(json_["materials"][number])};
+        return {index_of(number), uv_count(json_["materials"][number])};
     }
 
     void write_kept_accessors() {
@@ -307,8 +306,7 @@ class DocumentWriter {
         if (!target || text_member(*target, "path") != "weights") return false;
         const int node = index_member(*target, "node", "an animation");
         const Json* nodes = member(json_, "nodes");
-        return node >= 0 && nodes && static_cast<std::size_t>(node) < nodes->size() &&
-               target_count((*nodes)[static_cast<std::size_t>(node)]) == 0;
+        return node >= 0 && nodes && at(node) < nodes->size() && target_count((*nodes)[node]) == 0;
     }
 
     void clean_animations() {

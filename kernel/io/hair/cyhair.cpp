@@ -87,7 +87,7 @@ std::vector<Index> read_offsets(const Header& header, ByteSource& source) {
                        std::to_string(header.points) + " points announced",
                    {ElementKind::strand, s});
         }
-        offsets[s + 1] = static_cast<Index>(total);
+        offsets[s + 1] = index_of(total);
     }
     if (total != header.points) {
         refuse(ErrorCode::file_syntax, "the strands have " + std::to_string(total) +
@@ -233,8 +233,8 @@ void write_cyhair(const Strands& strands, std::string& bytes) {
     const Index segments = common_segments(strands);
     const std::uint32_t arrays = arrays_for(strands, segments);
     const auto has = [&](ArrayBit bit) { return (arrays & bit) != 0; };
-    const auto points = static_cast<std::size_t>(strands.point_count());
-    bytes.reserve(kHeaderBytes + 2 * static_cast<std::size_t>(strands.size()) +
+    const std::size_t points = strands.point_count();
+    bytes.reserve(kHeaderBytes + 2 * at(strands.size()) +
                   points * (12 + (has(kThickness) ? 4 : 0) + (has(kTransparency) ? 4 : 0) +
                             (has(kColors) ? 12 : 0)));
     append_header(strands, arrays, segments, bytes);

@@ -20,14 +20,14 @@ std::size_t read_point_count(ByteSource& source) {
                "strand " + std::to_string(strand) + " has " + std::to_string(count) + " points",
                place);
     }
-    if (static_cast<std::size_t>(count) > source.remaining() / kPointBytes) {
+    if (at(count) > source.remaining() / kPointBytes) {
         refuse(ErrorCode::file_truncated,
                "strand " + std::to_string(strand) + " of " +
                    std::to_string(source.tally.announced) + " has " + std::to_string(count) +
                    " points, but the file ends before; copy or export it again",
                place);
     }
-    return static_cast<std::size_t>(count);
+    return count;
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ Strands read_hair_salon(ByteSource& source, const Context& context) {
         require_finite(strand, 3, total, offsets);
         total += added;
         checked_count(static_cast<std::int64_t>(total), source.size(), "points", {});
-        offsets.push_back(static_cast<Index>(total));
+        offsets.push_back(index_of(total));
     }
     points.resize(3 * total);
     if (source.remaining() > 0) {
@@ -67,14 +67,13 @@ Strands read_hair_salon(ByteSource& source, const Context& context) {
 }
 
 void write_hair_salon(const Strands& strands, std::string& bytes) {
-    const auto count = static_cast<std::size_t>(strands.size());
+    const std::size_t count = strands.size();
     bytes.reserve(kCountBytes * (count + 1) + strands.points().size_bytes());
-    append_little_endian(bytes, static_cast<std::int32_t>(strands.size()));
+    append_little_endian(bytes, strands.size());
     for (Index s = 0; s < strands.size(); ++s) {
         const StrandView strand = strands.strand(s);
-        append_little_endian(bytes, static_cast<std::int32_t>(strand.cols()));
-        append_little_endian(
-            bytes, std::span<const float>(strand.data(), static_cast<std::size_t>(strand.size())));
+        append_little_endian(bytes, index_of(strand.cols()));
+        append_little_endian(bytes, std::span<const float>(strand.data(), at(strand.size())));
     }
 }
 

@@ -22,10 +22,10 @@ class RibWriter {
         std::vector<std::vector<Index>> blocks(strands_.group_names().size() + 1);
         for (Index s = 0; s < strands_.size(); ++s) {
             const Index group = strands_.group(s);
-            blocks[group == kNoIndex ? 0 : static_cast<std::size_t>(group) + 1].push_back(s);
+            blocks[group == kNoIndex ? 0 : at(group) + 1].push_back(s);
         }
         for (std::size_t g = 0; g < blocks.size(); ++g) {
-            progress.update(double(g) / double(blocks.size()));
+            progress.update(g, blocks.size());
             if (blocks[g].empty()) continue;
             write_block(blocks[g], g == 0 ? "hair" : strands_.group_names()[g - 1]);
         }
@@ -117,7 +117,7 @@ std::string rib_text(std::string_view text) {
 }
 
 void write_rib_curves(const Strands& strands, std::string& bytes, const Context& context) {
-    bytes.reserve(bytes.size() + 40 * static_cast<std::size_t>(strands.point_count()) + 1000);
+    bytes.reserve(bytes.size() + 40 * at(strands.point_count()) + 1000);
     RibWriter(strands, bytes, context).write();
 }
 

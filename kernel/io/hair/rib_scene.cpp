@@ -41,7 +41,7 @@ void append_vector(std::string& text, const Vec3& v) {
 Camera framing_camera(const RibScene& scene, const Box& content) {
     FramingOptions framing;
     framing.fov = kPi * 24.0 / 180.0;
-    framing.aspect = static_cast<double>(scene.width) / scene.height;
+    framing.aspect = 1.0 * scene.width / scene.height;
     const Box unit{-Vec3::Ones(), Vec3::Ones()};
     return frame_box(StandardView::three_quarter, content.empty() ? unit : content, framing);
 }
@@ -106,7 +106,7 @@ void RibSceneWriter::end(std::string& text) {
 // The camera of RenderMan looks along +z, x to the right and y up, so its space is left-handed;
 // points are rows.
 void RibSceneWriter::write_camera(std::string& text) const {
-    const double aspect = static_cast<double>(scene_.width) / scene_.height;
+    const double aspect = 1.0 * scene_.width / scene_.height;
     const double half = camera_.is_ortho() ? camera_.half_height(0.0) : 1.0;
     text += "ScreenWindow";
     append_numbers(text, std::array{-aspect * half, aspect * half, -half, half});
@@ -175,9 +175,8 @@ void RibSceneWriter::write_head(std::string& text) const {
     append_lines(head.vertex_count(), [&](Index v) { return of_head_(head.position(v)); });
     const std::vector<Vec3> normals = vertex_normals(head);
     text += "\"N\" [";
-    append_lines(head.vertex_count(), [&](Index v) -> Vec3 {
-        return (of_head_.linear * normals[static_cast<std::size_t>(v)]).normalized();
-    });
+    append_lines(head.vertex_count(),
+                 [&](Index v) -> Vec3 { return (of_head_.linear * normals[v]).normalized(); });
     text += "AttributeEnd\n";
 }
 

@@ -205,7 +205,7 @@ class Library {
         textures.push_back({{"source", images.size()}});
         images.push_back({{"name", name}, {"mimeType", type}});
         asset_->images.push_back(content);
-        return entry->second = static_cast<int>(textures.size()) - 1;
+        return entry->second = count_of(textures) - 1;
     }
 
     GltfFolder folder_;

@@ -46,7 +46,7 @@ class CornerValues {
         if (written == 0 || index < 0 || index > kLargest) return dangling_.add(line);
         if (index >= known) forward_.push_back({corner, line});
         index_of_corner_.resize(corner, kNoIndex);
-        index_of_corner_.push_back(static_cast<Index>(index));
+        index_of_corner_.push_back(index_of(index));
     }
 
     // The values of all corners as an attribute, where any corner has one.
@@ -60,13 +60,12 @@ class CornerValues {
         const std::size_t corner_count = mesh.faces.vertices.size();
         index_of_corner_.resize(corner_count, kNoIndex);
         Attribute attribute{std::string(name), Domain::corner, width_, ScalarType::float64, {}};
-        const auto width = static_cast<std::size_t>(width_);
+        const std::size_t width = width_;
         attribute.values.assign(corner_count * width, kNone);
         for (std::size_t c = 0; c < corner_count; ++c) {
             if (index_of_corner_[c] == kNoIndex) continue;
-            const auto from = static_cast<std::size_t>(index_of_corner_[c]) * width;
-            std::copy_n(pool_.begin() + static_cast<std::ptrdiff_t>(from), width,
-                        attribute.values.begin() + static_cast<std::ptrdiff_t>(c * width));
+            const auto from = index_of_corner_[c] * width;
+            std::copy_n(pool_.begin() + from, width, attribute.values.begin() + c * width);
         }
         mesh.attributes.add(std::move(attribute));
     }
@@ -79,12 +78,12 @@ class CornerValues {
         std::size_t corner, line;
     };
 
-    std::size_t count() const { return pool_.size() / static_cast<std::size_t>(width_); }
+    std::size_t count() const { return pool_.size() / width_; }
 
     void drop_dangling() {
         for (const Forward& forward : forward_) {
             Index& index = index_of_corner_[forward.corner];
-            if (static_cast<std::size_t>(index) < count()) continue;
+            if (at(index) < count()) continue;
             index = kNoIndex;
             dangling_.add(forward.line);
         }
@@ -255,7 +254,7 @@ class ObjReader {
     std::int64_t read_vertex_index() {
         const std::int64_t written = text_.integer();
         if (written > 0) return written - 1;
-        const auto known = static_cast<std::int64_t>(mesh_.positions.size());
+        const auto known = std::ssize(mesh_.positions);
         if (written < 0 && written >= -known) return known + written;
         refuse(
             ErrorCode::face_index,

@@ -10,7 +10,7 @@ namespace {
 
 std::string group_statement(const Strands& strands, Index group) {
     if (group == kNoIndex) return "g\n";
-    return "g " + one_line(strands.group_names()[static_cast<std::size_t>(group)]) + "\n";
+    return "g " + one_line(strands.group_names()[group]) + "\n";
 }
 
 }  // namespace
@@ -18,7 +18,7 @@ std::string group_statement(const Strands& strands, Index group) {
 void write_obj_strands(const Strands& strands, std::string& bytes, const Context& context) {
     Progress progress(context, "write strands");
     Ticker ticker(progress);
-    const auto count = static_cast<std::size_t>(strands.point_count());
+    const std::size_t count = strands.point_count();
     bytes.reserve(45 * count + 100);
     bytes += "# " + std::to_string(strands.size()) + " strands of hair\n";
     for (std::size_t p = 0; p < count; ++p) {

@@ -18,7 +18,7 @@ class WrittenValues {
   public:
     WrittenValues(const Attribute* attribute, const Topology& topology) {
         if (!attribute) return;
-        number_of_corner_.assign(static_cast<std::size_t>(topology.corner_count()), kNoIndex);
+        number_of_corner_.assign(topology.corner_count(), kNoIndex);
         for (Index c = 0; c < topology.corner_count(); ++c) {
             const Index element =
                 attribute->domain == Domain::corner ? c : topology.faces().vertices[c];

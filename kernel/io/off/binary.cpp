@@ -123,7 +123,7 @@ class OffBinaryReader {
             if (k < 4) color[k] = value;
         }
         if (width < 3) return;
-        builder_.face_colors.set(static_cast<std::size_t>(builder_.mesh.faces.size()),
+        builder_.face_colors.set(builder_.mesh.faces.size(),
                                  {color.data(), std::min<std::size_t>(width, 4)});
     }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/io/record/color_reader.h"
 #include "kernel/io/record/finite_values.h"
 #include "kernel/io/record/index_check.h"
@@ -56,8 +57,7 @@ struct OffBuilder {
         add("normal", 3, std::move(normals));
         vertex_colors.finish(mesh.attributes, Domain::vertex, mesh.positions.size());
         add("uv", 2, std::move(uvs));
-        face_colors.finish(mesh.attributes, Domain::face,
-                           static_cast<std::size_t>(mesh.faces.size()));
+        face_colors.finish(mesh.attributes, Domain::face, at(mesh.faces.size()));
         drop_infinite_values(mesh.attributes, mesh.report);
         return std::move(mesh);
     }

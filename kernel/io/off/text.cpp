@@ -84,7 +84,7 @@ class OffTextReader {
             refuse(ErrorCode::file_syntax, "a face has " + std::to_string(size) + " vertices",
                    place);
         }
-        if (static_cast<std::uint64_t>(size) > text_.remaining()) refuse_truncated(text_.tally);
+        if (at(size) > text_.remaining()) refuse_truncated(text_.tally);
         builder_.face.clear();
         for (std::int64_t k = 0; k < size; ++k) {
             const std::int64_t index = text_.next_integer();
@@ -103,8 +103,7 @@ class OffTextReader {
         if (width < 3) {
             skipped_.add("indices into a colour map");
         } else {
-            builder_.face_colors.set(static_cast<std::size_t>(builder_.mesh.faces.size()),
-                                     {color.data(), width});
+            builder_.face_colors.set(builder_.mesh.faces.size(), {color.data(), width});
         }
         if (text_.at_line_end()) return;
         refuse(ErrorCode::file_syntax, "a face has more numbers than vertices and a colour of 4",
@@ -123,7 +122,7 @@ class OffTextReader {
                        " faces that its header announces; correct the counts there",
                    place);
         }
-        skipped_.add("edges", static_cast<std::size_t>(lines));
+        skipped_.add("edges", lines);
     }
 
     TextReader text_;
@@ -181,7 +180,7 @@ std::optional<Error> first_line_error(OffLayout layout, std::size_t on_first_lin
     return Error(ErrorCode::file_syntax,
                  "the first vertex has " + std::to_string(on_first_line) + " numbers, but " +
                      std::to_string(others) + " and a colour of 3 or 4 were expected",
-                 {place.kind, 1, {static_cast<Index>(place.id)}});
+                 {place.kind, 1, {index_of(place.id)}});
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ class ColorWriter {
         for (const double value : values) {
             text += ' ';
             if (bytes_) {
-                append_number(text, static_cast<int>(std::lround(value * 255.0)));
+                append_number(text, index_of(std::lround(value * 255.0)));
             } else {
                 append_number(text, value);
             }

@@ -171,7 +171,7 @@ class HeaderReader {
 Index PlyElement::find(std::string_view property) const {
     const auto found = std::find_if(properties.begin(), properties.end(),
                                     [&](const PlyProperty& p) { return p.name == property; });
-    return found == properties.end() ? kNoIndex : static_cast<Index>(found - properties.begin());
+    return found == properties.end() ? kNoIndex : index_of(found - properties.begin());
 }
 
 std::size_t PlyElement::minimum_bytes(bool binary) const {

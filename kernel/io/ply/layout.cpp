@@ -81,7 +81,7 @@ PlyLayout::PlyLayout(const PlyHeader& header, const PlyElement& element, Domain 
 
 void PlyLayout::add_group(PlyRole role, std::string_view name,
                           const std::vector<Index>& properties) {
-    const auto width = static_cast<Index>(properties.size());
+    const auto width = count_of(properties);
     const bool complete = std::all_of(properties.begin(), properties.end(),
                                       [&](Index p) { return is_free_number(p); });
     if (!complete || has(role, name)) return;
@@ -106,7 +106,7 @@ void PlyLayout::add_groups() {
 
 void PlyLayout::add_texture_coordinate_sets() {
     if (domain_ != Domain::vertex) return;
-    const auto count = static_cast<Index>(element_.properties.size());
+    const auto count = count_of(element_.properties);
     for (Index p = 0; p < count; ++p) {
         const std::string number(set_number(element_.properties[p].name, kU));
         if (number.empty()) continue;
@@ -115,7 +115,7 @@ void PlyLayout::add_texture_coordinate_sets() {
 }
 
 void PlyLayout::add_named() {
-    const auto count = static_cast<Index>(element_.properties.size());
+    const auto count = count_of(element_.properties);
     for (Index p = 0; p < count; ++p) {
         if (!is_free_number(p)) continue;
         std::string name = element_.properties[p].name;
@@ -153,7 +153,7 @@ std::vector<Index> PlyLayout::numbered_from(Index first) const {
     const std::string& name = element_.properties[first].name;
     if (name.size() < 3 || !name.ends_with("_0")) return {};
     const std::string stem = name.substr(0, name.size() - 1);
-    const auto count = static_cast<Index>(element_.properties.size());
+    const auto count = count_of(element_.properties);
     std::vector<Index> properties;
     for (Index p = first; p < count && is_free_number(p); ++p) {
         if (element_.properties[p].name != stem + std::to_string(p - first)) break;
@@ -164,9 +164,9 @@ std::vector<Index> PlyLayout::numbered_from(Index first) const {
 }
 
 void PlyLayout::add(PlyRole role, std::string name, const std::vector<Index>& properties) {
-    const auto width = static_cast<Index>(properties.size());
+    const auto width = count_of(properties);
     for (Index k = 0; k < width; ++k) {
-        targets_[properties[k]] = {static_cast<Index>(columns_.size()), k};
+        targets_[properties[k]] = {count_of(columns_), k};
     }
     const ScalarType type = element_.properties[properties[0]].type;
     columns_.push_back({role, {std::move(name), domain_, width, type, {}}});
@@ -192,14 +192,14 @@ bool PlyLayout::have_one_type(const std::vector<Index>& properties) const {
 void PlyLayout::allocate(std::size_t rows) {
     if (rows == 0) return;
     for (PlyColumn& column : columns_) {
-        column.attribute.values.resize(rows * static_cast<std::size_t>(column.attribute.width));
+        column.attribute.values.resize(rows * column.attribute.width);
     }
     for (std::size_t p = 0; p < slots_.size(); ++p) {
         if (targets_[p].column == kNoIndex) continue;
         Attribute& attribute = columns_[targets_[p].column].attribute;
         const bool scaled = is_ply_color(attribute.name, attribute.width);
         slots_[p].out = attribute.values.data() + targets_[p].component;
-        slots_[p].stride = static_cast<std::size_t>(attribute.width);
+        slots_[p].stride = attribute.width;
         slots_[p].divisor = scaled ? color_divisor(attribute.type) : 1.0;
     }
 }
@@ -215,7 +215,7 @@ bool PlyLayout::attach_list(std::string_view name, std::vector<double>& list) {
 std::vector<PlyColumn> PlyLayout::take_columns() {
     for (PlyColumn& column : columns_) {
         Attribute& attribute = column.attribute;
-        attribute.values.resize(element_.count * static_cast<std::size_t>(attribute.width));
+        attribute.values.resize(element_.count * attribute.width);
     }
     return std::move(columns_);
 }
@@ -262,7 +262,7 @@ std::optional<Attribute> ply_corner_attribute(const PlyProperty& list) {
     name.remove_prefix(kCornerPrefix.size());
     Index width = 0;
     const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), width);
-    name.remove_prefix(static_cast<std::size_t>(stop - name.data()));
+    name.remove_prefix(stop - name.data());
     const bool is_valid = error == std::errc() && width >= 1 && width <= kPlyLargestCornerWidth &&
                           name.size() > 1 && name[0] == '_';
     if (!is_valid) return std::nullopt;

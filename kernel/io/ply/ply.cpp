@@ -69,7 +69,7 @@ class CornerList {
     // Adds the values of a face; none where the list is of another length. Returns the number of
     // values that were made up so.
     std::size_t add_face(std::size_t corners) {
-        const std::size_t count = corners * static_cast<std::size_t>(attribute_.width);
+        const std::size_t count = corners * attribute_.width;
         if (row_.size() != count) {
             mismatched_ += row_.empty() ? 0 : 1;
             attribute_.values.insert(attribute_.values.end(), count, kNone);
@@ -94,7 +94,7 @@ FaceLabels to_labels(const Attribute& numbers, std::vector<std::string> names,
     FaceLabels labels{std::move(names), {}};
     labels.of_face.reserve(numbers.values.size());
     for (const double number : numbers.values) {
-        const bool exists = number >= 0.0 && number < static_cast<double>(labels.names.size());
+        const bool exists = number >= 0.0 && number < labels.names.size();
         labels.of_face.push_back(exists ? static_cast<Index>(number) : kNoIndex);
         dangling += !exists && number != kNoIndex ? 1 : 0;
     }
@@ -106,7 +106,7 @@ std::optional<std::vector<Index>> to_region(const Attribute& numbers) {
     std::vector<Index> region;
     for (std::size_t i = 0; i < numbers.values.size(); ++i) {
         if (numbers.values[i] == 1.0) {
-            region.push_back(static_cast<Index>(i));
+            region.push_back(index_of(i));
         } else if (numbers.values[i] != 0.0) {
             return std::nullopt;
         }

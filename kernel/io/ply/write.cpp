@@ -72,10 +72,10 @@ class Columns {
 
     // Before the attributes, which can have other names.
     void add_regions(SavedParts& parts) {
-        const auto vertex_count = static_cast<std::size_t>(parts.mesh().vertex_count());
+        const std::size_t vertex_count = parts.mesh().vertex_count();
         for (const auto& [name, region] : parts.take_regions()) {
             std::vector<double> is_inside(vertex_count, 0.0);
-            for (const Index v : region.vertices()) is_inside[static_cast<std::size_t>(v)] = 1.0;
+            for (const Index v : region.vertices()) is_inside[v] = 1.0;
             add_own(std::string(kPlyRegionPrefix) + percent_encoded(name), ScalarType::uint8,
                     std::move(is_inside));
         }
@@ -132,7 +132,7 @@ class RowWriter {
     }
     void write(const std::vector<Column>& columns, Index row) {
         for (const Column& column : columns) {
-            const double* values = column.values + static_cast<std::size_t>(row) * column.width;
+            const double* values = column.values + at(row) * column.width;
             for (Index k = 0; k < column.width; ++k) {
                 const double value = values[k] * column.scale;
                 write(column.type,
@@ -169,7 +169,7 @@ class RowWriter {
 Index largest_face(const Topology& topology) {
     Index largest = 0;
     for (Index f = 0; f < topology.face_count(); ++f) {
-        largest = std::max(largest, static_cast<Index>(topology.face(f).size()));
+        largest = std::max(largest, count_of(topology.face(f)));
     }
     return largest;
 }
@@ -188,9 +188,9 @@ struct ListColumn {
 // The numbers of one face's corners as they are written; none where no corner has a value.
 std::vector<double> list_of_face(const ListColumn& list, Index first_corner, Index count) {
     const Attribute& attribute = *list.attribute;
-    const auto width = static_cast<std::size_t>(attribute.width);
-    const auto begin = attribute.values.begin() + static_cast<std::ptrdiff_t>(first_corner * width);
-    std::vector<double> values(begin, begin + static_cast<std::ptrdiff_t>(count * width));
+    const std::size_t width = attribute.width;
+    const auto begin = attribute.values.begin() + first_corner * width;
+    std::vector<double> values(begin, begin + (count * width));
     const bool has_none =
         std::all_of(values.begin(), values.end(), [](double x) { return std::isnan(x); });
     if (has_none) return {};
@@ -264,18 +264,16 @@ class PlyWriter {
         for (const ListColumn& list : lists_) of_faces.push_back(list.property);
         const std::vector<PlyProperty> numbers = face_columns_.properties();
         of_faces.insert(of_faces.end(), numbers.begin(), numbers.end());
-        header_.elements = {
-            {"vertex", static_cast<std::size_t>(mesh_.vertex_count()),
-             vertex_columns_.properties()},
-            {"face", static_cast<std::size_t>(mesh_.face_count()), std::move(of_faces)}};
+        header_.elements = {{"vertex", at(mesh_.vertex_count()), vertex_columns_.properties()},
+                            {"face", at(mesh_.face_count()), std::move(of_faces)}};
     }
 
     void write_face(Index f) {
         const std::span<const Index> face = mesh_.topology().face(f);
         rows_.write_list(indices_, face);
         for (const ListColumn& list : lists_) {
-            rows_.write_list(list.property, list_of_face(list, mesh_.topology().first_corner(f),
-                                                         static_cast<Index>(face.size())));
+            rows_.write_list(list.property,
+                             list_of_face(list, mesh_.topology().first_corner(f), count_of(face)));
         }
         rows_.write(face_columns_.all(), f);
         rows_.end_row();

@@ -32,7 +32,7 @@ void ColorReader::finish(AttributeSet& attributes, Domain domain, std::size_t el
     const double scale = bytes ? 255.0 : 1.0;
     Attribute color{
         "color", domain, has_alpha_ ? 4 : 3, bytes ? ScalarType::uint8 : ScalarType::float32, {}};
-    color.values.reserve(element_count * static_cast<std::size_t>(color.width));
+    color.values.reserve(element_count * color.width);
     for (std::size_t i = 0; i < values_.size(); i += 4) {
         for (std::size_t k = 0; k < 3; ++k) color.values.push_back(values_[i + k] / scale);
         if (!has_alpha_) continue;

@@ -90,12 +90,12 @@ void require_distinct_floats(std::span<const Vec3> positions, std::span<const In
     Elements joined{ElementKind::vertex, 0, {}};
     Box box;
     for (const Index v : corners) {
-        if (std::exchange(seen[static_cast<std::size_t>(v)], 1)) continue;
-        const Vec3& p = positions[static_cast<std::size_t>(v)];
+        if (std::exchange(seen[v], 1)) continue;
+        const Vec3& p = positions[v];
         const Vec3 r = rounded_to_float(p);
         box.extend(p);
         const Index place = places.add({p.x(), p.y(), p.z()});
-        const auto number = static_cast<std::size_t>(rounded.add({r.x(), r.y(), r.z()}));
+        const std::size_t number = rounded.add({r.x(), r.y(), r.z()});
         if (number == place_of.size()) place_of.push_back(place);
         if (place_of[number] != place) joined.add(v);
     }

@@ -13,7 +13,7 @@ void IndexCheck::refuse_index(std::int64_t index, Place place) const {
 }
 
 void IndexCheck::require_below(std::size_t count) const {
-    if (largest_ < 0 || static_cast<std::size_t>(largest_) < count) return;
+    if (largest_ < 0 || at(largest_) < count) return;
     refuse(ErrorCode::face_index,
            std::string(element_) + " " + std::to_string(largest_ + base_) +
                " does not exist; the file has " + std::to_string(count) + " of them",

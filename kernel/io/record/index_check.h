@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "kernel/core/index.h"
 #include "kernel/io/stream/read_error.h"
 
 namespace lissom {
@@ -23,7 +24,7 @@ class IndexCheck {
             largest_ = index;
             largest_place_ = place;
         }
-        return static_cast<Index>(index);
+        return index_of(index);
     }
     /// Errors: face_index where an index was not below `count`.
     void require_below(std::size_t count) const;

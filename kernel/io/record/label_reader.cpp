@@ -16,15 +16,14 @@ void LabelReader::finish(AttributeSet& attributes, std::string_view kind, Index 
 
 // A label gets its number with its first face: labels without faces leave no trace.
 void LabelReader::label_faces_before(Index face) {
-    if (static_cast<std::size_t>(face) == labels_.of_face.size()) return;
+    if (at(face) == labels_.of_face.size()) return;
     Index number = kNoIndex;
     if (!current_.empty()) {
-        const auto [entry, is_new] =
-            index_of_.try_emplace(current_, static_cast<Index>(labels_.names.size()));
+        const auto [entry, is_new] = index_of_.try_emplace(current_, count_of(labels_.names));
         if (is_new) labels_.names.push_back(current_);
         number = entry->second;
     }
-    labels_.of_face.resize(static_cast<std::size_t>(face), number);
+    labels_.of_face.resize(face, number);
 }
 
 }  // namespace lissom

@@ -31,8 +31,7 @@ std::string_view domain_name(Domain domain) {
 }
 
 void require_fit(const Mesh& mesh, const Attribute& attribute) {
-    const auto expected = static_cast<std::size_t>(element_count(mesh, attribute.domain)) *
-                          static_cast<std::size_t>(attribute.width);
+    const auto expected = at(element_count(mesh, attribute.domain)) * attribute.width;
     if (attribute.values.size() == expected) return;
     throw Error(ErrorCode::invalid_argument, "attribute " + in_quotes(attribute.name) + " has " +
                                                  std::to_string(attribute.values.size()) +
@@ -41,8 +40,8 @@ void require_fit(const Mesh& mesh, const Attribute& attribute) {
 }
 
 void require_fit(const Mesh& mesh, const std::string& kind, const FaceLabels& labels) {
-    const auto names = static_cast<Index>(labels.names.size());
-    const bool fits = labels.of_face.size() == static_cast<std::size_t>(mesh.face_count()) &&
+    const auto names = count_of(labels.names);
+    const bool fits = labels.of_face.size() == at(mesh.face_count()) &&
                       std::all_of(labels.of_face.begin(), labels.of_face.end(),
                                   [&](Index i) { return i >= kNoIndex && i < names; });
     if (fits) return;

@@ -39,7 +39,7 @@ class TriangleList {
         if (mesh_.positions.size() > kMaximumCorners - 3) {
             refuse(ErrorCode::file_too_large, "the file has more triangles than can be numbered");
         }
-        const auto first = static_cast<Index>(mesh_.positions.size());
+        const auto first = count_of(mesh_.positions);
         mesh_.positions.insert(mesh_.positions.end(), corners.begin(), corners.end());
         mesh_.faces.add({first, first + 1, first + 2});
     }

@@ -50,7 +50,7 @@ void read_points(ByteSource& source, std::span<float> numbers, std::span<const I
     source.require(numbers.size_bytes());
     Progress progress(context, "read strands");
     for (std::size_t done = 0; done < numbers.size(); done += kPieceNumbers) {
-        progress.update(double(done) / double(numbers.size()));
+        progress.update(done, numbers.size());
         const auto piece = numbers.subspan(done, std::min(kPieceNumbers, numbers.size() - done));
         source.read(piece);
         require_finite(piece, 3, done / 3, offsets);
@@ -61,10 +61,9 @@ void require_finite(std::span<const float> numbers, std::size_t width, std::size
                     std::span<const Index> offsets) {
     if (all_finite(numbers)) return;
     const auto bad = std::find_if_not(numbers.begin(), numbers.end(), is_finite);
-    const auto point =
-        static_cast<Index>(first_point + static_cast<std::size_t>(bad - numbers.begin()) / width);
+    const auto point = index_of(first_point + (bad - numbers.begin()) / width);
     const auto after = std::upper_bound(offsets.begin(), offsets.end(), point);
-    const auto strand = static_cast<std::size_t>(after - offsets.begin()) - 1;
+    const auto strand = at(after - offsets.begin()) - 1;
     refuse(ErrorCode::not_finite,
            "strand " + std::to_string(strand) +
                " has a value that is NaN or infinite, at its "

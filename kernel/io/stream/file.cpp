@@ -374,7 +374,7 @@ void write_file_atomically(const fs::path& path, std::string_view bytes, const C
     if (exists) file.take_permissions(status.permissions());
     Progress progress(context, "write file");
     for (std::size_t done = 0; done < bytes.size(); done += kPieceBytes) {
-        progress.update(static_cast<double>(done) / static_cast<double>(bytes.size()));
+        progress.update(done, bytes.size());
         file.write(bytes.substr(done, kPieceBytes));
     }
     progress.update(1.0);

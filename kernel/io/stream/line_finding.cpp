@@ -9,7 +9,7 @@ namespace lissom {
 void LineFinding::add(std::size_t line) {
     constexpr std::size_t kLargest = std::numeric_limits<Index>::max();
     ++count_;
-    const auto number = static_cast<Index>(std::min(line, kLargest));
+    const auto number = index_of(std::min(line, kLargest));
     if (lines_.empty() || lines_.back() != number) lines_.push_back(number);
 }
 

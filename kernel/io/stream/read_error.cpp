@@ -30,7 +30,7 @@ std::size_t printable_length(std::string_view text) {
 
 void refuse(ErrorCode code, const std::string& message, Place place) {
     if (place.kind == ElementKind::none) throw Error(code, message);
-    const auto id = static_cast<Index>(std::min(place.id, kMaximumElements));
+    const auto id = index_of(std::min(place.id, kMaximumElements));
     throw Error(code, message, {place.kind, 1, {id}});
 }
 
@@ -46,7 +46,7 @@ std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::strin
                           Place place) {
     const std::string what = std::to_string(count) + " " + std::string(elements);
     if (count < 0) refuse(ErrorCode::file_syntax, "the header announces " + what, place);
-    const auto number = static_cast<std::size_t>(count);
+    const std::size_t number = count;
     if (number > file_bytes) {
         refuse(ErrorCode::file_too_large,
                "the header announces " + what + ", but the file has only " +

@@ -95,7 +95,7 @@ std::string_view TextReader::word() {
     skip_blanks();
     const char* const start = at_;
     while (!at_word_end()) ++at_;
-    return {start, static_cast<std::size_t>(at_ - start)};
+    return {start, at(at_ - start)};
 }
 
 std::string_view TextReader::rest_of_line() {
@@ -104,7 +104,7 @@ std::string_view TextReader::rest_of_line() {
     while (at_ != end_ && !is_line_end(*at_)) ++at_;
     const char* last = at_;
     while (last != start && is_blank(last[-1])) --last;
-    return {start, static_cast<std::size_t>(last - start)};
+    return {start, at(last - start)};
 }
 
 // std::from_chars knows no leading plus.

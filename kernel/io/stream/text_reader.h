@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "kernel/core/index.h"
 #include "kernel/io/stream/read_error.h"
 
 namespace lissom {
@@ -35,8 +36,8 @@ class TextReader {
     /// 0-based number of the present line, and the same as a place for errors.
     std::size_t line() const { return line_; }
     Place place() const { return {ElementKind::line, line_}; }
-    std::size_t offset() const { return static_cast<std::size_t>(at_ - begin_); }
-    std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
+    std::size_t offset() const { return at(at_ - begin_); }
+    std::size_t remaining() const { return at(end_ - at_); }
     /// Share of the text that lies behind, 0 to 1.
     double fraction() const {
         return begin_ == end_ ? 1.0 : double(at_ - begin_) / double(end_ - begin_);

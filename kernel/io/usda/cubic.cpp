@@ -67,8 +67,7 @@ class CubicBasis {
         const Index first = segment * step_ - (pinned_ ? 1 : 0);
         double sum = 0.0;
         for (Index i = 0; i < 4; ++i) {
-            sum += w[static_cast<std::size_t>(i)] *
-                   control(values, controls, width, component, first + i);
+            sum += w[i] * control(values, controls, width, component, first + i);
         }
         return sum;
     }
@@ -77,9 +76,7 @@ class CubicBasis {
     // Pinned curves go through their ends: a point beyond them lies opposite the next one.
     static double control(const float* values, Index controls, std::size_t width,
                           std::size_t component, Index i) {
-        const auto at = [&](Index k) -> double {
-            return values[static_cast<std::size_t>(k) * width + component];
-        };
+        const auto at = [&](Index k) -> double { return values[k * width + component]; };
         if (i < 0) return 2.0 * at(0) - at(1);
         return i < controls ? at(i) : 2.0 * at(controls - 1) - at(controls - 2);
     }
@@ -105,7 +102,7 @@ std::vector<float> sampled(const std::vector<float>& values, std::size_t width,
                     static_cast<float>(basis.value(curve, controls, width, c, segment, t)));
             }
         }
-        curve += static_cast<std::size_t>(controls) * width;
+        curve += controls * width;
     }
     return result;
 }
@@ -120,12 +117,12 @@ std::vector<float> spread(const std::vector<float>& values, std::size_t width,
         for (Index k = 0; k <= kSamples * segments; ++k) {
             const Index segment = std::min(k, kSamples * segments - 1) / kSamples;
             const float t = float(k - segment * kSamples) / kSamples;
-            const float* const a = curve + static_cast<std::size_t>(segment) * width;
+            const float* const a = curve + segment * width;
             for (std::size_t c = 0; c < width; ++c) {
                 result.push_back(a[c] + t * (a[width + c] - a[c]));
             }
         }
-        curve += static_cast<std::size_t>(segments + 1) * width;
+        curve += (segments + 1) * width;
     }
     return result;
 }
@@ -139,8 +136,8 @@ void make_linear(CurvesPrim& prim) {
     std::vector<double> new_counts;
     for (const Index count : counts) {
         const Index segments = basis.segments(count);
-        controls += static_cast<std::size_t>(count);
-        ends += static_cast<std::size_t>(segments) + 1;
+        controls += count;
+        ends += at(segments) + 1;
         new_counts.push_back(kSamples * double(segments) + 1.0);
     }
     const auto convert = [&](CurveValues& values, std::size_t width, const char* what) {

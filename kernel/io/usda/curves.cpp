@@ -242,8 +242,7 @@ class LayerReader {
             hair_.has_widths |= prim.widths.found;
             Strands part = strands_of(std::move(prim));
             if (prims_.size() > 1 && part.groups().empty()) {
-                part.set_groups(std::vector<Index>(static_cast<std::size_t>(part.size()), 0),
-                                {std::move(name)});
+                part.set_groups(std::vector<Index>(part.size(), 0), {std::move(name)});
             }
             parts.push_back(std::move(part));
         }

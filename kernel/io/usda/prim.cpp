@@ -71,7 +71,7 @@ void take_values(const CurvesPrim& prim, const CurveValues& from, const Counts& 
 
 // Whether widths at all points are what the file says.
 bool are_widths(const Strands& strands, const std::vector<float>& numbers) {
-    if (numbers.size() != static_cast<std::size_t>(strands.point_count())) return false;
+    if (numbers.size() != at(strands.point_count())) return false;
     std::vector<float> widths;
     auto at = numbers.begin();
     for (Index s = 0; s < strands.size(); ++s) {
@@ -131,11 +131,11 @@ void set_roots(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
     if (prim.uvs.found) {
         const StrandDomain domain = domain_of(prim, prim.uvs, 2, counts, "st");
         for (std::size_t s = 0; s < counts.strands; ++s) {
-            const auto strand = static_cast<Index>(s);
+            const auto strand = index_of(s);
             const std::size_t i = domain == StrandDomain::all ? 0
                                   : domain == StrandDomain::strand
                                       ? s
-                                      : static_cast<std::size_t>(strands.first_point(strand));
+                                      : at(strands.first_point(strand));
             roots.uvs.emplace_back(prim.uvs.numbers.data() + 2 * i);
         }
     }
@@ -153,7 +153,7 @@ void set_groups(const CurvesPrim& prim, const Counts& counts, Strands& strands) 
     std::vector<Index> groups =
         whole_numbers<Index>(prim, prim.groups, counts.strands, kNoIndex, "group:indices");
     for (const Index group : groups) {
-        if (group < static_cast<Index>(prim.group_names.size())) continue;
+        if (group < count_of(prim.group_names)) continue;
         refuse_prim(prim, "a value of 'group:indices' has no name");
     }
     strands.set_groups(std::move(groups), prim.group_names);
@@ -167,7 +167,7 @@ std::vector<Index> curve_counts(const CurvesPrim& prim) {
     const std::size_t points = prim.points.size() / 3;
     std::size_t total = 0;
     for (const double count : prim.counts) {
-        if (!is_whole(count, 1, static_cast<double>(points - total))) {
+        if (!is_whole(count, 1, points - total)) {
             refuse_prim(prim, "'curveVertexCounts' do not add up to the " + std::to_string(points) +
                                   " points");
         }

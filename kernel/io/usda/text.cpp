@@ -103,7 +103,7 @@ void UsdaText::skip_blanks() {
 
 // A text in quotes, which may be triple.
 void UsdaText::read_text() {
-    const std::string_view rest(at_, static_cast<std::size_t>(end_ - at_));
+    const std::string_view rest(at_, end_ - at_);
     const std::string triple(3, *at_);
     const std::string_view quotes =
         rest.starts_with(triple) ? std::string_view(triple) : std::string_view(triple).substr(0, 1);
@@ -127,7 +127,7 @@ void UsdaText::read_delimited(char end) {
     while (at_ != end_ && *at_ != end && *at_ != '\n') ++at_;
     if (at_ != end_ && *at_ == end) ++at_;
     next_.kind = Kind::word;
-    next_.value = {start, static_cast<std::size_t>(at_ - start)};
+    next_.value = {start, at(at_ - start)};
 }
 
 void UsdaText::advance() {
@@ -148,7 +148,7 @@ void UsdaText::advance() {
         next_.kind = Kind::punctuation;
         ++at_;
     }
-    next_.value = {start, static_cast<std::size_t>(at_ - start)};
+    next_.value = {start, at(at_ - start)};
 }
 
 UsdaText::Token UsdaText::take() {

@@ -74,7 +74,7 @@ class LayerWriter {
         const Index count = strands_.point_count();
         list("point3f[] points", count, [&](Index p) {
             ticker.tick([&] { return 0.1 + 0.6 * double(p) / double(count); });
-            tuple(strands_.points().data() + 3 * static_cast<std::size_t>(p), 3);
+            tuple(strands_.points().data() + 3 * at(p), 3);
         });
     }
 
@@ -91,11 +91,8 @@ class LayerWriter {
                       const Change& change) {
         const bool one = values.domain == StrandDomain::all;
         list(
-            name, one ? 1 : static_cast<Index>(values.values.size()),
-            [&](Index i) {
-                append_number(text_, change(one ? values.common
-                                                : values.values[static_cast<std::size_t>(i)]));
-            },
+            name, one ? 1 : count_of(values.values),
+            [&](Index i) { append_number(text_, change(one ? values.common : values.values[i])); },
             one ? "constant" : interpolation(values.domain));
     }
 
@@ -105,8 +102,8 @@ class LayerWriter {
         if (widths.profile.empty()) return write_values("float[] widths", widths, same);
         write_point_widths();
         write_values("float[] primvars:lissom:width", widths, same);
-        list("custom float[] lissom:widthProfile", static_cast<Index>(widths.profile.size()),
-             [&](Index i) { append_number(text_, widths.profile[static_cast<std::size_t>(i)]); });
+        list("custom float[] lissom:widthProfile", count_of(widths.profile),
+             [&](Index i) { append_number(text_, widths.profile[i]); });
     }
 
     void write_transparency() {
@@ -120,14 +117,14 @@ class LayerWriter {
 
     void write_point_widths() {
         std::vector<float> all, one;
-        all.reserve(static_cast<std::size_t>(strands_.point_count()));
+        all.reserve(strands_.point_count());
         for (Index s = 0; s < strands_.size(); ++s) {
             widths_of(strands_, s, one);
             all.insert(all.end(), one.begin(), one.end());
         }
         list(
             "float[] widths", strands_.point_count(),
-            [&](Index p) { append_number(text_, all[static_cast<std::size_t>(p)]); }, "vertex");
+            [&](Index p) { append_number(text_, all[p]); }, "vertex");
     }
 
     void write_colors() {
@@ -140,14 +137,12 @@ class LayerWriter {
             return;
         }
         list(
-            "color3f[] primvars:displayColor", static_cast<Index>(colors->values.size()),
-            [&](Index i) { tuple(colors->values[static_cast<std::size_t>(i)].data(), 3); },
-            interpolation(colors->domain));
+            "color3f[] primvars:displayColor", count_of(colors->values),
+            [&](Index i) { tuple(colors->values[i].data(), 3); }, interpolation(colors->domain));
     }
 
     void write_roots() {
         const StrandRoots& roots = strands_.roots();
-        const auto at = [](Index i) { return static_cast<std::size_t>(i); };
         if (!roots.uvs.empty()) {
             list(
                 "texCoord2f[] primvars:st", strands_.size(),
@@ -171,8 +166,8 @@ class LayerWriter {
         if (strands_.groups().empty()) return;
         const std::vector<std::string>& names = strands_.group_names();
         list(
-            "string[] primvars:group", static_cast<Index>(names.size()),
-            [&](Index i) { append_text(names[static_cast<std::size_t>(i)]); }, "uniform");
+            "string[] primvars:group", count_of(names), [&](Index i) { append_text(names[i]); },
+            "uniform");
         list("int[] primvars:group:indices", strands_.size(),
              [&](Index s) { append_number(text_, strands_.group(s)); });
     }
@@ -212,7 +207,7 @@ class LayerWriter {
 
 void write_usda(const Strands& strands, double meters_per_unit, UpAxis up, std::string& bytes,
                 const Context& context) {
-    bytes.reserve(40 * static_cast<std::size_t>(strands.point_count()) + 1000);
+    bytes.reserve(40 * at(strands.point_count()) + 1000);
     LayerWriter(strands, bytes, context).write(meters_per_unit, up);
 }
 

@@ -33,8 +33,8 @@ SideFaces faces_beside(const Sewn& sewn, std::span<const Index> seam, SeamSide s
                        const Context& context) {
     const Mesh& mesh = sewn.mesh;
     const std::vector<double> way = edge_distances(mesh, seam, limit, context);
-    std::vector<char> vertex_seen(static_cast<std::size_t>(mesh.vertex_count()), 0);
-    std::vector<char> face_seen(static_cast<std::size_t>(mesh.face_count()), 0);
+    std::vector<char> vertex_seen(mesh.vertex_count(), 0);
+    std::vector<char> face_seen(mesh.face_count(), 0);
     std::vector<Index> front(seam.begin(), seam.end());
     for (const Index v : front) vertex_seen[v] = 1;
     SideFaces result;
@@ -62,7 +62,7 @@ std::vector<Vec2> harmonic_extension(const Rings& rings, std::span<const double>
         if (!fixed[i]) unknown[i] = count++;
     }
     if (count == 0) return values;
-    const auto n = static_cast<std::size_t>(count);
+    const std::size_t n = count;
     std::vector<Triplet> entries;
     std::vector<double> b(2 * n, 0.0);
     for (Index i = 0; i < rings.size(); ++i) {
@@ -91,7 +91,7 @@ std::vector<Vec2> harmonic_extension(const Rings& rings, std::span<const double>
 // Fraction of a turn of every vertex of `band`; `on_seam` has that of the seam's.
 std::vector<double> angles(const Mesh& band, std::span<const double> on_seam,
                            std::span<const char> fixed, const Context& context) {
-    std::vector<Index> faces(static_cast<std::size_t>(band.face_count()));
+    std::vector<Index> faces(band.face_count());
     for (Index f = 0; f < band.face_count(); ++f) faces[f] = f;
     const WeightedTriangles triangles =
         weighted_triangles(band.topology(), band.positions(), faces);
@@ -122,9 +122,9 @@ double winding(const BandChart& chart, std::span<const Index> loop) {
 }
 
 double end_of(const BandChart& chart, const Topology& topology) {
-    std::vector<Index> place(static_cast<std::size_t>(topology.vertex_count()), kNoIndex);
+    std::vector<Index> place(topology.vertex_count(), kNoIndex);
     for (std::size_t i = 0; i < chart.vertex.size(); ++i) {
-        place[chart.vertex[i]] = static_cast<Index>(i);
+        place[chart.vertex[i]] = index_of(i);
     }
     double end = std::numeric_limits<double>::infinity();
     for (std::vector<Index> loop : topology.boundary_loops()) {
@@ -159,7 +159,7 @@ BandChart make_band_chart(const Sewn& sewn, std::span<const Index> seam, SeamSid
     const Mesh shape({mesh.positions().begin(), mesh.positions().end()}, mesh.shared_topology());
     const MeshPart band = extract_faces(shape, part.faces, context);
 
-    std::vector<double> fraction_at(static_cast<std::size_t>(mesh.vertex_count()), -1.0);
+    std::vector<double> fraction_at(mesh.vertex_count(), -1.0);
     std::vector<Vec3> points;
     for (const Index v : seam) points.push_back(mesh.position(v));
     const std::vector<double> fractions = loop_fractions(points);
@@ -174,7 +174,7 @@ BandChart make_band_chart(const Sewn& sewn, std::span<const Index> seam, SeamSid
     for (std::size_t i = 0; i < chart.vertex.size(); ++i) {
         on_seam.push_back(std::max(0.0, fraction_at[chart.vertex[i]]));
         fixed.push_back(static_cast<char>(fraction_at[chart.vertex[i]] >= 0.0));
-        if (fixed.back()) sources.push_back(static_cast<Index>(i));
+        if (fixed.back()) sources.push_back(index_of(i));
     }
     chart.distance = heat_distances(band.mesh, sources, context);
     chart.angle = angles(band.mesh, on_seam, fixed, context);

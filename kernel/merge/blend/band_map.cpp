@@ -50,9 +50,9 @@ void BandMap::add_cell(const BandChart& chart, const Triangle& t, double width) 
 
 void BandMap::build_bins() {
     // About one cell a bin; bands are longer around than away.
-    const auto side = std::sqrt(static_cast<double>(cells_.size()));
-    around_ = std::max(1, static_cast<Index>(std::lround(2.0 * side)));
-    away_ = std::max(1, static_cast<Index>(std::lround(0.5 * side)));
+    const auto side = std::sqrt(cells_.size());
+    around_ = std::max(1, index_of(std::lround(2.0 * side)));
+    away_ = std::max(1, index_of(std::lround(0.5 * side)));
     const auto visit = [&](const auto& use) {
         for (std::size_t c = 0; c < cells_.size(); ++c) {
             const auto& [a, b, d] = cells_[c].at;
@@ -61,16 +61,15 @@ void BandMap::build_bins() {
             const auto last = static_cast<Index>(std::floor(high.x() * around_));
             for (Index column = first; column <= std::min(last, first + around_ - 1); ++column) {
                 for (Index row = row_of(low.y()); row <= row_of(high.y()); ++row) {
-                    use(((column % around_ + around_) % around_) * away_ + row,
-                        static_cast<Index>(c));
+                    use(((column % around_ + around_) % around_) * away_ + row, index_of(c));
                 }
             }
         }
     };
-    bin_begin_.assign(static_cast<std::size_t>(around_) * away_ + 1, 0);
+    bin_begin_.assign(at(around_) * away_ + 1, 0);
     visit([&](Index bin, Index) { ++bin_begin_[bin + 1]; });
     for (std::size_t i = 1; i < bin_begin_.size(); ++i) bin_begin_[i] += bin_begin_[i - 1];
-    bin_.resize(static_cast<std::size_t>(bin_begin_.back()));
+    bin_.resize(bin_begin_.back());
     std::vector<Index> fill(bin_begin_.begin(), bin_begin_.end() - 1);
     visit([&](Index bin, Index cell) { bin_[fill[bin]++] = cell; });
 }

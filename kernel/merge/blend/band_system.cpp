@@ -19,8 +19,8 @@ constexpr double kLeastSeamAngle = 2.0 * kPi / 180.0;
 BandSystem::BandSystem(const Region& region, const Region& band, std::span<const Vec3> positions)
     : patch_(build_patch(region, positions, kRowRings, near_order(region, kRowRings))),
       rings_(build_rings(patch_.real_count, patch_.triangles)),
-      row_(static_cast<std::size_t>(patch_.real_count), 0),
-      unknown_(static_cast<std::size_t>(patch_.real_count), kNoIndex),
+      row_(patch_.real_count, 0),
+      unknown_(patch_.real_count, kNoIndex),
       x_(patch_.rest.begin(), patch_.rest.begin() + patch_.real_count) {
     for (Index i = 0; i < patch_.real_count; ++i) {
         if (band.contains(mesh_vertex(i))) unknown_[i] = unknown_count_++;
@@ -68,7 +68,7 @@ SymmetricMatrix BandSystem::normal_matrix() const {
             matrix.row.push_back(j);
             matrix.value.push_back(value);
         });
-        matrix.begin.push_back(static_cast<Index>(matrix.row.size()));
+        matrix.begin.push_back(count_of(matrix.row));
     }
     return matrix;
 }
@@ -76,7 +76,7 @@ SymmetricMatrix BandSystem::normal_matrix() const {
 // Solved for displacements, so that a band that has the wanted coordinates does not move.
 void BandSystem::bend(std::span<const Vec3> wanted, const Context& context) {
     const SymmetricMatrix matrix = normal_matrix();
-    const auto n = static_cast<std::size_t>(matrix.size());
+    const std::size_t n = matrix.size();
     std::vector<double> b(3 * n, 0.0);
     for (Index i = 0; i < patch_.real_count; ++i) {
         if (!is_row(i)) continue;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/deform/patch/operators.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/merge/sew/seam_quality.h"
@@ -28,28 +29,27 @@ class BandSystem {
     BandSystem(const Region& region, const Region& band, std::span<const Vec3> positions);
 
     Index vertex_count() const { return patch_.real_count; }
-    Index mesh_vertex(Index i) const { return patch_.mesh_vertex[i]; }
-    bool moves(Index i) const { return unknown_[i] != kNoIndex; }
-    bool is_row(Index i) const { return row_[i] != 0; }
-    bool on_boundary(Index i) const { return patch_.on_boundary[i] != 0; }
+    Index mesh_vertex(Index i) const { return patch_.mesh_vertex[at(i)]; }
+    bool moves(Index i) const { return unknown_[at(i)] != kNoIndex; }
+    bool is_row(Index i) const { return row_[at(i)] != 0; }
+    bool on_boundary(Index i) const { return patch_.on_boundary[at(i)] != 0; }
     std::span<const Index> ring(Index i) const { return rings_.ring(i); }
     /// (cot a + cot b) / 2 of the edge to each vertex of the ring.
     std::span<const double> cotangents(Index i) const {
-        return {geometry_.cotangent.data() + rings_.begin[i],
-                static_cast<std::size_t>(rings_.count(i))};
+        return {geometry_.cotangent.data() + rings_.begin[at(i)], at(rings_.count(i))};
     }
 
     /// Position relative to a vertex of the band. After a change, `measure` brings the operators up
     /// to date.
-    const Vec3& position(Index i) const { return x_[i]; }
-    void set_position(Index i, const Vec3& x) { x_[i] = x; }
+    const Vec3& position(Index i) const { return x_[at(i)]; }
+    void set_position(Index i, const Vec3& x) { x_[at(i)] = x; }
 
     /// Takes the operators from the present shape.
     void measure();
     /// Laplacian coordinates, unit normal and signed mean curvature (the part of the coordinates
     /// along the normal) of a row in the shape last measured.
     Vec3 coordinates(Index i) const { return laplacian_.apply(rings_, x_, i); }
-    const Vec3& normal(Index i) const { return geometry_.normal[i]; }
+    const Vec3& normal(Index i) const { return geometry_.normal[at(i)]; }
     double curvature(Index i) const { return coordinates(i).dot(normal(i)); }
     /// The curvature of every row, 0 for other local vertices.
     std::vector<double> curvatures() const;

@@ -34,7 +34,7 @@ std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> sea
     const SeamCore core(band, rings, options.core);
     for (Index i = 0; i < options.umbrella; ++i) core.umbrella(band);
     for (Index pass = 0; pass < options.passes; ++pass) {
-        progress.update(static_cast<double>(pass) / options.passes);
+        progress.update(pass, options.passes);
         band.bend(core.relaxed(band, band.curvatures(), context), context);
     }
     band.write_guarded(mesh, seams, {}, context);

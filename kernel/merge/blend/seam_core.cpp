@@ -20,7 +20,7 @@ constexpr double kHold = 1e-7;
 // Vertices that nothing holds would drift: the farthest of each component stay where all of it
 // moves.
 std::vector<char> held_components(const Topology& topology, std::span<const Index> rings) {
-    std::vector<char> held(static_cast<std::size_t>(topology.component_count()), 0);
+    std::vector<char> held(topology.component_count(), 0);
     for (Index v = 0; v < topology.vertex_count(); ++v) {
         if (rings[v] == kNoIndex || topology.is_boundary(v)) held[topology.components()[v]] = 1;
     }
@@ -31,7 +31,7 @@ std::vector<char> held_components(const Topology& topology, std::span<const Inde
 
 std::vector<Index> seam_rings(const Topology& topology, std::span<const std::vector<Index>> seams,
                               Index limit) {
-    std::vector<Index> rings(static_cast<std::size_t>(topology.vertex_count()), kNoIndex);
+    std::vector<Index> rings(topology.vertex_count(), kNoIndex);
     std::vector<Index> front, next;
     const auto reach = [&](Index v, Index ring) {
         if (rings[v] != kNoIndex) return;
@@ -67,12 +67,12 @@ Region seam_band(const std::shared_ptr<const Topology>& topology, std::span<cons
 }
 
 SeamCore::SeamCore(const BandSystem& band, std::span<const Index> rings, Index width)
-    : unknown_(static_cast<std::size_t>(band.vertex_count()), kNoIndex) {
+    : unknown_(band.vertex_count(), kNoIndex) {
     for (Index i = 0; i < band.vertex_count(); ++i) {
         const Index ring = rings[band.mesh_vertex(i)];
         if (!band.is_row(i) || band.on_boundary(i) || ring == kNoIndex || ring >= width) continue;
         if (!band.moves(i) && ring > 0) continue;
-        unknown_[i] = static_cast<Index>(vertices_.size());
+        unknown_[i] = count_of(vertices_);
         vertices_.push_back(i);
         strength_.push_back(kUmbrellaStrength * (width - ring) / width);
     }
@@ -89,7 +89,7 @@ void SeamCore::umbrella(BandSystem& band) const {
             mean += band.position(j);
             shortest = std::min(shortest, (band.position(j) - band.position(i)).norm());
         }
-        mean /= static_cast<double>(band.ring(i).size());
+        mean /= band.ring(i).size();
         const Vec3 way = mean - band.position(i), along = band.normal(i).dot(way) * band.normal(i);
         Vec3 step = strength_[k] * (way - along);
         if (step.norm() > kLongestStep * shortest) step.setZero();
@@ -148,7 +148,7 @@ std::vector<Vec4> SeamCore::fill(const BandSystem& band, std::vector<Vec4> value
             if (contains(j)) entries.push_back({unknown_[i], unknown_[j], -weight});
         }
     }
-    const SymmetricMatrix matrix = symmetric_from_triplets(static_cast<Index>(n), entries);
+    const SymmetricMatrix matrix = symmetric_from_triplets(index_of(n), entries);
     SparseSystem system;
     system.analyze(matrix, context);
     system.factor(matrix, context);

@@ -27,7 +27,7 @@ class SeamCore {
     /// `rings` of the mesh's vertices; those below `width` are core.
     SeamCore(const BandSystem& band, std::span<const Index> rings, Index width);
 
-    bool contains(Index local) const { return unknown_[local] != kNoIndex; }
+    bool contains(Index local) const { return unknown_[at(local)] != kNoIndex; }
 
     /// One umbrella step within the tangent planes of the shape last measured: the core moves
     /// towards the mean of its neighbours, all at once, half the way on the seam and less in each

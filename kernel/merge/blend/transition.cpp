@@ -77,9 +77,9 @@ struct Transition {
 
 // Number of the seam at each vertex, or kNoIndex.
 std::vector<Index> seams_at(const Sewn& sewn) {
-    std::vector<Index> seam_at(static_cast<std::size_t>(sewn.mesh.vertex_count()), kNoIndex);
+    std::vector<Index> seam_at(sewn.mesh.vertex_count(), kNoIndex);
     for (std::size_t k = 0; k < sewn.seams.size(); ++k) {
-        for (const Index v : sewn.seams[k]) seam_at[v] = static_cast<Index>(k);
+        for (const Index v : sewn.seams[k]) seam_at[v] = index_of(k);
     }
     return seam_at;
 }
@@ -97,7 +97,7 @@ double room_on(const BandChart& chart, Index seam, std::span<const Index> seam_a
 // Median length of the edges that leave the seam's neighbours on one side; 0 without any.
 double edge_beside(const Sewn& sewn, std::span<const Index> seam, SeamSide side) {
     const Topology& topology = sewn.mesh.topology();
-    std::vector<char> on_seam(static_cast<std::size_t>(topology.vertex_count()), 0);
+    std::vector<char> on_seam(topology.vertex_count(), 0);
     for (const Index v : seam) on_seam[v] = 1;
     std::vector<Index> ring;
     for (const Index v : seam) {
@@ -119,7 +119,7 @@ double edge_beside(const Sewn& sewn, std::span<const Index> seam, SeamSide side)
         }
     }
     if (lengths.empty()) return 0.0;
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    const auto middle = lengths.begin() + (lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());
     return *middle;
 }
@@ -237,7 +237,7 @@ TransitionBand blend_side(const Side& side, const Side& across, double own_share
 }
 
 std::vector<Index> local_numbers(const BandSystem& band, Index vertex_count) {
-    std::vector<Index> local(static_cast<std::size_t>(vertex_count), kNoIndex);
+    std::vector<Index> local(vertex_count, kNoIndex);
     for (Index i = 0; i < band.vertex_count(); ++i) local[band.mesh_vertex(i)] = i;
     return local;
 }
@@ -247,7 +247,7 @@ std::vector<Index> local_numbers(const BandSystem& band, Index vertex_count) {
 std::vector<TransitionWidths> suitable_widths(const Sewn& sewn, const Context& context) {
     const std::vector<Index> seam_at = seams_at(sewn);
     std::vector<TransitionWidths> widths;
-    for (Index k = 0; k < static_cast<Index>(sewn.seams.size()); ++k) {
+    for (Index k = 0; k < count_of(sewn.seams); ++k) {
         widths.push_back({suitable_width(sewn, k, SeamSide::target, seam_at, context),
                           suitable_width(sewn, k, SeamSide::source, seam_at, context)});
     }
@@ -262,8 +262,7 @@ TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> 
     const std::vector<Index> seam_at = seams_at(sewn);
     std::vector<Transition> transitions;
     for (std::size_t k = 0; k < widths.size(); ++k) {
-        transitions.push_back(
-            make_transition(sewn, static_cast<Index>(k), widths[k], seam_at, context));
+        transitions.push_back(make_transition(sewn, index_of(k), widths[k], seam_at, context));
     }
     TransitionReport report;
     const Region moving = moving_region(sewn, transitions);

@@ -63,7 +63,7 @@ struct Matches {
 
     Similarity fit() const {
         Similarity s;
-        const auto n = static_cast<double>(from.size());
+        const double n = from.size();
         for (const Vec3& p : from) s.from += p / n;
         for (const Vec3& p : to) s.to += p / n;
         Mat3 products = Mat3::Zero();
@@ -189,7 +189,7 @@ class OffsetSearch {
         for (std::size_t j = 1; j < joins_.size(); ++j) {
             squares += (s(joins_[j].source->center()) - joins_[j].target->center()).squaredNorm();
         }
-        return cost(0, offset, s) + std::sqrt(squares / static_cast<double>(joins_.size())) / size;
+        return cost(0, offset, s) + std::sqrt(squares / joins_.size()) / size;
     }
 
   private:

@@ -37,7 +37,7 @@ double parameter_of_key(const Loop& loop, const Key& key, std::size_t number, co
     if (const Index* vertex = std::get_if<Index>(&key)) {
         const std::vector<Index>& ids = loop.vertices();
         const auto at = std::find(ids.begin(), ids.end(), *vertex);
-        if (at != ids.end()) return loop.parameters()[static_cast<std::size_t>(at - ids.begin())];
+        if (at != ids.end()) return loop.parameters()[at - ids.begin()];
         Elements elements{ElementKind::vertex, 0, {}};
         elements.add(*vertex);
         const std::string name = describe(elements);
@@ -50,7 +50,7 @@ double parameter_of_key(const Loop& loop, const Key& key, std::size_t number, co
     const LoopPoint place = loop.nearest(std::get<Vec3>(key), distance);
     if (!(distance <= kOffLoop * loop.length())) {
         Elements elements{ElementKind::vertex, 0, {}};
-        elements.add(loop.vertices()[static_cast<std::size_t>(place.segment)]);
+        elements.add(loop.vertices()[place.segment]);
         refuse_key(number,
                    "lies off " + boundary + ", " + std::to_string(distance) +
                        " from it; give a point on it",
@@ -115,7 +115,7 @@ std::vector<double> unwound(std::vector<double> u) {
 }
 
 double spacing(const std::vector<double>& u, Index k) {
-    const auto n = static_cast<Index>(u.size());
+    const auto n = count_of(u);
     const double before = ahead(u[(k + n - 1) % n], u[k]), after = ahead(u[k], u[(k + 1) % n]);
     return std::min(before, after);
 }
@@ -123,12 +123,12 @@ double spacing(const std::vector<double>& u, Index k) {
 // The vertex of the target that each source vertex meets, or kNoIndex. Each target vertex meets the
 // nearest one only; as places ascend, so do the vertices met.
 std::vector<Index> meetings(const std::vector<double>& source, const std::vector<double>& target) {
-    const auto n = static_cast<Index>(source.size()), m = static_cast<Index>(target.size());
+    const auto n = count_of(source), m = count_of(target);
     std::vector<Index> met(source.size(), kNoIndex), taker(target.size(), kNoIndex);
     std::vector<double> gap(target.size(), 1.0);
     for (Index i = 0; i < n; ++i) {
         const auto after = std::upper_bound(target.begin(), target.end(), source[i]);
-        const Index right = static_cast<Index>(after - target.begin()) % m;
+        const Index right = index_of(after - target.begin()) % m;
         for (const Index j : {(right + m - 1) % m, right}) {
             const double d = std::min(ahead(target[j], source[i]), ahead(source[i], target[j]));
             if (d > kSnap * std::min(spacing(source, i), spacing(target, j)) || d >= gap[j])
@@ -182,7 +182,7 @@ LoopPair corresponding(const Loop& source, const Loop& target,
     for (const double u : target.parameters()) {
         const double v = places.front() + ahead(places.front(), u);
         const auto after = std::upper_bound(places.begin(), places.end(), v);
-        const auto k = static_cast<Index>(after - places.begin()) - 1;
+        const auto k = index_of(after - places.begin()) - 1;
         const double to = k + 1 < source.size() ? places[k + 1] : last;
         const double t = to > places[k] ? (v - places[k]) / (to - places[k]) : 0.0;
         pair.on_source.push_back(t < 1.0 ? LoopPoint{k, t}

@@ -36,8 +36,7 @@ inline Vec3 clear_area_vector(const Mesh& mesh, Index face) {
 
 /// The same number for an edge in either direction, and no other.
 inline std::uint64_t edge_key(Index a, Index b) {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::min(a, b))) << 32) |
-           static_cast<std::uint32_t>(std::max(a, b));
+    return pair_key(std::min(a, b), std::max(a, b));
 }
 
 /// In radians, 0 to pi.

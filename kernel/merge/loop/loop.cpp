@@ -179,7 +179,7 @@ LoopPoint Loop::place_at(double parameter) const {
     double u = parameter - std::floor(parameter);
     if (u >= 1.0) u = 0.0;
     const auto after = std::upper_bound(parameters_.begin(), parameters_.end(), u);
-    const auto k = static_cast<Index>(after - parameters_.begin()) - 1;
+    const auto k = index_of(after - parameters_.begin()) - 1;
     const double to = k + 1 < size() ? parameters_[k + 1] : 1.0;
     const double width = to - parameters_[k];
     const double t = width > 0.0 ? (u - parameters_[k]) / width : 0.0;

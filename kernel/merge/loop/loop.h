@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/merge/loop/loop_pair.h"
 #include "kernel/mesh/mesh.h"
 
@@ -17,7 +18,7 @@ class Loop {
     /// than 3 vertices or no length.
     Loop(const Mesh& mesh, std::vector<Index> vertices);
 
-    Index size() const { return static_cast<Index>(vertices_.size()); }
+    Index size() const { return count_of(vertices_); }
     const std::vector<Index>& vertices() const { return vertices_; }
     const std::vector<Vec3>& points() const { return points_; }
     double length() const { return length_; }
@@ -50,7 +51,7 @@ class Loop {
     std::vector<Vec3> smoothed(std::span<const Vec3> values, double sigma) const;
     void find_moments();
     void find_parameters();
-    double edge(Index k) const { return edges_[static_cast<std::size_t>(k)]; }
+    double edge(Index k) const { return edges_[at(k)]; }
 
     std::vector<Index> vertices_;
     std::vector<Vec3> points_, normals_;
@@ -63,7 +64,7 @@ class Loop {
 /// What stands at a place between the values of a loop's vertices.
 template <typename T>
 T interpolated(const std::vector<T>& values, const LoopPoint& place) {
-    const auto k = static_cast<std::size_t>(place.segment);
+    const auto k = at(place.segment);
     return (1.0 - place.t) * values[k] + place.t * values[(k + 1) % values.size()];
 }
 

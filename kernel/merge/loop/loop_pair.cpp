@@ -5,7 +5,7 @@
 namespace lissom {
 
 Vec3 point_of(std::span<const Vec3> points, const LoopPoint& place) {
-    const std::size_t k = static_cast<std::size_t>(place.segment);
+    const std::size_t k = place.segment;
     if (place.segment < 0 || k >= points.size()) {
         throw Error(ErrorCode::out_of_range, "the place lies on no segment of the loop");
     }

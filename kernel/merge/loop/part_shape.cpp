@@ -63,7 +63,7 @@ class MirrorSearch {
     double asymmetry(const Plane& plane) const {
         double squares = 0.0;
         for (const Vec3& p : probes_) squares += square(tree_.nearest(plane.mirrored(p)).distance);
-        return std::sqrt(squares / static_cast<double>(probes_.size())) / size_;
+        return std::sqrt(squares / probes_.size()) / size_;
     }
 
     // The plane between points and what lies nearest to their mirror images.
@@ -72,7 +72,7 @@ class MirrorSearch {
         std::vector<Vec3> images;
         for (const Vec3& p : probes_) {
             images.push_back(tree_.nearest(plane.mirrored(p)).position);
-            middle += 0.5 * (p + images.back()) / static_cast<double>(probes_.size());
+            middle += 0.5 * (p + images.back()) / count_of(probes_);
         }
         // Of the mirrored points about the middle, and the points: the least squares of
         // p' - mirror(p) over unit normals is an eigenvector.

@@ -36,7 +36,7 @@ class BandSeam {
                 }
             }
         }
-        work_.report.band_removed += static_cast<Index>(band_.size());
+        work_.report.band_removed += count_of(band_);
     }
 
     void close_gap(const Context& context) {
@@ -46,7 +46,7 @@ class BandSeam {
         for (const LoopPoint& place : join_.on_target) loop.push_back(point_of(target, place));
         for (const BandTriangle& triangle : least_area_band(rim, loop, context)) add(triangle);
         work_.seams.emplace_back();
-        for (Index i = 0; i < static_cast<Index>(loop.size()); ++i) {
+        for (Index i = 0; i < count_of(loop); ++i) {
             const Index v = loop_vertex(i);
             work_.patch.move(v, loop[i]);
             work_.sources[v] = sources_of(work_, join_, join_.on_target[i], {i, 0.0});
@@ -110,13 +110,12 @@ class BandSeam {
     }
 
     Index loop_vertex(Index i) const {
-        return work_.first_source_vertex +
-               join_.source[i % static_cast<Index>(join_.source.size())];
+        return work_.first_source_vertex + join_.source[i % count_of(join_.source)];
     }
 
     // The face of the band along a segment of the target's old loop.
     Index loop_face(Index segment) const {
-        const std::size_t next = (static_cast<std::size_t>(segment) + 1) % join_.target.size();
+        const std::size_t next = (at(segment) + 1) % join_.target.size();
         for (const Index f : work_.both.topology().faces_around(join_.target[segment])) {
             const std::span<const Index> face = work_.both.topology().face(f);
             for (std::size_t k = 0; k < face.size(); ++k) {
@@ -132,19 +131,18 @@ class BandSeam {
     Index corner_at(Index f, Index v) const {
         const std::span<const Index> face = work_.both.topology().face(f);
         return work_.both.topology().first_corner(f) +
-               static_cast<Index>(std::find(face.begin(), face.end(), v) - face.begin());
+               index_of(std::find(face.begin(), face.end(), v) - face.begin());
     }
 
     SeamCorner rim_corner(Index i) const {
-        const Index k = i % static_cast<Index>(rim_.size());
+        const Index k = i % count_of(rim_);
         return {rim_[k], corner_at(rim_face_[k], rim_[k]), kNoIndex, 0.0};
     }
 
     SeamCorner loop_corner(Index i) const {
-        const LoopPoint& place = join_.on_target[i % static_cast<Index>(join_.source.size())];
+        const LoopPoint& place = join_.on_target[i % count_of(join_.source)];
         const Index face = loop_face(place.segment);
-        const std::size_t next =
-            (static_cast<std::size_t>(place.segment) + 1) % join_.target.size();
+        const std::size_t next = (at(place.segment) + 1) % join_.target.size();
         SeamCorner corner{loop_vertex(i), corner_at(face, join_.target[place.segment]), kNoIndex,
                           0.0};
         if (place.t > 0.0) {

@@ -203,11 +203,11 @@ std::vector<FacePair> ClosedPatch::crossings(const Context& context) const {
         if (faces_.faces()[f].corners.empty()) continue;
         vertices.clear();
         for (const SeamCorner& corner : faces_.faces()[f].corners) {
-            vertices.push_back(static_cast<Index>(points.size()));
+            vertices.push_back(count_of(points));
             points.push_back(faces_.position(corner.vertex));
         }
         faces.add(vertices);
-        number.push_back(static_cast<Index>(f));
+        number.push_back(index_of(f));
     }
     std::vector<FacePair> pairs =
         self_intersections(Mesh(std::move(points), std::move(faces)), {}, context);

@@ -26,7 +26,7 @@ class ConformingSeam {
     void collapse_source(double limit) {
         double mean = 0.0;
         for (std::size_t k = 0; k < seam_.size(); ++k) mean += length(k);
-        mean /= static_cast<double>(seam_.size());
+        mean /= seam_.size();
         std::set<Index> firm;
         for (;;) {
             const std::optional<ShortEdge> edge = shortest(limit * mean, firm);
@@ -34,7 +34,7 @@ class ConformingSeam {
             const Index gone = source_vertex(seam_[edge->gone]);
             if (work_.patch.collapse(gone, source_vertex(seam_[edge->kept]))) {
                 work_.gone.insert(gone);
-                seam_.erase(seam_.begin() + static_cast<std::ptrdiff_t>(edge->gone));
+                seam_.erase(seam_.begin() + edge->gone);
                 ++work_.report.collapsed;
             } else {
                 firm.insert(gone);
@@ -56,7 +56,7 @@ class ConformingSeam {
             if (inserted.empty()) continue;
             work_.patch.split_edge(target_vertex(seam_[from]), target_vertex(seam_[k % n]),
                                    inserted, fractions);
-            work_.report.inserted_into_target += static_cast<Index>(inserted.size());
+            work_.report.inserted_into_target += count_of(inserted);
         }
     }
 
@@ -77,7 +77,7 @@ class ConformingSeam {
             if (inserted.empty()) continue;
             work_.patch.split_edge(source_vertex(seam_[k % n]), source_vertex(seam_[from % n]),
                                    inserted, fractions);
-            work_.report.inserted_into_source += static_cast<Index>(inserted.size());
+            work_.report.inserted_into_source += count_of(inserted);
         }
     }
 

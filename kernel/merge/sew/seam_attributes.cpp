@@ -34,7 +34,7 @@ void split_charts(Mesh& mesh) {
 Index corner_at(const Topology& topology, Index f, Index v) {
     const std::span<const Index> face = topology.face(f);
     return topology.first_corner(f) +
-           static_cast<Index>(std::find(face.begin(), face.end(), v) - face.begin());
+           index_of(std::find(face.begin(), face.end(), v) - face.begin());
 }
 
 // Unit normals of the faces around `v`, weighted by their angles there.
@@ -44,8 +44,7 @@ Vec3 normal_at(const Mesh& mesh, Index v) {
     for (const Index f : topology.faces_around(v)) {
         const std::span<const Index> face = topology.face(f);
         const std::size_t n = face.size();
-        const auto k =
-            static_cast<std::size_t>(corner_at(topology, f, v) - topology.first_corner(f));
+        const std::size_t k = corner_at(topology, f, v) - topology.first_corner(f);
         const Vec3 u = mesh.position(face[(k + 1) % n]) - mesh.position(v);
         const Vec3 w = mesh.position(face[(k + n - 1) % n]) - mesh.position(v);
         const Vec3 area = area_vector(mesh, f);

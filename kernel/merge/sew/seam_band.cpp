@@ -26,8 +26,8 @@ class BandSearch {
         : first_(first),
           second_(second),
           context_(context),
-          n_(static_cast<Index>(first.size())),
-          m_(static_cast<Index>(second.size())) {}
+          n_(count_of(first)),
+          m_(count_of(second)) {}
 
     GridPath best() {
         const GridPath start = shortest(0, nullptr, nullptr);
@@ -65,9 +65,9 @@ class BandSearch {
 
     GridPath shortest(Index start, const GridPath* low, const GridPath* high) {
         context_.checkpoint();
-        const auto width = static_cast<std::size_t>(m_) + 1;
+        const auto width = at(m_) + 1;
         std::vector<double> cost(width, kFar), last;
-        std::vector<char> along_row(width * (static_cast<std::size_t>(n_) + 1), 0);
+        std::vector<char> along_row(width * (at(n_) + 1), 0);
         for (Index i = 0; i <= n_; ++i) {
             const Index row = start + i;
             last.swap(cost);
@@ -85,7 +85,7 @@ class BandSearch {
     }
 
     GridPath traced(Index start, double area, const std::vector<char>& along_row) const {
-        const auto width = static_cast<std::size_t>(m_) + 1;
+        const auto width = at(m_) + 1;
         GridPath path{start, std::vector<Index>(n_ + 1), std::vector<Index>(n_ + 1), area};
         Index column = m_;
         for (Index i = n_; i >= 0; --i) {
@@ -106,7 +106,7 @@ class BandSearch {
 
 std::vector<BandTriangle> least_area_band(std::span<const Vec3> first, std::span<const Vec3> second,
                                           const Context& context) {
-    const auto n = static_cast<Index>(first.size()), m = static_cast<Index>(second.size());
+    const auto n = count_of(first), m = count_of(second);
     const GridPath path = BandSearch(first, second, context).best();
     std::vector<BandTriangle> band;
     for (Index i = 0; i <= n; ++i) {

@@ -27,7 +27,7 @@ constexpr double kGoodSeamAngle = 15.0 * kDegree, kSameQuality = 1e-6;
 constexpr double kClearlyLonger = 1.0 + 1e-9;
 
 double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    const auto middle = values.begin() + (values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
@@ -109,7 +109,7 @@ class CollarSide {
         for (std::size_t k = 0; k < seam_.size(); ++k) {
             sum += distance(seam_[k], seam_[(k + 1) % seam_.size()]);
         }
-        return sum / static_cast<double>(seam_.size());
+        return sum / seam_.size();
     }
 
     // The median edge of the first two rings beside the seam; where these have no edges, of those
@@ -193,7 +193,7 @@ class Remade {
         : old_(old), sheets_(sheets) {
         find_moved();
         for (const SeamSheet& sheet : sheets) {
-            sheet_number_.emplace_back(static_cast<std::size_t>(sheet.vertex_count()), kNoIndex);
+            sheet_number_.emplace_back(at(sheet.vertex_count()), kNoIndex);
         }
         add_vertices();
         add_faces();
@@ -219,7 +219,7 @@ class Remade {
     }
 
     void find_moved() {
-        number_.assign(static_cast<std::size_t>(old_.mesh.vertex_count()), kNoIndex);
+        number_.assign(old_.mesh.vertex_count(), kNoIndex);
         for (const SeamSheet& sheet : sheets_) {
             for (Index v = 0; v < sheet.vertex_count(); ++v) {
                 const Index at = sheet.mesh_vertex(v);
@@ -230,7 +230,7 @@ class Remade {
         }
     }
 
-    Index next_number() const { return static_cast<Index>(positions_.size()); }
+    Index next_number() const { return count_of(positions_); }
 
     // What was made on a side comes after the rest of it.
     void add_vertices() {
@@ -279,7 +279,7 @@ class Remade {
     }
 
     void add_faces() {
-        std::vector<char> replaced(static_cast<std::size_t>(old_.mesh.face_count()), 0);
+        std::vector<char> replaced(old_.mesh.face_count(), 0);
         for (const SeamSheet& sheet : sheets_) {
             for (const Index f : sheet.faces()) replaced[f] = 1;
         }
@@ -402,8 +402,8 @@ void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& con
         if (least > kGoodSeamAngle) break;
     }
     if (!best) return;
-    best->sewn.report.collar_removed += static_cast<Index>(faces.size());
-    best->sewn.report.collar_added += static_cast<Index>(best->made.size());
+    best->sewn.report.collar_removed += count_of(faces);
+    best->sewn.report.collar_added += count_of(best->made);
     sewn = std::move(best->sewn);
 }
 

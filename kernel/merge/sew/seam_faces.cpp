@@ -93,7 +93,7 @@ void SeamFaces::leave(Index face) {
 
 Index SeamFaces::add(SeamFace face) {
     faces_.push_back(std::move(face));
-    const auto index = static_cast<Index>(faces_.size()) - 1;
+    const auto index = count_of(faces_) - 1;
     enter(index);
     return index;
 }

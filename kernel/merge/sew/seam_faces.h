@@ -79,10 +79,7 @@ class SeamFaces {
     bool same_values(const SeamCorner& p, const SeamCorner& q) const;
 
   private:
-    static std::uint64_t key(Index from, Index to) {
-        return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32) |
-               static_cast<std::uint32_t>(to);
-    }
+    static std::uint64_t key(Index from, Index to) { return pair_key(from, to); }
     std::unordered_map<std::uint64_t, Index>& edges_of(const SeamFace& face) {
         return edges_[is_source(face) ? 1 : 0];
     }

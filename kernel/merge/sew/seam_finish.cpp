@@ -15,7 +15,7 @@ std::vector<ElementMap::Source> sources_at(std::span<const Index> loop, Index of
                                            const LoopPoint& place) {
     const Index from = loop[place.segment] + offset;
     if (place.t == 0.0) return {{from, 1.0}};
-    const std::size_t next = (static_cast<std::size_t>(place.segment) + 1) % loop.size();
+    const std::size_t next = (at(place.segment) + 1) % loop.size();
     return {{from, 1.0 - place.t}, {loop[next] + offset, place.t}};
 }
 

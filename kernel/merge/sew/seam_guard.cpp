@@ -173,12 +173,12 @@ std::vector<Index> origin_faces(const Topology& old, const Topology& made, const
                                 Index f, const MapShift& shift) {
     std::vector<Index> faces{map.faces.main_source(f) - shift.faces};
     const std::vector<Index>& offsets = old.faces().offsets;
-    const auto corners = static_cast<Index>(made.face(f).size());
+    const auto corners = count_of(made.face(f));
     for (Index k = 0; k < corners; ++k) {
         for (const ElementMap::Source& s : map.corners[made.first_corner(f) + k]) {
             const auto next =
                 std::upper_bound(offsets.begin(), offsets.end(), s.element - shift.corners);
-            faces.push_back(static_cast<Index>(next - offsets.begin()) - 1);
+            faces.push_back(index_of(next - offsets.begin()) - 1);
         }
     }
     std::sort(faces.begin(), faces.end());

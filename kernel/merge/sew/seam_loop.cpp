@@ -15,12 +15,12 @@ class BoundaryIndex {
   public:
     explicit BoundaryIndex(const Topology& topology)
         : loops_(topology.boundary_loops()),
-          loop_of_(static_cast<std::size_t>(topology.vertex_count()), kNoIndex),
+          loop_of_(topology.vertex_count(), kNoIndex),
           place_of_(loop_of_) {
         for (std::size_t l = 0; l < loops_.size(); ++l) {
             for (std::size_t k = 0; k < loops_[l].size(); ++k) {
-                loop_of_[loops_[l][k]] = static_cast<Index>(l);
-                place_of_[loops_[l][k]] = static_cast<Index>(k);
+                loop_of_[loops_[l][k]] = index_of(l);
+                place_of_[loops_[l][k]] = index_of(k);
             }
         }
     }
@@ -31,7 +31,7 @@ class BoundaryIndex {
     int direction(std::span<const Index> vertices) const {
         const Index loop = loop_of_[vertices[0]];
         if (loop == kNoIndex || loops_[loop].size() != vertices.size()) return 0;
-        const auto n = static_cast<Index>(vertices.size());
+        const auto n = count_of(vertices);
         const auto step = [&](Index k) {
             const Index from = vertices[k], to = vertices[(k + 1) % n];
             if (loop_of_[to] != loop) return 0;
@@ -81,9 +81,8 @@ void require_places(std::span<const LoopPoint> places, std::span<const Index> lo
                     std::size_t other_size) {
     for (std::size_t k = 0; k < places.size(); ++k) {
         const LoopPoint& place = places[k];
-        const bool inside = place.segment >= 0 &&
-                            static_cast<std::size_t>(place.segment) < other_size &&
-                            place.t >= 0.0 && place.t < 1.0;
+        const bool inside =
+            place.segment >= 0 && at(place.segment) < other_size && place.t >= 0.0 && place.t < 1.0;
         if (!inside) {
             fail(ErrorCode::out_of_range, "the place of a vertex is not on the other loop",
                  loop.subspan(k, 1));
@@ -167,15 +166,15 @@ void require_joins(const Topology& target, const Topology& source,
 }
 
 std::vector<SeamVertex> seam_loop(const LoopPair& join) {
-    const auto n = static_cast<Index>(join.target.size());
-    const auto m = static_cast<Index>(join.source.size());
+    const auto n = count_of(join.target);
+    const auto m = count_of(join.source);
     std::vector<SeamVertex> seam;
     seam.reserve(join.target.size() + join.source.size());
     // Source vertices by place, beginning with the first one after the target's first vertex.
     const auto first = std::min_element(join.on_target.begin(), join.on_target.end(), before) -
                        join.on_target.begin();
     Index done = 0;
-    const auto source_at = [&] { return static_cast<Index>((first + done) % m); };
+    const auto source_at = [&] { return index_of((first + done) % m); };
     for (Index j = 0; j < n; ++j) {
         SeamVertex corner{{j, 0.0}, join.on_source[j], true, false};
         if (done < m && join.on_target[source_at()] == LoopPoint{j, 0.0}) {
@@ -203,7 +202,7 @@ Index snap(std::vector<SeamVertex>& seam, std::span<const Vec3> target_points, d
         length[k] =
             (seam_point(target_points, seam[(k + 1) % n]) - seam_point(target_points, seam[k]))
                 .norm();
-        mean += length[k] / static_cast<double>(n);
+        mean += length[k] / n;
     }
     if (!(mean > 0.0)) return 0;
     // In steps, so that rounding does not decide between equal lengths.
@@ -230,7 +229,7 @@ Index snap(std::vector<SeamVertex>& seam, std::span<const Vec3> target_points, d
         if (!gone[k]) seam[left++] = seam[k];
     }
     seam.resize(left);
-    return static_cast<Index>(n - left);
+    return index_of(n - left);
 }
 
 }  // namespace lissom

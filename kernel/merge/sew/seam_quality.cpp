@@ -28,7 +28,7 @@ void measure_seam_edges(const Mesh& mesh, std::span<const std::vector<Index>> se
             squares += edge * angle * angle;
             length += edge;
         }
-        quality.vertices += static_cast<Index>(seam.size());
+        quality.vertices += count_of(seam);
     }
     if (length > 0.0) quality.rms_dihedral = std::sqrt(squares / length);
     if (quality.vertices > 0) quality.mean_edge = length / quality.vertices;

@@ -88,7 +88,7 @@ Index SeamSheet::flip_edges(const SheetLimits& limits, const Context& context) {
     for (int pass = 0; pass < kFlipPasses; ++pass) {
         context.checkpoint();
         const Index before = flips;
-        for (Index f = 0; f < static_cast<Index>(triangles_.size()); ++f) {
+        for (Index f = 0; f < count_of(triangles_); ++f) {
             for (std::size_t k = 0; k < 3 && triangles_[f][0] != kNoIndex; ++k) {
                 if (flip(f, k, limits)) ++flips;
             }
@@ -133,7 +133,7 @@ bool SeamSheet::split(Index a, Index c, const SheetLimits& limits) {
     leave(left);
     leave(right);
     add_empty(2);
-    const auto next = static_cast<Index>(triangles_.size()) - 2;
+    const auto next = count_of(triangles_) - 2;
     enter(left, after[0]);
     enter(next, after[1]);
     enter(right, after[2]);

@@ -41,7 +41,7 @@ Vec3 weights_near(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
 std::vector<ElementMap::Source> weighted_sources(const Triangle& elements, const Vec3& weights) {
     std::vector<ElementMap::Source> sources;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double weight = weights[static_cast<Index>(k)];
+        const double weight = weights[index_of(k)];
         if (weight > 0.0) sources.push_back({elements[k], weight});
     }
     return sources;
@@ -66,7 +66,7 @@ void SeamSheet::take_faces() {
         Triangle triangle;
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = parts.triangles[t][k];
-            const auto [at, made] = local.emplace(v, static_cast<Index>(x_.size()));
+            const auto [at, made] = local.emplace(v, count_of(x_));
             triangle[k] = at->second;
             if (!made) continue;
             x_.push_back(mesh_.position(v));
@@ -74,7 +74,7 @@ void SeamSheet::take_faces() {
             around_.emplace_back();
         }
         add_empty(1);
-        enter(static_cast<Index>(t), triangle);
+        enter(index_of(t), triangle);
         rest_face_.push_back(parts.face[t]);
         rest_corners_.push_back(parts.corners[t]);
         rest_vertices_.push_back(parts.triangles[t]);
@@ -200,7 +200,7 @@ bool SeamSheet::is_chart_border(Index left, Index right, Index a, Index c) const
 }
 
 void SeamSheet::mark_features(double sharp) {
-    for (Index f = 0; f < static_cast<Index>(triangles_.size()); ++f) {
+    for (Index f = 0; f < count_of(triangles_); ++f) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index a = triangles_[f][k], c = triangles_[f][(k + 1) % 3];
             const Index other = left_of(c, a);
@@ -218,7 +218,7 @@ void SeamSheet::mark_features(double sharp) {
 void SeamSheet::make_rest(const Context& context) {
     FaceList list;
     for (const Triangle& t : triangles_) {
-        const auto first = static_cast<Index>(rest_points_.size());
+        const auto first = count_of(rest_points_);
         for (const Index v : t) rest_points_.push_back(x_[v]);
         list.add({first, first + 1, first + 2});
     }
@@ -380,7 +380,7 @@ std::vector<Triangle> SeamSheet::triangles() const {
 
 std::vector<ElementMap::Source> SeamSheet::vertex_sources(Index v) const {
     const SurfacePoint point = nearest_at_first(x_[v]);
-    const auto at = static_cast<std::size_t>(point.face);
+    const std::size_t at = point.face;
     const Vec3 weights = weights_near(rest_points_[3 * at], rest_points_[3 * at + 1],
                                       rest_points_[3 * at + 2], point.position);
     return weighted_sources(rest_vertices_[at], weights);
@@ -393,7 +393,7 @@ Index SeamSheet::face_source(const Triangle& t) const {
 // Read a little towards the middle of the triangle, so that it is its own chart's where two meet.
 std::vector<ElementMap::Source> SeamSheet::corner_sources(const Triangle& t, std::size_t k) const {
     const Vec3 middle = (x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0, &x = x_[t[k]];
-    const auto at = static_cast<std::size_t>(nearest_at_first(x + kTowards * (middle - x)).face);
+    const std::size_t at = nearest_at_first(x + kTowards * (middle - x)).face;
     const Vec3 weights =
         weights_near(rest_points_[3 * at], rest_points_[3 * at + 1], rest_points_[3 * at + 2], x);
     return weighted_sources(rest_corners_[at], weights);

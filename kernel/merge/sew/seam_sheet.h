@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/query/spatial_tree.h"
 
@@ -50,12 +51,12 @@ class SeamSheet {
     const Mesh& mesh() const { return mesh_; }
     /// The faces of the mesh that the sheet stands for.
     const std::vector<Index>& faces() const { return faces_; }
-    Index vertex_count() const { return static_cast<Index>(x_.size()); }
+    Index vertex_count() const { return count_of(x_); }
     /// The vertex of the mesh, or kNoIndex for one that was made.
-    Index mesh_vertex(Index v) const { return mesh_vertex_[v]; }
-    const Vec3& position(Index v) const { return x_[v]; }
+    Index mesh_vertex(Index v) const { return mesh_vertex_[at(v)]; }
+    const Vec3& position(Index v) const { return x_[at(v)]; }
     /// False for a vertex that was collapsed.
-    bool is_used(Index v) const { return !around_[v].empty(); }
+    bool is_used(Index v) const { return !around_[at(v)].empty(); }
     bool has_moved(Index v) const;
     /// Triangles that are there now.
     std::vector<Triangle> triangles() const;
@@ -72,10 +73,7 @@ class SeamSheet {
         double seam = 0.0, other = 0.0, angle = kPi;
     };
 
-    static std::uint64_t key(Index a, Index b) {
-        return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::min(a, b))) << 32) |
-               static_cast<std::uint32_t>(std::max(a, b));
-    }
+    static std::uint64_t key(Index a, Index b) { return pair_key(std::min(a, b), std::max(a, b)); }
 
     void take_faces();
     void find_outer_edges();
@@ -121,7 +119,7 @@ class SeamSheet {
                                                       bool longest_first) const;
     Index split_long(const SheetLimits& limits);
     void collapse_short(const SheetLimits& limits);
-    double wanted(Index a, Index b) const { return 0.5 * (size_[a] + size_[b]); }
+    double wanted(Index a, Index b) const { return 0.5 * (size_[at(a)] + size_[at(b)]); }
 
     const Mesh& mesh_;
     std::vector<Index> faces_;

@@ -62,7 +62,7 @@ class SkinExtension {
   public:
     SkinExtension(Sewn& sewn, SeamSide skinned, const Context& context)
         : mesh_(sewn.mesh), context_(context), skin_(mesh_.attributes()) {
-        std::vector<char> wanted(static_cast<std::size_t>(mesh_.vertex_count()), 0);
+        std::vector<char> wanted(mesh_.vertex_count(), 0);
         for (Index f = 0; f < mesh_.face_count(); ++f) {
             if (sewn.side_of_face[f] == skinned) continue;
             for (const Index v : mesh_.topology().face(f)) wanted[v] = 1;
@@ -77,7 +77,7 @@ class SkinExtension {
         const SymmetricMatrix matrix = laplacian();
         system.analyze(matrix, context_);
         system.factor(matrix, context_);
-        system.solve(values, values, static_cast<Index>(joint_numbers_.size()));
+        system.solve(values, values, count_of(joint_numbers_));
         for (std::size_t i = 0; i < unknowns_.size(); ++i) write(i, values);
     }
 
@@ -85,11 +85,11 @@ class SkinExtension {
     // Wanted vertices without weights that edges through such vertices join to one with weights.
     // The others get none.
     void find_unknowns(const std::vector<char>& wanted) {
-        row_.assign(static_cast<std::size_t>(mesh_.vertex_count()), kNoIndex);
+        row_.assign(mesh_.vertex_count(), kNoIndex);
         const auto is_open = [&](Index v) { return wanted[v] && !(skin_.total(v) > 0.0); };
         const auto add = [&](Index v) {
             if (!is_open(v) || row_[v] != kNoIndex) return;
-            row_[v] = static_cast<Index>(unknowns_.size());
+            row_[v] = count_of(unknowns_);
             unknowns_.push_back(v);
         };
         for (Index v = 0; v < mesh_.vertex_count(); ++v) {
@@ -123,7 +123,7 @@ class SkinExtension {
                 if (row_[w] != kNoIndex) entries.push_back({row_[v], row_[w], -weight});
             }
         }
-        return symmetric_from_triplets(static_cast<Index>(unknowns_.size()), entries);
+        return symmetric_from_triplets(count_of(unknowns_), entries);
     }
 
     std::vector<double> right_hand_sides() {

@@ -49,7 +49,7 @@ Index smooth_seams(Mesh& mesh, std::span<const std::vector<Index>> seams, Index 
                 const Index v = guard.moving()[k];
                 Vec3 mean = Vec3::Zero();
                 for (const Index w : topology.neighbors(v)) mean += guard.position(w);
-                mean /= static_cast<double>(topology.valence(v));
+                mean /= topology.valence(v);
                 const bool is_on = std::binary_search(on_seam.begin(), on_seam.end(), v);
                 const double step = is_on ? kStep : 0.5 * kStep;
                 to[k] = guard.position(v) + step * (mean - guard.position(v));

@@ -47,7 +47,7 @@ Index joined_components(const Topology& target, const Topology& source,
                         std::span<const LoopPair> joins) {
     const Index targets = target.component_count();
     Index count = targets + source.component_count();
-    std::vector<Index> root(static_cast<std::size_t>(count));
+    std::vector<Index> root(count);
     std::iota(root.begin(), root.end(), 0);
     const auto find = [&](Index part) {
         while (root[part] != part) part = root[part];

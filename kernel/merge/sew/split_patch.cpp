@@ -89,7 +89,7 @@ void SplitPatch::split_edge(Index from, Index to, std::span<const Index> vertice
 
 void SplitPatch::remove(const std::set<Index>& origins) {
     for (std::size_t i = 0; i < faces_.faces().size(); ++i) {
-        if (origins.contains(faces_.faces()[i].origin)) faces_.replace(static_cast<Index>(i), {});
+        if (origins.contains(faces_.faces()[i].origin)) faces_.replace(index_of(i), {});
     }
 }
 

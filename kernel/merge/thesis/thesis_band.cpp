@@ -125,7 +125,7 @@ void Square::require_band() const {
     }
     const auto characteristic = static_cast<std::ptrdiff_t>(points_.size() + triangles_.size()) -
                                 static_cast<std::ptrdiff_t>(edges / 2);
-    if (characteristic != 2 - static_cast<std::ptrdiff_t>(outlines.size())) {
+    if (characteristic != 2 - std::ssize(outlines)) {
         refuse(given_.side, "has a handle and cannot be unrolled; make it narrower");
     }
 }
@@ -149,19 +149,19 @@ void Square::close_outlines() {
     far_ = *farthest;
     others.erase(farthest);
     for (const std::vector<Index>& outline : others) {
-        const auto center = static_cast<Index>(points_.size());
+        const auto center = count_of(points_);
         Vec3 sum = Vec3::Zero();
         for (std::size_t k = 0; k < outline.size(); ++k) {
             sum += points_[outline[k]];
             triangles_.push_back({outline[(k + 1) % outline.size()], outline[k], center});
         }
-        points_.emplace_back(sum / static_cast<double>(outline.size()));
+        points_.emplace_back(sum / count_of(outline));
     }
 }
 
 // The shortest path from a vertex of the loop to the far end that leaves the loop at once.
 std::vector<Index> Square::path_from(Index first) const {
-    std::vector<double> way(static_cast<std::size_t>(region_.vertex_count()), kFar);
+    std::vector<double> way(region_.vertex_count(), kFar);
     std::vector<Index> before(way.size(), kNoIndex);
     std::vector<char> barred(way.size(), 0), end(way.size(), 0);
     for (const Index v : loop_) barred[v] = 1;
@@ -193,7 +193,7 @@ std::vector<Index> Square::path_from(Index first) const {
 
 // A vertex of the loop with no edge into the region passes the cut on to the next.
 void Square::find_cut() {
-    const auto n = static_cast<Index>(loop_.size());
+    const auto n = count_of(loop_);
     for (Index step = 0; step < n && cut_.empty(); ++step) {
         start_ = (given_.start + step) % n;
         cut_ = path_from(loop_[start_]);
@@ -260,14 +260,14 @@ Vec2 Square::fixed_value(Index v, Index seen_from) const {
 std::vector<Vec2> Square::solve(const Context& context) const {
     WeightedTriangles weighted;
     for (const Triangle& t : triangles_) weighted.add(t, 1.0, 0);
-    const Rings rings = build_rings(static_cast<Index>(points_.size()), weighted);
+    const Rings rings = build_rings(count_of(points_), weighted);
     const RingGeometry geometry = ring_geometry(rings, weighted, points_);
     std::vector<Index> row(points_.size(), kNoIndex);
     Index rows = 0;
     for (Index v = 0; v < rings.size(); ++v) {
         if (fixed_.count(v) == 0 && rings.count(v) > 0) row[v] = rows++;
     }
-    const auto n = static_cast<std::size_t>(rows);
+    const std::size_t n = rows;
     std::vector<Triplet> entries;
     std::vector<double> b(2 * n, 0.0);
     for (Index v = 0; v < rings.size(); ++v) {
@@ -309,7 +309,7 @@ std::vector<double> target_fractions(const Mesh& target, const LoopPair& pair) {
 
 BandLoop target_band_loop(const Mesh& target, const LoopPair& pair, Index start) {
     const LoopPoint& key = pair.on_target[start];
-    const auto size = static_cast<Index>(pair.target.size());
+    const auto size = count_of(pair.target);
     return {SeamSide::target, pair.target, target_fractions(target, pair),
             (key.segment + (key.t > 0.5 ? 1 : 0)) % size};
 }
@@ -318,7 +318,7 @@ BandLoop source_band_loop(const Mesh& target, const LoopPair& pair, Index start)
     const std::vector<double> at = target_fractions(target, pair);
     BandLoop loop{SeamSide::source, pair.source, {}, start};
     for (const LoopPoint& place : pair.on_target) {
-        const auto k = static_cast<std::size_t>(place.segment);
+        const std::size_t k = place.segment;
         const double end = k + 1 < at.size() ? at[k + 1] : 1.0;
         loop.fraction.push_back(at[k] + place.t * (end - at[k]));
     }
@@ -331,7 +331,7 @@ ThesisBand make_thesis_band(const Mesh& mesh, const BandLoop& loop, double width
     const MeshPart region = region_of(mesh, loop, width, path, context);
     std::map<Index, Index> local;
     for (std::size_t i = 0; i < region.vertex_map.size(); ++i) {
-        local.emplace(region.vertex_map[i], static_cast<Index>(i));
+        local.emplace(region.vertex_map[i], index_of(i));
     }
     std::vector<Index> local_loop;
     for (const Index v : loop.vertices) {

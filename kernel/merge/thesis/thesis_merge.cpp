@@ -34,11 +34,11 @@ void require_widths(const ThesisJoin& join) {
 
 // Regions of two joins must not share a vertex.
 void require_disjoint(std::span<const ThesisBand> bands, Index vertices, const char* side) {
-    std::vector<Index> band_at(static_cast<std::size_t>(vertices), kNoIndex);
+    std::vector<Index> band_at(vertices, kNoIndex);
     for (std::size_t j = 0; j < bands.size(); ++j) {
         for (const Index v : bands[j].chart.vertex) {
-            const Index other = std::exchange(band_at[v], static_cast<Index>(j));
-            if (other == kNoIndex || other == static_cast<Index>(j)) continue;
+            const Index other = std::exchange(band_at[v], index_of(j));
+            if (other == kNoIndex || other == index_of(j)) continue;
             throw Error(ErrorCode::invalid_argument, "the transition regions of joins " +
                                                          std::to_string(other + 1) + " and " +
                                                          std::to_string(j + 1) + " meet on the " +
@@ -58,7 +58,7 @@ Mesh mapped(const Mesh& mesh, const Map& map) {
 
 std::size_t row_of(const Region& region, Index v) {
     const std::vector<Index>& ids = region.vertices();
-    return static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), v) - ids.begin());
+    return std::lower_bound(ids.begin(), ids.end(), v) - ids.begin();
 }
 
 // Moves the weights of a place away from vertices of open boundaries; false where nothing is left.
@@ -78,9 +78,9 @@ struct Surroundings {
     Surroundings(const Mesh& mesh, const std::vector<Index>& vertices, const Context& context)
         : part(extract(mapped(mesh, [](const Vec3& x) { return x; }),
                        Region(mesh.shared_topology(), vertices).grown(kRings), context)),
-          local(static_cast<std::size_t>(mesh.vertex_count()), kNoIndex) {
+          local(mesh.vertex_count(), kNoIndex) {
         for (std::size_t i = part.vertex_map.size(); i-- > 0;) {
-            local[part.vertex_map[i]] = static_cast<Index>(i);
+            local[part.vertex_map[i]] = index_of(i);
         }
     }
 
@@ -90,7 +90,7 @@ struct Surroundings {
 
 // A mesh of which nothing is known yet.
 TransitionMesh unknown(const Mesh& mesh) {
-    const auto n = static_cast<std::size_t>(mesh.vertex_count());
+    const std::size_t n = mesh.vertex_count();
     return {&mesh,
             std::vector<char>(n, 0),
             std::vector<char>(n, 0),
@@ -112,7 +112,7 @@ void remove_shear(const TransitionMesh& side, TransitionShape& shape, const Cont
     const WorkingPatch work(build_patch(*side.mesh, Region::all(side.mesh->shared_topology()), 0),
                             options);
     const Patch& patch = work.patch;
-    std::vector<char> known(static_cast<std::size_t>(patch.vertex_count), 0);
+    std::vector<char> known(patch.vertex_count, 0);
     for (Index i = 0; i < patch.real_count; ++i) {
         const Index v = patch.mesh_vertex[i];
         known[i] = side.position_known[v] || work.rings.count(i) == 0;
@@ -126,7 +126,7 @@ void remove_shear(const TransitionMesh& side, TransitionShape& shape, const Cont
     system.finish(context);
     // For what deviates from the rest shape.
     std::vector<PaddedMat3> turns;
-    std::vector<Vec4> x(static_cast<std::size_t>(patch.vertex_count), Vec4::Zero());
+    std::vector<Vec4> x(patch.vertex_count, Vec4::Zero());
     for (Index i = 0; i < patch.real_count; ++i) {
         const Index v = patch.mesh_vertex[i];
         turns.push_back(padded_columns(shape.gradients[v] - Mat3::Identity()));
@@ -155,7 +155,7 @@ std::vector<Vec3> filled(const BandSystem& band, const SeamCore& core, std::vect
 }
 
 std::vector<Vec3> coordinates_of(const BandSystem& band) {
-    std::vector<Vec3> result(static_cast<std::size_t>(band.vertex_count()), Vec3::Zero());
+    std::vector<Vec3> result(band.vertex_count(), Vec3::Zero());
     for (Index i = 0; i < band.vertex_count(); ++i) {
         if (band.is_row(i)) result[i] = band.coordinates(i);
     }
@@ -164,7 +164,7 @@ std::vector<Vec3> coordinates_of(const BandSystem& band) {
 
 // The vertices of the sewn mesh that those of a mesh have become, or kNoIndex.
 std::vector<Index> sewn_vertices(const Sewn& sewn, Index first, Index count) {
-    std::vector<Index> result(static_cast<std::size_t>(count), kNoIndex);
+    std::vector<Index> result(count, kNoIndex);
     for (Index v = 0; v < sewn.map.vertices.size(); ++v) {
         for (const ElementMap::Source& from : sewn.map.vertices[v]) {
             const Index old = from.element - first;
@@ -201,7 +201,7 @@ ThesisMerge::Matches ThesisMerge::match(const ThesisBand& own, const ThesisBand&
     const BandMap map(other.chart, other.width);
     Matches result;
     result.report = {own.width, 0, BandMap(own.chart, own.width).flipped(), 0};
-    std::vector<char> seen(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    std::vector<char> seen(mesh.vertex_count(), 0);
     for (std::size_t i = 0; i < own.chart.vertex.size(); ++i) {
         const Index v = own.chart.vertex[i];
         if (mesh.topology().is_boundary(v) || std::exchange(seen[v], 1)) continue;
@@ -213,7 +213,7 @@ ThesisMerge::Matches ThesisMerge::match(const ThesisBand& own, const ThesisBand&
         if (!place || !leave_boundary(*place, across.topology())) continue;
         result.matches.push_back({v, *place, 0.5 + 0.5 * own.path[i] / own.width});
     }
-    result.report.vertices = static_cast<Index>(result.members.size());
+    result.report.vertices = count_of(result.members);
     return result;
 }
 
@@ -236,7 +236,7 @@ ThesisMerge::Frames ThesisMerge::frames(const Region& region, const Region& held
     Frames f;
     double logs = 0.0;
     for (const ThesisJoin& join : joins_) logs += std::log(join.scale);
-    f.scale = std::exp(logs / static_cast<double>(joins_.size()));
+    f.scale = std::exp(logs / joins_.size());
     Mat3 turns = Mat3::Zero();
     const Vec3 &first_from = source_.position(held.vertices().front()),
                &first_to = ordinary.positions[row_of(region, held.vertices().front())];
@@ -314,7 +314,7 @@ BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held
         if (moving.contains(around.part.vertex_map[i])) continue;
         hold(target, i, target_rest.position(i), Mat3::Identity());
     }
-    source_held_.assign(static_cast<std::size_t>(source_.vertex_count()), 1);
+    source_held_.assign(source_.vertex_count(), 1);
     for (const Index v : region.minus(held).vertices()) source_held_[v] = 0;
     hold_source(region, ordinary, frame, source);
     add_counterparts(around.local, target, source);
@@ -322,7 +322,7 @@ BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held
     remove_shear(target, solved.target, context);
     remove_shear(source, solved.source, context);
 
-    target_shift_.assign(static_cast<std::size_t>(target_.vertex_count()), Vec3::Zero());
+    target_shift_.assign(target_.vertex_count(), Vec3::Zero());
     for (const Index v : moving.vertices()) {
         const Index i = around.local[v];
         target_shift_[v] = frame.unit * (solved.target.positions[i] - target_rest.position(i));

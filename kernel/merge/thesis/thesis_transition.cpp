@@ -19,7 +19,7 @@ using Entries = std::vector<Eigen::Triplet<double>>;
 using Columns = Eigen::MatrixX3d;
 
 void check(const TransitionMesh& side, const TransitionMesh& other) {
-    const auto n = static_cast<std::size_t>(side.mesh->vertex_count());
+    const std::size_t n = side.mesh->vertex_count();
     require_vertices(side.mesh->topology(), side.region);
     if (side.position_known.size() != n || side.gradient_known.size() != n ||
         side.position.size() != n || side.gradient.size() != n ||
@@ -34,7 +34,7 @@ void check(const TransitionMesh& side, const TransitionMesh& other) {
 }
 
 KnownMask knowledge_of(const TransitionMesh& side, const WorkingPatch& work) {
-    const auto n = static_cast<std::size_t>(work.patch.vertex_count);
+    const std::size_t n = work.patch.vertex_count;
     KnownMask known{std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 0)};
     for (Index i = 0; i < work.patch.real_count; ++i) {
         const Index v = work.patch.mesh_vertex[i];
@@ -42,8 +42,7 @@ KnownMask knowledge_of(const TransitionMesh& side, const WorkingPatch& work) {
         known.gradient[i] = side.gradient_known[v];
     }
     for (std::size_t i = 0; i < n; ++i) {
-        known.gradient_wanted[i] =
-            !known.gradient[i] && work.rings.count(static_cast<Index>(i)) > 0;
+        known.gradient_wanted[i] = !known.gradient[i] && work.rings.count(index_of(i)) > 0;
     }
     return known;
 }
@@ -160,8 +159,7 @@ class Assembler {
                     laplacian.emplace_back(row, column, side.work.laplacian.neighbor[e]);
                 }
                 for (std::size_t d = 0; !known && side.stencils.defined[i] && d < 3; ++d) {
-                    gradient[d].emplace_back(row, column,
-                                             side.stencils.neighbor[e][static_cast<int>(d)]);
+                    gradient[d].emplace_back(row, column, side.stencils.neighbor[e][index_of(d)]);
                 }
             }
         }
@@ -234,12 +232,12 @@ void minimise(const Matrix& matrix, const Columns& linear, const std::vector<Ind
               Index rows, Columns& x, const Context& context) {
     if (rows == 0) return;
     const Columns gradient = matrix * x + linear;
-    const auto n = static_cast<std::size_t>(rows);
+    const std::size_t n = rows;
     std::vector<double> b(3 * n);
     for (std::size_t i = 0; i < row_of.size(); ++i) {
         if (row_of[i] == kNoIndex) continue;
         for (std::size_t k = 0; k < 3; ++k) {
-            b[k * n + row_of[i]] = -gradient(static_cast<Index>(i), static_cast<Index>(k));
+            b[k * n + row_of[i]] = -gradient(index_of(i), index_of(k));
         }
     }
     const SymmetricMatrix free = lower_part(matrix, row_of, rows);
@@ -251,7 +249,7 @@ void minimise(const Matrix& matrix, const Columns& linear, const std::vector<Ind
     for (std::size_t i = 0; i < row_of.size(); ++i) {
         if (row_of[i] == kNoIndex) continue;
         for (std::size_t k = 0; k < 3; ++k) {
-            x(static_cast<Index>(i), static_cast<Index>(k)) += b[k * n + row_of[i]];
+            x(index_of(i), index_of(k)) += b[k * n + row_of[i]];
         }
     }
 }
@@ -294,7 +292,7 @@ ThesisTransition thesis_transition(const TransitionMesh& target, const Transitio
     progress.step(0.5);
     const Vec3 origin = sides[0].work.patch.origin;
     Columns x = Columns::Zero(assembler.size(), 3);
-    std::vector<Index> row_of(static_cast<std::size_t>(assembler.size()), kNoIndex);
+    std::vector<Index> row_of(assembler.size(), kNoIndex);
     Index rows = 0;
     for (std::size_t s = 0; s < 2; ++s) {
         for (Index i = 0; i < sides[s].size(); ++i) {

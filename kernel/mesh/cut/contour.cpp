@@ -8,8 +8,7 @@ namespace lissom {
 namespace {
 
 std::uint64_t key_of(Index a, Index b) {
-    const auto low = static_cast<std::uint64_t>(std::min(a, b));
-    return low << 32 | static_cast<std::uint64_t>(std::max(a, b));
+    return pair_key(std::min(a, b), std::max(a, b));
 }
 
 // Zeros that hang together take one side: the negative one where they have no positive neighbour
@@ -133,7 +132,7 @@ class Tracer {
     }
 
     Crossing crossing(std::uint64_t key) const {
-        Index a = static_cast<Index>(key >> 32), b = static_cast<Index>(key & 0xffffffffu);
+        Index a = index_of(key >> 32), b = index_of(key & 0xffffffffu);
         if (levels_.side[a] < 0) std::swap(a, b);
         const double from = std::abs(levels_.value[a]), to = std::abs(levels_.value[b]);
         return {a, b, from + to > 0.0 ? from / (from + to) : 0.5};

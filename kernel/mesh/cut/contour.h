@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 
@@ -66,9 +67,9 @@ class CrossedEdges {
     /// Number of the crossing between two vertices, in either order, or kNoIndex. They are numbered
     /// line by line.
     Index find(Index a, Index b) const;
-    const Crossing& operator[](Index i) const { return crossings_[i]; }
-    Crossing& operator[](Index i) { return crossings_[i]; }
-    Index size() const { return static_cast<Index>(crossings_.size()); }
+    const Crossing& operator[](Index i) const { return crossings_[at(i)]; }
+    Crossing& operator[](Index i) { return crossings_[at(i)]; }
+    Index size() const { return count_of(crossings_); }
     /// Number of the first crossing of a line.
     Index first(std::size_t line) const { return first_[line]; }
 

@@ -30,7 +30,7 @@ bool is_boundary_edge(const Topology& topology, Index a, Index b) {
 }
 
 Index local_corner(std::span<const Index> face, Index v) {
-    return static_cast<Index>(std::find(face.begin(), face.end(), v) - face.begin());
+    return index_of(std::find(face.begin(), face.end(), v) - face.begin());
 }
 
 // Decides slides one by one; each must leave what was decided before valid.
@@ -46,7 +46,7 @@ class Slider {
             for (const Index v : triangles_[i]) at_vertex_.emplace_back(v, i);
         }
         std::sort(at_vertex_.begin(), at_vertex_.end());
-        slides_.crossing_of.assign(static_cast<std::size_t>(topology_.vertex_count()), kNoIndex);
+        slides_.crossing_of.assign(topology_.vertex_count(), kNoIndex);
     }
 
     Slides decide(const Context& context) {
@@ -155,7 +155,7 @@ class Slider {
         for (const Index f : topology_.faces_around(c.vertex)) {
             const std::span<const Index> face = topology_.face(f);
             const std::size_t n = face.size();
-            const auto k = static_cast<std::size_t>(local_corner(face, c.vertex));
+            const std::size_t k = local_corner(face, c.vertex);
             const Vec3 a = position(face[(k + 1) % n]), b = position(face[(k + n - 1) % n]);
             if (!keeps_face(old, moved, a, b, most)) return false;
         }
@@ -234,7 +234,7 @@ class CornerWalk {
         const Topology& topology = mesh_.topology();
         const std::span<const Index> face = topology.face(faces_[i]);
         const Index there = local_corner(face, toward);
-        if (there == static_cast<Index>(face.size())) return;
+        if (there == count_of(face)) return;
         const Index first = topology.first_corner(faces_[i]);
         pairs_[i] = CornerPair{first + local_corner(face, v_), first + there};
         found_.push_back(i);

@@ -15,7 +15,7 @@ struct Slides {
     /// For each vertex the crossing that it was moved to, or kNoIndex.
     std::vector<Index> crossing_of;
 
-    bool has(Index v) const { return crossing_of[v] != kNoIndex; }
+    bool has(Index v) const { return crossing_of[at(v)] != kNoIndex; }
 };
 
 /// Chooses the vertices to slide: nearest crossings first, those within `limit` of an edge's

@@ -77,7 +77,7 @@ Index boundary_of(const Topology& topology, Index v) {
     const auto& loops = topology.boundary_loops();
     for (std::size_t i = 0; i < loops.size(); ++i) {
         if (std::find(loops[i].begin(), loops[i].end(), v) != loops[i].end()) {
-            return static_cast<Index>(i);
+            return index_of(i);
         }
     }
     return kNoIndex;

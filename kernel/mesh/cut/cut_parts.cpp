@@ -25,7 +25,7 @@ class SideFlood {
   public:
     SideFlood(const Mesh& mesh, const std::vector<ContourLine>& lines)
         : topology_(mesh.topology()), lines_(lines), crossed_(lines) {
-        side_.assign(static_cast<std::size_t>(topology_.vertex_count()), 0);
+        side_.assign(topology_.vertex_count(), 0);
         at_line_.assign(side_.size(), 0);
         for (const ContourLine& line : lines) {
             for (const Crossing& c : line.crossings) {
@@ -86,7 +86,7 @@ std::vector<signed char> sides_of(const Mesh& mesh, const std::vector<ContourLin
 Index assign_whole_components(const Mesh& mesh, std::vector<signed char>& side,
                               const SideOfComponent& side_of) {
     const Topology& topology = mesh.topology();
-    std::vector<std::vector<Index>> vertices(static_cast<std::size_t>(topology.component_count()));
+    std::vector<std::vector<Index>> vertices(topology.component_count());
     for (Index v = 0; v < topology.vertex_count(); ++v) {
         if (side[v] == 0) vertices[topology.components()[v]].push_back(v);
     }

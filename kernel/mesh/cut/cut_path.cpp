@@ -82,8 +82,7 @@ std::vector<Index> loop_through(const Mesh& mesh, const Path& path, const Contex
     std::vector<Index> loop =
         without_detours(path_through(mesh, through, true, context).vertices());
     // The way back to the start may make a detour too.
-    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(loop.size() / 2),
-                loop.end());
+    std::rotate(loop.begin(), loop.begin() + (loop.size() / 2), loop.end());
     loop = without_detours(loop);
     std::vector<Index> sorted = loop, repeated;
     std::sort(sorted.begin(), sorted.end());
@@ -209,7 +208,7 @@ CutSides sides_by(const Mesh& mesh, const CutPath& path, const SmoothLine& line)
         assign_whole_components(mesh, sides.side, [&](const auto& component) -> signed char {
             Vec3 mean = Vec3::Zero();
             for (const Index v : component) {
-                mean += mesh.position(v) / static_cast<double>(component.size());
+                mean += mesh.position(v) / count_of(component);
             }
             return line.curve().nearest(mean).left >= 0.0 ? 1 : -1;
         });
@@ -243,7 +242,7 @@ CutSides sides_by(const Mesh& mesh, const CutRegion& region,
         assign_whole_components(mesh, sides.side, [&](const auto& component) -> signed char {
             const auto count = std::count_if(component.begin(), component.end(),
                                              [&](Index v) { return inside[v] != 0; });
-            return 2 * count > static_cast<std::ptrdiff_t>(component.size()) ? 1 : -1;
+            return 2 * count > std::ssize(component) ? 1 : -1;
         });
     return sides;
 }

@@ -29,7 +29,7 @@ void require_plane(const CutPlane& plane) {
 LevelSet distances_from(const Mesh& mesh, const CutPlane& plane) {
     const Vec3 normal = plane.normal.stableNormalized();
     std::vector<double> value;
-    value.reserve(static_cast<std::size_t>(mesh.vertex_count()));
+    value.reserve(mesh.vertex_count());
     double largest = plane.point.cwiseAbs().maxCoeff();
     for (const Vec3& p : mesh.positions()) {
         value.push_back(normal.dot(p - plane.point));
@@ -60,9 +60,9 @@ void keep_nearest(const Mesh& mesh, const Vec3& picked, CutLines& found) {
     const auto nearby = std::count_if(distance.begin(), distance.end(),
                                       [&](double d) { return d <= kNearby * distance[nearest]; }) -
                         1;
-    found.report.lines_left = static_cast<Index>(lines.size()) - 1;
+    found.report.lines_left = count_of(lines) - 1;
     found.others = std::move(lines);
-    lines = {std::move(found.others[static_cast<std::size_t>(nearest)])};
+    lines = {std::move(found.others[nearest])};
     found.others.erase(found.others.begin() + nearest);
     if (nearby == 0) return;
     found.report.warnings.push_back(

@@ -38,7 +38,7 @@ struct PartBuilder {
             nodes.push_back(p.node);
             map.corners.add_blend(p.corner);
         }
-        offsets.push_back(static_cast<Index>(nodes.size()));
+        offsets.push_back(count_of(nodes));
         map.faces.add_copy(old_face);
     }
 
@@ -46,7 +46,7 @@ struct PartBuilder {
     void copy_face(const Topology& topology, Index f) {
         const std::span<const Index> face = topology.face(f);
         nodes.insert(nodes.end(), face.begin(), face.end());
-        offsets.push_back(static_cast<Index>(nodes.size()));
+        offsets.push_back(count_of(nodes));
         for (Index c = topology.first_corner(f); c < topology.first_corner(f + 1); ++c) {
             map.corners.add_copy(c);
         }
@@ -70,7 +70,7 @@ class Splitter {
     SplitResult result(const Context& context) {
         distribute_faces(context);
         SplitResult result;
-        result.divided_faces = static_cast<Index>(divided_.size());
+        result.divided_faces = count_of(divided_);
         for (Index v = 0; v < topology_.vertex_count(); ++v) {
             if (slides_.has(v)) result.slid.push_back(v);
         }
@@ -81,7 +81,7 @@ class Splitter {
 
   private:
     void find_divided_faces() {
-        is_divided_.assign(static_cast<std::size_t>(topology_.face_count()), 0);
+        is_divided_.assign(topology_.face_count(), 0);
         for (const ContourLine& line : splitting_.lines) {
             for (const Index f : line.faces) is_divided_[f] = 1;
         }
@@ -126,7 +126,7 @@ class Splitter {
                 if (!pairs[i]) continue;
                 const std::span<const Index> face = topology_.face(faces[i]);
                 const auto k = std::find(face.begin(), face.end(), v) - face.begin();
-                slid_corners_.emplace(topology_.first_corner(faces[i]) + static_cast<Index>(k),
+                slid_corners_.emplace(topology_.first_corner(faces[i]) + index_of(k),
                                       blend((*pairs[i])[0], (*pairs[i])[1], t));
             }
         }
@@ -162,8 +162,7 @@ class Splitter {
         if (!any_slid) return part.copy_face(topology_, f);
         std::vector<Point> points;
         for (std::size_t k = 0; k < face.size(); ++k) {
-            points.push_back(
-                {face[k], corner_sources(topology_.first_corner(f) + static_cast<Index>(k))});
+            points.push_back({face[k], corner_sources(topology_.first_corner(f) + index_of(k))});
         }
         part.add_face(f, points);
     }
@@ -249,8 +248,7 @@ class Splitter {
 
     // New numbers of the nodes that the part's faces use, and of its vertices without faces.
     std::vector<Index> numbers(const PartBuilder& built, signed char side) const {
-        std::vector<Index> number(
-            static_cast<std::size_t>(topology_.vertex_count() + crossed_.size()), kNoIndex);
+        std::vector<Index> number(topology_.vertex_count() + crossed_.size(), kNoIndex);
         for (const Node node : built.nodes) number[node] = 0;
         Index next = 0;
         for (Node node = 0; node < static_cast<Node>(number.size()); ++node) {
@@ -279,7 +277,7 @@ class Splitter {
 
     // The nodes of a line in order: a crossing that ends slid to is replaced by them.
     std::vector<Node> nodes_of(std::size_t line) const {
-        const auto n = static_cast<Index>(splitting_.lines[line].crossings.size());
+        const auto n = count_of(splitting_.lines[line].crossings);
         const bool closed = splitting_.lines[line].closed;
         std::vector<Node> nodes;
         for (Index i = 0; i < n; ++i) {
@@ -308,7 +306,7 @@ class Splitter {
     // line; kNoIndex where there is none.
     Index shared_end(std::size_t line, Index i, Index step) const {
         const std::vector<Crossing>& c = splitting_.lines[line].crossings;
-        const auto n = static_cast<Index>(c.size());
+        const auto n = count_of(c);
         const bool ends = i + step < 0 || i + step >= n;
         if (ends && !splitting_.lines[line].closed) return kNoIndex;
         const Crossing& other = c[(i + step + n) % n];

@@ -58,7 +58,7 @@ class Gaussian {
     }
 
     std::vector<Vec3> smoothed(const std::vector<Vec3>& values) const {
-        const auto n = static_cast<Index>(values.size());
+        const auto n = count_of(values);
         std::vector<Vec3> result = values;
         for (Index i = 0; i < n; ++i) {
             // Differences keep their digits far from the origin.
@@ -95,29 +95,28 @@ SurfaceCurve::SurfaceCurve(const Mesh& mesh, std::span<const Index> vertices,
 
 void SurfaceCurve::sample(std::span<const Vec3> points, std::span<const Vec3> normals) {
     const std::size_t n = points.size();
-    const Index count = std::clamp(2 * static_cast<Index>(n), kFewestSamples, kMostSamples);
+    const Index count = std::clamp(2 * index_of(n), kFewestSamples, kMostSamples);
     const double step = length_ / count;
     double before = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 &a = points[i], &b = points[(i + 1) % n];
         const double segment = (b - a).norm();
-        while (static_cast<Index>(points_.size()) < count &&
-               static_cast<double>(points_.size()) * step <= before + segment) {
-            const double s = static_cast<double>(points_.size()) * step - before;
+        while (count_of(points_) < count && points_.size() * step <= before + segment) {
+            const double s = points_.size() * step - before;
             const double t = segment > 0.0 ? s / segment : 0.0;
             points_.push_back(a + t * (b - a));
             normals_.push_back((1.0 - t) * normals[i] + t * normals[(i + 1) % n]);
         }
         before += segment;
     }
-    while (static_cast<Index>(points_.size()) < count) {
+    while (count_of(points_) < count) {
         points_.push_back(points[0]);
         normals_.push_back(normals[0]);
     }
 }
 
 void SurfaceCurve::smooth(double sigma) {
-    const Gaussian gaussian(sigma, static_cast<Index>(points_.size()));
+    const Gaussian gaussian(sigma, count_of(points_));
     // What a first pass takes away is smoothed and given back, 2 S - S S: bends keep their place,
     // where a Gaussian alone would draw them inwards.
     const std::vector<Vec3> once = gaussian.smoothed(points_);
@@ -135,7 +134,7 @@ void SurfaceCurve::find_left() {
 }
 
 CurvePlace SurfaceCurve::nearest_among(const Vec3& p, Index first, Index count) const {
-    const auto n = static_cast<Index>(points_.size());
+    const auto n = count_of(points_);
     CurvePlace best;
     double least = std::numeric_limits<double>::infinity();
     for (Index k = 0; k < count; ++k) {
@@ -154,11 +153,11 @@ CurvePlace SurfaceCurve::nearest_among(const Vec3& p, Index first, Index count) 
 }
 
 CurvePlace SurfaceCurve::nearest(const Vec3& p) const {
-    return nearest_among(p, 0, static_cast<Index>(points_.size()));
+    return nearest_among(p, 0, count_of(points_));
 }
 
 CurvePlace SurfaceCurve::nearest(const Vec3& p, double around, double window) const {
-    const auto n = static_cast<double>(points_.size());
+    const double n = points_.size();
     const auto reach = static_cast<Index>(std::ceil(window * n));
     return nearest_among(p, static_cast<Index>(std::floor(around * n)) - reach, 2 * reach + 1);
 }
@@ -166,7 +165,7 @@ CurvePlace SurfaceCurve::nearest(const Vec3& p, double around, double window) co
 CurveDistances distances_to_curve(const Mesh& mesh, const SurfaceCurve& curve,
                                   std::span<const Index> seeds, double width,
                                   const Context& context) {
-    const auto count = static_cast<std::size_t>(mesh.vertex_count());
+    const std::size_t count = mesh.vertex_count();
     CurveDistances found{std::vector<double>(count, kNone), std::vector<double>(count, kNone)};
     std::vector<Index> queue;
     const auto reach = [&](Index v, const CurvePlace& place) {
@@ -210,7 +209,7 @@ double edge_length_at(const Mesh& mesh, std::span<const Index> vertices) {
             ++count;
         }
     }
-    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+    return count > 0 ? sum / count : 0.0;
 }
 
 }  // namespace lissom

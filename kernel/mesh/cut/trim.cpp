@@ -86,9 +86,9 @@ std::vector<ContourLine> new_boundary(const Mesh& mesh, const std::vector<Index>
 }
 
 Index removed_faces(const Mesh& mesh, const MeshMap& map) {
-    std::vector<char> kept(static_cast<std::size_t>(mesh.face_count()), 0);
+    std::vector<char> kept(mesh.face_count(), 0);
     for (Index f = 0; f < map.faces.size(); ++f) kept[map.faces.main_source(f)] = 1;
-    return static_cast<Index>(std::count(kept.begin(), kept.end(), 0));
+    return index_of(std::count(kept.begin(), kept.end(), 0));
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ double mean_turn(const Mesh& mesh, const Path& path) {
         const Vec3 a = p[i % n] - p[i - 1], b = p[(i + 1) % n] - p[i % n];
         sum += std::atan2(a.cross(b).norm(), a.dot(b));
     }
-    return turns > 0 ? sum / static_cast<double>(turns) : 0.0;
+    return turns > 0 ? sum / turns : 0.0;
 }
 
 }  // namespace lissom

@@ -23,7 +23,7 @@ void require_room(std::int64_t count, std::int64_t more, const char* what) {
 std::vector<Index> element_of_corner(const Topology& topology, Domain domain) {
     if (domain == Domain::vertex) return topology.faces().vertices;
     std::vector<Index> faces;
-    faces.reserve(static_cast<std::size_t>(topology.corner_count()));
+    faces.reserve(topology.corner_count());
     for (Index f = 0; f < topology.face_count(); ++f) {
         faces.insert(faces.end(), topology.face(f).size(), f);
     }
@@ -44,7 +44,7 @@ Attribute on_corners(const Attribute& old, const Topology& topology) {
 Attribute widened(const Attribute& old, Index width) {
     if (old.width == width) return old;
     Attribute result{old.name, old.domain, width, old.type, {}};
-    result.values.assign(static_cast<std::size_t>(old.size()) * width, kNone);
+    result.values.assign(at(old.size()) * width, kNone);
     for (Index i = 0; i < old.size(); ++i) {
         const std::span<const double> from = old.at(i);
         const std::span<double> to = result.at(i);
@@ -65,7 +65,7 @@ ScalarType common_type(ScalarType a, ScalarType b) {
 
 Attribute absent(const Attribute& like, const Topology& topology) {
     Attribute result{like.name, like.domain, like.width, like.type, {}};
-    const auto count = static_cast<std::size_t>(element_count(topology, like.domain));
+    const std::size_t count = element_count(topology, like.domain);
     result.values.assign(count * like.width, kNone);
     return result;
 }
@@ -120,7 +120,7 @@ void join_labels(const Mesh& mesh, const Mesh& other, const LabelRenames& rename
     for (const auto& [kind, labels] : other.attributes().labels()) {
         context.checkpoint();
         FaceLabels& joined = result.labels()[kind];
-        joined.of_face.resize(static_cast<std::size_t>(mesh.face_count()), kNoIndex);
+        joined.of_face.resize(mesh.face_count(), kNoIndex);
         LabelAdder adder(joined);
         std::vector<Index> renumbered;
         for (const std::string& name : labels.names) {
@@ -130,8 +130,7 @@ void join_labels(const Mesh& mesh, const Mesh& other, const LabelRenames& rename
             joined.of_face.push_back(label == kNoIndex ? kNoIndex : renumbered[label]);
         }
     }
-    const auto faces =
-        static_cast<std::size_t>(mesh.face_count()) + static_cast<std::size_t>(other.face_count());
+    const auto faces = at(mesh.face_count()) + other.face_count();
     for (auto& [kind, labels] : result.labels()) labels.of_face.resize(faces, kNoIndex);
 }
 

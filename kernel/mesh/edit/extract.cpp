@@ -16,7 +16,7 @@ class Extraction {
           topology_(mesh.topology()),
           chosen_(std::move(face_chosen)),
           isolated_(std::move(isolated_chosen)),
-          vertex_of_corner_(static_cast<std::size_t>(topology_.corner_count()), kNoIndex) {}
+          vertex_of_corner_(topology_.corner_count(), kNoIndex) {}
 
     MeshPart take(const Context& context) {
         number_vertices();
@@ -51,7 +51,7 @@ class Extraction {
         for (Index v = 0; v < topology_.vertex_count(); ++v) {
             std::vector<std::vector<Index>> fans = chosen_fans(v);
             if (fans.empty() && !(topology_.is_isolated(v) && isolated_[v])) continue;
-            const auto id = static_cast<Index>(vertex_map_.size());
+            const auto id = count_of(vertex_map_);
             vertex_map_.push_back(v);
             for (std::size_t i = 0; i < fans.size(); ++i) {
                 if (i == 0) {
@@ -63,7 +63,7 @@ class Extraction {
         }
         for (const std::vector<Index>& fan : further_fans) {
             for (const Index corner : fan) {
-                vertex_of_corner_[corner] = static_cast<Index>(vertex_map_.size());
+                vertex_of_corner_[corner] = count_of(vertex_map_);
             }
             vertex_map_.push_back(topology_.faces().vertices[fan[0]]);
         }
@@ -95,7 +95,7 @@ class Extraction {
     Index corner_at(Index f, Index v) const {
         const std::span<const Index> face = topology_.face(f);
         const auto at = std::find(face.begin(), face.end(), v) - face.begin();
-        return topology_.first_corner(f) + static_cast<Index>(at);
+        return topology_.first_corner(f) + index_of(at);
     }
 
     const Mesh& mesh_;
@@ -106,7 +106,7 @@ class Extraction {
 
 std::vector<char> faces_of(const Mesh& mesh, const Region& region) {
     require_same_topology(mesh, region.topology(), "the region");
-    std::vector<char> chosen(static_cast<std::size_t>(mesh.face_count()), 0);
+    std::vector<char> chosen(mesh.face_count(), 0);
     const std::vector<Index> faces = region.faces();
     if (faces.empty()) {
         throw Error(ErrorCode::region_empty,
@@ -135,9 +135,9 @@ MeshPart remove(const Mesh& mesh, const Region& region, const Context& context) 
 MeshPart extract_faces(const Mesh& mesh, std::span<const Index> faces, const Context& context) {
     require_faces(mesh.topology(), faces);
     Progress progress(context, "extract");
-    std::vector<char> chosen(static_cast<std::size_t>(mesh.face_count()), 0);
+    std::vector<char> chosen(mesh.face_count(), 0);
     for (const Index f : faces) chosen[f] = 1;
-    std::vector<char> none(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    std::vector<char> none(mesh.vertex_count(), 0);
     return Extraction(mesh, std::move(chosen), std::move(none)).take(context);
 }
 

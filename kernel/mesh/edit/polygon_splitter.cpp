@@ -63,14 +63,14 @@ PolygonSplitter::PolygonSplitter(const Topology& topology, std::span<const Vec3>
 PolygonSplitter::Key PolygonSplitter::key_of(std::size_t polygon, Index a, Index b) const {
     const std::span<const Index> face = topology_.face(polygons_[polygon]);
     const auto [low, high] = std::minmax(face[a], face[b]);
-    return (static_cast<Key>(low) << 32) | static_cast<Key>(high);
+    return pair_key(low, high);
 }
 
 // Calls use(key) for the sides of triangles that are not sides of the polygon, once each.
 template <typename Use>
 void PolygonSplitter::for_each_diagonal(std::size_t polygon, const Split& split,
                                         const Use& use) const {
-    const auto corners = static_cast<Index>(topology_.face(polygons_[polygon]).size());
+    const auto corners = count_of(topology_.face(polygons_[polygon]));
     for (const Triangle& t : split) {
         for (int s = 0; s < 3; ++s) {
             const Index from = t[s], to = t[(s + 1) % 3];
@@ -81,8 +81,7 @@ void PolygonSplitter::for_each_diagonal(std::size_t polygon, const Split& split,
 }
 
 bool PolygonSplitter::is_edge(Key diagonal) const {
-    const auto low = static_cast<Index>(diagonal >> 32),
-               high = static_cast<Index>(diagonal & 0xffffffffU);
+    const auto low = index_of(diagonal >> 32), high = index_of(diagonal & 0xffffffffU);
     const std::span<const Index> ring = topology_.neighbors(low);
     return std::find(ring.begin(), ring.end(), high) != ring.end();
 }
@@ -169,9 +168,7 @@ PolygonSplitter::Split PolygonSplitter::best_split(std::size_t polygon) const {
         for (std::size_t i = 0; i + length < n; ++i) {
             const std::size_t j = i + length;
             const bool is_side = length == n - 1;
-            const double chord =
-                is_side ? 0.0
-                        : diagonal_cost(polygon, static_cast<Index>(i), static_cast<Index>(j));
+            const double chord = is_side ? 0.0 : diagonal_cost(polygon, index_of(i), index_of(j));
             double best = kForbidden;
             for (std::size_t k = i + 1; k < j && chord < kForbidden; ++k) {
                 const double sum = cost[i * n + k] + cost[k * n + j] +
@@ -191,7 +188,7 @@ PolygonSplitter::Split PolygonSplitter::best_split(std::size_t polygon) const {
         open.pop_back();
         if (j - i < 2) continue;
         const std::size_t k = apex[i * n + j];
-        split.push_back({static_cast<Index>(i), static_cast<Index>(k), static_cast<Index>(j)});
+        split.push_back({index_of(i), index_of(k), index_of(j)});
         open.emplace_back(i, k);
         open.emplace_back(k, j);
     }
@@ -205,13 +202,12 @@ PolygonSplitter::Split PolygonSplitter::turned_split(std::size_t polygon) const 
     for (std::size_t turn = 0; turn < kTurns; ++turn) {
         const std::size_t start = turn * n / kTurns;
         std::vector<Vec3> turned(points);
-        std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(start),
-                    turned.end());
+        std::rotate(turned.begin(), turned.begin() + start, turned.end());
         Split split;
         triangulate_polygon(turned, split);
         for (Triangle& t : split) {
             for (Index& corner : t) {
-                corner = static_cast<Index>((static_cast<std::size_t>(corner) + start) % n);
+                corner = index_of((corner + start) % n);
             }
         }
         bool allowed = true;

@@ -79,7 +79,7 @@ void set_boundary(const Topology& topology, SmoothBoundary rule, Stencils& stenc
 
 Stencils stencils_for(const Mesh& mesh, const SmoothOptions& options) {
     Stencils stencils;
-    stencils.of_vertex.resize(static_cast<std::size_t>(mesh.vertex_count()));
+    stencils.of_vertex.resize(mesh.vertex_count());
     if (options.weights == SmoothWeights::cotangent) {
         add_cotangents(mesh, stencils);
     } else {
@@ -98,18 +98,16 @@ Stencils stencils_for(const Mesh& mesh, const SmoothOptions& options) {
 
 void step(const Stencils& stencils, double strength, std::vector<Vec3>& positions,
           std::vector<Vec3>& next, const Context& context) {
-    context.parallel_for(0, static_cast<Index>(positions.size()), kGrain,
-                         [&](Index begin, Index end) {
-                             for (Index v = begin; v < end; ++v) {
-                                 const auto& stencil = stencils.of_vertex[v];
-                                 next[v] = positions[v];
-                                 if (stencil.empty()) continue;
-                                 Vec3 mean = Vec3::Zero();
-                                 for (const auto& [n, weight] : stencil)
-                                     mean += weight * positions[n];
-                                 next[v] += strength * (mean - positions[v]);
-                             }
-                         });
+    context.parallel_for(0, count_of(positions), kGrain, [&](Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) {
+            const auto& stencil = stencils.of_vertex[v];
+            next[v] = positions[v];
+            if (stencil.empty()) continue;
+            Vec3 mean = Vec3::Zero();
+            for (const auto& [n, weight] : stencil) mean += weight * positions[n];
+            next[v] += strength * (mean - positions[v]);
+        }
+    });
     positions.swap(next);
 }
 
@@ -133,7 +131,7 @@ void smooth(Mesh& mesh, const SmoothOptions& options, const Context& context) {
     std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
     std::vector<Vec3> next = positions;
     for (Index i = 0; i < options.iterations; ++i) {
-        progress.update(static_cast<double>(i) / options.iterations);
+        progress.update(i, options.iterations);
         step(stencils, options.strength, positions, next, context);
         if (options.keep_volume) step(stencils, outward, positions, next, context);
     }

@@ -49,8 +49,8 @@ class Step {
     // The edge from each corner to the next one of its face.
     void find_edges() {
         const OpenMesh::PolyConnectivity& halfedges = topology_.halfedges();
-        corner_edge_.reserve(static_cast<std::size_t>(topology_.corner_count()));
-        edge_faces_.assign(2 * static_cast<std::size_t>(topology_.edge_count()), kNoIndex);
+        corner_edge_.reserve(topology_.corner_count());
+        edge_faces_.assign(2 * at(topology_.edge_count()), kNoIndex);
         for (Index f = 0; f < topology_.face_count(); ++f) {
             OpenMesh::HalfedgeHandle h = halfedges.halfedge_handle(OpenMesh::FaceHandle(f));
             for (std::size_t k = 0; k < topology_.face(f).size(); ++k) {
@@ -66,7 +66,7 @@ class Step {
     }
 
     void number_face_points() {
-        face_point_.assign(static_cast<std::size_t>(topology_.face_count()), kNoIndex);
+        face_point_.assign(topology_.face_count(), kNoIndex);
         for (Index f = 0; f < topology_.face_count(); ++f) {
             if (has_face_point(f)) face_point_[f] = face_point_count_++;
         }
@@ -127,7 +127,7 @@ class Step {
     // One quad a corner: the corner, the edge after it, the middle, the edge before it.
     void split_polygon(Index f) {
         const std::span<const Index> v = topology_.face(f);
-        const Index first = topology_.first_corner(f), n = static_cast<Index>(v.size());
+        const Index first = topology_.first_corner(f), n = count_of(v);
         std::vector<Index> corners;
         for (Index k = 0; k < n; ++k) corners.push_back(first + k);
         for (Index k = 0; k < n; ++k) {
@@ -183,7 +183,7 @@ class Step {
 
     Vec3 loop_vertex(Index v) const {
         const std::span<const Index> ring = topology_.neighbors(v);
-        const auto n = static_cast<double>(ring.size());
+        const double n = ring.size();
         const double root = 3.0 / 8.0 + std::cos(2.0 * kPi / n) / 4.0;
         const double beta = (5.0 / 8.0 - root * root) / n;
         Vec3 sum = Vec3::Zero();
@@ -193,7 +193,7 @@ class Step {
 
     Vec3 catmull_clark_vertex(Index v, const std::vector<Vec3>& result) const {
         const std::span<const Index> ring = topology_.neighbors(v);
-        const auto n = static_cast<double>(ring.size());
+        const double n = ring.size();
         Vec3 faces = Vec3::Zero(), edges = Vec3::Zero();
         for (const Index f : topology_.faces_around(v)) faces += result[face_point(f)] / n;
         for (const Index u : ring) edges += (mesh_.position(u) + mesh_.position(v)) / (2.0 * n);
@@ -216,7 +216,7 @@ class Step {
 bool sees_itself(const Mesh& mesh, Index f) {
     const std::span<const Index> face = mesh.topology().face(f);
     Vec3 middle = Vec3::Zero(), normal = Vec3::Zero();
-    for (const Index v : face) middle += mesh.position(v) / static_cast<double>(face.size());
+    for (const Index v : face) middle += mesh.position(v) / count_of(face);
     std::vector<Vec3> fan;
     for (std::size_t k = 0; k < face.size(); ++k) {
         const Vec3 a = mesh.position(face[k]) - middle;
@@ -249,7 +249,7 @@ Mesh subdivide(const Mesh& mesh, const SubdivideOptions& options, const Context&
     Progress progress(context, "subdivide");
     Mesh result = mesh;
     for (Index level = 0; level < options.levels; ++level) {
-        progress.update(static_cast<double>(level) / options.levels);
+        progress.update(level, options.levels);
         triangulate(result, faces_to_triangulate(result, options.scheme), context);
         result = Step(result, options.scheme).subdivided(context);
     }

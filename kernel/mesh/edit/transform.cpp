@@ -15,7 +15,7 @@ Mesh with_reversed_faces(const Mesh& mesh, std::vector<Vec3> positions, const Co
     std::vector<Index> corners, face;
     for (Index f = 0; f < topology.face_count(); ++f) {
         const std::span<const Index> old = topology.face(f);
-        const auto n = static_cast<Index>(old.size());
+        const auto n = count_of(old);
         face.clear();
         for (Index k = 0; k < n; ++k) {
             const Index from = (n - k) % n;
@@ -45,7 +45,7 @@ void transform(Mesh& mesh, const Affine& map, const Context& context) {
     const double sign = handedness(map);
     context.checkpoint();
     std::vector<Vec3> positions;
-    positions.reserve(static_cast<std::size_t>(mesh.vertex_count()));
+    positions.reserve(mesh.vertex_count());
     for (const Vec3& p : mesh.positions()) positions.push_back(map(p));
     if (sign < 0.0) {
         mesh.replace_by(with_reversed_faces(mesh, std::move(positions), context));

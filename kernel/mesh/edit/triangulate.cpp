@@ -41,7 +41,7 @@ void triangulate(Mesh& mesh, std::span<const Index> faces, const Context& contex
         if (next == polygons.size() || polygons[next] != f) {
             result.add(face);
             for (std::size_t k = 0; k < face.size(); ++k) {
-                corners.push_back(first + static_cast<Index>(k));
+                corners.push_back(first + index_of(k));
             }
             face_map.push_back(f);
             continue;
@@ -59,7 +59,7 @@ void triangulate(Mesh& mesh, std::span<const Index> faces, const Context& contex
 }
 
 void triangulate(Mesh& mesh, const Context& context) {
-    std::vector<Index> all(static_cast<std::size_t>(mesh.face_count()));
+    std::vector<Index> all(mesh.face_count());
     std::iota(all.begin(), all.end(), 0);
     triangulate(mesh, all, context);
 }

@@ -58,10 +58,10 @@ Laplacian uniform_laplacian(const Topology& topology, const Region& region) {
 Laplacian cotangent_laplacian(const Topology& topology, std::span<const Vec3> positions,
                               const Region& region) {
     const std::vector<Index> vertices = with_neighbors(region);
-    std::vector<Index> row_of(static_cast<std::size_t>(topology.vertex_count()), kNoIndex);
+    std::vector<Index> row_of(topology.vertex_count(), kNoIndex);
     Laplacian result;
     for (const Index v : vertices) {
-        row_of[v] = static_cast<Index>(result.rows.size());
+        row_of[v] = count_of(result.rows);
         result.rows.push_back({v, 0.0, {}});
     }
     const std::vector<Index> faces = faces_at(topology, vertices);
@@ -78,7 +78,7 @@ Laplacian cotangent_laplacian(const Topology& topology, std::span<const Vec3> po
             total += area / 6.0;
         }
     }
-    const double least_area = 1e-6 * total / static_cast<double>(vertices.size());
+    const double least_area = 1e-6 * total / vertices.size();
     for (Laplacian::Row& row : result.rows) {
         row.area = std::max(row.area, least_area);
         for (auto& [n, weight] : row.weights) weight = std::max(weight, kLeastWeight);
@@ -94,7 +94,7 @@ class FairingSystem {
         : region_(region),
           positions_(positions.begin(), positions.end()),
           unknown_(positions.size(), kNoIndex),
-          right_(3 * static_cast<std::size_t>(region.size()), 0.0) {
+          right_(3 * at(region.size()), 0.0) {
         for (Index i = 0; i < region.size(); ++i) unknown_[region.vertices()[i]] = i;
     }
 
@@ -122,8 +122,7 @@ class FairingSystem {
         system.solve(right_, right_, 3);
         for (Index i = 0; i < region_.size(); ++i) {
             for (int k = 0; k < 3; ++k) {
-                positions_[region_.vertices()[i]][k] =
-                    right_[static_cast<std::size_t>(k) * region_.size() + i];
+                positions_[region_.vertices()[i]][k] = right_[at(k) * region_.size() + i];
             }
         }
         return positions_;
@@ -154,8 +153,7 @@ class FairingSystem {
                     continue;
                 }
                 for (int k = 0; k < 3; ++k) {
-                    right_[static_cast<std::size_t>(k) * region_.size() + row] -=
-                        value * positions_[w][k];
+                    right_[at(k) * region_.size() + row] -= value * positions_[w][k];
                 }
             }
         }

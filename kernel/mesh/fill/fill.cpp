@@ -76,7 +76,7 @@ FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options,
     }
     Progress progress(context, "fill");
     FillReport report;
-    report.loop_size = static_cast<Index>(outline.size());
+    report.loop_size = count_of(outline);
     report.first_vertex = mesh.vertex_count();
     report.first_face = mesh.face_count();
 
@@ -88,11 +88,11 @@ FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options,
         report.limit_reached = !patch.refine(outline, options.maximum_vertices, context);
     }
     report.vertex_count = patch.new_vertex_count();
-    report.face_count = static_cast<Index>(patch.triangles().size());
+    report.face_count = count_of(patch.triangles());
     Mesh filled = closed_mesh(patch, context);
     progress.step(0.3);
     if (options.fair) {
-        std::vector<Index> added(static_cast<std::size_t>(report.vertex_count));
+        std::vector<Index> added(report.vertex_count);
         std::iota(added.begin(), added.end(), report.first_vertex);
         fair(filled, Region(filled.shared_topology(), std::move(added)), context);
     }

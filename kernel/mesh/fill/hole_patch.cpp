@@ -31,13 +31,13 @@ void HolePatch::set_triangle(Index triangle, const Triangle& vertices) {
 
 void HolePatch::add_triangle(Index a, Index b, Index c) {
     triangles_.emplace_back();
-    set_triangle(static_cast<Index>(triangles_.size()) - 1, {a, b, c});
+    set_triangle(count_of(triangles_) - 1, {a, b, c});
 }
 
 Index HolePatch::add_middle_vertex(std::span<const Index> around) {
     Vec3 middle = Vec3::Zero();
     std::map<Index, double> weights;
-    const double share = 1.0 / static_cast<double>(around.size());
+    const double share = 1.0 / around.size();
     for (const Index v : around) {
         middle += share * position(v);
         if (v < mesh_.vertex_count()) {
@@ -79,7 +79,7 @@ double HolePatch::mean_edge_length(Index v) const {
     const std::span<const Index> ring = mesh_.topology().neighbors(v);
     double sum = 0.0;
     for (const Index n : ring) sum += (mesh_.position(n) - mesh_.position(v)).norm();
-    return sum / static_cast<double>(ring.size());
+    return sum / ring.size();
 }
 
 bool HolePatch::refine(std::span<const Index> loop, Index maximum_vertices,
@@ -106,7 +106,7 @@ bool HolePatch::refine(std::span<const Index> loop, Index maximum_vertices,
 // One pass over the triangles; true where one was split.
 bool HolePatch::split_large_triangles(Index maximum_vertices) {
     std::vector<std::pair<Index, Index>> dirty;
-    const auto count = static_cast<Index>(triangles_.size());
+    const auto count = count_of(triangles_);
     bool any = false;
     for (Index t = 0; t < count && new_vertex_count() < maximum_vertices; ++t) {
         const Triangle corners = triangles_[t];

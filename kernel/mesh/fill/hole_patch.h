@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
@@ -20,15 +21,15 @@ class HolePatch {
 
     const Mesh& mesh() const { return mesh_; }
     const std::vector<Triangle>& triangles() const { return triangles_; }
-    Index new_vertex_count() const { return static_cast<Index>(new_positions_.size()); }
+    Index new_vertex_count() const { return count_of(new_positions_); }
     const std::vector<Vec3>& new_positions() const { return new_positions_; }
     /// Mesh vertices that a new vertex blends, with weights.
     const std::vector<ElementMap::Source>& sources(Index new_vertex) const {
-        return sources_[new_vertex];
+        return sources_[at(new_vertex)];
     }
     const Vec3& position(Index v) const {
         return v < mesh_.vertex_count() ? mesh_.position(v)
-                                        : new_positions_[v - mesh_.vertex_count()];
+                                        : new_positions_[at(v - mesh_.vertex_count())];
     }
 
     void add_triangle(Index a, Index b, Index c);
@@ -52,10 +53,7 @@ class HolePatch {
     double& spacing(Index v) { return spacing_[v]; }
     double mean_edge_length(Index v) const;
 
-    static std::uint64_t key(Index from, Index to) {
-        return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32) |
-               static_cast<std::uint32_t>(to);
-    }
+    static std::uint64_t key(Index from, Index to) { return pair_key(from, to); }
 
     const Mesh& mesh_;
     std::vector<Triangle> triangles_;

@@ -25,7 +25,7 @@ struct Polygon {
     std::vector<Index> vertices;
     std::vector<Vec3> normals;
 
-    Index size() const { return static_cast<Index>(vertices.size()); }
+    Index size() const { return count_of(vertices); }
 };
 
 struct Weight {
@@ -49,10 +49,7 @@ double turn(const Vec3& a, const Vec3& b) {
 class MinimumWeight {
   public:
     MinimumWeight(const HolePatch& patch, const Polygon& polygon, const Context& context)
-        : patch_(patch),
-          polygon_(polygon),
-          n_(polygon.size()),
-          cells_(static_cast<std::size_t>(n_) * n_) {
+        : patch_(patch), polygon_(polygon), n_(polygon.size()), cells_(at(n_) * n_) {
         for (Index i = 0; i + 1 < n_; ++i) {
             cell(i, i + 1).weight = {0.0, 0.0};
             cell(i, i + 1).normal = polygon.normals[i];
@@ -87,10 +84,8 @@ class MinimumWeight {
         Index middle = kNoIndex;
     };
 
-    Cell& cell(Index i, Index k) { return cells_[static_cast<std::size_t>(i) * n_ + k]; }
-    const Cell& cell(Index i, Index k) const {
-        return cells_[static_cast<std::size_t>(i) * n_ + k];
-    }
+    Cell& cell(Index i, Index k) { return cells_[at(i) * n_ + k]; }
+    const Cell& cell(Index i, Index k) const { return cells_[at(i) * n_ + k]; }
     const Vec3& point(Index i) const { return patch_.position(polygon_.vertices[i]); }
 
     // Finds the best triangle (i, m, k) on the chord from k to i.
@@ -173,14 +168,14 @@ std::pair<Vec3, Index> close(HolePatch& patch, const Polygon& polygon, const Con
             const auto [normal, parts] = close(patch, part(polygon, i, j, Vec3::Zero()), context);
             Polygon rest = part(polygon, j, i, normal);
             // The last edge of the polygon stays the last one.
-            const auto last = static_cast<std::ptrdiff_t>(n - j);
+            const std::ptrdiff_t last = n - j;
             std::rotate(rest.vertices.begin(), rest.vertices.begin() + last, rest.vertices.end());
             std::rotate(rest.normals.begin(), rest.normals.begin() + last, rest.normals.end());
             const auto [last_normal, rest_parts] = close(patch, rest, context);
             return {last_normal, parts + rest_parts};
         }
     }
-    const Index first = static_cast<Index>(patch.triangles().size());
+    const Index first = count_of(patch.triangles());
     if (n <= kMaximumLoop) {
         const MinimumWeight solution(patch, polygon, context);
         if (solution.possible()) {
@@ -189,7 +184,7 @@ std::pair<Vec3, Index> close(HolePatch& patch, const Polygon& polygon, const Con
         }
     }
     close_by_fan(patch, polygon);
-    return {patch.normal(static_cast<Index>(patch.triangles().size()) - 1), 1};
+    return {patch.normal(count_of(patch.triangles()) - 1), 1};
 }
 
 // Vector area of the face on the other side of the edge from `a` to `b`.

@@ -22,7 +22,7 @@ void require_same_faces(const Mesh& mesh, const Mesh& rest) {
 
 // Of the edges at each vertex the ratio of lengths that is farthest from 1, as a factor.
 std::vector<double> edge_stretch(const Mesh& mesh, const Mesh& rest) {
-    std::vector<double> stretch(static_cast<std::size_t>(mesh.vertex_count()), kNone);
+    std::vector<double> stretch(mesh.vertex_count(), kNone);
     for (Index e = 0; e < mesh.topology().edge_count(); ++e) {
         const auto [a, b] = mesh.topology().edge(e);
         const double before = (rest.position(a) - rest.position(b)).norm();
@@ -38,7 +38,7 @@ std::vector<double> edge_stretch(const Mesh& mesh, const Mesh& rest) {
 
 std::vector<double> area_ratio(const Mesh& mesh, const Mesh& rest) {
     const std::vector<double> now = face_areas(mesh), before = face_areas(rest);
-    std::vector<double> ratio(static_cast<std::size_t>(mesh.vertex_count()), kNone);
+    std::vector<double> ratio(mesh.vertex_count(), kNone);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         double sum = 0.0, sum_before = 0.0;
         for (const Index f : mesh.topology().faces_around(v)) {
@@ -58,7 +58,7 @@ double angle_at(const Mesh& mesh, std::span<const Index> face, std::size_t k, co
 
 std::vector<double> angle_change(const Mesh& mesh, const Mesh& rest, std::span<const Vec3> now,
                                  std::span<const Vec3> before) {
-    std::vector<double> change(static_cast<std::size_t>(mesh.vertex_count()), kNone);
+    std::vector<double> change(mesh.vertex_count(), kNone);
     for (Index f = 0; f < mesh.face_count(); ++f) {
         if (now[f].isZero(0.0) || before[f].isZero(0.0)) continue;
         const std::span<const Index> face = mesh.topology().face(f);
@@ -102,7 +102,7 @@ Distortion distortion(const Mesh& mesh, const Mesh& rest, const Context& context
     Distortion result{edge_stretch(mesh, rest), area_ratio(mesh, rest), {}, {}, {}};
     progress.step(0.5);
     result.angle = angle_change(mesh, rest, now, before);
-    result.flips.assign(static_cast<std::size_t>(mesh.vertex_count()), 0.0);
+    result.flips.assign(mesh.vertex_count(), 0.0);
     const Neighborhood around(mesh, now), around_before(rest, before);
     for (Index f = 0; f < mesh.face_count(); ++f) {
         if (!around.opposes(f) || around_before.opposes(f)) continue;

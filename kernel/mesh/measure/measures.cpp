@@ -17,7 +17,7 @@ constexpr double kFlatFace = 1e-14;
 Vec3 mean(std::span<const Vec3> points) {
     Vec3 sum = Vec3::Zero();
     for (const Vec3& p : points) sum += p;
-    return points.empty() ? sum : Vec3(sum / static_cast<double>(points.size()));
+    return points.empty() ? sum : Vec3(sum / count_of(points));
 }
 
 double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -97,7 +97,7 @@ class Hasher {
         state_ = (state_ ^ (state_ >> 27)) * 0x94d049bb133111ebULL;
         state_ ^= state_ >> 31;
     }
-    void add(Index value) { add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(value))); }
+    void add(Index value) { add(std::uint64_t{static_cast<std::uint32_t>(value)}); }
     // Every NaN counts as the same, since its payload differs between machines.
     void add(double value) {
         add(std::isnan(value) ? std::uint64_t{0x7ff8000000000000}
@@ -140,7 +140,7 @@ Vec3 center(const Mesh& mesh, const Region& region) {
     }
     Vec3 sum = Vec3::Zero();
     for (const Index v : region.vertices()) sum += mesh.position(v);
-    return sum / static_cast<double>(region.size());
+    return sum / count_of(region);
 }
 
 Vec3 surface_centroid(const Mesh& mesh) {
@@ -166,12 +166,12 @@ double surface_radius(const Mesh& mesh) {
         return std::sqrt(sum / area);
     }
     for (const Vec3& p : mesh.positions()) sum += (p - centroid).squaredNorm();
-    return std::sqrt(sum / static_cast<double>(mesh.vertex_count()));
+    return std::sqrt(sum / mesh.vertex_count());
 }
 
 std::vector<double> face_areas(const Mesh& mesh) {
     std::vector<double> areas;
-    areas.reserve(static_cast<std::size_t>(mesh.face_count()));
+    areas.reserve(mesh.face_count());
     FaceArea area(mesh);
     for (Index f = 0; f < mesh.face_count(); ++f) areas.push_back(area.of(f));
     return areas;
@@ -195,7 +195,7 @@ double volume(const Mesh& mesh) {
     }
     for (const std::vector<Index>& loop : mesh.topology().boundary_loops()) {
         Vec3 apex = Vec3::Zero();
-        for (const Index v : loop) apex += mesh.position(v) / static_cast<double>(loop.size());
+        for (const Index v : loop) apex += mesh.position(v) / count_of(loop);
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const Index next = loop[(i + 1) % loop.size()];
             sum += cone(mesh.position(next), mesh.position(loop[i]), apex);
@@ -214,7 +214,7 @@ Index genus(const Topology& topology) {
     Index components = topology.component_count();
     for (Index v = 0; v < topology.vertex_count(); ++v)
         components -= topology.is_isolated(v) ? 1 : 0;
-    const auto loops = static_cast<Index>(topology.boundary_loops().size());
+    const auto loops = count_of(topology.boundary_loops());
     return (2 * components - loops - euler_characteristic(topology)) / 2;
 }
 
@@ -238,7 +238,7 @@ double corner_angle(const Vec3& before, const Vec3& corner, const Vec3& after, c
 
 std::vector<Vec3> face_normals(const Mesh& mesh) {
     std::vector<Vec3> normals, corners;
-    normals.reserve(static_cast<std::size_t>(mesh.face_count()));
+    normals.reserve(mesh.face_count());
     for (Index f = 0; f < mesh.face_count(); ++f) {
         corners.clear();
         for (const Index v : mesh.topology().face(f)) corners.push_back(mesh.position(v));
@@ -248,7 +248,7 @@ std::vector<Vec3> face_normals(const Mesh& mesh) {
 }
 
 std::vector<Vec3> vertex_normals(const Mesh& mesh) {
-    std::vector<Vec3> normals(static_cast<std::size_t>(mesh.vertex_count()), Vec3::Zero());
+    std::vector<Vec3> normals(mesh.vertex_count(), Vec3::Zero());
     const std::vector<Vec3> of_face = face_normals(mesh);
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const std::span<const Index> face = mesh.topology().face(f);

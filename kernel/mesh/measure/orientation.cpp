@@ -19,7 +19,7 @@ struct Neighbors {
 
     Neighbors(std::span<const Vec3> positions, const CornerFaces& work)
         : partner(work.faces.vertices.size(), kNoIndex), agrees(partner.size(), 1) {
-        const DirectedEdges edges(static_cast<Index>(positions.size()), work.faces);
+        const DirectedEdges edges(count_of(positions), work.faces);
         edges.for_each_edge([&](std::span<const Index> corners) {
             if (corners.size() != 2) return;
             const bool agree = edges.ascending(corners[0]) != edges.ascending(corners[1]);
@@ -38,7 +38,7 @@ class Orienter {
         : positions_(positions),
           work_(work),
           neighbors_(neighbors),
-          flipped_(static_cast<std::size_t>(work.faces.size()), 0),
+          flipped_(work.faces.size(), 0),
           visited_(flipped_.size(), 0) {}
 
     // One flag a face.

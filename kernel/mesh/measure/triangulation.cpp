@@ -97,7 +97,7 @@ void clip_ears(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
         }
         const std::size_t n = loop.size();
         triangles.push_back({loop[(best + n - 1) % n], loop[best], loop[(best + 1) % n]});
-        loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(best));
+        loop.erase(loop.begin() + best);
     }
     triangles.push_back({loop[0], loop[1], loop[2]});
 }
@@ -115,7 +115,7 @@ class EarWalk {
           before_(points.size()),
           after_(points.size()),
           is_obstacle_(points.size(), false) {
-        const auto n = static_cast<Index>(points.size());
+        const auto n = count_of(points);
         for (Index i = 0; i < n; ++i) {
             before_[i] = (i + n - 1) % n;
             after_[i] = (i + 1) % n;
@@ -253,7 +253,7 @@ Triangulation triangulate_faces(const Topology& topology, std::span<const Vec3> 
 }
 
 Triangulation triangulate_faces(const Topology& topology, std::span<const Vec3> positions) {
-    std::vector<Index> all(static_cast<std::size_t>(topology.face_count()));
+    std::vector<Index> all(topology.face_count());
     std::iota(all.begin(), all.end(), 0);
     return triangulate_faces(topology, positions, all);
 }

@@ -23,7 +23,7 @@ double diameter_bound(const Mesh& mesh, const Context& context) {
     const std::vector<Index>& components = mesh.topology().components();
     std::vector<Index> first;
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
-        if (components[v] == static_cast<Index>(first.size())) first.push_back(v);
+        if (components[v] == count_of(first)) first.push_back(v);
     }
     double farthest = 0.0;
     for (const double d : edge_distances(mesh, first, kInfinity, context)) {
@@ -65,7 +65,7 @@ std::vector<double> edge_distances(const Mesh& mesh, std::span<const Index> sour
 std::vector<double> edge_distances(const Mesh& mesh, const SurfacePoint& point,
                                    const Context& context) {
     require_vertices(mesh.topology(), point.triangle);
-    std::vector<double> shortest(static_cast<std::size_t>(mesh.vertex_count()), kInfinity);
+    std::vector<double> shortest(mesh.vertex_count(), kInfinity);
     ShortestPaths paths(mesh);
     for (const Index corner : point.triangle) {
         const double first = (mesh.position(corner) - point.position).norm();
@@ -133,10 +133,10 @@ void HeatDistances::State::build_systems(const Context& context) {
         }
     }
 
-    on_boundary.assign(static_cast<std::size_t>(n), 0);
-    poisson_pinned.assign(static_cast<std::size_t>(n), 0);
-    std::vector<char> isolated(static_cast<std::size_t>(n), 0);
-    std::vector<char> pinned_component(static_cast<std::size_t>(topology->component_count()), 0);
+    on_boundary.assign(n, 0);
+    poisson_pinned.assign(n, 0);
+    std::vector<char> isolated(n, 0);
+    std::vector<char> pinned_component(topology->component_count(), 0);
     for (Index v = 0; v < n; ++v) {
         isolated[v] = topology->is_isolated(v);
         on_boundary[v] = isolated[v] || topology->is_boundary(v);
@@ -154,7 +154,7 @@ void HeatDistances::State::build_systems(const Context& context) {
 
 std::vector<double> HeatDistances::State::diffuse(std::span<const Index> sources,
                                                   std::span<const double> weights) const {
-    const auto n = static_cast<std::size_t>(topology->vertex_count());
+    const std::size_t n = topology->vertex_count();
     std::vector<double> start(n, 0.0), heat(n, 0.0);
     for (std::size_t i = 0; i < sources.size(); ++i) {
         start[sources[i]] = weights.empty() ? 1.0 : weights[i];
@@ -215,7 +215,7 @@ std::vector<double> HeatDistances::State::up_to_a_constant(std::span<const Index
 void HeatDistances::State::shift_to_sources(std::vector<double>& distance,
                                             std::span<const Index> sources) const {
     const std::vector<Index>& components = topology->components();
-    std::vector<double> sum(static_cast<std::size_t>(topology->component_count()), 0.0);
+    std::vector<double> sum(topology->component_count(), 0.0);
     std::vector<Index> count(sum.size(), 0);
     for (const Index v : sources) {
         sum[components[v]] += distance[v];
@@ -264,11 +264,11 @@ std::vector<double> HeatDistances::from_point(const SurfacePoint& point,
     const std::span<const double> weights(point.barycentric.data(), 3);
     std::vector<double> distance = state_->up_to_a_constant(corners, weights, context);
     const auto straight = [&](std::size_t v) {
-        return (state_->shape.position(static_cast<Index>(v)) - point.position).norm();
+        return (state_->shape.position(index_of(v)) - point.position).norm();
     };
     double constant = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto v = static_cast<std::size_t>(corners[k]);
+        const std::size_t v = corners[k];
         constant += weights[k] * (distance[v] - straight(v));
     }
     const std::vector<double> bound = edge_distances(state_->shape, point, context);

@@ -50,7 +50,7 @@ void IntrinsicDelaunay::glue() {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
         for (int s = 0; s < 3; ++s) {
             const Index a = triangles_[t][s], b = triangles_[t][(s + 1) % 3];
-            sides.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(3 * t) + s});
+            sides.push_back({std::min(a, b), std::max(a, b), index_of(3 * t) + s});
         }
     }
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
@@ -82,7 +82,7 @@ void IntrinsicDelaunay::mollify() {
 double IntrinsicDelaunay::mean_length() const {
     double sum = 0.0;
     for (const std::array<double, 3>& l : lengths_) sum += l[0] + l[1] + l[2];
-    return lengths_.empty() ? 0.0 : sum / (3.0 * static_cast<double>(lengths_.size()));
+    return lengths_.empty() ? 0.0 : sum / (3.0 * lengths_.size());
 }
 
 std::array<Vec2, 3> IntrinsicDelaunay::layout(std::size_t triangle) const {
@@ -114,15 +114,15 @@ std::array<double, 3> IntrinsicDelaunay::cotangents(std::size_t triangle) const 
 bool IntrinsicDelaunay::is_delaunay(Index side) const {
     const Index twin = twin_[side];
     if (twin == kNoIndex || twin / 3 == side / 3) return true;
-    const double here = cotangents(static_cast<std::size_t>(side / 3))[(side + 2) % 3];
+    const double here = cotangents(side / 3)[(side + 2) % 3];
     // The corner opposite to side s is corner s + 2 of the triangle.
-    const double there = cotangents(static_cast<std::size_t>(twin / 3))[(twin % 3 + 2) % 3];
+    const double there = cotangents(twin / 3)[(twin % 3 + 2) % 3];
     return here + there >= -kTolerance;
 }
 
 void IntrinsicDelaunay::flip_to_delaunay(const Context& context) {
     std::vector<Index> queue;
-    for (Index side = 0; side < static_cast<Index>(twin_.size()); ++side) {
+    for (Index side = 0; side < count_of(twin_); ++side) {
         if (twin_[side] > side) queue.push_back(side);
     }
     std::size_t flips_left = kMaximumFlipsPerEdge * queue.size();

@@ -60,7 +60,7 @@ PathPoint polyline_nearest(std::span<const Vec3> points, bool closed, const Vec3
         const Vec3 candidate = a + t * along;
         const double distance = (p - candidate).norm();
         if (distance < best.distance) {
-            best = {0.0, static_cast<Index>(i), candidate, distance};
+            best = {0.0, index_of(i), candidate, distance};
             at = before + t * std::sqrt(square);
         }
         before += std::sqrt(square);
@@ -81,7 +81,7 @@ void smooth_polyline(std::vector<Vec3>& points, bool closed, Index iterations, d
     std::vector<Vec3> next = points;
     for (Index iteration = 0; iteration < iterations; ++iteration) {
         context.checkpoint();
-        if (iteration % kIterationsPerReport == 0) progress.update(double(iteration) / iterations);
+        if (iteration % kIterationsPerReport == 0) progress.update(iteration, iterations);
         for (std::size_t i = closed ? 0 : 1; i < (closed ? n : n - 1); ++i) {
             const Vec3 middle = 0.5 * (points[(i + n - 1) % n] + points[(i + 1) % n]);
             next[i] = points[i] + strength * (middle - points[i]);
@@ -105,7 +105,7 @@ Path::Path(std::vector<Vec3> points, bool closed) : points_(std::move(points)), 
 }
 
 Index Path::size() const {
-    return static_cast<Index>(on_mesh() ? vertices_.size() : points_.size());
+    return index_of(on_mesh() ? vertices_.size() : points_.size());
 }
 
 bool Path::follows_edges() const {

@@ -61,7 +61,7 @@ std::string listed(const Names& names) {
 Index label_index(const FaceLabels* labels, std::string_view kind, std::string_view label) {
     if (labels) {
         const auto found = std::find(labels->names.begin(), labels->names.end(), label);
-        if (found != labels->names.end()) return static_cast<Index>(found - labels->names.begin());
+        if (found != labels->names.end()) return index_of(found - labels->names.begin());
     }
     throw Error(ErrorCode::invalid_argument,
                 "the mesh has no " + std::string(kind) + " called \"" + std::string(label) +

@@ -24,7 +24,7 @@ class BoxTree {
   public:
     BoxTree(std::span<const Box> boxes, std::vector<Index> items)
         : boxes_(boxes), items_(std::move(items)) {
-        if (!items_.empty()) build(0, static_cast<Index>(items_.size()));
+        if (!items_.empty()) build(0, count_of(items_));
     }
 
     // Calls visit(item) for the items whose boxes overlap `box`.
@@ -41,7 +41,7 @@ class BoxTree {
     };
 
     Index build(Index begin, Index end) {
-        const auto at = static_cast<Index>(nodes_.size());
+        const auto at = count_of(nodes_);
         nodes_.push_back({{}, begin, end});
         Box box, centers;
         for (Index i = begin; i < end; ++i) {
@@ -122,9 +122,8 @@ class Search {
         std::vector<Index> first = chosen(in_faces_), second = chosen(in_against_);
         if (first.size() > second.size()) std::swap(first, second);
         const BoxTree tree(boxes_, std::move(first));
-        const auto count = static_cast<Index>(second.size());
-        std::vector<std::vector<FacePair>> found(
-            static_cast<std::size_t>((count + kGrain - 1) / kGrain));
+        const auto count = count_of(second);
+        std::vector<std::vector<FacePair>> found((count + kGrain - 1) / kGrain);
         context.parallel_for(0, count, kGrain, [&](Index begin, Index end) {
             context.checkpoint();
             for (Index i = begin; i < end; ++i) {
@@ -141,7 +140,7 @@ class Search {
 
   private:
     std::vector<char> flags(const std::optional<std::vector<Index>>& faces) const {
-        const auto count = static_cast<std::size_t>(mesh_.face_count());
+        const std::size_t count = mesh_.face_count();
         if (!faces) return std::vector<char>(count, 1);
         require_faces(mesh_.topology(), *faces);
         std::vector<char> chosen(count, 0);
@@ -152,7 +151,7 @@ class Search {
     std::vector<Index> chosen(const std::vector<char>& face_chosen) const {
         std::vector<Index> triangles;
         for (std::size_t t = 0; t < triangulation_.triangles.size(); ++t) {
-            if (face_chosen[triangulation_.face[t]]) triangles.push_back(static_cast<Index>(t));
+            if (face_chosen[triangulation_.face[t]]) triangles.push_back(index_of(t));
         }
         return triangles;
     }

@@ -15,8 +15,8 @@ constexpr std::size_t kCheckEvery = 4096;
 
 ShortestPaths::ShortestPaths(const Mesh& mesh)
     : mesh_(mesh),
-      distance_(static_cast<std::size_t>(mesh.vertex_count()), kUnreached),
-      previous_(static_cast<std::size_t>(mesh.vertex_count()), kNoIndex) {}
+      distance_(mesh.vertex_count(), kUnreached),
+      previous_(mesh.vertex_count(), kNoIndex) {}
 
 void ShortestPaths::clear() {
     for (const Index v : visited_) distance_[v] = kUnreached;

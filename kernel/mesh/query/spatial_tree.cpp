@@ -158,7 +158,7 @@ void SpatialTree::build(const Context& context) {
     std::iota(order_.begin(), order_.end(), 0);
 
     std::vector<std::pair<Index, int>> open{{0, 0}};
-    nodes_.push_back({{}, 0, static_cast<Index>(order_.size())});
+    nodes_.push_back({{}, 0, count_of(order_)});
     for (std::size_t steps = 0; !open.empty(); ++steps) {
         if (steps % 4096 == 0) context.checkpoint();
         const auto [at, depth] = open.back();
@@ -168,7 +168,7 @@ void SpatialTree::build(const Context& context) {
         nodes_[at].box = node.box;
         if (node.count <= kLeafSize) continue;
         const Index middle = split(node, order_, boxes, depth >= kMaximumFreeDepth);
-        const auto children = static_cast<Index>(nodes_.size());
+        const auto children = count_of(nodes_);
         nodes_.push_back({{}, node.first, middle - node.first});
         nodes_.push_back({{}, middle, node.first + node.count - middle});
         nodes_[at].first = children;
@@ -218,7 +218,7 @@ Index SpatialTree::split(const Node& node, std::vector<Index>& order, const std:
     if (best > 0) {
         const auto middle =
             std::stable_partition(begin, end, [&](Index t) { return bin_of(t) < best; });
-        return node.first + static_cast<Index>(middle - begin);
+        return node.first + index_of(middle - begin);
     }
     const auto middle = begin + node.count / 2;
     std::nth_element(begin, middle, end, [&](Index a, Index b) {

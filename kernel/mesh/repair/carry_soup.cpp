@@ -55,7 +55,7 @@ bool same_values(std::span<const double> a, std::span<const double> b) {
 
 Attribute taken(const Attribute& old, Domain domain, const std::vector<Index>& sources) {
     Attribute result{old.name, domain, old.width, old.type, {}};
-    result.values.reserve(sources.size() * static_cast<std::size_t>(old.width));
+    result.values.reserve(sources.size() * old.width);
     for (const Index source : sources) {
         const std::span<const double> values = old.at(source);
         result.values.insert(result.values.end(), values.begin(), values.end());
@@ -74,7 +74,7 @@ bool differs_at_a_vertex(const Attribute& old, const Sources& sources) {
 
 Attribute carried(Attribute&& old, const Sources& sources) {
     if (old.domain == Domain::face) {
-        if (sources.faces_unchanged(static_cast<std::size_t>(old.size()))) return std::move(old);
+        if (sources.faces_unchanged(old.size())) return std::move(old);
         return taken(old, Domain::face, sources.work.face_source);
     }
     if (old.domain == Domain::corner) {
@@ -128,7 +128,7 @@ std::vector<Vec3> carried_positions(Soup& soup, const FanVertices& fans) {
 
 void require_attributes_fit(const Soup& soup) {
     const std::size_t counts[] = {soup.positions.size(), soup.faces.vertices.size(),
-                                  static_cast<std::size_t>(soup.faces.size())};
+                                  at(soup.faces.size())};
     for (const Attribute& a : soup.attributes.all()) {
         if (a.values.size() != counts[static_cast<int>(a.domain)] * a.width)
             refuse_misfit("attribute \"" + a.name + '"');
@@ -136,15 +136,13 @@ void require_attributes_fit(const Soup& soup) {
     for (const auto& [kind, labels] : soup.attributes.labels()) {
         if (labels.of_face.size() != counts[2]) refuse_misfit("list of labels \"" + kind + '"');
     }
-    const bool is_known = std::all_of(soup.same_as.begin(), soup.same_as.end(), [&](Index v) {
-        return v >= 0 && static_cast<std::size_t>(v) < counts[0];
-    });
+    const bool is_known = std::all_of(soup.same_as.begin(), soup.same_as.end(),
+                                      [&](Index v) { return v >= 0 && at(v) < counts[0]; });
     if (!is_known || (!soup.same_as.empty() && soup.same_as.size() != counts[0]))
         refuse_misfit("list of vertices that are the same");
     for (const auto& [name, vertices] : soup.regions) {
-        const bool fits = std::all_of(vertices.begin(), vertices.end(), [&](Index v) {
-            return v >= 0 && static_cast<std::size_t>(v) < counts[0];
-        });
+        const bool fits = std::all_of(vertices.begin(), vertices.end(),
+                                      [&](Index v) { return v >= 0 && at(v) < counts[0]; });
         if (!fits) refuse_misfit("region \"" + name + '"');
     }
 }
@@ -156,8 +154,7 @@ Mesh carry_soup(Soup soup, std::span<const Index> file_corners, CornerFaces work
     // Freed before the half-edges take their memory.
     work.faces = {};
     work.face_of_corner = {};
-    auto topology = Topology::create_paired(static_cast<Index>(fans.source.size()),
-                                            std::move(faces), twin, context);
+    auto topology = Topology::create_paired(count_of(fans.source), std::move(faces), twin, context);
     const Sources sources(file_corners, work, fans, *topology);
     Mesh mesh(carried_positions(soup, fans), std::move(topology), context);
     for (Attribute& attribute : soup.attributes.all()) {

@@ -11,8 +11,7 @@ namespace {
 // again.
 class FaceSplitter {
   public:
-    explicit FaceSplitter(Index vertex_count)
-        : depth_of_vertex_(static_cast<std::size_t>(vertex_count), kNoIndex) {}
+    explicit FaceSplitter(Index vertex_count) : depth_of_vertex_(vertex_count, kNoIndex) {}
 
     bool repeats = false, pinched = false;
     /// The simple faces, as lists of corners.
@@ -26,7 +25,7 @@ class FaceSplitter {
         for (Index c = work.faces.offsets[f]; c < work.faces.offsets[f + 1]; ++c) {
             const Index depth = depth_of_vertex_[vertices[c]];
             if (depth != kNoIndex) close_loop(vertices, depth);
-            depth_of_vertex_[vertices[c]] = static_cast<Index>(walk_.size());
+            depth_of_vertex_[vertices[c]] = count_of(walk_);
             walk_.push_back(c);
         }
         for (const Index c : walk_) depth_of_vertex_[vertices[c]] = kNoIndex;
@@ -41,7 +40,7 @@ class FaceSplitter {
     void close_loop(const std::vector<Index>& vertices, Index depth) {
         const std::vector<Index> loop(walk_.begin() + depth, walk_.end());
         for (const Index c : loop) depth_of_vertex_[vertices[c]] = kNoIndex;
-        walk_.resize(static_cast<std::size_t>(depth));
+        walk_.resize(depth);
         if (loop.size() > 2) {
             loops.push_back(loop);
         } else {
@@ -86,7 +85,7 @@ std::vector<Index> corners_of(const CornerFaces& work, Index f) {
 
 void clean_faces(CornerFaces& work, Report& report) {
     const Index vertex_count = largest_vertex(work.faces) + 1;
-    std::vector<Index> last_face(static_cast<std::size_t>(vertex_count), kNoIndex), unclean;
+    std::vector<Index> last_face(vertex_count, kNoIndex), unclean;
     for (Index f = 0; f < work.faces.size(); ++f) {
         if (!is_simple(work, f, last_face)) unclean.push_back(f);
     }
@@ -129,7 +128,7 @@ class DuplicateSearch {
           faces_(work.faces),
           face_of_corner_(work.face_of_corner),
           at_edge_(work.faces.vertices.size()),
-          drop_(static_cast<std::size_t>(work.faces.size()), 0) {
+          drop_(work.faces.size(), 0) {
         edges_.for_each_edge([&](std::span<const Index> corners) {
             for (const Index c : corners) at_edge_[c] = corners;
         });

@@ -52,7 +52,7 @@ struct Component {
 
 std::vector<Component> measure_components(const Mesh& mesh) {
     const Topology& topology = mesh.topology();
-    std::vector<Component> list(static_cast<std::size_t>(topology.component_count()));
+    std::vector<Component> list(topology.component_count());
     const std::vector<Index>& component = topology.components();
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         Component& c = list[component[v]];
@@ -92,10 +92,10 @@ void flag_components(const Mesh& mesh, Report& report) {
     std::vector<Index> small, inverted;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const Component& c = list[i];
-        if (c.area < kSmall * largest) small.push_back(static_cast<Index>(i));
+        if (c.area < kSmall * largest) small.push_back(index_of(i));
         const bool inside_out = c.closed && c.volume < -kFlat * std::pow(c.area, 1.5);
         if (inside_out && (list.size() > kMost || !is_inside_another(list, c)))
-            inverted.push_back(static_cast<Index>(i));
+            inverted.push_back(index_of(i));
     }
     add_finding(report, FindingKind::components_small, ElementKind::component, std::move(small));
     const bool is_most = !inverted.empty() && enclosed < 0.0;

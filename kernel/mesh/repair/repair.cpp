@@ -23,7 +23,7 @@ namespace {
 }
 
 void require_indices(const Soup& soup) {
-    const auto count = static_cast<Index>(soup.positions.size());
+    const auto count = count_of(soup.positions);
     Elements bad{ElementKind::face, 0, {}};
     for (Index f = 0; f < soup.faces.size(); ++f) {
         const std::span<const Index> face = soup.faces[f];
@@ -39,7 +39,7 @@ void require_indices(const Soup& soup) {
 void require_finite(const Soup& soup) {
     Elements bad{ElementKind::vertex, 0, {}};
     for (std::size_t v = 0; v < soup.positions.size(); ++v) {
-        if (!soup.positions[v].allFinite()) bad.add(static_cast<Index>(v));
+        if (!soup.positions[v].allFinite()) bad.add(index_of(v));
     }
     if (bad.count == 0) return;
     refuse(ErrorCode::not_finite, std::move(bad), "NaN or infinite are the positions of",
@@ -53,7 +53,7 @@ void weld_all(Soup& soup) {
     for (std::size_t v = 0; v < soup.positions.size(); ++v) {
         const Vec3& p = soup.positions[v];
         const Index place = places.add({p.x(), p.y(), p.z()});
-        if (place == static_cast<Index>(first_at.size())) first_at.push_back(static_cast<Index>(v));
+        if (place == count_of(first_at)) first_at.push_back(index_of(v));
         first[v] = first_at[place];
     }
     for (Index& v : soup.faces.vertices) v = first[v];
@@ -88,12 +88,12 @@ std::vector<char> used_vertices(const Soup& soup, std::span<const Index> corners
 }
 
 void require_sound(const Soup& soup, std::span<const Index> file_corners, const Context& context) {
-    check_and_pair_edges(static_cast<Index>(soup.positions.size()), soup.faces, context);
+    check_and_pair_edges(count_of(soup.positions), soup.faces, context);
     if (soup.faces.size() == 0) return;
     Elements unused{ElementKind::vertex, 0, {}};
     const std::vector<char> used = used_vertices(soup, file_corners);
     for (std::size_t v = 0; v < used.size(); ++v) {
-        if (!used[v]) unused.add(static_cast<Index>(v));
+        if (!used[v]) unused.add(index_of(v));
     }
     if (unused.count == 0) return;
     refuse(ErrorCode::unreferenced_vertex, std::move(unused), "no face uses",
@@ -134,7 +134,7 @@ class VertexFindings {
         const std::vector<char> used = used_vertices(soup_, file_corners_);
         std::vector<Index> unused;
         for (std::size_t v = 0; v < used.size(); ++v) {
-            if (!used[v]) unused.push_back(static_cast<Index>(v));
+            if (!used[v]) unused.push_back(index_of(v));
         }
         add(report, FindingKind::vertices_unreferenced, std::move(unused));
     }
@@ -213,7 +213,7 @@ Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Rep
     if (!options.repair) require_sound(soup, file_corners, context);
     progress.update(0.2);
 
-    const auto vertex_count = static_cast<Index>(soup.positions.size());
+    const auto vertex_count = count_of(soup.positions);
     CornerFaces work(std::move(soup.faces));
     clean_faces(work, report);
     if (work.faces.size() == 0) {

@@ -35,7 +35,7 @@ Welding::Welding(std::span<const Vec3> positions, const CornerFaces& work)
       work_(&work),
       twin_(work.faces.vertices.size(), kNoIndex),
       is_seam_(twin_.size(), 0),
-      attempts_(static_cast<std::size_t>(work.faces.size()), 0) {}
+      attempts_(work.faces.size(), 0) {}
 
 void Welding::weld(Index a, Index b) {
     twin_[a] = b;
@@ -53,7 +53,7 @@ bool Welding::is_closed() const {
 
 bool Welding::weld_regular_edges() {
     regular_ = true;
-    const DirectedEdges edges(static_cast<Index>(positions_.size()), work_->faces);
+    const DirectedEdges edges(count_of(positions_), work_->faces);
     edges.for_each_edge([&](std::span<const Index> corners) {
         if (corners.size() == 1) return;
         const bool pair = corners.size() == 2;
@@ -67,7 +67,7 @@ bool Welding::weld_regular_edges() {
 void Welding::weld_edges(Report& report) {
     Finding crowded{FindingKind::edges_nonmanifold, ElementKind::edge, true, 0, {}, {}};
     Finding one_sided{FindingKind::edges_unorientable, ElementKind::edge, true, 0, {}, {}};
-    const DirectedEdges edges(static_cast<Index>(positions_.size()), work_->faces);
+    const DirectedEdges edges(count_of(positions_), work_->faces);
     edges.for_each_edge([&](std::span<const Index> corners) {
         if (corners.size() == 1) return;
         const Index low = edges.low(corners[0]), high = edges.high(corners[0]);
@@ -127,7 +127,7 @@ void Welding::weld_seams(std::span<const Index> label_of_face) {
         return place[v];
     };
     std::vector<OpenEdge> edges;
-    for (Index c = 0; c < static_cast<Index>(twin_.size()); ++c) {
+    for (Index c = 0; c < count_of(twin_); ++c) {
         if (twin_[c] != kNoIndex) continue;
         const Index from = place_of(work_->faces.vertices[c]);
         const Index to = place_of(work_->faces.vertices[work_->next(c)]);
@@ -151,7 +151,7 @@ void Welding::weld_seams(std::span<const Index> label_of_face) {
 void Welding::weld_seam(std::span<const OpenEdge> edges) {
     const auto ascending =
         std::count_if(edges.begin(), edges.end(), [](const OpenEdge& e) { return e.ascending; });
-    if (2 * static_cast<std::size_t>(ascending) != edges.size()) return;
+    if (2 * at(ascending) != edges.size()) return;
     if (edges.size() == 2) {
         if (!back_to_back(edges[0].corner, edges[1].corner)) weld(edges[0].corner, edges[1].corner);
     } else {
@@ -166,13 +166,13 @@ void Welding::weld_seam(std::span<const OpenEdge> edges) {
 }
 
 FanVertices Welding::fans() const {
-    const auto corner_count = static_cast<Index>(twin_.size());
+    const auto corner_count = count_of(twin_);
     FanVertices result;
     result.of_corner.assign(twin_.size(), kNoIndex);
     result.source.reserve(positions_.size());
     for (Index c = 0; c < corner_count; ++c) {
         if (result.of_corner[c] != kNoIndex) continue;
-        const auto fan = static_cast<Index>(result.source.size());
+        const auto fan = count_of(result.source);
         Index lowest = work_->faces.vertices[c];
         const auto add = [&](Index at) {
             result.of_corner[at] = fan;
@@ -194,7 +194,7 @@ FanVertices Welding::fans() const {
     }
 
     // The first fan of each vertex keeps its place, further ones go to the end.
-    const auto fan_count = static_cast<Index>(result.source.size());
+    const auto fan_count = count_of(result.source);
     std::vector<Index> first_fan(positions_.size(), kNoIndex);
     for (Index fan = 0; fan < fan_count; ++fan) {
         Index& first = first_fan[result.source[fan]];
@@ -205,7 +205,7 @@ FanVertices Welding::fans() const {
     for (const Index fan : first_fan) {
         if (fan != kNoIndex) order.push_back(fan);
     }
-    const auto first_count = static_cast<std::ptrdiff_t>(order.size());
+    const auto first_count = std::ssize(order);
     for (Index fan = 0; fan < fan_count; ++fan) {
         if (first_fan[result.source[fan]] != fan) order.push_back(fan);
     }
@@ -255,7 +255,7 @@ std::vector<Index> Welding::doubled_edges(const FanVertices& vertices) {
     faces.offsets = work_->faces.offsets;
     faces.vertices = vertices.of_corner;
     std::vector<Index> doubled;
-    const DirectedEdges edges(static_cast<Index>(vertices.source.size()), faces);
+    const DirectedEdges edges(count_of(vertices.source), faces);
     edges.for_each_edge([&](std::span<const Index> corners) {
         if (corners.size() == 1) return;
         if (corners.size() == 2 && edges.ascending(corners[0]) != edges.ascending(corners[1]))
@@ -264,7 +264,7 @@ std::vector<Index> Welding::doubled_edges(const FanVertices& vertices) {
     });
     // A face that a fan passes twice is joined to itself.
     std::vector<Index> last_face(vertices.source.size(), kNoIndex);
-    for (Index c = 0; c < static_cast<Index>(faces.vertices.size()); ++c) {
+    for (Index c = 0; c < count_of(faces.vertices); ++c) {
         Index& last = last_face[faces.vertices[c]];
         if (last == work_->face_of_corner[c]) doubled.push_back(c);
         last = work_->face_of_corner[c];

@@ -152,7 +152,7 @@ struct Layout {
     Index columns(std::size_t limb) const { return (limb == 0 ? ribs : arm_ribs) * per_rib; }
     double column_width() const { return 2.0 * kPi * kTrunkRadius / columns(0); }
     Index rows(double length) const {
-        return std::max<Index>(2, static_cast<Index>(std::lround(length / spacing)));
+        return std::max<Index>(2, index_of(std::lround(length / spacing)));
     }
     Index bevel_rows() const { return rows(0.5 * kPi * kBevel); }
     // First row of a limb's tube as a parameter, and the number of steps to its straight end.
@@ -173,7 +173,7 @@ struct Layout {
     }
     Index hole_row(std::size_t limb) const {
         const double middle = (limbs()[limb].start.y() - first(0)) / row_step(0);
-        return static_cast<Index>(std::lround(middle - 0.5 * hole_height));
+        return index_of(std::lround(middle - 0.5 * hole_height));
     }
 
     Index vertex_count() const {
@@ -195,7 +195,7 @@ Layout layout_with(const CactusOptions& options, Index per_rib, double spacing) 
     // A hole has as many edges around it as an arm has columns, and is about square.
     const Index half = layout.columns(1) / 2;
     const double share = spacing / (spacing + layout.column_width());
-    const auto width = 2 * static_cast<Index>(std::lround(0.5 * half * share));
+    const auto width = 2 * index_of(std::lround(0.5 * half * share));
     layout.hole_width = std::clamp<Index>(width, 2, 2 * ((half - 2) / 2));
     layout.hole_height = half - layout.hole_width;
     return layout;
@@ -264,7 +264,7 @@ class CactusBuilder {
 
     Index add_vertex(const Vertex& vertex) {
         vertices_.push_back(vertex);
-        return static_cast<Index>(vertices_.size()) - 1;
+        return count_of(vertices_) - 1;
     }
 
     std::vector<Index> add_ring(std::size_t limb, double s) {
@@ -299,7 +299,7 @@ class CactusBuilder {
     }
 
     void add_band(const std::vector<Index>& below, const std::vector<Index>& above, Index column) {
-        const std::size_t c = static_cast<std::size_t>(column), next = (c + 1) % below.size();
+        const std::size_t c = column, next = (c + 1) % below.size();
         faces_.add({below[c], below[next], above[next], above[c]});
     }
 
@@ -310,7 +310,7 @@ class CactusBuilder {
         add_rows(0, rings);
         const Index n = layout_.columns(0);
         for (std::size_t j = 0; j + 1 < rings.size(); ++j) {
-            const Index row = static_cast<Index>(j) - bevel;
+            const Index row = index_of(j) - bevel;
             for (Index c = 0; c < n; ++c) {
                 if (!in_hole(1, c, row) && !in_hole(2, c, row)) add_band(rings[j], rings[j + 1], c);
             }
@@ -376,10 +376,9 @@ class CactusBuilder {
 
     // Closes a ring, counter-clockwise seen from outside, by a square of quads.
     void add_patch(std::vector<Index> ring, std::size_t limb, bool foot) {
-        const auto n = static_cast<Index>(ring.size()), w = n / 4, h = n / 2 - w;
+        const auto n = count_of(ring), w = n / 4, h = n / 2 - w;
         std::rotate(ring.begin(), ring.begin() + n - (h + 1) / 2 - w + n % 2, ring.end());
-        std::vector<std::vector<Index>> grid(static_cast<std::size_t>(h) + 1,
-                                             std::vector<Index>(static_cast<std::size_t>(w) + 1));
+        std::vector<std::vector<Index>> grid(at(h) + 1, std::vector<Index>(at(w) + 1));
         for (Index i = 0; i < n; ++i) {
             if (i < w) {
                 grid[0][i] = ring[i];
@@ -408,8 +407,7 @@ class CactusBuilder {
 
     // Coons's interpolation of the outline of a grid.
     Vec3 coons(const std::vector<std::vector<Index>>& grid, Index i, Index j) const {
-        const auto h = static_cast<Index>(grid.size()) - 1,
-                   w = static_cast<Index>(grid[0].size()) - 1;
+        const auto h = count_of(grid) - 1, w = count_of(grid[0]) - 1;
         const double u = static_cast<double>(i) / w, v = static_cast<double>(j) / h;
         const auto p = [&](Index column, Index row) {
             return vertices_[grid[row][column]].position;
@@ -431,7 +429,7 @@ class CactusBuilder {
             vertices_[count] = vertices_[v];
             renumbered[v] = count++;
         }
-        vertices_.resize(static_cast<std::size_t>(count));
+        vertices_.resize(count);
         for (Index& v : faces_.vertices) v = renumbered[v];
         for (auto& hole : holes_) {
             for (Index& v : hole) v = renumbered[v];
@@ -448,7 +446,7 @@ class CactusBuilder {
             for (std::size_t i = 0; i < moving.size(); ++i) {
                 const std::span<const Index> ring = mesh.topology().neighbors(moving[i]);
                 Vec3 mean = Vec3::Zero();
-                for (const Index n : ring) mean += positions[n] / static_cast<double>(ring.size());
+                for (const Index n : ring) mean += positions[n] / count_of(ring);
                 next[i] = on_surface(positions[moving[i]] + 0.7 * (mean - positions[moving[i]]),
                                      vertices_[moving[i]].foot);
             }
@@ -468,9 +466,9 @@ class CactusBuilder {
         std::vector<Index> joints, patches;
         for (const auto& hole : holes_) joints.insert(joints.end(), hole.begin(), hole.end());
         for (std::size_t v = 0; v < vertices_.size(); ++v) {
-            if (vertices_[v].relaxed) patches.push_back(static_cast<Index>(v));
+            if (vertices_[v].relaxed) patches.push_back(index_of(v));
         }
-        const auto rings = static_cast<Index>(std::lround(1.6 * kBlend / layout_.spacing)) + 1;
+        const auto rings = index_of(std::lround(1.6 * kBlend / layout_.spacing)) + 1;
         const Region around_joints = Region(mesh.shared_topology(), joints).grown(rings);
         Region region(mesh.shared_topology(), patches);
         // The rings next to a tip's patch give way to its corners; the foot's edge stays round.
@@ -505,7 +503,7 @@ class CactusBuilder {
 
     void press_details(Mesh& mesh) const {
         for (Vec3& p : mesh.edit_positions()) {
-            const auto v = static_cast<std::size_t>(&p - mesh.positions().data());
+            const std::size_t v = &p - mesh.positions().data();
             const double depth = detail(vertices_[v], p);
             if (depth != 0.0) p += depth * surface(p).gradient.normalized();
             p *= options_.height;

@@ -72,7 +72,7 @@ struct Lines {
               z.lines(0.08 + step * shift.y(), step)};
     }
 
-    Index count(int axis) const { return static_cast<Index>(at[axis].size()); }
+    Index count(int axis) const { return count_of(at[axis]); }
     Vec3 point(const std::array<Index, 3>& i) const {
         return {at[0][i[0]], at[1][i[1]], at[2][i[2]]};
     }
@@ -101,18 +101,15 @@ class HeadBuilder {
     using Cell = std::array<Index, 3>;
 
     std::size_t number(const Cell& i) const {
-        return static_cast<std::size_t>(i[0]) +
-               static_cast<std::size_t>(counts_[0]) *
-                   (static_cast<std::size_t>(i[1]) + static_cast<std::size_t>(counts_[1]) * i[2]);
+        return i[0] + counts_[0] * (i[1] + at(counts_[1]) * i[2]);
     }
 
     // Values at the grid's points with x > 0 and the one column before. Blocks that the surface
     // cannot reach get the value of their middle.
     void sample() {
-        charge_ = context_.charge(
-            sizeof(float) * static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2],
-            "the grid of the head");
-        values_.resize(static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2]);
+        charge_ = context_.charge(sizeof(float) * counts_[0] * counts_[1] * counts_[2],
+                                  "the grid of the head");
+        values_.resize(at(counts_[0]) * counts_[1] * counts_[2]);
         const Index blocks = (counts_[2] + kBlock - 1) / kBlock;
         context_.parallel_for(0, blocks, 1, [&](Index from, Index to) {
             for (Index block = from; block < to; ++block) {
@@ -164,12 +161,11 @@ class HeadBuilder {
 
     void add_vertex(const Cell& cell, Vec3 p) {
         if (cell[0] == middle_) p.x() = 0.0;
-        vertex_of_[number(cell)] = static_cast<Index>(positions_.size());
-        mirror_.push_back(static_cast<Index>(positions_.size()));
+        vertex_of_[number(cell)] = count_of(positions_);
+        mirror_.push_back(count_of(positions_));
         positions_.push_back(p);
         if (cell[0] == middle_) return;
-        vertex_of_[number({2 * middle_ - cell[0], cell[1], cell[2]})] =
-            static_cast<Index>(positions_.size());
+        vertex_of_[number({2 * middle_ - cell[0], cell[1], cell[2]})] = count_of(positions_);
         mirror_.push_back(mirror_.back());
         ++mirror_[mirror_.size() - 2];
         positions_.emplace_back(-p.x(), p.y(), p.z());
@@ -244,7 +240,7 @@ class HeadBuilder {
     Vec3 relaxed(const Topology& topology, std::span<const Vec3> positions, Index v) const {
         const auto ring = topology.neighbors(v);
         Vec3 mean = Vec3::Zero();
-        for (const Index n : ring) mean += positions[n] / static_cast<double>(ring.size());
+        for (const Index n : ring) mean += positions[n] / count_of(ring);
         Vec3 p = positions[v] + 0.5 * (mean - positions[v]);
         for (int i = 0; i < 2; ++i) {
             const Vec3 gradient = form_.gradient(p);

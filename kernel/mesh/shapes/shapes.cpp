@@ -45,7 +45,7 @@ class LatticeBox {
     std::vector<Index> side(int axis, bool far) const {
         std::vector<Index> result;
         for (std::size_t i = 0; i < vertices_.size(); ++i) {
-            if (vertices_[i][axis] == (far ? n_[axis] : 0)) result.push_back(static_cast<Index>(i));
+            if (vertices_[i][axis] == (far ? n_[axis] : 0)) result.push_back(index_of(i));
         }
         return result;
     }
@@ -58,8 +58,8 @@ class LatticeBox {
     Index vertex(const Lattice& v) {
         const auto nx = static_cast<std::uint64_t>(n_[0]) + 1,
                    ny = static_cast<std::uint64_t>(n_[1]) + 1;
-        const std::uint64_t key = v[0] + nx * (v[1] + ny * static_cast<std::uint64_t>(v[2]));
-        const auto [found, added] = ids_.try_emplace(key, static_cast<Index>(vertices_.size()));
+        const std::uint64_t key = v[0] + nx * (v[1] + ny * v[2]);
+        const auto [found, added] = ids_.try_emplace(key, count_of(vertices_));
         if (added) vertices_.push_back(v);
         return found->second;
     }
@@ -145,7 +145,7 @@ Mesh icosahedron_sphere(double radius, Index n) {
             const std::array<std::pair<Index, Index>, 3> weights{
                 {{corners[0], n - i - j}, {corners[1], i}, {corners[2], j}}};
             const IcosahedronKey key = icosahedron_key(weights);
-            const auto [found, added] = ids.try_emplace(key, static_cast<Index>(positions.size()));
+            const auto [found, added] = ids.try_emplace(key, count_of(positions));
             if (added) {
                 // Summed in the order of the key, so that the position does not depend on the face.
                 Vec3 sum = Vec3::Zero();
@@ -199,7 +199,7 @@ class CylinderBuilder {
 
     Mesh mesh() const {
         Mesh result(positions_, faces_);
-        const auto count = static_cast<Index>(positions_.size());
+        const auto count = count_of(positions_);
         set_region(result, "bottom", range(0, at(wall_ + 1, 0)));
         set_region(result, "top", range(at(wall_ + o_.rings, 0), count));
         if (o_.caps) {
@@ -227,7 +227,7 @@ class CylinderBuilder {
         }
     }
     void add_fans() {
-        const auto last = static_cast<Index>(positions_.size()) - 1;
+        const auto last = count_of(positions_) - 1;
         for (Index i = 0; i < o_.segments; ++i) {
             faces_.add({0, at(0, i + 1), at(0, i)});
             faces_.add({last, at(ring_count_ - 1, i), at(ring_count_ - 1, i + 1)});
@@ -318,7 +318,7 @@ Mesh make_grid(const GridOptions& options) {
     for (Index j = 0; j <= nz; ++j) {
         for (Index i = 0; i <= nx; ++i) {
             if (i == 0 || j == 0 || i == nx || j == nz) {
-                border.push_back(static_cast<Index>(positions.size()));
+                border.push_back(count_of(positions));
             }
             positions.emplace_back((2.0 * i - nx) / nx * 0.5 * options.size.x(), 0.0,
                                    (2.0 * j - nz) / nz * 0.5 * options.size.y());

@@ -76,7 +76,7 @@ void solve_anywhere(const Factor& factor, double* values) {
 }  // namespace
 
 std::size_t BorderedCholesky::bytes(Index size) {
-    const auto stride = static_cast<std::size_t>(stride_for(size));
+    const std::size_t stride = stride_for(size);
     return stride * stride * sizeof(double);
 }
 

@@ -8,12 +8,12 @@ DualSystem::DualSystem(const GridGreen& green, Index dense_limit, double toleran
     : green_(green), dense_limit_(dense_limit), tolerance_(tolerance) {}
 
 std::size_t DualSystem::bytes(std::size_t rows, Index dense_limit) {
-    if (rows > static_cast<std::size_t>(dense_limit)) return MaximinFactor::bytes(rows);
-    return BorderedCholesky::bytes(static_cast<Index>(rows));
+    if (rows > at(dense_limit)) return MaximinFactor::bytes(rows);
+    return BorderedCholesky::bytes(index_of(rows));
 }
 
 void DualSystem::update(const ConstraintRows& rows, const Context& context) {
-    if (rows.size() <= static_cast<std::size_t>(dense_limit_)) {
+    if (rows.size() <= at(dense_limit_)) {
         update_dense(rows, context);
         return;
     }
@@ -22,8 +22,7 @@ void DualSystem::update(const ConstraintRows& rows, const Context& context) {
         rows_ = {};
         iterative_ = std::make_unique<ProjectedCG>(green_, tolerance_);
     }
-    if (rows_.common(rows) == static_cast<Index>(rows.size()) && rows_.size() == rows.size())
-        return;
+    if (rows_.common(rows) == count_of(rows) && rows_.size() == rows.size()) return;
     iterative_->update(rows, context);
     rows_ = rows;
 }
@@ -39,12 +38,12 @@ void DualSystem::update_dense(const ConstraintRows& rows, const Context& context
     rows_.weight.resize(common);
     const std::span<const GridPoint> points = rows.point;
     const auto fill = [&](Index column, Index begin, Index end, double* entries) {
-        const auto count = static_cast<std::size_t>(end - begin);
+        const std::size_t count = end - begin;
         green_.column(points[column], points.subspan(begin, count), entries);
         for (std::size_t i = 0; i < count; ++i) entries[i] += green_.shift();
         if (begin == column) entries[0] += 1.0 / (rows.weight[column] * rows.weight[column]);
     };
-    factor_.extend(static_cast<Index>(rows.size()), fill, context);
+    factor_.extend(count_of(rows), fill, context);
     rows_ = rows;
 }
 

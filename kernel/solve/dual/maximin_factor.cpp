@@ -15,7 +15,7 @@ namespace {
 // Entries of a column at most, fewer where there are so many rows that each has close neighbours
 // in all directions, and the rows from which on that is so.
 constexpr std::size_t kNeighbors = 48, kFewNeighbors = 24, kManyRows = 50000;
-static_assert(kNeighbors <= static_cast<std::size_t>(kPanelColumns));
+static_assert(kNeighbors <= at(kPanelColumns));
 
 // Cells around a row's own, in each direction, in which its neighbours are looked for.
 constexpr Index kReach = 2;
@@ -112,9 +112,9 @@ void gather(const Hierarchy& h, const ConstraintRows& rows, const std::vector<In
 std::vector<Neighbor> neighbors(const Hierarchy& h, const ConstraintRows& rows,
                                 const std::vector<Index>& place_of, Index row, std::size_t most) {
     std::vector<Neighbor> found;
-    for (auto level = static_cast<std::size_t>(h.level_of[row]);
-         level < h.levels.size() && found.size() < most; ++level) {
-        gather(h, rows, place_of, row, static_cast<Index>(level), found);
+    for (std::size_t level = h.level_of[row]; level < h.levels.size() && found.size() < most;
+         ++level) {
+        gather(h, rows, place_of, row, index_of(level), found);
         std::sort(found.begin(), found.end());
         found.erase(std::unique(found.begin(), found.end()), found.end());
     }
@@ -132,20 +132,20 @@ void MaximinFactor::fill_pattern(const GridSize& size, const ConstraintRows& row
                                  const Context& context) {
     const Hierarchy h = build_hierarchy(size, rows);
     context.checkpoint();
-    const auto count = static_cast<Index>(rows.size());
+    const auto count = count_of(rows);
     columns.row.resize(rows.size());
     std::iota(columns.row.begin(), columns.row.end(), 0);
-    std::vector<Index> index_of;
-    for (const GridPoint& p : rows.point) index_of.push_back(size.index(p));
+    std::vector<Index> grid_index;
+    for (const GridPoint& p : rows.point) grid_index.push_back(size.index(p));
     std::sort(columns.row.begin(), columns.row.end(), [&](Index a, Index b) {
         if (h.level_of[a] != h.level_of[b]) return h.level_of[a] > h.level_of[b];
-        return index_of[a] < index_of[b];
+        return grid_index[a] < grid_index[b];
     });
     std::vector<Index> place_of(rows.size());
     for (Index i = 0; i < count; ++i) {
         const Index row = columns.row[i];
         place_of[row] = i;
-        columns.point.push_back(index_of[row]);
+        columns.point.push_back(grid_index[row]);
         columns.weight.push_back(rows.weight[row]);
     }
     const std::size_t most = neighbors_for(rows.size()) - 1;
@@ -153,16 +153,16 @@ void MaximinFactor::fill_pattern(const GridSize& size, const ConstraintRows& row
     std::vector<Index> counts(rows.size());
     context.parallel_for(0, count, kColumnGrain, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
-            Index* to = found.data() + static_cast<std::size_t>(i) * (most + 1);
+            Index* to = found.data() + i * (most + 1);
             for (const Neighbor& n : neighbors(h, rows, place_of, columns.row[i], most)) {
                 *to++ = n.place;
             }
             *to++ = i;
-            counts[i] = static_cast<Index>(to - found.data() - std::ptrdiff_t{i} * (most + 1));
+            counts[i] = index_of(to - found.data() - std::ptrdiff_t{i} * (most + 1));
         }
     });
     for (Index i = 0; i < count; ++i) {
-        const auto from = found.begin() + static_cast<std::ptrdiff_t>(i * (most + 1));
+        const auto from = found.begin() + (i * (most + 1));
         columns.index.insert(columns.index.end(), from, from + counts[i]);
         columns.begin.push_back(columns.index.size());
     }
@@ -180,8 +180,7 @@ bool MaximinFactor::keep_column(Columns& columns, Index i, std::span<const Index
     for (std::size_t k = 0; k < size; ++k) {
         if (places[columns.index[begin + k]] != columns_.index[from + k]) return false;
     }
-    std::copy_n(columns_.value.begin() + static_cast<std::ptrdiff_t>(from), size,
-                columns.value.begin() + static_cast<std::ptrdiff_t>(begin));
+    std::copy_n(columns_.value.begin() + from, size, columns.value.begin() + begin);
     return true;
 }
 
@@ -189,9 +188,9 @@ void MaximinFactor::fill_values(const GridGreen& green, Columns& columns,
                                 const Context& context) const {
     std::unordered_map<Index, Index> old_place;
     for (std::size_t i = 0; i < columns_.point.size(); ++i) {
-        old_place.emplace(columns_.point[i], static_cast<Index>(i));
+        old_place.emplace(columns_.point[i], index_of(i));
     }
-    const auto count = static_cast<Index>(columns.point.size());
+    const auto count = count_of(columns.point);
     std::vector<Index> places(columns.point.size(), kNoIndex);
     for (Index i = 0; i < count; ++i) {
         const auto at = old_place.find(columns.point[i]);
@@ -208,7 +207,7 @@ void MaximinFactor::fill_values(const GridGreen& green, Columns& columns,
         for (Index i = begin; i < end; ++i) {
             if (keep_column(columns, i, places)) continue;
             const std::size_t first = columns.begin[i];
-            const auto size = static_cast<Index>(columns.begin[i + 1] - first);
+            const auto size = index_of(columns.begin[i + 1] - first);
             points.clear();
             for (Index k = 0; k < size; ++k) {
                 points.push_back(green.size().point(columns.point[columns.index[first + k]]));

@@ -16,7 +16,7 @@ class Correction {
     Correction(const BoundaryProblem& problem, FieldWorkspace& workspace, const Context& context)
         : problem_(problem),
           size_(problem.green.size()),
-          count_(static_cast<std::size_t>(size_.count())),
+          count_(at(size_.count())),
           workspace_(workspace),
           context_(context),
           charge_(context.charge(kCorrectionFields * field_entries(size_) * sizeof(double),
@@ -56,7 +56,7 @@ class Correction {
         for (std::size_t i = 0; i < 3 * count_; ++i) residual_[i] = -residual_[i];
         const ConstraintRows& rows = problem_.dual.rows();
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const auto at = static_cast<std::size_t>(size_.index(rows.point[i]));
+            const std::size_t at = size_.index(rows.point[i]);
             for (int c = 0; c < kComponents; ++c) residual_[c * count_ + at] += multipliers[i][c];
         }
         std::fill_n(direction_.get(), 3 * count_, 0.0);
@@ -85,7 +85,7 @@ class Correction {
         add(step_.get(), -Vec3::Ones(), workspace_.second.get());
         // U't is W^-2 lambda; what multipliers found to a tolerance leave there, W^2 would raise.
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const auto at = static_cast<std::size_t>(size_.index(rows.point[i]));
+            const std::size_t at = size_.index(rows.point[i]);
             const double square = rows.weight[i] * rows.weight[i];
             for (int c = 0; c < kComponents; ++c) {
                 step_[c * count_ + at] = dual.multiplier[i][c] / square;
@@ -98,7 +98,7 @@ class Correction {
         problem_.exact.apply(direction_.get(), product_.get(), workspace_.first.get(), context_);
         const ConstraintRows& rows = problem_.dual.rows();
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const auto at = static_cast<std::size_t>(size_.index(rows.point[i]));
+            const std::size_t at = size_.index(rows.point[i]);
             const double square = rows.weight[i] * rows.weight[i];
             for (int c = 0; c < kComponents; ++c) {
                 product_[c * count_ + at] += square * direction_[c * count_ + at];

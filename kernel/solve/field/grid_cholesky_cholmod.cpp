@@ -56,9 +56,7 @@ struct Change {
 
 struct GridCholesky::State {
     explicit State(const GridLaplacian& laplacian)
-        : size(laplacian.size()),
-          matrix(laplacian.matrix()),
-          square(static_cast<std::size_t>(size.count()), 0.0) {}
+        : size(laplacian.size()), matrix(laplacian.matrix()), square(size.count(), 0.0) {}
     ~State() { release(); }
     State(const State&) = delete;
     State& operator=(const State&) = delete;
@@ -134,7 +132,7 @@ bool GridCholesky::State::modify(const std::vector<Change>& changes, bool add) {
     for (const Change& change : changes) {
         row.push_back(row_of[change.point]);
         value.push_back(std::sqrt(std::abs(change.amount)));
-        begin.push_back(static_cast<Index>(row.size()));
+        begin.push_back(count_of(row));
     }
     cholmod_sparse columns{};
     columns.nrow = square.size();
@@ -149,7 +147,7 @@ bool GridCholesky::State::modify(const std::vector<Change>& changes, bool add) {
     columns.sorted = columns.packed = 1;
     const int done = cholmod_updown(add ? 1 : 0, &columns, factor, common.get());
     common.require_memory();
-    stats.updated += static_cast<Index>(changes.size());
+    stats.updated += count_of(changes);
     return done != 0 && common.status() == CHOLMOD_OK;
 }
 

@@ -39,7 +39,7 @@ void GridCholesky::update(const ConstraintRows& rows, const Context& context) {
 void GridCholesky::solve(const double* b, double* x, int refinements,
                          const Context& context) const {
     const State& s = *state_;
-    const std::size_t count = kComponents * static_cast<std::size_t>(s.size.count());
+    const std::size_t count = kComponents * s.size.count();
     s.system.solve({b, count}, {x, count}, kComponents);
     std::vector<double> product(count);
     for (int i = 0; i < refinements; ++i) {

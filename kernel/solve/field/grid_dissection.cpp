@@ -49,7 +49,7 @@ void dissect(const GridSize& size, const Part& part, std::vector<Index>& order) 
 
 std::vector<Index> dissect_grid(const GridSize& size) {
     std::vector<Index> order;
-    order.reserve(static_cast<std::size_t>(size.count()));
+    order.reserve(size.count());
     dissect(size, {{0, 0, 0}, {size.nx, size.ny, size.nz}}, order);
     return order;
 }

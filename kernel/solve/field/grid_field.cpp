@@ -41,7 +41,7 @@ void require_valid(const GridFieldOptions& options) {
 
 Index dense_limit(const GridSize& size, const GridFieldOptions& options) {
     if (options.dense_limit) return *options.dense_limit;
-    const double limit = kDenseShare * std::sqrt(static_cast<double>(size.count()));
+    const double limit = kDenseShare * std::sqrt(size.count());
     return static_cast<Index>(std::clamp(limit, kLeastDenseLimit, kGreatestDenseLimit));
 }
 
@@ -169,14 +169,14 @@ void GridField::State::solve_dual(std::span<const MergedConstraint> merged,
 void GridField::State::solve_cholesky(std::span<const MergedConstraint> merged,
                                       const Context& context) {
     std::vector<Index> order(merged.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = index_of(i);
     ConstraintRows next = rows_in_order(size, merged, order);
     Progress progress(context, "factor the field");
     progress.step(0.9);
     cholesky->update(next, context);
     progress.step(0.1);
     double *b = workspace.first.get(), *x = workspace.second.get();
-    const auto count = static_cast<std::size_t>(size.count());
+    const std::size_t count = size.count();
     std::fill_n(b, field_entries(size), 0.0);
     for (const MergedConstraint& m : merged) {
         for (int c = 0; c < kComponents; ++c) {
@@ -204,7 +204,7 @@ void GridField::State::write(const FieldSink& sink, const Context& context) {
                 sink.vectors[i] = v;
                 continue;
             }
-            float* to = sink.quads + 4 * static_cast<std::size_t>(i);
+            float* to = sink.quads + 4 * at(i);
             for (int c = 0; c < kComponents; ++c) to[c] = static_cast<float>(v[c]);
         }
     });
@@ -276,7 +276,7 @@ bool GridField::solved() const {
 }
 
 void GridField::evaluate(std::span<Vec3> vectors, const Context& context) const {
-    if (vectors.size() != static_cast<std::size_t>(size().count())) {
+    if (vectors.size() != at(size().count())) {
         throw Error(ErrorCode::invalid_argument, "the grid to evaluate into needs " +
                                                      std::to_string(size().count()) + " vectors");
     }
@@ -286,7 +286,7 @@ void GridField::evaluate(std::span<Vec3> vectors, const Context& context) const 
 }
 
 void GridField::evaluate(std::span<float> quads, const Context& context) const {
-    if (quads.size() != 4 * static_cast<std::size_t>(size().count())) {
+    if (quads.size() != 4 * at(size().count())) {
         throw Error(ErrorCode::invalid_argument, "the grid to evaluate into needs " +
                                                      std::to_string(size().count()) +
                                                      " times four floats");
@@ -297,7 +297,7 @@ void GridField::evaluate(std::span<float> quads, const Context& context) const {
 }
 
 Index GridField::constraint_count() const {
-    return static_cast<Index>(state_->rows.size());
+    return count_of(state_->rows);
 }
 
 GridCholeskyStats GridField::cholesky_stats() const {

@@ -9,7 +9,7 @@ Index ConstraintRows::common(const ConstraintRows& other) const {
     const std::size_t most = std::min(size(), other.size());
     std::size_t i = 0;
     while (i < most && point[i] == other.point[i] && weight[i] == other.weight[i]) ++i;
-    return static_cast<Index>(i);
+    return index_of(i);
 }
 
 std::vector<Index> arrange_rows(std::span<const MergedConstraint> merged) {

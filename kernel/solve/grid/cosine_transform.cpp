@@ -16,8 +16,7 @@ constexpr Index kBlock = kPanelColumns, kBlockGrain = 4;
 struct Scratch {
     explicit Scratch(Index n)
         : packed(std::make_unique_for_overwrite<double[]>(kPackedSize)),
-          halves(
-              std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(n + 1) * kBlock)) {}
+          halves(std::make_unique_for_overwrite<double[]>(at(n + 1) * kBlock)) {}
     std::unique_ptr<double[]> packed, halves;
 };
 
@@ -77,7 +76,7 @@ void write_column(const FieldSink& sink, int component, std::size_t count, std::
 }  // namespace
 
 CosineTransform::Axis::Axis(Index points) : n(points), even((points + 1) / 2), odd(points / 2) {
-    const auto entries = [](Index a, Index b) { return static_cast<std::size_t>(a) * b; };
+    const auto entries = [](Index a, Index b) { return at(a) * b; };
     basis.resize(entries(n, n));
     for (Index q = 0; q < n; ++q) {
         const Index k = frequency(q, n);
@@ -85,8 +84,7 @@ CosineTransform::Axis::Axis(Index points) : n(points), even((points + 1) / 2), o
         for (Index j = 0; j < n; ++j) {
             // Reduced first, so that the argument is exact for any frequency.
             const std::int64_t quarter = (std::int64_t{2} * j + 1) * k % (std::int64_t{4} * n);
-            basis[q + entries(n, j)] =
-                scale * std::cos(kPi * static_cast<double>(quarter) / (2.0 * n));
+            basis[q + entries(n, j)] = scale * std::cos(kPi * quarter / (2.0 * n));
         }
     }
     forward_even.resize(entries(even, even));
@@ -112,8 +110,7 @@ CosineTransform::CosineTransform(const GridSize& size)
 
 std::size_t CosineTransform::bytes(const GridSize& size) {
     std::size_t entries = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        entries += 2 * static_cast<std::size_t>(size[axis]) * size[axis];
+    for (int axis = 0; axis < 3; ++axis) entries += 2 * at(size[axis]) * size[axis];
     return entries * sizeof(double);
 }
 
@@ -128,7 +125,7 @@ void CosineTransform::forward_step(const Axis& axis, const double* from, double*
     const DenseKernels kernels = dense_kernels(best_processor());
     const Index total = size_.count(), stride = total / axis.n;
     for_each_block(stride, axis.n, context, [&](int c, Index first, Index columns, Scratch& s) {
-        const std::size_t shift = static_cast<std::size_t>(c) * total;
+        const std::size_t shift = at(c) * total;
         double *sums = s.halves.get(), *differences = sums + axis.even * columns;
         fold(from + shift + first, stride, axis.n, columns, sums, differences);
         DenseProduct product;
@@ -157,7 +154,7 @@ void CosineTransform::inverse_step(const Axis& axis, const double* from, const F
     const DenseKernels kernels = dense_kernels(best_processor());
     const Index total = size_.count(), stride = total / axis.n;
     for_each_block(stride, axis.n, context, [&](int c, Index first, Index columns, Scratch& s) {
-        const double* block = from + static_cast<std::size_t>(c) * total + first;
+        const double* block = from + at(c) * total + first;
         double *even = s.halves.get(), *odd = even + axis.even * columns;
         DenseProduct product;
         product.packed = s.packed.get();
@@ -178,8 +175,7 @@ void CosineTransform::inverse_step(const Axis& axis, const double* from, const F
             kernels.multiply(product);
         }
         for (Index i = 0; i < columns; ++i) {
-            write_column(sink, c, static_cast<std::size_t>(total),
-                         static_cast<std::size_t>(first + i) * axis.n, even + i * axis.even,
+            write_column(sink, c, total, at(first + i) * axis.n, even + i * axis.even,
                          odd + i * axis.odd, axis.n);
         }
     });
@@ -195,7 +191,7 @@ void CosineTransform::forward(double* from, double* to, const Context& context) 
 void CosineTransform::scatter(std::span<const GridPoint> points, std::span<const Vec3> values,
                               double* to, const Context& context) const {
     const Axis& axis = axes_[2];
-    const auto total = static_cast<std::size_t>(size_.count());
+    const std::size_t total = size_.count();
     context.parallel_for(0, kComponents, 1, [&](Index begin, Index end) {
         for (Index c = begin; c < end; ++c) {
             double* field = to + c * total;

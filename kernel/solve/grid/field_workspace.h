@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "kernel/core/index.h"
 #include "kernel/solve/grid/cosine_transform.h"
 
 namespace lissom {
@@ -12,7 +13,7 @@ namespace lissom {
 using FieldBuffer = std::unique_ptr<double[]>;
 
 inline std::size_t field_entries(const GridSize& size) {
-    return std::size_t{kComponents} * static_cast<std::size_t>(size.count());
+    return std::size_t{kComponents} * at(size.count());
 }
 
 inline FieldBuffer make_field(const GridSize& size) {
@@ -28,8 +29,8 @@ struct FieldWorkspace {
 
 /// The vector of a field at `point`.
 inline Vec3 vector_at(const double* field, const GridSize& size, Index point) {
-    const auto count = static_cast<std::size_t>(size.count());
-    return {field[point], field[count + point], field[2 * count + point]};
+    const auto count = at(size.count());
+    return {field[point], field[count + at(point)], field[2 * count + at(point)]};
 }
 
 }  // namespace lissom

@@ -22,13 +22,12 @@ double term(Index k, Index n) {
 
 // Entry p + (n + 1) k: -w(k) cos(pi k p / n).
 std::vector<double> cosines(Index n) {
-    std::vector<double> table(static_cast<std::size_t>(n + 1) * n);
+    std::vector<double> table(at(n + 1) * n);
     for (Index k = 0; k < n; ++k) {
         const double weight = (k == 0 ? 0.5 : 1.0) / n;
         for (Index p = 0; p <= n; ++p) {
             const std::int64_t turn = std::int64_t{k} * p % (std::int64_t{2} * n);
-            table[p + static_cast<std::size_t>(k) * (n + 1)] =
-                -weight * std::cos(kPi * static_cast<double>(turn) / n);
+            table[p + at(k) * (n + 1)] = -weight * std::cos(kPi * turn / n);
         }
     }
     return table;
@@ -37,8 +36,8 @@ std::vector<double> cosines(Index n) {
 // Sums over the slowest axis of `from`, of n entries, into n + 1 that become the fastest.
 std::vector<double> sum_axis(const std::vector<double>& from, Index n, const Context& context) {
     const std::vector<double> table = cosines(n);
-    const auto columns = static_cast<Index>(from.size() / static_cast<std::size_t>(n));
-    std::vector<double> to(static_cast<std::size_t>(columns) * (n + 1));
+    const auto columns = index_of(from.size() / n);
+    std::vector<double> to(at(columns) * (n + 1));
     const DenseKernels kernels = dense_kernels(best_processor());
     const Index blocks = (columns + kPanelColumns - 1) / kPanelColumns;
     context.parallel_for(0, blocks, 8, [&](Index begin, Index end) {
@@ -52,7 +51,7 @@ std::vector<double> sum_axis(const std::vector<double>& from, Index n, const Con
             product.b_stride = columns;
             product.columns = std::min(kPanelColumns, columns - first);
             product.depth = n;
-            product.c = to.data() + static_cast<std::size_t>(first) * (n + 1);
+            product.c = to.data() + at(first) * (n + 1);
             product.packed = packed.get();
             kernels.multiply(product);
         }
@@ -66,7 +65,7 @@ struct Places {
 };
 
 void find_places(Index n, Index other, Index stride, std::vector<Places>& places) {
-    places.resize(static_cast<std::size_t>(n));
+    places.resize(n);
     for (Index i = 0; i < n; ++i) {
         const Index sum = i + other + 1;
         places[i] = {std::abs(i - other) * stride, (sum > n ? 2 * n - sum : sum) * stride};
@@ -81,7 +80,7 @@ double sum_of_eight(const double* table, const Places& x, const Places& y, const
 }
 
 std::size_t table_entries(const GridSize& size) {
-    return static_cast<std::size_t>(size.nx + 1) * (size.ny + 1) * (size.nz + 1);
+    return at(size.nx + 1) * (size.ny + 1) * (size.nz + 1);
 }
 
 }  // namespace
@@ -99,7 +98,7 @@ GridGreen::GridGreen(const GridSize& size, double tension, const Context& contex
 
 void GridGreen::fill_table(const Context& context) {
     const auto [nx, ny, nz] = size();
-    std::vector<double> values(static_cast<std::size_t>(size().count()));
+    std::vector<double> values(size().count());
     for (Index z = 0, i = 0; z < nz; ++z) {
         for (Index y = 0; y < ny; ++y) {
             for (Index x = 0; x < nx; ++x, ++i) {
@@ -149,9 +148,9 @@ double GridGreen::entry(const GridPoint& a, const GridPoint& b) const {
 // Divides spectra by the eigenvalues; the constant mode becomes zero.
 void GridGreen::scale(double* spectra, const Context& context) const {
     const auto [nx, ny, nz] = size();
-    const auto total = static_cast<std::size_t>(size().count());
+    const std::size_t total = size().count();
     context.parallel_for(0, ny * nz, kLineGrain, [&, nx = nx, ny = ny](Index begin, Index end) {
-        std::vector<double> inverse(static_cast<std::size_t>(nx));
+        std::vector<double> inverse(nx);
         for (Index line = begin; line < end; ++line) {
             const double rest = terms_[1][line % ny] + terms_[2][line / ny];
             for (Index x = 0; x < nx; ++x) {
@@ -160,7 +159,7 @@ void GridGreen::scale(double* spectra, const Context& context) const {
             }
             if (line == 0) inverse[0] = 0.0;
             for (int c = 0; c < kComponents; ++c) {
-                double* values = spectra + c * total + static_cast<std::size_t>(line) * nx;
+                double* values = spectra + c * total + at(line) * nx;
                 for (Index x = 0; x < nx; ++x) values[x] *= inverse[x];
             }
         }

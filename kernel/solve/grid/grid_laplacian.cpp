@@ -56,12 +56,11 @@ void apply_line(const GridSize& size, const double* from, Index y, Index z, doub
 // Calls body(line number, y, z, shift of the component) for every line of three fields.
 template <typename Body>
 void for_each_line(const GridSize& size, const Context& context, const Body& body) {
-    const auto total = static_cast<std::size_t>(size.count());
+    const std::size_t total = size.count();
     context.parallel_for(0, size.ny * size.nz, kLaplacianGrain, [&](Index begin, Index end) {
         for (Index line = begin; line < end; ++line) {
             for (int c = 0; c < kComponents; ++c) {
-                body(static_cast<std::size_t>(line) * size.nx, line % size.ny, line / size.ny,
-                     c * total);
+                body(at(line) * size.nx, line % size.ny, line / size.ny, c * total);
             }
         }
     });
@@ -74,7 +73,7 @@ struct Entries {
     void add(Index i, double v) {
         const auto at = std::find(row.begin(), row.end(), i);
         if (at != row.end()) {
-            value[static_cast<std::size_t>(at - row.begin())] += v;
+            value[at - row.begin()] += v;
             return;
         }
         row.push_back(i);
@@ -144,7 +143,7 @@ SymmetricMatrix GridLaplacian::matrix() const {
             matrix.row.push_back(column.row[k]);
             matrix.value.push_back(column.value[k]);
         }
-        matrix.begin.push_back(static_cast<Index>(matrix.row.size()));
+        matrix.begin.push_back(count_of(matrix.row));
     }
     return matrix;
 }

@@ -6,7 +6,7 @@ namespace lissom {
 
 cholmod_sparse_struct cholmod_view(const SymmetricMatrix& matrix) {
     cholmod_sparse view{};
-    view.nrow = view.ncol = static_cast<std::size_t>(matrix.size());
+    view.nrow = view.ncol = matrix.size();
     view.nzmax = matrix.row.size();
     view.p = const_cast<Index*>(matrix.begin.data());
     view.i = const_cast<Index*>(matrix.row.data());

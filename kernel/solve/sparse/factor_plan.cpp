@@ -23,14 +23,14 @@ void sum_up(std::vector<Index>& first) {
 
 std::vector<Index> inverse(const std::vector<Index>& permutation) {
     std::vector<Index> to(permutation.size());
-    for (std::size_t i = 0; i < to.size(); ++i) to[permutation[i]] = static_cast<Index>(i);
+    for (std::size_t i = 0; i < to.size(); ++i) to[permutation[i]] = index_of(i);
     return to;
 }
 
 // Groups the entries of the matrix by the supernode they belong to.
 void map_entries(const Supernodes& nodes, const SymmetricMatrix& pattern, FactorPlan& plan) {
     const std::vector<Index> to = inverse(nodes.permutation), node_of = nodes.nodes_of_columns();
-    plan.first_entry.assign(static_cast<std::size_t>(nodes.count()) + 1, 0);
+    plan.first_entry.assign(at(nodes.count()) + 1, 0);
     for (Index column = 0; column < pattern.size(); ++column) {
         for (Index k = pattern.begin[column]; k < pattern.begin[column + 1]; ++k) {
             ++plan.first_entry[node_of[std::min(to[column], to[pattern.row[k]])] + 1];
@@ -66,7 +66,7 @@ void map_entries(const Supernodes& nodes, const SymmetricMatrix& pattern, Factor
 void split(const Supernodes& nodes, FactorPlan& plan) {
     const Index count = nodes.count();
     const std::vector<Index> parent = nodes.parents();
-    std::vector<Index> first(static_cast<std::size_t>(count)), members(first.size(), 1);
+    std::vector<Index> first(count), members(first.size(), 1);
     std::vector<double> work(first.size(), 0.0);
     std::iota(first.begin(), first.end(), 0);
     bool postordered = true;
@@ -108,8 +108,8 @@ void fill_bins(FactorPlan& plan) {
     std::vector<double> load(plan.bins.size(), 0.0);
     for (const Index i : order) {
         const auto bin = std::min_element(load.begin(), load.end()) - load.begin();
-        plan.bins[static_cast<std::size_t>(bin)].push_back(i);
-        load[static_cast<std::size_t>(bin)] += plan.subtrees[i].work;
+        plan.bins[bin].push_back(i);
+        load[bin] += plan.subtrees[i].work;
     }
 }
 
@@ -135,8 +135,8 @@ void for_each_update(const std::vector<Index>& node_of, Index from, const Index*
 template <typename Use>
 void for_each_update(const Supernodes& nodes, const FactorPlan& plan, const Use& use) {
     const std::vector<Index> node_of = nodes.nodes_of_columns();
-    std::vector<Index> subtree_of(static_cast<std::size_t>(nodes.count()), kNoIndex);
-    const auto subtrees = static_cast<Index>(plan.subtrees.size());
+    std::vector<Index> subtree_of(nodes.count(), kNoIndex);
+    const auto subtrees = count_of(plan.subtrees);
     for (Index i = 0; i < subtrees; ++i) {
         std::fill(subtree_of.begin() + plan.subtrees[i].first,
                   subtree_of.begin() + plan.subtrees[i].last, i);
@@ -150,19 +150,19 @@ void for_each_update(const Supernodes& nodes, const FactorPlan& plan, const Use&
     }
     for (Index i = 0; i < subtrees; ++i) {
         const std::vector<Index>& above = plan.subtrees[i].above;
-        for_each_update(node_of, nodes.count() + i, above.data(), 0,
-                        static_cast<Index>(above.size()), 0, kNoIndex, use);
+        for_each_update(node_of, nodes.count() + i, above.data(), 0, count_of(above), 0, kNoIndex,
+                        use);
     }
 }
 
 void list_updates(const Supernodes& nodes, FactorPlan& plan) {
-    const std::size_t blocks = static_cast<std::size_t>(nodes.count()) + plan.subtrees.size();
+    const std::size_t blocks = nodes.count() + plan.subtrees.size();
     plan.first_update.assign(blocks + 1, 0);
     for_each_update(nodes, plan, [&](Index block, const FactorPlan::Update&) {
         ++plan.first_update[block + 1];
     });
     sum_up(plan.first_update);
-    plan.updates.resize(static_cast<std::size_t>(plan.first_update.back()));
+    plan.updates.resize(plan.first_update.back());
     std::vector<Index> next = plan.first_update;
     for_each_update(nodes, plan, [&](Index block, const FactorPlan::Update& update) {
         plan.updates[next[block]++] = update;

@@ -70,8 +70,7 @@ Lanes<float> to_lanes(const Vec3& v, double factor) {
 }
 
 Vec3 from_lanes(const Lanes<float>& lanes, double factor) {
-    return {factor * static_cast<double>(lanes[0]), factor * static_cast<double>(lanes[1]),
-            factor * static_cast<double>(lanes[2])};
+    return {factor * lanes[0], factor * lanes[1], factor * lanes[2]};
 }
 
 double greatest_component(std::span<const Vec3> rows) {
@@ -98,18 +97,17 @@ SingleFactor::SingleFactor(Supernodes supernodes, std::vector<Index> permutation
 // postordered; otherwise everything counts as the upper part.
 void SingleFactor::split() {
     const Index count = nodes_.count();
-    std::vector<Index> node_of(permutation_.size()), parent(static_cast<std::size_t>(count));
+    std::vector<Index> node_of(permutation_.size()), parent(count);
     for (Index s = 0; s < count; ++s) {
         for (Index c = nodes_.super[s]; c < nodes_.super[s + 1]; ++c) node_of[c] = s;
     }
-    std::vector<Index> first(static_cast<std::size_t>(count)), members(first.size(), 1);
+    std::vector<Index> first(count), members(first.size(), 1);
     std::vector<std::size_t> work(first.size(), 0);
     bool postordered = true;
     std::size_t total = 0;
     for (Index s = 0; s < count; ++s) first[s] = s;
     for (Index s = 0; s < count; ++s) {
-        const auto own = static_cast<std::size_t>(nodes_.columns(s)) *
-                         static_cast<std::size_t>(nodes_.height(s));
+        const auto own = at(nodes_.columns(s)) * nodes_.height(s);
         work[s] += own;
         total += own;
         postordered = postordered && s - first[s] + 1 == members[s];
@@ -120,10 +118,8 @@ void SingleFactor::split() {
         members[parent[s]] += members[s];
         first[parent[s]] = std::min(first[parent[s]], first[s]);
     }
-    const double largest = kSingleLargestShare * static_cast<double>(total);
-    const auto is_small = [&](Index s) {
-        return postordered && static_cast<double>(work[s]) <= largest;
-    };
+    const double largest = kSingleLargestShare * total;
+    const auto is_small = [&](Index s) { return postordered && work[s] <= largest; };
     for (Index s = 0; s < count; ++s) {
         if (!is_small(s)) {
             top_.push_back(s);
@@ -147,29 +143,29 @@ void SingleFactor::add_subtree(Index first, Index root, std::size_t work) {
         Index& row = nodes_.row[r];
         if (row < end_column) continue;
         const auto at = std::lower_bound(subtree.above.begin(), subtree.above.end(), row);
-        row = subtree.extension + static_cast<Index>(at - subtree.above.begin());
+        row = subtree.extension + index_of(at - subtree.above.begin());
     }
-    extended_size_ += static_cast<Index>(subtree.above.size());
+    extended_size_ += count_of(subtree.above);
 }
 
 // Greatest subtrees first, each into the bin with the least work.
 void SingleFactor::fill_bins() {
     std::vector<Index> order(subtrees_.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = index_of(i);
     std::stable_sort(order.begin(), order.end(),
                      [&](Index a, Index b) { return subtrees_[a].work > subtrees_[b].work; });
     bins_.resize(std::min(kSingleBins, subtrees_.size()));
     std::vector<std::size_t> load(bins_.size(), 0);
     for (const Index i : order) {
         const auto bin = std::min_element(load.begin(), load.end()) - load.begin();
-        bins_[static_cast<std::size_t>(bin)].push_back(i);
-        load[static_cast<std::size_t>(bin)] += subtrees_[i].work;
+        bins_[bin].push_back(i);
+        load[bin] += subtrees_[i].work;
     }
 }
 
 template <typename Pass>
 void SingleFactor::for_each_bin(const Context& context, const Pass& pass) const {
-    context.parallel_for(0, static_cast<Index>(bins_.size()), 1, [&](Index begin, Index end) {
+    context.parallel_for(0, count_of(bins_), 1, [&](Index begin, Index end) {
         for (Index bin = begin; bin < end; ++bin) {
             for (const Index i : bins_[bin]) pass(subtrees_[i], bin);
         }
@@ -188,8 +184,7 @@ void SingleFactor::solve(std::span<const Vec3> b, std::span<Vec3> x, Scratch& sc
     }
     // The factor was divided by scale_: L L^T stands for A / scale_^2.
     const double in = 1.0 / greatest, out = greatest / (nodes_.scale * nodes_.scale);
-    const std::size_t lanes = static_cast<std::size_t>(extended_size_) +
-                              (bins_.size() + 1) * static_cast<std::size_t>(tallest_);
+    const std::size_t lanes = extended_size_ + (bins_.size() + 1) * tallest_;
     scratch.resize(4 * lanes);
     auto* at = reinterpret_cast<Lanes<float>*>(scratch.data());
     Lanes<float>* const below = at + extended_size_;
@@ -211,7 +206,7 @@ void SingleFactor::solve(std::span<const Vec3> b, std::span<Vec3> x, Scratch& sc
         for (std::size_t i = 0; i < t.above.size(); ++i) at[t.extension + i] = Lanes<float>{};
         sweeps.lower(view, t.first, t.last, at, below_of(bin));
     });
-    const auto own_bin = static_cast<Index>(bins_.size());
+    const auto own_bin = count_of(bins_);
     for (const Index s : top_) read(nodes_.super[s], nodes_.super[s + 1]);
     for (const Subtree& t : subtrees_) {
         for (std::size_t i = 0; i < t.above.size(); ++i) at[t.above[i]] += at[t.extension + i];

@@ -22,7 +22,7 @@ class SingleFactor {
 
     SingleFactor() = default;
 
-    Index size() const { return static_cast<Index>(permutation_.size()); }
+    Index size() const { return count_of(permutation_); }
 
     /// Solves A x = b for the three columns of b, one row an unknown; x may be b. Independent parts
     /// of the factor run in parallel; the result does not depend on the number of threads.
@@ -41,9 +41,9 @@ class SingleFactor {
         std::vector<float> value;
         double scale = 1.0;
 
-        Index count() const { return static_cast<Index>(super.size()) - 1; }
-        Index columns(Index s) const { return super[s + 1] - super[s]; }
-        Index height(Index s) const { return first_row[s + 1] - first_row[s]; }
+        Index count() const { return count_of(super) - 1; }
+        Index columns(Index s) const { return super[at(s + 1)] - super[at(s)]; }
+        Index height(Index s) const { return first_row[at(s + 1)] - first_row[at(s)]; }
     };
 
     /// Supernodes [first, last), whose columns no other subtree touches. Each adds to the columns

@@ -9,10 +9,10 @@ namespace lissom {
 
 void SymmetricMatrix::multiply(const double* x, double* y, Index columns) const {
     const Index n = size();
-    std::fill(y, y + static_cast<std::size_t>(n) * columns, 0.0);
+    std::fill(y, y + at(n) * columns, 0.0);
     for (Index c = 0; c < columns; ++c) {
-        const double* in = x + static_cast<std::size_t>(c) * n;
-        double* out = y + static_cast<std::size_t>(c) * n;
+        const double* in = x + at(c) * n;
+        double* out = y + at(c) * n;
         for (Index j = 0; j < n; ++j) {
             out[j] += value[begin[j]] * in[j];
             for (Index k = begin[j] + 1; k < begin[j + 1]; ++k) {
@@ -26,9 +26,9 @@ void SymmetricMatrix::multiply(const double* x, double* y, Index columns) const 
 void SymmetricMatrix::residual(const long double* b, const double* x, double* r,
                                Index columns) const {
     const Index n = size();
-    std::vector<long double> sum(static_cast<std::size_t>(n));
+    std::vector<long double> sum(n);
     for (Index c = 0; c < columns; ++c) {
-        const std::size_t shift = static_cast<std::size_t>(c) * static_cast<std::size_t>(n);
+        const std::size_t shift = at(c) * n;
         const double* in = x + shift;
         std::copy(b + shift, b + shift + n, sum.begin());
         for (Index j = 0; j < n; ++j) {
@@ -47,7 +47,7 @@ void SymmetricMatrix::residual(const long double* b, const double* x, double* r,
 
 SymmetricMatrix symmetric_from_triplets(Index size, const std::vector<Triplet>& entries) {
     std::vector<Triplet> lower;
-    lower.reserve(entries.size() + static_cast<std::size_t>(size));
+    lower.reserve(entries.size() + size);
     for (const Triplet& e : entries) {
         if (e.row < 0 || e.column < 0 || e.row >= size || e.column >= size) {
             throw Error(ErrorCode::out_of_range,
@@ -61,7 +61,7 @@ SymmetricMatrix symmetric_from_triplets(Index size, const std::vector<Triplet>& 
         return a.column != b.column ? a.column < b.column : a.row < b.row;
     });
     SymmetricMatrix matrix;
-    matrix.begin.assign(static_cast<std::size_t>(size) + 1, 0);
+    matrix.begin.assign(at(size) + 1, 0);
     for (std::size_t i = 0; i < lower.size(); ++i) {
         const Triplet& e = lower[i];
         if (i > 0 && lower[i - 1].row == e.row && lower[i - 1].column == e.column) {

@@ -16,7 +16,7 @@ struct RowMatrix {
     std::vector<Index> column;
     std::vector<double> value;
 
-    Index rows() const { return static_cast<Index>(begin.size()) - 1; }
+    Index rows() const { return count_of(begin) - 1; }
     std::size_t nonzeros() const { return value.size(); }
 };
 
@@ -27,7 +27,7 @@ struct SymmetricMatrix {
     std::vector<Index> row;
     std::vector<double> value;
 
-    Index size() const { return static_cast<Index>(begin.size()) - 1; }
+    Index size() const { return count_of(begin) - 1; }
     std::size_t nonzeros() const { return value.size(); }
     /// y = A x for `columns` column vectors stored one after the other.
     void multiply(const double* x, double* y, Index columns) const;

@@ -8,7 +8,7 @@ namespace {
 
 // Rows connected to `start`, ascending.
 Elements component_of(const SymmetricMatrix& matrix, Index start) {
-    const auto n = static_cast<std::size_t>(matrix.size());
+    const std::size_t n = matrix.size();
     std::vector<std::vector<Index>> neighbors(n);
     for (Index j = 0; j < matrix.size(); ++j) {
         for (Index k = matrix.begin[j] + 1; k < matrix.begin[j + 1]; ++k) {
@@ -38,13 +38,13 @@ Elements component_of(const SymmetricMatrix& matrix, Index start) {
 }  // namespace
 
 double smallest_pivot(Index size) {
-    return 2e-15 * std::sqrt(static_cast<double>(size));
+    return 2e-15 * std::sqrt(size);
 }
 
 void require_valid(const SymmetricMatrix& matrix) {
     const Index n = matrix.size();
     if (n > 0 && matrix.row.size() == matrix.value.size() &&
-        static_cast<std::size_t>(matrix.begin[n]) == matrix.row.size()) {
+        at(matrix.begin[n]) == matrix.row.size()) {
         return;
     }
     throw Error(ErrorCode::invalid_argument,
@@ -65,7 +65,7 @@ void require_factor(bool factored) {
 }
 
 void require_sizes(std::span<const double> b, std::span<double> x, Index size, Index columns) {
-    const std::size_t expected = static_cast<std::size_t>(size) * static_cast<std::size_t>(columns);
+    const std::size_t expected = at(size) * columns;
     if (b.size() == expected && x.size() == expected) return;
     throw Error(ErrorCode::invalid_argument, "right-hand side and solution must each hold " +
                                                  std::to_string(columns) + " columns of " +

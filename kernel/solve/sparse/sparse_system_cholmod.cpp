@@ -102,7 +102,7 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
 void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index columns) const {
     require_factor(state_->factored);
     require_sizes(b, x, size(), columns);
-    const auto rows = static_cast<std::size_t>(size());
+    const std::size_t rows = size();
     const Supernodes& nodes = state_->nodes;
     const SupernodalFactor factor{size(),
                                   nodes.count(),
@@ -116,7 +116,7 @@ void SparseSystem::solve(std::span<const double> b, std::span<double> x, Index c
     };
     exchange_scratch();
     for (Index first = 0; first < columns; first += kSolveWidth) {
-        const std::size_t shift = static_cast<std::size_t>(first) * rows;
+        const std::size_t shift = first * rows;
         solve_supernodal(factor, b.data() + shift, x.data() + shift,
                          std::min(kSolveWidth, columns - first), scratch);
     }
@@ -146,7 +146,7 @@ SingleFactor SparseSystem::single_factor(const Context& context) const {
 }
 
 Index SparseSystem::size() const {
-    return state_->begin.empty() ? 0 : static_cast<Index>(state_->begin.size()) - 1;
+    return state_->begin.empty() ? 0 : count_of(state_->begin) - 1;
 }
 
 bool SparseSystem::factored() const {

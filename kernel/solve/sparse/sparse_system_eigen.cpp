@@ -98,24 +98,24 @@ SingleFactor SparseSystem::single_factor(const Context& context) const {
     nodes.scale = std::sqrt(pivots.maxCoeff());
     for (Index column = 0; column < size(); ++column) {
         nodes.super.push_back(column);
-        nodes.first_row.push_back(static_cast<Index>(nodes.row.size()));
+        nodes.first_row.push_back(count_of(nodes.row));
         const double root = std::sqrt(pivots[column]) / nodes.scale;
         nodes.row.push_back(column);
-        nodes.value.push_back(static_cast<float>(root));
+        nodes.value.push_back(root);
         for (Matrix::InnerIterator entry(lower, column); entry; ++entry) {
             if (entry.row() == column) continue;
-            nodes.row.push_back(static_cast<Index>(entry.row()));
-            nodes.value.push_back(static_cast<float>(root * entry.value()));
+            nodes.row.push_back(index_of(entry.row()));
+            nodes.value.push_back(root * entry.value());
         }
     }
     nodes.super.push_back(size());
-    nodes.first_row.push_back(static_cast<Index>(nodes.row.size()));
+    nodes.first_row.push_back(count_of(nodes.row));
     nodes.first_value = nodes.first_row;
     return {std::move(nodes), {to_row.data(), to_row.data() + to_row.size()}, context};
 }
 
 Index SparseSystem::size() const {
-    return state_->begin.empty() ? 0 : static_cast<Index>(state_->begin.size()) - 1;
+    return state_->begin.empty() ? 0 : count_of(state_->begin) - 1;
 }
 
 bool SparseSystem::factored() const {

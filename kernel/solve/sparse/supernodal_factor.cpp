@@ -29,10 +29,9 @@ struct Block {
 // What one chunk of work writes to.
 struct Scratch {
     explicit Scratch(Index tallest)
-        : product(std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(tallest) *
-                                                           kUpdateColumns)),
+        : product(std::make_unique_for_overwrite<double[]>(at(tallest) * kUpdateColumns)),
           packed(std::make_unique_for_overwrite<double[]>(kPackedSize)),
-          local(std::make_unique_for_overwrite<Index[]>(static_cast<std::size_t>(tallest))) {}
+          local(std::make_unique_for_overwrite<Index[]>(at(tallest))) {}
 
     std::unique_ptr<double[]> product, packed;
     std::unique_ptr<Index[]> local;
@@ -42,8 +41,7 @@ struct Scratch {
 class Crew {
   public:
     Crew(Index size, Index tallest, std::size_t most_chunks, const Context* context)
-        : position(std::make_unique_for_overwrite<Index[]>(static_cast<std::size_t>(size))),
-          context_(context) {
+        : position(std::make_unique_for_overwrite<Index[]>(at(size))), context_(context) {
         for (std::size_t i = 0; i < most_chunks; ++i) scratch_.emplace_back(tallest);
     }
 
@@ -74,7 +72,7 @@ Index chunks_of(Index count, Index grain) {
 std::size_t most_chunks(const FactorPlan& plan) {
     const Index chunks =
         std::max(chunks_of(plan.widest, kUpdateColumns), chunks_of(plan.tallest, kRowGrain));
-    return static_cast<std::size_t>(std::max(chunks, Index{1}));
+    return std::max(chunks, Index{1});
 }
 
 class Factorization {
@@ -110,11 +108,9 @@ class Factorization {
     // on the order they run in.
     Index factor_subtrees(const Context& context) {
         std::vector<Index> failures(plan_.bins.size(), kNoIndex);
-        context.parallel_for(0, static_cast<Index>(plan_.bins.size()), 1,
-                             [&](Index begin, Index end) {
-                                 for (Index bin = begin; bin < end; ++bin)
-                                     failures[bin] = factor_bin(bin, context);
-                             });
+        context.parallel_for(0, count_of(plan_.bins), 1, [&](Index begin, Index end) {
+            for (Index bin = begin; bin < end; ++bin) failures[bin] = factor_bin(bin, context);
+        });
         Index failed = kNoIndex;
         for (const Index column : failures) {
             if (column != kNoIndex && (failed == kNoIndex || column < failed)) failed = column;
@@ -144,9 +140,9 @@ class Factorization {
             return {nodes_.row.data() + nodes_.first_row[b], nodes_.columns(b), nodes_.height(b),
                     value_ + nodes_.first_value[b]};
         }
-        const auto t = static_cast<std::size_t>(b - nodes_.count());
+        const std::size_t t = b - nodes_.count();
         const std::vector<Index>& above = plan_.subtrees[t].above;
-        const auto size = static_cast<Index>(above.size());
+        const auto size = count_of(above);
         return {above.data(), size, size, extensions_.get() + first_extension_[t]};
     }
 
@@ -185,7 +181,7 @@ class Factorization {
         if (begin > 0) from = std::lower_bound(from, to, target.row[begin]);
         if (end < target.columns) to = std::lower_bound(from, to, target.row[end]);
         if (from == to) return;
-        const auto first = static_cast<Index>(from - row), columns = static_cast<Index>(to - from);
+        const auto first = index_of(from - row), columns = index_of(to - from);
         const Index rows = source.height - first;
         for (Index i = 0; i < rows; ++i) scratch.local[i] = position[from[i]];
         if (update.from >= nodes_.count()) {
@@ -278,8 +274,7 @@ class Factorization {
 
 std::size_t factoring_bytes(const Supernodes& nodes, const FactorPlan& plan) {
     const std::size_t size = nodes.permutation.size(), bins = plan.bins.size();
-    const std::size_t chunk =
-        (static_cast<std::size_t>(plan.tallest) * kUpdateColumns + kPackedSize) * sizeof(double);
+    const std::size_t chunk = (at(plan.tallest) * kUpdateColumns + kPackedSize) * sizeof(double);
     return plan.extension_bytes() + (bins + 1) * size * sizeof(Index) +
            (bins + most_chunks(plan)) * chunk;
 }

@@ -26,14 +26,13 @@ LISSOM_AVX2 void solve_with_avx2(const SupernodalFactor& factor, Lanes<double>* 
 
 void solve_supernodal(const SupernodalFactor& factor, const double* b, double* x, Index columns,
                       std::vector<double>& scratch) {
-    const auto n = static_cast<std::size_t>(factor.size);
+    const std::size_t n = factor.size;
     scratch.resize(2 * kSolveWidth * n);
     double* solution = scratch.data();
     for (std::size_t i = 0; i < n; ++i) {
-        const auto from = static_cast<std::size_t>(factor.permutation[i]);
+        const std::size_t from = factor.permutation[i];
         for (Index c = 0; c < kSolveWidth; ++c) {
-            solution[i * kSolveWidth + static_cast<std::size_t>(c)] =
-                c < columns ? b[static_cast<std::size_t>(c) * n + from] : 0.0;
+            solution[i * kSolveWidth + c] = c < columns ? b[c * n + from] : 0.0;
         }
     }
     auto* lanes = reinterpret_cast<Lanes<double>*>(solution);
@@ -47,10 +46,9 @@ void solve_supernodal(const SupernodalFactor& factor, const double* b, double* x
     solve_anywhere(factor, lanes, lanes + n);
 #endif
     for (std::size_t i = 0; i < n; ++i) {
-        const auto to = static_cast<std::size_t>(factor.permutation[i]);
+        const std::size_t to = factor.permutation[i];
         for (Index c = 0; c < columns; ++c) {
-            x[static_cast<std::size_t>(c) * n + to] =
-                solution[i * kSolveWidth + static_cast<std::size_t>(c)];
+            x[c * n + to] = solution[i * kSolveWidth + c];
         }
     }
 }

@@ -12,7 +12,7 @@ std::vector<Index> Supernodes::nodes_of_columns() const {
 
 std::vector<Index> Supernodes::parents() const {
     const std::vector<Index> node_of = nodes_of_columns();
-    std::vector<Index> parent(static_cast<std::size_t>(count()), count());
+    std::vector<Index> parent(count(), count());
     for (Index s = 0; s < count(); ++s) {
         if (height(s) > columns(s)) parent[s] = node_of[row[first_row[s] + columns(s)]];
     }

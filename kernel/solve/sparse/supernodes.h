@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/solve/sparse/sparse_matrix.h"
 
 namespace lissom {
@@ -16,11 +17,11 @@ struct Supernodes {
     /// The unknown of each row of the factor.
     std::vector<Index> permutation;
 
-    Index count() const { return static_cast<Index>(super.size()) - 1; }
-    Index size() const { return static_cast<Index>(permutation.size()); }
-    Index columns(Index s) const { return super[s + 1] - super[s]; }
-    Index height(Index s) const { return first_row[s + 1] - first_row[s]; }
-    std::size_t value_count() const { return static_cast<std::size_t>(first_value.back()); }
+    Index count() const { return count_of(super) - 1; }
+    Index size() const { return count_of(permutation); }
+    Index columns(Index s) const { return super[at(s + 1)] - super[at(s)]; }
+    Index height(Index s) const { return first_row[at(s + 1)] - first_row[at(s)]; }
+    std::size_t value_count() const { return at(first_value.back()); }
     /// The supernode of each column, and the one that holds the first row below the columns of
     /// each supernode (count() where there is none).
     std::vector<Index> nodes_of_columns() const;

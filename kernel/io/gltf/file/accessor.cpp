@@ -51,7 +51,7 @@ ElementRange elements_of_view(const GltfDocument& document, int accessor, int vi
                               std::size_t offset, std::size_t count, std::size_t size,
                               bool may_stride) {
     if (view_number < 0) refuse_accessor(accessor, "has no buffer view");
-    const auto number = static_cast<std::size_t>(view_number);
+    const std::size_t number = view_number;
     const std::string_view view = bytes_of_view(document, number);
     const std::size_t announced = document.model.bufferViews[number].byteStride;
     const std::size_t stride = may_stride && announced > 0 ? announced : size;
@@ -78,19 +78,19 @@ std::size_t read_unsigned(const char* at, ScalarType type) {
 void apply_sparse(const GltfDocument& document, int number, const tinygltf::Accessor& accessor,
                   std::size_t element_size, std::vector<char>& bytes) {
     const auto& sparse = accessor.sparse;
-    if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count ||
-        sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
+    if (sparse.count < 0 || at(sparse.count) > accessor.count || sparse.indices.byteOffset < 0 ||
+        sparse.values.byteOffset < 0) {
         refuse_accessor(number, "has sparse values that do not fit it");
     }
-    const auto count = static_cast<std::size_t>(sparse.count);
+    const std::size_t count = sparse.count;
     const ScalarType type = scalar_type(sparse.indices.componentType, number);
     if (!is_integer(type)) refuse_accessor(number, "has sparse indices that are not integers");
-    const ElementRange indices = elements_of_view(
-        document, number, sparse.indices.bufferView,
-        static_cast<std::size_t>(sparse.indices.byteOffset), count, size_of(type), false);
-    const ElementRange values = elements_of_view(document, number, sparse.values.bufferView,
-                                                 static_cast<std::size_t>(sparse.values.byteOffset),
-                                                 count, element_size, false);
+    const ElementRange indices =
+        elements_of_view(document, number, sparse.indices.bufferView, sparse.indices.byteOffset,
+                         count, size_of(type), false);
+    const ElementRange values =
+        elements_of_view(document, number, sparse.values.bufferView, sparse.values.byteOffset,
+                         count, element_size, false);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t index = read_unsigned(indices.at(i), type);
         if (index >= accessor.count) {
@@ -107,7 +107,7 @@ template <typename Use>
 void for_each_number(const PackedNumbers& packed, const Use& use) {
     with_scalar(packed.type, [&](auto zero) {
         using T = decltype(zero);
-        const std::size_t count = packed.count * static_cast<std::size_t>(packed.width);
+        const std::size_t count = packed.count * packed.width;
         for (std::size_t i = 0; i < count; ++i) {
             T value;
             std::memcpy(&value, packed.bytes.data() + i * sizeof(T), sizeof(T));
@@ -127,10 +127,10 @@ void unpack(const PackedNumbers& packed, double* to) {
 }
 
 const tinygltf::Accessor& AccessorReader::find(int accessor) const {
-    if (accessor < 0 || static_cast<std::size_t>(accessor) >= document_.model.accessors.size()) {
+    if (accessor < 0 || at(accessor) >= document_.model.accessors.size()) {
         refuse_accessor(accessor, "does not exist");
     }
-    return document_.model.accessors[static_cast<std::size_t>(accessor)];
+    return document_.model.accessors[accessor];
 }
 
 PackedNumbers AccessorReader::packed(int number) const {
@@ -141,9 +141,9 @@ PackedNumbers AccessorReader::packed(int number) const {
     packed.width = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
     packed.type = scalar_type(accessor.componentType, number);
     packed.normalized = accessor.normalized && is_integer(packed.type);
-    const std::size_t size = static_cast<std::size_t>(packed.width) * size_of(packed.type);
+    const std::size_t size = packed.width * size_of(packed.type);
     // Matrices count as the vectors they are made of.
-    budget_.charge(packed.count * static_cast<std::size_t>(std::max<Index>(packed.width / 4, 1)));
+    budget_.charge(packed.count * std::max<Index>(packed.width / 4, 1));
     ElementRange elements;
     if (accessor.bufferView >= 0) {
         elements = elements_of_view(document_, number, accessor.bufferView, accessor.byteOffset,
@@ -163,7 +163,7 @@ PackedNumbers AccessorReader::packed(int number) const {
 AccessorValues AccessorReader::values(int number) const {
     const PackedNumbers packed = this->packed(number);
     AccessorValues result{packed.count, packed.width, packed.type, packed.normalized, {}};
-    result.values.resize(packed.count * static_cast<std::size_t>(packed.width));
+    result.values.resize(packed.count * packed.width);
     unpack(packed, result.values.data());
     return result;
 }
@@ -183,7 +183,7 @@ std::vector<Index> AccessorReader::indices(int number, std::size_t vertex_count)
             largest = std::max<std::uint64_t>(largest, value);
         }
     });
-    const bool all_fit = largest < vertex_count && static_cast<double>(largest) < restart;
+    const bool all_fit = largest < vertex_count && largest < restart;
     if (all_fit || packed.count == 0) return indices;
     for_each_number(packed, [&](auto value, std::size_t) {
         const auto index = static_cast<double>(value);
@@ -191,7 +191,7 @@ std::vector<Index> AccessorReader::indices(int number, std::size_t vertex_count)
             refuse_accessor(
                 number, "has the index " + std::to_string(value) + ", which glTF does not allow");
         }
-        if (index >= static_cast<double>(vertex_count)) {
+        if (index >= vertex_count) {
             refuse(ErrorCode::face_index, "accessor " + std::to_string(number) +
                                               " refers to vertex " + std::to_string(value) +
                                               ", but there are only " +

@@ -31,7 +31,7 @@ int component_type(ScalarType type) {
 
 const char* type_name(Index width) {
     constexpr std::array<const char*, 4> kNames{"SCALAR", "VEC2", "VEC3", "VEC4"};
-    return kNames[static_cast<std::size_t>(width - 1)];
+    return kNames[width - 1];
 }
 
 int target_for(BufferUse use) {
@@ -41,7 +41,7 @@ int target_for(BufferUse use) {
 
 // Elements `stride` bytes apart.
 std::string encoded(const WrittenNumbers& numbers, std::size_t stride) {
-    const auto width = static_cast<std::size_t>(numbers.width);
+    const std::size_t width = numbers.width;
     const std::size_t count = numbers.values.size() / width;
     std::string bytes(count * stride, '\0');
     with_scalar(numbers.type, [&](auto zero) {
@@ -56,9 +56,8 @@ std::string encoded(const WrittenNumbers& numbers, std::size_t stride) {
 }
 
 void add_bounds(const WrittenNumbers& numbers, Json& accessor) {
-    const auto width = static_cast<std::size_t>(numbers.width);
-    std::vector<double> least(numbers.values.begin(),
-                              numbers.values.begin() + static_cast<std::ptrdiff_t>(width));
+    const std::size_t width = numbers.width;
+    std::vector<double> least(numbers.values.begin(), numbers.values.begin() + width);
     std::vector<double> largest = least;
     for (std::size_t i = 0; i < numbers.values.size(); ++i) {
         least[i % width] = std::min(least[i % width], numbers.values[i]);
@@ -86,7 +85,7 @@ std::size_t GltfBinary::add(Json accessor, std::string_view bytes, std::optional
 
 std::size_t GltfBinary::add(const WrittenNumbers& numbers, BufferUse use, bool with_bounds) {
     const bool is_indices = use == BufferUse::indices;
-    const auto width = static_cast<std::size_t>(numbers.width);
+    const std::size_t width = numbers.width;
     const std::size_t size = width * size_of(numbers.type);
     const std::size_t stride = is_indices ? size : padded(size);
     Json accessor{{"componentType", component_type(numbers.type)},

@@ -155,7 +155,7 @@ class Loader {
 
     SharedBytes image(Json& json, std::size_t number) {
         const int view = index_member(json, "bufferView", "image " + std::to_string(number));
-        if (view >= 0) return image_of_view(static_cast<std::size_t>(view));
+        if (view >= 0) return image_of_view(view);
         const std::string uri = text_member(json, "uri");
         if (uri.empty()) return nullptr;
         if (std::optional<UriData> data = decode_data_uri(uri)) {
@@ -267,10 +267,10 @@ std::string_view bytes_of_view(const GltfDocument& document, std::size_t number)
         refuse(ErrorCode::file_syntax, name + " does not exist");
     }
     const tinygltf::BufferView& view = document.model.bufferViews[number];
-    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= document.buffers.size()) {
+    if (view.buffer < 0 || at(view.buffer) >= document.buffers.size()) {
         refuse(ErrorCode::file_syntax, name + " is in a buffer that does not exist");
     }
-    const std::string_view buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
+    const std::string_view buffer = document.buffers[view.buffer];
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
         refuse(ErrorCode::file_syntax, name + " reaches beyond the end of its buffer");
     }

@@ -52,7 +52,7 @@ void require_plain_primitives(const Json& document) {
         if (!extension(primitive, "KHR_draco_mesh_compression")) return;
         const Json* attributes = member(primitive, "attributes");
         const int position = attributes ? index_member(*attributes, "POSITION", "a primitive") : -1;
-        if (position < 0 || static_cast<std::size_t>(position) >= accessors->size()) return;
+        if (position < 0 || at(position) >= accessors->size()) return;
         if (!has_data(document, (*accessors)[position])) {
             refuse_extension("KHR_draco_mesh_compression");
         }

@@ -28,16 +28,15 @@ bool read_labels(const Json& json, std::int64_t face_count, FaceLabels& labels) 
     for (const Json& name : *names) {
         labels.names.push_back(name.is_string() ? name.get<std::string>() : std::string());
     }
-    const auto name_count = static_cast<std::int64_t>(names->size());
+    const auto name_count = std::ssize(*names);
     for (const Run& run : runs_of(*runs)) {
-        const std::int64_t left = face_count - static_cast<std::int64_t>(labels.of_face.size());
+        const std::int64_t left = face_count - std::ssize(labels.of_face);
         if (run.first < kNoIndex || run.first >= name_count || run.count < 0 || run.count > left) {
             return false;
         }
-        labels.of_face.insert(labels.of_face.end(), static_cast<std::size_t>(run.count),
-                              static_cast<Index>(run.first));
+        labels.of_face.insert(labels.of_face.end(), run.count, index_of(run.first));
     }
-    return static_cast<std::int64_t>(labels.of_face.size()) == face_count;
+    return std::ssize(labels.of_face) == face_count;
 }
 
 bool read_turns(const Json& runs, std::size_t face_count, std::vector<Index>& turns) {
@@ -46,8 +45,7 @@ bool read_turns(const Json& runs, std::size_t face_count, std::vector<Index>& tu
         if (run.first < 0 || run.first > 0x7fffffff || run.count < 0 || run.count > left) {
             return false;
         }
-        turns.insert(turns.end(), static_cast<std::size_t>(run.count),
-                     static_cast<Index>(run.first));
+        turns.insert(turns.end(), run.count, index_of(run.first));
     }
     return turns.size() == face_count;
 }
@@ -60,8 +58,7 @@ bool read_shares(const Json& runs, std::size_t sum, std::vector<Index>& shares) 
             return false;
         }
         left -= run.first * run.count;
-        shares.insert(shares.end(), static_cast<std::size_t>(run.count),
-                      static_cast<Index>(run.first));
+        shares.insert(shares.end(), run.count, index_of(run.first));
     }
     return left == 0;
 }
@@ -74,7 +71,7 @@ bool read_region(const Json& json, std::int64_t vertex_count, std::vector<Index>
             return false;
         }
         next = run.first + run.count;
-        for (std::int64_t v = run.first; v < next; ++v) vertices.push_back(static_cast<Index>(v));
+        for (std::int64_t v = run.first; v < next; ++v) vertices.push_back(index_of(v));
     }
     return true;
 }

@@ -44,7 +44,7 @@ std::array<int, 256> digit_values() {
     std::array<int, 256> values;
     values.fill(-1);
     for (std::size_t i = 0; i < kDigits.size(); ++i) {
-        values[static_cast<unsigned char>(kDigits[i])] = static_cast<int>(i);
+        values[static_cast<unsigned char>(kDigits[i])] = index_of(i);
     }
     return values;
 }

@@ -59,7 +59,7 @@ void erase_unused(const VertexBlock& block, const std::string& name, AccessorVal
         if (!has(block.primitives[p])) continue;
         for (const Index v : block.corners[p]) used[v] = 1;
     }
-    const auto width = static_cast<std::size_t>(read.width);
+    const std::size_t width = read.width;
     for (std::size_t v = 0; v < used.size(); ++v) {
         if (!used[v]) std::fill_n(read.values.data() + v * width, width, kNone);
     }
@@ -69,13 +69,13 @@ void erase_unused(const VertexBlock& block, const std::string& name, AccessorVal
 void add_joint_set(const GltfAttributeName& name, const AccessorValues& read, AccessorValues& all) {
     const Index width = std::max<Index>(all.width, 4 * (name.set + 1));
     const bool is_first = all.values.empty();
-    if (is_first) all.values.assign(read.count * static_cast<std::size_t>(width), 0.0);
+    if (is_first) all.values.assign(read.count * width, 0.0);
     if (!is_first && width > all.width) all.values = widened(all.values, all.width, width, 0.0);
     all.count = read.count;
     all.width = width;
     all.type = type_in_mesh(name.semantic, read);
     for (std::size_t v = 0; v < read.count; ++v) {
-        double* const to = all.values.data() + v * static_cast<std::size_t>(width);
+        double* const to = all.values.data() + v * width;
         std::copy_n(read.values.data() + 4 * v, 4, to + 4 * name.set);
     }
 }
@@ -129,7 +129,7 @@ void VertexReader::add_attributes(const VertexBlock& block, const NodeTransform&
     }
     add_joints(joints);
     for (std::size_t t = 0; t < block.targets.size(); ++t) {
-        add_target(block, static_cast<Index>(t) + 1, transform);
+        add_target(block, index_of(t) + 1, transform);
     }
 }
 
@@ -142,7 +142,7 @@ void VertexReader::clean(const GltfAttributeName& name, AccessorValues& read,
         refuse(ErrorCode::file_syntax,
                "a color has " + std::to_string(read.width) + " numbers instead of 3 or 4");
     }
-    const auto width = static_cast<std::size_t>(read.width);
+    const std::size_t width = read.width;
     for (std::size_t i = 0; i < read.count; ++i) {
         const std::span<double> value(read.values.data() + i * width, width);
         if (name.semantic == GltfSemantic::uv) value[1] = 1.0 - value[1];
@@ -154,7 +154,7 @@ void VertexReader::clean(const GltfAttributeName& name, AccessorValues& read,
 // An element with a value that is none has none.
 void VertexReader::drop_not_finite(const std::string& name, AccessorValues& read) {
     if (read.type != ScalarType::float32 && read.type != ScalarType::float64) return;
-    const auto width = static_cast<std::size_t>(read.width);
+    const std::size_t width = read.width;
     std::size_t count = 0;
     for (std::size_t i = 0; i < read.count; ++i) {
         const std::span<double> value(read.values.data() + i * width, width);
@@ -186,7 +186,7 @@ void VertexReader::add_joints(std::map<std::string, AccessorValues>& sets) {
 
 void VertexReader::add_target(const VertexBlock& block, Index target,
                               const NodeTransform& transform) {
-    for (const auto& [name, accessor] : block.targets[static_cast<std::size_t>(target - 1)]) {
+    for (const auto& [name, accessor] : block.targets[target - 1]) {
         const GltfSemantic semantic = parse_gltf_attribute(name).semantic;
         const bool is_known = semantic == GltfSemantic::position ||
                               semantic == GltfSemantic::normal || semantic == GltfSemantic::tangent;

@@ -17,15 +17,14 @@ double fill_of(const std::string& name) {
 }  // namespace
 
 std::vector<double> widened(std::span<const double> values, Index from, Index to, double fill) {
-    const auto old_width = static_cast<std::size_t>(from), width = static_cast<std::size_t>(to);
+    const std::size_t old_width = from, width = to;
     const std::size_t count = values.size() / old_width;
     std::vector<double> result(count * width, fill);
     for (std::size_t i = 0; i < count; ++i) {
-        const auto begin = values.begin() + static_cast<std::ptrdiff_t>(i * old_width);
+        const auto begin = values.begin() + i * old_width;
         // An element without values stays without.
-        if (begin[0] != begin[0])
-            std::fill_n(result.begin() + static_cast<std::ptrdiff_t>(i * width), width, kNoColumn);
-        std::copy(begin, begin + from, result.begin() + static_cast<std::ptrdiff_t>(i * width));
+        if (begin[0] != begin[0]) std::fill_n(result.begin() + i * width, width, kNoColumn);
+        std::copy(begin, begin + from, result.begin() + i * width);
     }
     return result;
 }
@@ -40,7 +39,7 @@ void AttributeColumns::add(const std::string& name, Index width, ScalarType type
         column.values = widened(column.values, column.width, width, fill_of(name));
         column.width = width;
     }
-    column.values.resize(first * static_cast<std::size_t>(column.width), kNoColumn);
+    column.values.resize(first * column.width, kNoColumn);
     if (column.width == width) {
         column.values.insert(column.values.end(), values.begin(), values.end());
     } else {
@@ -52,14 +51,14 @@ void AttributeColumns::add(const std::string& name, Index width, ScalarType type
 std::size_t AttributeColumns::number_count(std::size_t vertex_count) const {
     std::size_t count = 0;
     for (const Attribute& column : columns_) {
-        count += vertex_count * static_cast<std::size_t>(column.width);
+        count += vertex_count * column.width;
     }
     return count;
 }
 
 void AttributeColumns::finish(AttributeSet& attributes, std::size_t vertex_count) {
     for (Attribute& column : columns_) {
-        column.values.resize(vertex_count * static_cast<std::size_t>(column.width), kNoColumn);
+        column.values.resize(vertex_count * column.width, kNoColumn);
         attributes.add(std::move(column));
     }
 }

@@ -51,7 +51,7 @@ FanWriter::Added FanWriter::add(const std::vector<Index>& vertices,
         if (vertices[start] == last_first_) continue;
         if (n > 3 && !is_fan(points, start, area)) continue;
         add_fan(vertices, start);
-        return {1, static_cast<Index>((n - start) % n)};
+        return {1, index_of((n - start) % n)};
     }
     std::vector<Triangle> triangles;
     triangulate_polygon(points, triangles);
@@ -62,8 +62,7 @@ FanWriter::Added FanWriter::add(const std::vector<Index>& vertices,
         if (first == kNoIndex) first = t[start];
         add_fan(corners, start);
     }
-    return {static_cast<Index>(triangles.size()),
-            (static_cast<Index>(n) - first) % static_cast<Index>(n)};
+    return {count_of(triangles), (index_of(n) - first) % index_of(n)};
 }
 
 }  // namespace lissom

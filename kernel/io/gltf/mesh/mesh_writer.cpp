@@ -19,7 +19,7 @@ std::vector<Index> used_vertices(const std::vector<Index>& corners, std::size_t 
     for (const Index v : corners) used[v] = 1;
     std::vector<Index> list;
     for (std::size_t v = 0; v < pool_size; ++v) {
-        if (used[v]) list.push_back(static_cast<Index>(v));
+        if (used[v]) list.push_back(index_of(v));
     }
     return list;
 }
@@ -63,7 +63,7 @@ class MeshWriter::Object {
 
     void add_points() {
         std::vector<Index> all;
-        for (std::size_t v = 0; v < pool_.size(); ++v) all.push_back(static_cast<Index>(v));
+        for (std::size_t v = 0; v < pool_.size(); ++v) all.push_back(index_of(v));
         mesh_["primitives"].push_back(
             {{"mode", TINYGLTF_MODE_POINTS}, {"attributes", attributes_of(all, 0)}});
     }
@@ -78,9 +78,8 @@ class MeshWriter::Object {
 
   private:
     bool has_value(const Attribute& attribute, const std::vector<Index>& vertices) const {
-        return std::any_of(vertices.begin(), vertices.end(), [&](Index v) {
-            return values_.has_value(attribute, static_cast<std::size_t>(v));
-        });
+        return std::any_of(vertices.begin(), vertices.end(),
+                           [&](Index v) { return values_.has_value(attribute, v); });
     }
 
     bool has_value(const Attribute& attribute) const {
@@ -93,8 +92,8 @@ class MeshWriter::Object {
     void find_targets() {
         for (const WrittenMorph& morph : writer_.attributes_.morphs) {
             if (!can_read(*morph.attribute) || !has_value(*morph.attribute)) continue;
-            target_count_ = std::max(target_count_, static_cast<std::size_t>(morph.name.target));
-            morphs_[static_cast<std::size_t>(morph.name.target)].push_back(&morph);
+            target_count_ = std::max(target_count_, at(morph.name.target));
+            morphs_[at(morph.name.target)].push_back(&morph);
         }
     }
 
@@ -134,7 +133,7 @@ class MeshWriter::Object {
             vertices.clear();
             points.clear();
             for (const Index v : topology.face(f)) {
-                const auto k = static_cast<Index>(vertices.size());
+                const auto k = count_of(vertices);
                 vertices.push_back(pools.vertex_of_corner(topology.first_corner(f) + k));
                 points.push_back(mesh.position(v));
             }
@@ -145,7 +144,7 @@ class MeshWriter::Object {
             }
             FanWriter::Added added = fans.add(vertices, points);
             if (place_.to_node.mirrors() && added.turn != 0) {
-                added.turn = static_cast<Index>(vertices.size()) - added.turn;
+                added.turn = count_of(vertices) - added.turn;
             }
             faces_.push_back(f);
             turns_.push_back(added.turn);
@@ -282,7 +281,7 @@ class MeshWriter::Object {
         for (const auto& [name, mask] : writer_.regions_) {
             std::vector<Index> inside;
             for (std::size_t i = 0; i < pool_.size(); ++i) {
-                if (mask[pool_.vertices[i]]) inside.push_back(static_cast<Index>(i));
+                if (mask[pool_.vertices[i]]) inside.push_back(index_of(i));
             }
             if (!inside.empty()) result.regions[name] = std::move(inside);
         }

@@ -46,19 +46,19 @@ struct CornersByVertex {
 CornersByVertex corners_by_vertex(const Topology& topology) {
     const std::vector<Index>& vertices = topology.faces().vertices;
     CornersByVertex sorted;
-    sorted.begin.assign(static_cast<std::size_t>(topology.vertex_count()) + 1, 0);
-    for (const Index v : vertices) ++sorted.begin[static_cast<std::size_t>(v) + 1];
+    sorted.begin.assign(at(topology.vertex_count()) + 1, 0);
+    for (const Index v : vertices) ++sorted.begin[at(v) + 1];
     for (std::size_t v = 1; v < sorted.begin.size(); ++v) sorted.begin[v] += sorted.begin[v - 1];
     std::vector<Index> next(sorted.begin.begin(), sorted.begin.end() - 1);
     sorted.corners.resize(vertices.size());
     for (std::size_t c = 0; c < vertices.size(); ++c) {
-        sorted.corners[static_cast<std::size_t>(next[vertices[c]]++)] = static_cast<Index>(c);
+        sorted.corners[next[vertices[c]]++] = index_of(c);
     }
     return sorted;
 }
 
 std::vector<Index> faces_of_corners(const Topology& topology) {
-    std::vector<Index> face(static_cast<std::size_t>(topology.corner_count()));
+    std::vector<Index> face(topology.corner_count());
     for (Index f = 0; f < topology.face_count(); ++f) {
         std::fill_n(face.begin() + topology.first_corner(f), topology.face(f).size(), f);
     }
@@ -69,8 +69,7 @@ std::vector<Index> faces_of_corners(const Topology& topology) {
 
 VertexPools::VertexPools(const Mesh& mesh, const std::vector<Index>& pool_of_face, Index pool_count,
                          const std::vector<const Attribute*>& split_by)
-    : pools_(static_cast<std::size_t>(pool_count)),
-      vertex_of_corner_(static_cast<std::size_t>(mesh.topology().corner_count()), kNoIndex) {
+    : pools_(pool_count), vertex_of_corner_(mesh.topology().corner_count(), kNoIndex) {
     const Topology& topology = mesh.topology();
     const CornersByVertex sorted = corners_by_vertex(topology);
     const std::vector<Index> face_of_corner = faces_of_corners(topology);
@@ -81,14 +80,14 @@ VertexPools::VertexPools(const Mesh& mesh, const std::vector<Index>& pool_of_fac
         std::map<Index, std::size_t> first_of_pool;
         for (const Index corner : corners) {
             const Index number = pool_of_face[face_of_corner[corner]];
-            VertexPool& pool = pools_[static_cast<std::size_t>(number)];
+            VertexPool& pool = pools_[number];
             const std::size_t first = first_of_pool.emplace(number, pool.size()).first->second;
             if (corners.size() <= kFew || split_by.empty()) {
                 vertex_of_corner_[corner] = find_or_add(pool, v, corner, first, split_by);
                 continue;
             }
-            const auto [entry, is_new] = known.emplace(
-                std::pair(number, tuple_at(split_by, corner)), static_cast<Index>(pool.size()));
+            const auto [entry, is_new] =
+                known.emplace(std::pair(number, tuple_at(split_by, corner)), count_of(pool));
             if (is_new) {
                 pool.vertices.push_back(v);
                 pool.corners.push_back(corner);
@@ -101,11 +100,11 @@ VertexPools::VertexPools(const Mesh& mesh, const std::vector<Index>& pool_of_fac
 Index VertexPools::find_or_add(VertexPool& pool, Index vertex, Index corner, std::size_t first,
                                const std::vector<const Attribute*>& split_by) {
     for (std::size_t i = first; i < pool.size(); ++i) {
-        if (same_at(split_by, pool.corners[i], corner)) return static_cast<Index>(i);
+        if (same_at(split_by, pool.corners[i], corner)) return index_of(i);
     }
     pool.vertices.push_back(vertex);
     pool.corners.push_back(corner);
-    return static_cast<Index>(pool.size()) - 1;
+    return count_of(pool) - 1;
 }
 
 bool seams_are_ambiguous(const Mesh& mesh, const VertexPools& pools, Index pool_count) {

@@ -29,11 +29,9 @@ class VertexPools {
     VertexPools(const Mesh& mesh, const std::vector<Index>& pool_of_face, Index pool_count,
                 const std::vector<const Attribute*>& split_by);
 
-    const VertexPool& pool(Index i) const { return pools_[static_cast<std::size_t>(i)]; }
+    const VertexPool& pool(Index i) const { return pools_[i]; }
     /// The vertex of its pool that stands for a corner of the mesh.
-    Index vertex_of_corner(Index corner) const {
-        return vertex_of_corner_[static_cast<std::size_t>(corner)];
-    }
+    Index vertex_of_corner(Index corner) const { return vertex_of_corner_[corner]; }
 
   private:
     Index find_or_add(VertexPool& pool, Index vertex, Index corner, std::size_t first,

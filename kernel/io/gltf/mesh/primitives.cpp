@@ -17,7 +17,7 @@ FaceList join_triangles(std::vector<Index> v) {
     faces.vertices = std::move(v);
     faces.vertices.resize(3 * count);
     faces.offsets.reserve(count + 1);
-    for (std::size_t t = 1; t <= count; ++t) faces.offsets.push_back(static_cast<Index>(3 * t));
+    for (std::size_t t = 1; t <= count; ++t) faces.offsets.push_back(index_of(3 * t));
     return faces;
 }
 

@@ -31,7 +31,7 @@ bool has_width(const GltfAttributeName& name, Index width) {
 bool survives(const Attribute& attribute) {
     if (attribute.type != ScalarType::int32 && attribute.type != ScalarType::uint32) return true;
     return std::all_of(attribute.values.begin(), attribute.values.end(), [](double value) {
-        return !(value == value) || static_cast<double>(static_cast<float>(value)) == value;
+        return !(value == value) || (static_cast<float>(value)) == value;
     });
 }
 
@@ -133,7 +133,7 @@ class ConnectedLabels {
         : labels_(labels), parent_(labels ? labels->names.size() + 1 : 1) {
         std::iota(parent_.begin(), parent_.end(), 0);
         if (!labels) return;
-        std::vector<Index> label_at(static_cast<std::size_t>(mesh.vertex_count()), kNoIndex);
+        std::vector<Index> label_at(mesh.vertex_count(), kNoIndex);
         for (Index f = 0; f < mesh.face_count(); ++f) {
             for (const Index v : mesh.topology().face(f)) {
                 if (label_at[v] == kNoIndex) label_at[v] = number(f);
@@ -147,7 +147,7 @@ class ConnectedLabels {
   private:
     Index number(Index f) const {
         const Index label = labels_ ? labels_->of_face[f] : kNoIndex;
-        return label == kNoIndex ? static_cast<Index>(parent_.size()) - 1 : label;
+        return label == kNoIndex ? count_of(parent_) - 1 : label;
     }
 
     Index root(Index label) {
@@ -173,14 +173,14 @@ std::vector<SurfaceObject> divide_surface(const Mesh& mesh, const FaceLabels* ob
         const Index material = materials ? materials->of_face[f] : kNoIndex;
         const Index o = number_of(object_of_label, connected.of_face(f), [&] {
             result.push_back({objects ? objects->of_face[f] : kNoIndex, false, {}});
-            return static_cast<Index>(result.size()) - 1;
+            return count_of(result) - 1;
         });
         result[o].is_joined =
             result[o].is_joined || (objects && objects->of_face[f] != result[o].label);
         std::vector<SurfacePrimitive>& primitives = result[o].primitives;
         const Index p = number_of(primitive_of, std::pair(o, material), [&] {
             primitives.push_back({material, {}});
-            return static_cast<Index>(primitives.size()) - 1;
+            return count_of(primitives) - 1;
         });
         primitives[p].faces.push_back(f);
         pool_of_face.push_back(o);

@@ -15,7 +15,7 @@ namespace {
 constexpr double kLargest = std::numeric_limits<float>::max();
 
 double narrowed(double value) {
-    return static_cast<double>(static_cast<float>(value));
+    return static_cast<float>(value);
 }
 
 bool is_good(std::span<const double> values) {
@@ -80,7 +80,7 @@ Vec3 PoolValues::normal_at(std::size_t i) const {
 
 WrittenNumbers PoolValues::attribute(const WrittenAttribute& written) const {
     WrittenNumbers numbers{written.attribute->width, written.type, written.normalized, {}};
-    const auto width = static_cast<std::size_t>(numbers.width);
+    const std::size_t width = numbers.width;
     const GltfSemantic semantic = written.name.semantic;
     const double scale = numbers.normalized ? range_of(numbers.type).max : 1.0;
     std::vector<double> value(width);
@@ -123,17 +123,16 @@ WrittenNumbers PoolValues::morph(const WrittenMorph& morph) const {
 
 WrittenNumbers PoolValues::zeros(Index width) const {
     WrittenNumbers numbers{width, ScalarType::float32, false, {}};
-    numbers.values.assign(static_cast<std::size_t>(width) * pool_.size(), 0.0);
+    numbers.values.assign(width * pool_.size(), 0.0);
     return numbers;
 }
 
 std::vector<PoolValues::JointSet> PoolValues::joint_sets(const WrittenAttributes& attributes,
                                                          std::size_t joint_count) const {
-    const auto set_count = static_cast<std::size_t>(attributes.joints->width) / 4;
+    const auto set_count = at(attributes.joints->width) / 4;
     const bool are_bytes = attributes.joints->type == ScalarType::uint8;
     const ScalarType type = are_bytes ? ScalarType::uint8 : ScalarType::uint16;
-    const double largest =
-        joint_count > 0 ? static_cast<double>(joint_count) - 1.0 : range_of(type).max;
+    const double largest = joint_count > 0 ? joint_count - 1.0 : range_of(type).max;
     std::vector<JointSet> sets(set_count, {{4, type, false, {}}, zeros(4)});
     for (JointSet& set : sets) set.joints.values.assign(4 * pool_.size(), 0.0);
     for (std::size_t i = 0; i < pool_.size(); ++i) {
