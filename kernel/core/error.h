@@ -2,6 +2,7 @@
 /// ids of the elements concerned. An operation that throws has left its inputs as they were.
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <string>
 #include <string_view>

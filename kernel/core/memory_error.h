@@ -4,8 +4,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "kernel/core/error.h"
-
 namespace lissom {
 
 /// Throws memory_limit: what an operation throws where the process has no more memory.

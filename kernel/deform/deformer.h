@@ -25,6 +25,8 @@
 #include "kernel/deform/mesh_point.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/pipeline.h"
+#include "kernel/deform/preparation.h"
+#include "kernel/deform/rest_shape.h"
 #include "kernel/deform/stats.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"

@@ -3,10 +3,20 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/deform/deformer.h"
 #include "kernel/deform/hold_edits.h"
+#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/options.h"
+#include "kernel/deform/pipeline.h"
 #include "kernel/deform/preparation.h"
+#include "kernel/deform/rest_shape.h"
+#include "kernel/deform/stats.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
 
 namespace lissom {
 

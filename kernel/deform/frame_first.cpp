@@ -4,6 +4,7 @@
 
 #include "kernel/deform/frame_steps.h"
 #include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/system/frame_blocks.h"
 
 namespace lissom {
 

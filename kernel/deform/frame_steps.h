@@ -13,8 +13,15 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/holds/holds.h"
 #include "kernel/deform/motion.h"
-#include "kernel/deform/system/frame_blocks.h"
+#include "kernel/deform/pipeline.h"
+#include "kernel/deform/preparation.h"
+#include "kernel/deform/system/frame_loops.h"
+#include "kernel/deform/system/rotation_system.h"
 
 namespace lissom {
 

@@ -1,10 +1,16 @@
 /// Changes of who is held: steps from holds and poses to others; private to kernel/deform.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "kernel/core/index.h"
+#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/mesh_point.h"
+#include "kernel/deform/options.h"
 #include "kernel/deform/rest_shape.h"
+#include "kernel/mesh/region.h"
 
 namespace lissom {
 

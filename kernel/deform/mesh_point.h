@@ -5,9 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/path.h"
 #include "kernel/mesh/query/spatial_tree.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

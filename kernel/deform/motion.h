@@ -3,7 +3,15 @@
 
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/holds/constraints.h"
+#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/options.h"
+#include "kernel/deform/patch/patch.h"
 #include "kernel/deform/preparation.h"
+#include "kernel/deform/system/linear_solution.h"
 
 namespace lissom {
 

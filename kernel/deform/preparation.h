@@ -8,8 +8,17 @@
 #include <variant>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/deform/comparison/method.h"
 #include "kernel/deform/holds/constraints.h"
+#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/known_mask.h"
+#include "kernel/deform/options.h"
+#include "kernel/deform/patch/patch.h"
+#include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/rest_shape.h"
 #include "kernel/deform/stats.h"
 #include "kernel/deform/system/frame_loops.h"

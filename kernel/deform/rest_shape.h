@@ -5,9 +5,16 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/options.h"
+#include "kernel/deform/patch/patch.h"
+#include "kernel/deform/patch/sparse_row.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/rotation/rest_directions.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 
 namespace lissom {

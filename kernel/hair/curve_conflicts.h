@@ -1,6 +1,7 @@
 /// What holds at grid points that several style curves constrain; private to kernel/hair.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kernel/solve/grid/grid_constraints.h"

@@ -4,10 +4,13 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/hair/curve/dividing_curve.h"
 #include "kernel/hair/curve/style_curve.h"
 #include "kernel/hair/field/distance_grid.h"
 #include "kernel/hair/growth/growth.h"
 #include "kernel/hair/scalp/scalp.h"
+#include "kernel/solve/grid/grid_constraints.h"
 
 namespace lissom {
 

@@ -1,12 +1,17 @@
 /// DerivedStyle: what follows from the curves of a hairstyle on its head; private to kernel/hair.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/hair/curve_conflicts.h"
 #include "kernel/hair/curve_derivation.h"
+#include "kernel/hair/field/distance_grid.h"
+#include "kernel/hair/scalp/scalp.h"
 #include "kernel/hair/style_inputs.h"
+#include "kernel/solve/grid/grid_constraints.h"
 
 namespace lissom {
 

@@ -1,8 +1,10 @@
 /// FieldStage: the field of a hairstyle, as its claims have it; private to kernel/hair.
 #pragma once
 
+#include <utility>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/hair/curve_conflicts.h"
 #include "kernel/hair/field/hair_field.h"
 

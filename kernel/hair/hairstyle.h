@@ -9,13 +9,18 @@
 /// head's left, y up, z to the front. So a style that was made for one head fits another.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/curve/constraint_kind.h"
+#include "kernel/hair/curve/style_curve.h"
+#include "kernel/hair/field/grid_layout.h"
 #include "kernel/hair/field/hair_field.h"
 #include "kernel/hair/field/scalp_step.h"
 #include "kernel/hair/growth/growth.h"
@@ -23,6 +28,8 @@
 #include "kernel/hair/scalp/scalp.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/hair/style_inputs.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/solve/grid/grid_field_options.h"
 
 namespace lissom {
 

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/hair/curve/style_curve.h"
 #include "kernel/solve/grid/grid_constraints.h"
+#include "kernel/solve/grid/grid_size.h"
 
 namespace lissom {
 

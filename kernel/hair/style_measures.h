@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/curve/dividing_curve.h"
 #include "kernel/hair/curve/ponytail.h"
 #include "kernel/hair/strands/strands.h"

@@ -6,9 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/hair/derived_style.h"
 #include "kernel/hair/growth/growth.h"
 #include "kernel/hair/scalp/roots.h"
+#include "kernel/hair/scalp/scalp.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/io/record/options.h"
 #include "kernel/mesh/mesh.h"
 

@@ -11,12 +11,15 @@
 ///     save_mesh(baker.finish(), "wave.glb");
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/mesh/attributes.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 

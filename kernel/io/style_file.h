@@ -24,8 +24,13 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/hair/curve/style_curve.h"
 #include "kernel/hair/hairstyle.h"
+#include "kernel/hair/scalp/scalp.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

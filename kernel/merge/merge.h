@@ -9,6 +9,7 @@
 ///     result = merge.solve();  // no factorisation
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,10 +17,14 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/deform/boundary/boundary_deformer.h"
+#include "kernel/deform/stats.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/correspondence.h"
+#include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
+#include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/path.h"
 #include "kernel/mesh/query/self_intersections.h"

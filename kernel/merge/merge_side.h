@@ -2,10 +2,12 @@
 /// way back to the mesh that was given; private to kernel/merge.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/path.h"

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,12 +13,27 @@
 #include <string>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/boundary/boundary_deformer.h"
+#include "kernel/deform/stats.h"
+#include "kernel/merge/blend/transition.h"
+#include "kernel/merge/loop/correspondence.h"
 #include "kernel/merge/loop/loop.h"
+#include "kernel/merge/loop/loop_pair.h"
 #include "kernel/merge/loop/loop_values.h"
 #include "kernel/merge/loop/part_shape.h"
 #include "kernel/merge/merge.h"
 #include "kernel/merge/merge_side.h"
+#include "kernel/merge/sew/seam_quality.h"
+#include "kernel/merge/sew/sew.h"
 #include "kernel/merge/thesis/thesis_merge.h"
+#include "kernel/mesh/derive.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/query/self_intersections.h"
+#include "kernel/mesh/region.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

@@ -2,7 +2,11 @@
 /// kernel/merge.
 #pragma once
 
+#include <vector>
+
+#include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

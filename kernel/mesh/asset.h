@@ -2,6 +2,8 @@
 /// kept untouched so that it can be saved again.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>

@@ -2,6 +2,8 @@
 /// every operation and through files.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {

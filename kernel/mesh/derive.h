@@ -2,12 +2,15 @@
 /// face which old ones it comes from, and everything that the old mesh holds follows.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

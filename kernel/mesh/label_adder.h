@@ -1,6 +1,7 @@
 /// LabelAdder: gives labels their numbers when there are many.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <unordered_map>
 

@@ -6,6 +6,9 @@
 /// kernel/io.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -14,6 +17,8 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/asset.h"
 #include "kernel/mesh/attributes.h"
 #include "kernel/mesh/region.h"

@@ -2,10 +2,14 @@
 /// coincide, faces may repeat, cross or run either way. `repair` (repair.h) makes a Mesh of it.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/attributes.h"
 #include "kernel/mesh/topology.h"
 

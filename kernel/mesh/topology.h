@@ -6,8 +6,10 @@
 /// most one face; the faces around a vertex form one fan. Vertices without faces are allowed.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/core/context.h"

@@ -50,7 +50,7 @@ DECLARED = [
     r"^inline constexpr [\w:]+ (\w+)",
 ]
 # Names that need no header: declared for later, inside of classes, of templates.
-OWN = [r"^(?:class|struct|enum class) (\w+)(?: : \w+)?;",
+OWN = [r"^(?:class|struct|enum class) (\w+)(?: : \w+)?;", r"friend (?:class|struct) (\w+);",
        r"^ +(?:class|struct|enum class|enum|using) (\w+)", r"typename (\w+)"]
 
 

@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/options.h"
+#include "kernel/deform/stats.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 

@@ -2,6 +2,7 @@
 /// prescribed at handles; private to kernel/deform.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

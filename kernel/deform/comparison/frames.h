@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "kernel/core/context.h"
 #include "kernel/deform/comparison/method.h"
 
 namespace lissom {

@@ -2,14 +2,17 @@
 /// interface; private to kernel/deform. All work on the same patch, operators and hard positions.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/holds/known_mask.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/patch.h"
-#include "kernel/deform/system/gradients.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom {

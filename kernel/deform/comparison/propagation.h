@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "kernel/core/context.h"
 #include "kernel/deform/comparison/method.h"
 
 namespace lissom {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/solve/sparse/sparse_matrix.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom {

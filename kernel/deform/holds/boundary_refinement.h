@@ -4,8 +4,10 @@
 
 #include <optional>
 
+#include "kernel/core/index.h"
 #include "kernel/deform/holds/constraints.h"
 #include "kernel/deform/patch/patch.h"
+#include "kernel/deform/patch/sparse_row.h"
 
 namespace lissom {
 

@@ -7,9 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/deform/holds/holds.h"
 #include "kernel/deform/holds/known_mask.h"
-#include "kernel/deform/patch/patch.h"
+#include "kernel/deform/options.h"
 #include "kernel/deform/patch/working_patch.h"
 
 namespace lissom {

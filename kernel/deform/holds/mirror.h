@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/deform/options.h"
 
 namespace lissom {

@@ -2,15 +2,18 @@
 /// kernel/deform. Its size follows the region, not the mesh.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/error.h"
 #include "kernel/core/geometry.h"
 #include "kernel/deform/patch/sparse_row.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

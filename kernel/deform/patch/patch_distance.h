@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/deform/patch/patch.h"
 
 namespace lissom {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>

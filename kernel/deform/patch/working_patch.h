@@ -1,6 +1,9 @@
 /// The patch that a preparation works on, with its operators; private to kernel/deform.
 #pragma once
 
+#include <vector>
+
+#include "kernel/core/index.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/operators.h"
 #include "kernel/deform/patch/patch.h"

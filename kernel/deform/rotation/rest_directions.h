@@ -7,8 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/mesh/attributes.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernel/core/context.h"
+#include "kernel/solve/sparse/sparse_matrix.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom {

@@ -2,6 +2,7 @@
 /// private to kernel/deform. Rows of four numbers hold three coordinates and a zero.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "kernel/core/geometry.h"

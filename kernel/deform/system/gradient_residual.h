@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/holds/known_mask.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/system/gradients.h"
 

@@ -2,15 +2,19 @@
 /// coherence of the deformation gradients; private to kernel/deform.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "kernel/deform/patch/operators.h"
-#include "kernel/deform/patch/patch.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/holds/known_mask.h"
+#include "kernel/deform/options.h"
 #include "kernel/deform/patch/ties.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/system/gradients.h"
+#include "kernel/solve/sparse/sparse_matrix.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom {

@@ -7,6 +7,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/deform/holds/known_mask.h"
+#include "kernel/deform/options.h"
 #include "kernel/deform/patch/operators.h"
 #include "kernel/deform/patch/patch.h"
 

@@ -2,13 +2,16 @@
 /// kernel/deform.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/holds/constraints.h"
+#include "kernel/deform/holds/holds.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/system/gradient_system.h"
 #include "kernel/deform/system/gradients.h"

@@ -2,16 +2,20 @@
 /// gradients (section 2.4.4, Eq 2.10 and 2.11); private to kernel/deform.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "kernel/deform/patch/operators.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/options.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/patch/ties.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/system/frame_loops.h"
 #include "kernel/solve/sparse/single_factor.h"
+#include "kernel/solve/sparse/sparse_matrix.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom {

@@ -1,6 +1,7 @@
 /// Nearest points of polylines, and places on them by arc length.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

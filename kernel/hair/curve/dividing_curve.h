@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/hair/field/distance_grid.h"
 #include "kernel/solve/grid/grid_constraints.h"
 

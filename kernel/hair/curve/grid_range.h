@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/field/grid_layout.h"
 
 namespace lissom {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/hair/field/distance_grid.h"
 #include "kernel/solve/grid/grid_constraints.h"
 

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/curve/constraint_kind.h"
 #include "kernel/hair/field/grid_layout.h"
 #include "kernel/solve/grid/grid_constraints.h"

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/hair/curve/dividing_curve.h"
 #include "kernel/hair/curve/ponytail.h"
 #include "kernel/hair/curve/stream_curve.h"

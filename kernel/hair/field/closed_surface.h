@@ -2,8 +2,10 @@
 /// what is inside must be known all the same.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 

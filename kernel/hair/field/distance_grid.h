@@ -1,10 +1,13 @@
 /// DistanceGrid: the signed distance to a head at the points of a uniform grid, negative inside.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/field/grid_layout.h"
 #include "kernel/mesh/mesh.h"
 

@@ -6,8 +6,12 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/hair/field/distance_grid.h"
+#include "kernel/hair/field/grid_layout.h"
 #include "kernel/solve/field/grid_field.h"
+#include "kernel/solve/grid/grid_constraints.h"
+#include "kernel/solve/grid/grid_field_options.h"
 
 namespace lissom {
 

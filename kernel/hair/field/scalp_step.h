@@ -5,7 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/hair/field/hair_field.h"
+#include "kernel/solve/grid/grid_constraints.h"
 
 namespace lissom {
 

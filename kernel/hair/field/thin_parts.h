@@ -4,7 +4,9 @@
 
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/hair/field/distance_grid.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

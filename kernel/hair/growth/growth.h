@@ -2,15 +2,20 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/hair/field/grid_layout.h"
 #include "kernel/hair/field/hair_field.h"
 #include "kernel/hair/scalp/roots.h"
 #include "kernel/hair/strands/strands.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

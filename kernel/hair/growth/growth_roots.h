@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/scalp/roots.h"
 #include "kernel/hair/strands/strands.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

@@ -8,11 +8,17 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
 
 #include "kernel/core/index.h"
+#include "kernel/hair/growth/growth.h"
 #include "kernel/hair/growth/growth_lanes.h"
 #include "kernel/hair/growth/growth_loops.h"
 

@@ -3,7 +3,9 @@
 
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/hair/scalp/root_surface.h"
+#include "kernel/hair/scalp/roots.h"
 
 namespace lissom {
 

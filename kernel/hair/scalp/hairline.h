@@ -3,7 +3,12 @@
 
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/hair/scalp/head_frame.h"
 #include "kernel/hair/scalp/scalp.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
+#include "kernel/mesh/shapes/hairline.h"
 
 namespace lissom {
 

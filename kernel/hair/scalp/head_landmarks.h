@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/scalp/head_frame.h"
 #include "kernel/mesh/mesh.h"
 

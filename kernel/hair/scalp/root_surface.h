@@ -5,8 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/scalp/roots.h"
+#include "kernel/hair/scalp/scalp.h"
+#include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "kernel/hair/scalp/roots.h"
+#include "kernel/hair/scalp/scalp.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

@@ -5,7 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/scalp/scalp.h"
+#include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

@@ -6,7 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/scalp/head_frame.h"
+#include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/spatial_tree.h"
 #include "kernel/mesh/region.h"
 #include "kernel/mesh/shapes/hairline.h"

@@ -2,8 +2,10 @@
 /// points, which are farther apart than ears and noses are thick.
 #pragma once
 
+#include "kernel/core/geometry.h"
 #include "kernel/hair/field/distance_grid.h"
 #include "kernel/hair/scalp/scalp.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/hair/strands/strands.h"
 
 namespace lissom {

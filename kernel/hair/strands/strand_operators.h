@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/strands/strands.h"
 
 namespace lissom {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/hair/strands/strands.h"
 
 namespace lissom {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/io/gltf/asset.h"
 #include "kernel/mesh/mesh.h"
 

@@ -1,12 +1,15 @@
 /// GltfAsset: what a glTF file holds beside its surface; private to kernel/io and not installed.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/io/gltf/file/accessor.h"
+#include "kernel/io/gltf/file/document.h"
 #include "kernel/io/gltf/file/json.h"
 #include "kernel/io/gltf/file/uri.h"
 #include "kernel/io/gltf/nodes.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/io/gltf/asset.h"
+#include "kernel/mesh/asset.h"
 
 namespace lissom {
 

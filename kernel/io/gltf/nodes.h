@@ -1,6 +1,7 @@
 /// The nodes of a glTF file: where its meshes stand; private to kernel/io and not installed.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -8,6 +9,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/io/gltf/file/accessor.h"
+#include "kernel/io/gltf/file/document.h"
 #include "kernel/io/gltf/file/json.h"
 #include "kernel/mesh/report.h"
 

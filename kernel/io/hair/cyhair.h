@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "kernel/core/context.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/io/stream/byte_source.h"
 

@@ -7,6 +7,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/io/hair/rib_options.h"
+#include "kernel/sketch/camera.h"
 
 namespace lissom {
 

@@ -2,15 +2,19 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/core/index.h"
 #include "kernel/io/record/color_reader.h"
 #include "kernel/io/record/finite_values.h"
 #include "kernel/io/record/index_check.h"
 #include "kernel/io/record/mesh_data.h"
 #include "kernel/io/stream/text_reader.h"
+#include "kernel/mesh/attributes.h"
 
 namespace lissom {
 

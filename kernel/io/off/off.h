@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "kernel/core/context.h"
 #include "kernel/io/record/mesh_data.h"
 #include "kernel/io/record/options.h"
 #include "kernel/io/record/saved_parts.h"

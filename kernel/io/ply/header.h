@@ -1,12 +1,15 @@
 /// The header of a PLY file; private to kernel/io.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "kernel/io/record/options.h"
+#include "kernel/core/index.h"
+#include "kernel/io/stream/endianness.h"
 #include "kernel/mesh/attributes.h"
 
 namespace lissom {

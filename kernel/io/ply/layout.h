@@ -14,11 +14,13 @@
 /// characters encoded than it needs: "x" is "%78".
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/io/ply/header.h"
 #include "kernel/mesh/attributes.h"
 

@@ -2,6 +2,7 @@
 /// kernel/io.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

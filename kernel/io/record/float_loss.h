@@ -1,6 +1,7 @@
 /// What the 32-bit numbers of a file take from a surface; private to kernel/io and not installed.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>

@@ -1,6 +1,7 @@
 /// IndexCheck: validates references to elements while a file is read; private to kernel/io.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 

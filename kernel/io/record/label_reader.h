@@ -2,10 +2,12 @@
 /// kernel/io.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
 
+#include "kernel/core/index.h"
 #include "kernel/mesh/attributes.h"
 
 namespace lissom {

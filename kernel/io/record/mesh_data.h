@@ -9,9 +9,12 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/asset.h"
+#include "kernel/mesh/attributes.h"
 #include "kernel/mesh/report.h"
 #include "kernel/mesh/soup.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

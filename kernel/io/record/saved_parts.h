@@ -2,14 +2,20 @@
 /// private to kernel/io.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/mesh/asset.h"
+#include "kernel/mesh/attributes.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
 
 namespace lissom {
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/io/record/options.h"
 #include "kernel/io/record/strand_report.h"

@@ -1,11 +1,14 @@
 /// Reads numbers from binary data in memory; private to kernel/io.
 #pragma once
 
+#include <cstddef>
 #include <cstring>
 #include <string_view>
 
+#include "kernel/io/stream/endianness.h"
 #include "kernel/io/stream/read_error.h"
 #include "kernel/io/stream/scalar.h"
+#include "kernel/mesh/attributes.h"
 
 namespace lissom {
 

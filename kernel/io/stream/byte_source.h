@@ -3,13 +3,17 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/io/stream/endianness.h"
 #include "kernel/io/stream/read_error.h"
 #include "kernel/io/stream/scalar.h"
 

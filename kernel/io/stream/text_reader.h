@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "kernel/core/error.h"
 #include "kernel/core/index.h"
 #include "kernel/io/stream/read_error.h"
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kernel/core/error.h"
 #include "kernel/io/stream/read_error.h"
 
 namespace lissom {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/measure/triangulation.h"
 

@@ -6,8 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/merge/blend/band_chart.h"
 #include "kernel/merge/blend/band_place.h"
+#include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
 

@@ -6,11 +6,14 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/patch/operators.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/merge/sew/seam_quality.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
+#include "kernel/solve/sparse/sparse_matrix.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom {

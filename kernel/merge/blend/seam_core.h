@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/merge/blend/band_system.h"
 #include "kernel/mesh/region.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/merge/loop/loop.h"
 #include "kernel/merge/loop/loop_pair.h"
 

@@ -4,9 +4,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

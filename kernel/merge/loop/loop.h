@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/loop/loop_pair.h"
 #include "kernel/mesh/mesh.h"

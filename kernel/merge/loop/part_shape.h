@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/merge/loop/loop.h"
 #include "kernel/mesh/mesh.h"
 

@@ -6,6 +6,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/mesh/attributes.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
 

@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/mesh/derive.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/self_intersections.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

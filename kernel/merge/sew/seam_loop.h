@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/merge/loop/loop_pair.h"
-#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

@@ -1,6 +1,7 @@
 /// The faces around seams before and after both sides are connected; private to kernel/merge.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <set>
 #include <span>
@@ -9,7 +10,10 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/merge/sew/seam_faces.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/self_intersections.h"
 
 namespace lissom {

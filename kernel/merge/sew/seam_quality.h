@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -12,8 +13,11 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
+#include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/spatial_tree.h"
 
 namespace lissom {

@@ -4,7 +4,10 @@
 #include <optional>
 #include <span>
 
-#include "kernel/merge/sew/seam_work.h"
+#include "kernel/core/context.h"
+#include "kernel/merge/loop/loop_pair.h"
+#include "kernel/merge/sew/sew.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

@@ -5,9 +5,14 @@
 #include <unordered_set>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/merge/loop/loop_pair.h"
 #include "kernel/merge/sew/seam_attributes.h"
+#include "kernel/merge/sew/seam_faces.h"
 #include "kernel/merge/sew/seam_patch.h"
 #include "kernel/merge/sew/sew.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/merge/loop/loop_pair.h"
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/mesh/derive.h"

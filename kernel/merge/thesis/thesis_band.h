@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/merge/blend/band_chart.h"
 #include "kernel/merge/loop/loop_pair.h"
+#include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

@@ -13,12 +13,17 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/deform/boundary/boundary_deformer.h"
+#include "kernel/merge/blend/band_place.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/loop_pair.h"
+#include "kernel/merge/sew/sew.h"
 #include "kernel/merge/thesis/thesis_band.h"
 #include "kernel/merge/thesis/thesis_transition.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
 
 namespace lissom {
 

@@ -7,15 +7,18 @@
 /// that only touches 0 has none there.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

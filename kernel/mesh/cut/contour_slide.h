@@ -6,7 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/cut/contour.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

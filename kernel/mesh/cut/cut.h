@@ -12,8 +12,14 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/path.h"
+#include "kernel/mesh/region.h"
 
 namespace lissom {
 

@@ -3,9 +3,11 @@
 
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/mesh/cut/contour.h"
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/cut/cut_parts.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

@@ -4,8 +4,12 @@
 #include <functional>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/cut/contour.h"
 #include "kernel/mesh/cut/cut.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

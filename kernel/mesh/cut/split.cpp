@@ -5,6 +5,8 @@
 #include <array>
 #include <map>
 
+#include "kernel/mesh/cut/contour_slide.h"
+
 namespace lissom {
 namespace {
 

@@ -4,9 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/cut/contour.h"
-#include "kernel/mesh/cut/contour_slide.h"
 #include "kernel/mesh/derive.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/path.h"
 
 namespace lissom {

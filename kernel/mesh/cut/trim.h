@@ -1,7 +1,10 @@
 /// Trimming: a jagged open boundary becomes a smooth one.
 #pragma once
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/path.h"
 
 namespace lissom {

@@ -1,6 +1,7 @@
 /// Two meshes as one.
 #pragma once
 
+#include "kernel/core/context.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 

@@ -2,12 +2,15 @@
 /// the mesh; private to kernel/mesh.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/topology.h"
 

@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 

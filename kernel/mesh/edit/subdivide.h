@@ -1,6 +1,8 @@
 /// Subdivision of a mesh.
 #pragma once
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

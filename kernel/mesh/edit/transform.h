@@ -1,6 +1,8 @@
 /// Affine maps and orientation of whole meshes.
 #pragma once
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

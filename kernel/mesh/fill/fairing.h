@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 

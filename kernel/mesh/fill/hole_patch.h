@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/measure/triangulation.h"

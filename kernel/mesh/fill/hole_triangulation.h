@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/fill/hole_patch.h"
 
 namespace lissom {

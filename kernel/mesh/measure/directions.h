@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/mesh/attributes.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

@@ -6,8 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/corner_faces.h"
 #include "kernel/mesh/report.h"
 

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {

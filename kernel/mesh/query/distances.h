@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/spatial_tree.h"
 

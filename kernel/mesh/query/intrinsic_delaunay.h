@@ -3,10 +3,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/path.h"
 
 namespace lissom {

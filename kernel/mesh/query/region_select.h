@@ -6,6 +6,9 @@
 #include <span>
 #include <string_view>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/spatial_tree.h"
 #include "kernel/mesh/region.h"

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

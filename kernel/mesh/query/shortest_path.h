@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

@@ -2,9 +2,14 @@
 /// triangles.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/corner_faces.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/repair/welding.h"

@@ -1,6 +1,7 @@
 /// Cleaning of single faces: repeats, pinches and copies; private to kernel/mesh.
 #pragma once
 
+#include "kernel/core/index.h"
 #include "kernel/mesh/corner_faces.h"
 #include "kernel/mesh/report.h"
 

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/corner_faces.h"
 #include "kernel/mesh/report.h"
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "kernel/core/geometry.h"
+
 namespace lissom {
 namespace {
 

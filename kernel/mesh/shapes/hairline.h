@@ -3,8 +3,6 @@
 
 #include <vector>
 
-#include "kernel/core/geometry.h"
-
 namespace lissom {
 
 /// A point of the hairline, as seen from the middle of the head: hair grows above `elevation` at

@@ -1,6 +1,8 @@
 /// A generated head to show hair on.
 #pragma once
 
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

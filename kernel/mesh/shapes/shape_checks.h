@@ -7,6 +7,7 @@
 #include <string>
 
 #include "kernel/core/error.h"
+#include "kernel/core/index.h"
 
 namespace lissom {
 

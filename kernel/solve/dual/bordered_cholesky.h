@@ -2,10 +2,12 @@
 /// to kernel/solve.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 
 namespace lissom {
 

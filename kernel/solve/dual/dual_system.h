@@ -1,11 +1,14 @@
 /// DualSystem: the constraint multipliers of a grid field; private to kernel/solve.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/solve/dual/bordered_cholesky.h"
 #include "kernel/solve/dual/projected_cg.h"
 #include "kernel/solve/grid/constraint_rows.h"

@@ -2,12 +2,16 @@
 /// kernel/solve.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/solve/grid/constraint_rows.h"
 #include "kernel/solve/grid/grid_green.h"
+#include "kernel/solve/grid/grid_size.h"
 
 namespace lissom {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/solve/dual/maximin_factor.h"
 #include "kernel/solve/grid/constraint_rows.h"
 #include "kernel/solve/grid/field_workspace.h"

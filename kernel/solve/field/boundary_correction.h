@@ -2,11 +2,14 @@
 /// kernel/solve.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/solve/dual/dual_system.h"
 #include "kernel/solve/grid/field_workspace.h"
+#include "kernel/solve/grid/grid_green.h"
 #include "kernel/solve/grid/grid_laplacian.h"
 
 namespace lissom {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/solve/grid/grid_size.h"
 
 namespace lissom {

@@ -1,11 +1,14 @@
 /// GridField: vectors on a uniform grid, as smooth as given vectors at some of its points allow.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/solve/grid/grid_constraints.h"
 #include "kernel/solve/grid/grid_field_options.h"
 #include "kernel/solve/grid/grid_size.h"

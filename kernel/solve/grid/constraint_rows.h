@@ -2,10 +2,13 @@
 /// private to kernel/solve.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/solve/grid/grid_constraints.h"
+#include "kernel/solve/grid/grid_size.h"
 
 namespace lissom {
 

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <memory>
 
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/solve/grid/cosine_transform.h"
+#include "kernel/solve/grid/grid_size.h"
 
 namespace lissom {
 

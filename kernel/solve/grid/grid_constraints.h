@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/solve/grid/grid_size.h"
 
 namespace lissom {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/solve/grid/cosine_transform.h"
 #include "kernel/solve/grid/grid_size.h"
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/solve/grid/grid_field_options.h"
 #include "kernel/solve/grid/grid_size.h"
 #include "kernel/solve/sparse/sparse_matrix.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "kernel/core/index.h"
 #include "kernel/core/lanes.h"
 #include "kernel/solve/sparse/dense_kernels.h"
 

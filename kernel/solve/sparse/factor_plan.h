@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "kernel/core/index.h"
+#include "kernel/solve/sparse/sparse_matrix.h"
 #include "kernel/solve/sparse/supernodes.h"
 
 namespace lissom {

@@ -1,6 +1,7 @@
 /// SingleFactor: a Cholesky factor in single precision, for corrections many times a second.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

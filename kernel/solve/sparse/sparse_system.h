@@ -2,10 +2,12 @@
 /// pattern.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/solve/sparse/single_factor.h"
 #include "kernel/solve/sparse/sparse_matrix.h"
 

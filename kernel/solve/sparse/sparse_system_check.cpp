@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "kernel/core/error.h"
+
 namespace lissom {
 namespace {
 

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
-#include "kernel/core/error.h"
+#include "kernel/core/index.h"
 #include "kernel/solve/sparse/sparse_matrix.h"
 
 namespace lissom {

@@ -1,9 +1,14 @@
 /// Numeric supernodal Cholesky factorisation; private to kernel/solve.
 #pragma once
 
+#include <cstddef>
+
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/solve/sparse/dense_kernels.h"
 #include "kernel/solve/sparse/factor_plan.h"
+#include "kernel/solve/sparse/sparse_matrix.h"
+#include "kernel/solve/sparse/supernodes.h"
 
 namespace lissom {
 

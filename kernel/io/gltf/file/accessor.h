@@ -1,11 +1,13 @@
 /// Reads the numbers of accessors; private to kernel/io and not installed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/io/gltf/file/document.h"
 #include "kernel/mesh/attributes.h"
 

@@ -2,12 +2,14 @@
 /// kernel/io and not installed.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/io/gltf/file/json.h"
 #include "kernel/mesh/attributes.h"
 

@@ -2,6 +2,7 @@
 /// to kernel/io.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>

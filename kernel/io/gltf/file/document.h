@@ -6,6 +6,8 @@
 #pragma once
 
 #include <tiny_gltf.h>
+#include <cstddef>
+#include <string_view>
 
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "kernel/io/gltf/file/json.h"
 #include "kernel/io/gltf/file/uri.h"
 #include "kernel/io/record/mesh_data.h"
+#include "kernel/mesh/report.h"
 
 namespace lissom {
 

@@ -1,6 +1,9 @@
 /// Which extensions of glTF are understood; private to kernel/io and not installed.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "kernel/io/gltf/file/json.h"
 #include "kernel/mesh/report.h"
 

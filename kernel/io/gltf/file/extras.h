@@ -15,10 +15,12 @@
 /// them differ.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/io/gltf/file/json.h"
 #include "kernel/mesh/attributes.h"
 

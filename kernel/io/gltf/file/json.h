@@ -1,6 +1,7 @@
 /// JSON of glTF files and how its members are looked up; private to kernel/io and not installed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -1,6 +1,7 @@
 /// URIs in glTF files: data inside the text, and files beside it; private to kernel/io.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <memory>

@@ -2,16 +2,22 @@
 /// installed.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/io/gltf/file/accessor.h"
+#include "kernel/io/gltf/file/document.h"
 #include "kernel/io/gltf/mesh/blocks.h"
 #include "kernel/io/gltf/mesh/columns.h"
 #include "kernel/io/gltf/mesh/names.h"
 #include "kernel/io/gltf/mesh/transform.h"
 #include "kernel/io/record/skipped_content.h"
+#include "kernel/mesh/attributes.h"
+#include "kernel/mesh/report.h"
 
 namespace lissom {
 

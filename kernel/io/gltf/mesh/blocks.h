@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tiny_gltf.h>
+#include <cstddef>
 
 #include <map>
 #include <string>

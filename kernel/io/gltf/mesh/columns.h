@@ -2,11 +2,13 @@
 /// private to kernel/io.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/mesh/attributes.h"
 
 namespace lissom {

@@ -2,6 +2,7 @@
 /// kernel/io.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "kernel/core/geometry.h"

@@ -9,6 +9,7 @@
 
 #include "kernel/io/gltf/file/extras.h"
 #include "kernel/io/gltf/mesh/fans.h"
+#include "kernel/io/gltf/mesh/values.h"
 
 namespace lissom {
 namespace {

@@ -1,11 +1,22 @@
 /// Writes the objects of a surface as meshes of glTF; private to kernel/io and not installed.
 #pragma once
 
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/io/gltf/file/binary.h"
+#include "kernel/io/gltf/file/json.h"
+#include "kernel/io/gltf/mesh/pool.h"
 #include "kernel/io/gltf/mesh/surface.h"
 #include "kernel/io/gltf/mesh/transform.h"
-#include "kernel/io/gltf/mesh/values.h"
 #include "kernel/io/record/float_loss.h"
+#include "kernel/io/record/saved_parts.h"
+#include "kernel/mesh/attributes.h"
 
 namespace lissom {
 

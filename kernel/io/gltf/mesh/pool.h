@@ -2,9 +2,12 @@
 /// corners have different values; private to kernel/io.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "kernel/core/index.h"
+#include "kernel/mesh/attributes.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

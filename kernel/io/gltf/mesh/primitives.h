@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/io/gltf/mesh/names.h"
-#include "kernel/io/gltf/mesh/pool.h"
 #include "kernel/io/record/saved_parts.h"
+#include "kernel/mesh/attributes.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 

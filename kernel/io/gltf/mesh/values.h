@@ -2,12 +2,17 @@
 /// kernel/io and not installed.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/io/gltf/file/binary.h"
 #include "kernel/io/gltf/mesh/pool.h"
 #include "kernel/io/gltf/mesh/surface.h"
 #include "kernel/io/gltf/mesh/transform.h"
+#include "kernel/mesh/attributes.h"
+#include "kernel/mesh/mesh.h"
 
 namespace lissom {
 
