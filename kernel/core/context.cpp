@@ -104,10 +104,10 @@ Progress::~Progress() {
     state_->window_end = outer_end_;
 }
 
-void Progress::step(double share) {
+void Progress::step(double fraction) {
     context_.checkpoint();
     step_begin_ = step_end_;
-    step_end_ = std::min(outer_end_, step_begin_ + share * (outer_end_ - outer_begin_));
+    step_end_ = std::min(outer_end_, step_begin_ + fraction * (outer_end_ - outer_begin_));
     state_->window_begin = step_begin_;
     state_->window_end = step_end_;
     report(step_begin_);

@@ -122,9 +122,9 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Ends the step before and opens the next, a share of this operation (shares sum to 1). A
-    /// checkpoint: throws `cancelled`.
-    void step(double share);
+    /// Ends the step before and opens the next, a fraction of this operation (fractions sum to 1).
+    /// A checkpoint: throws `cancelled`.
+    void step(double fraction);
     /// Reports `fraction` (0 to 1) of the current step, or of the whole operation where no step is
     /// open. A checkpoint: throws `cancelled`.
     void update(double fraction);

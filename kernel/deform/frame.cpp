@@ -31,7 +31,7 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
     second.solve(scratch.rotations, deviation, input.draft, scratch.second, context);
     const int steps = motion.options().refine;
     for (int step = 1; step <= steps; ++step) {
-        const double further = overshoot(input.greatest_turn, step == steps);
+        const double further = over_relaxation(input.greatest_turn, step == steps);
         refine_rotations(input, deviation, further, scratch.absolute, context, scratch.rotations);
         second.solve(scratch.rotations, deviation, input.draft, scratch.second, context);
     }

@@ -18,8 +18,8 @@ namespace {
 constexpr double kFurther = 1.6;
 constexpr double kLastFurther = 0.5;
 
-// Between these angles a refinement stops going further than what fits best: sides of a part that
-// is twisted more would cave in until they meet.
+// Between these angles over-relaxation fades out: sides of a part that is twisted more would cave
+// in until they meet.
 constexpr double kNearAngle = 178.0 * kPi / 180.0;
 constexpr double kFarAngle = 270.0 * kPi / 180.0;
 
@@ -44,7 +44,7 @@ std::vector<Vec4> size_changes(const Motion& motion, const Context& context) {
 
 }  // namespace
 
-double overshoot(double greatest_turn, bool last) {
+double over_relaxation(double greatest_turn, bool last) {
     const double far = smooth_step((greatest_turn - kNearAngle) / (kFarAngle - kNearAngle));
     return (last ? kLastFurther : kFurther) * (1.0 - far);
 }

@@ -127,8 +127,8 @@ void find_rotations(const SecondInput& input, std::span<const Vec4> deviation,
 /// The same where handles turn too far for it: by the field of turns, or between both.
 void wind_rotations(const SecondInput& input, std::span<const Vec4> deviation,
                     RotationSystem::Scratch& scratch, const Context& context, Rotations& rotations);
-/// How much further than what fits best a refinement goes.
-double overshoot(double greatest_turn, bool last);
+/// Over-relaxation of an ARAP iteration: 0 for none.
+double over_relaxation(double greatest_turn, bool last);
 /// Takes those that fit the positions of the second system best, and goes on by `further` times the
 /// change.
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,

@@ -54,7 +54,7 @@ struct DeformOptions {
     LocalSize local_size = LocalSize::keep;
     LaplacianWeights weights = LaplacianWeights::cotangent;
     /// How often, 0 to 2, the rotations are fitted to the result and it is solved for again: less
-    /// distortion, for half a frame each. Rotations go further than what fits, so that two do what
+    /// distortion, for half a frame each. ARAP iterations, over-relaxed, so that two do what
     /// four or five would; more would wear twisted parts thin. Left alone are places where no
     /// rotation fits, as the surface has caved in, and those whose size handles change. Refined
     /// parts get thinner: not for surfaces that run through themselves or nearly do.

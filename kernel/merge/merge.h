@@ -99,8 +99,8 @@ struct JoinReport {
     Index source_size = 0, target_size = 0;
     /// How much the source grew at it.
     double scale = 1.0;
-    /// True where no keys were given; then how much worse the second best place is than the one
-    /// taken: below kCertain the result is a guess that asks for one key.
+    /// True where no keys were given; `certainty` is then runner-up cost / best cost. Below
+    /// kCertain the result is a guess that asks for one key.
     bool guessed = false;
     double certainty = 0.0;
     /// Mean turn of the loops, in radians, as given; and whether they were trimmed.

@@ -90,8 +90,9 @@ double lightness(const Color& color) {
     return std::clamp(1.16 * std::cbrt(luminance) - 0.16, 0.0, 1.0);
 }
 
-Color mix(const Color& a, const Color& b, double share) {
-    return {a.r + share * (b.r - a.r), a.g + share * (b.g - a.g), a.b + share * (b.b - a.b)};
+Color mix(const Color& a, const Color& b, double fraction) {
+    return {a.r + fraction * (b.r - a.r), a.g + fraction * (b.g - a.g),
+            a.b + fraction * (b.b - a.b)};
 }
 
 std::array<std::uint8_t, 4> to_bytes(const Color& color) {

@@ -29,8 +29,8 @@ double linear_to_srgb(double value);
 /// Perceived lightness, 0 (black) to 1 (white).
 double lightness(const Color& color);
 
-/// `a` for share 0, `b` for share 1.
-Color mix(const Color& a, const Color& b, double share);
+/// `a` for fraction 0, `b` for fraction 1.
+Color mix(const Color& a, const Color& b, double fraction);
 
 /// As four bytes: red, green, blue and an alpha of 255.
 std::array<std::uint8_t, 4> to_bytes(const Color& color);

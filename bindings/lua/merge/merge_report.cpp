@@ -314,7 +314,7 @@ std::vector<Record> merge_records() {
           {"number", "scale", "How much the source grew there."},
           {"boolean", "guessed", "No keys were given."},
           {"number|nil", "certainty",
-           "Where it was guessed: how much worse the second best place is; below 1.5 give a key."},
+           "Where it was guessed: runner-up cost / best cost; below 1.5 give a key."},
           {"number", "source_turn", "Mean turn of the source's boundary at a vertex, as given."},
           {"number", "target_turn", "The same of the target's."},
           {"boolean", "source_trimmed", "It was jagged and has been trimmed."},

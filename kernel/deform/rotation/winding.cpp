@@ -65,9 +65,9 @@ double smooth_step(double t) {
     return t * t * (3.0 - 2.0 * t);
 }
 
-Mat3 rotation_between(const Mat3& from, const Mat3& to, double share) {
+Mat3 rotation_between(const Mat3& from, const Mat3& to, double fraction) {
     const Eigen::AngleAxisd way(Mat3(to * from.transpose()));
-    return rotation_of_turn(share * way.angle() * way.axis()) * from;
+    return rotation_of_turn(fraction * way.angle() * way.axis()) * from;
 }
 
 Mat3 turned_further(const Mat3& rotation, double part) {

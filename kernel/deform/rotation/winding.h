@@ -13,8 +13,8 @@ Mat3 rotation_of_turn(const Vec3& turn);
 /// `before`.
 Vec3 turn_near(const Mat3& rotation, const Vec3& before);
 
-/// The rotation at `share` of the shortest way from one to another.
-Mat3 rotation_between(const Mat3& from, const Mat3& to, double share);
+/// The rotation at `fraction` of the shortest way from one to another.
+Mat3 rotation_between(const Mat3& from, const Mat3& to, double fraction);
 
 /// What turns a rotation by `part` of its least rotation vector further. Near half a turn, where
 /// that vector may point either way, it fades to nothing.

@@ -10,7 +10,7 @@
 namespace lissom {
 
 struct CurveFoot {
-    /// Lies on the segment from point `segment` to the next, at the share `t` of it, 0 to 1.
+    /// Lies on the segment from point `segment` to the next, at the fraction `t` of it, 0 to 1.
     std::size_t segment = 0;
     double t = 0.0;
     Vec3 point = Vec3::Zero();

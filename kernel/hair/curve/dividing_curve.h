@@ -36,10 +36,9 @@ struct DividingOptions {
     /// They stand at points at most `wall_width` from the curve across and between the Gaussian and
     /// `wall_height` above it. 1.2 and 2.6 steps.
     std::optional<double> wall_width = std::nullopt, wall_height = std::nullopt;
-    /// Within this distance from the curve across, the part of a vector that points away from it
-    /// falls evenly to nothing, so that what is interpolated between grid points turns over at the
-    /// curve, and not where the grid is. 0 leaves all vectors at full length, as the thesis has
-    /// them. 0.87 steps, half the diagonal of a cell.
+    /// Within this distance across the curve, the across-component of vectors fades linearly to 0,
+    /// so that the interpolated field changes side at the curve and not at a grid point. 0: no
+    /// fade, as the thesis has it. 0.87 steps, half the diagonal of a cell.
     std::optional<double> ramp = std::nullopt;
     /// omega of equation (4.2), 1e-6 to 1e9.
     double weight = 100.0;

@@ -86,11 +86,11 @@ class Scalp {
     /// whatever the size of the faces.
     double margin_at(const Triangle& triangle, const Vec3& barycentric, const Vec3& position) const;
 
-    /// The point `lift` metres (of the frame) above where the head is first left in a direction
-    /// from the center, along its normal there.
+    /// Exit point of the ray from the center in a direction, offset by `lift` metres (of the frame)
+    /// along the normal there.
     /// Errors: not_finite; out_of_range where the head has no surface in that direction.
     ScalpPoint at(const ScalpDirection& direction, double lift = 0.0) const;
-    /// Where a ray from the center first leaves the head; nothing where it never does.
+    /// Exit point of the ray from the center; nothing where it never leaves the head.
     std::optional<SurfacePoint> surface_in(const ScalpDirection& direction) const;
     /// Direction of a point of the mesh from the center.
     ScalpDirection direction_of(const Vec3& point) const;

@@ -387,7 +387,7 @@ void ThesisMerge::interpolate(std::span<const Match> matches, std::span<const In
         }
         if (!(sum > 0.0)) continue;
         const Index i = local[m.vertex];
-        wanted[i] = m.share * own[i] + (1.0 - m.share) / sum * other;
+        wanted[i] = m.fraction * own[i] + (1.0 - m.fraction) / sum * other;
     }
 }
 

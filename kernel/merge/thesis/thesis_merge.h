@@ -73,8 +73,8 @@ class ThesisMerge {
     struct Match {
         Index vertex = kNoIndex;
         BandPlace place;
-        /// Share of its own coordinates, one half to 1.
-        double share = 0.5;
+        /// Fraction of its own coordinates, one half to 1.
+        double fraction = 0.5;
     };
     /// The vertices of a region that are on no open boundary, and those of them with a place.
     struct Matches {

@@ -36,7 +36,7 @@ struct GridFieldOptions {
     /// costs most, up to 6000: 8 times the root of the number of points.
     std::optional<Index> dense_limit = std::nullopt;
     /// Iterations, of the dual solver beyond `dense_limit` and for the thesis's boundary, end at
-    /// this share of the greatest given component; 1e-12 to 1e-2.
+    /// this fraction of the greatest given component; 1e-12 to 1e-2.
     double tolerance = 1e-6;
     /// Further solves, for the residual in double precision. Without them the field is accurate to
     /// 1e-9 or better.
