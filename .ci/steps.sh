@@ -70,7 +70,7 @@ unit_tests() {
     local status=0
     ./dev build "$1" tests/unit/all tests/arrows/all || return 1
     cmake -S . -B "build/$1" -DLISSOM_TEST_DATA=/nonexistent >/dev/null || return 1
-    ./dev ctest "$1" -L unit -j "$jobs" || status=1
+    ./dev ctest "$1" -L unit || status=1
     ./dev summary "$1"
     return $status
 }

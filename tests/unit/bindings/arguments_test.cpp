@@ -20,7 +20,7 @@ const char* const kValues[] = {"nil",
                                "0/0",
                                "1/0",
                                "\"\"",
-                               "\"text\"",
+                               "\"no folder/text\"",  // a path, too: nothing may be written
                                "{}",
                                "{ 1, 2, 3 }",
                                "{ 1, 2 }",
