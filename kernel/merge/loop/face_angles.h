@@ -49,6 +49,49 @@ inline double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+/// The greatest of angles between vectors, and 0 of none. Only what may be the greatest costs an
+/// arc tangent.
+class GreatestAngle {
+  public:
+    void add(const Vec3& a, const Vec3& b) {
+        const double sine = a.cross(b).norm(), cosine = a.dot(b);
+        const double rounding = kRounding * (sine + std::abs(cosine)) * (sine_ + std::abs(cosine_));
+        if (sine * cosine_ - cosine * sine_ < -rounding) return;
+        const double angle = std::atan2(sine, cosine);
+        if (!(angle > angle_)) return;
+        angle_ = angle;
+        sine_ = sine;
+        cosine_ = cosine;
+    }
+    /// An angle that is known, in radians.
+    void add(double angle) {
+        if (!(angle > angle_)) return;
+        angle_ = angle;
+        sine_ = std::sin(angle);
+        cosine_ = std::cos(angle);
+    }
+    double value() const { return angle_; }
+
+  private:
+    static constexpr double kRounding = 1e-12;
+    double angle_ = 0.0, sine_ = 0.0, cosine_ = 0.0;
+};
+
+/// The smallest angle of a triangle.
+inline double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    // It is opposite the shortest side, where that is clear and rounding is not all there is.
+    constexpr double kClearlyLonger = 1.001, kClearAngle = 1e-9;
+    const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
+    const double at_a = kClearlyLonger * bc, at_b = kClearlyLonger * ca, at_c = kClearlyLonger * ab;
+    double angle = 0.0;
+    if (at_a < ab && at_a < ca) angle = angle_between(b - a, c - a);
+    if (at_b < ab && at_b < bc) angle = angle_between(c - b, a - b);
+    if (at_c < bc && at_c < ca) angle = angle_between(a - c, b - c);
+    if (angle > kClearAngle) return angle;
+    return std::min(
+        {angle_between(b - a, c - a), angle_between(c - b, a - b), angle_between(a - c, b - c)});
+}
+
 /// The face on the left of a directed edge, or kNoIndex.
 inline Index face_left_of(const Topology& topology, Index from, Index to) {
     for (const Index f : topology.faces_around(from)) {
@@ -75,6 +118,10 @@ inline double edge_dihedral(const Mesh& mesh, Index a, Index b) {
 inline double smallest_face_angle(const Mesh& mesh, Index face) {
     const std::span<const Index> vertices = mesh.topology().face(face);
     const std::size_t n = vertices.size();
+    if (n == 3) {
+        return smallest_angle(mesh.position(vertices[0]), mesh.position(vertices[1]),
+                              mesh.position(vertices[2]));
+    }
     double smallest = kPi;
     for (std::size_t k = 0; k < n; ++k) {
         const Vec3& at = mesh.position(vertices[k]);

@@ -22,11 +22,6 @@ double normal_angle(const Vec3& n, const Vec3& m) {
     return n.squaredNorm() > 0.0 && m.squaredNorm() > 0.0 ? angle_between(n, m) : kPi;
 }
 
-double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return std::min(
-        {angle_between(b - a, c - a), angle_between(c - b, a - b), angle_between(a - c, b - c)});
-}
-
 Vec3 normal(const Vec3& a, const Vec3& b, const Vec3& c) {
     return (b - a).cross(c - a);
 }

@@ -42,13 +42,12 @@ bool SeamSheet::find_quad(Index a, Index c, Quad& quad) const {
 }
 
 // Whether a flip makes the smallest angle greater.
-bool SeamSheet::is_rounder(const Quad& quad) const {
-    const auto least = [&](const std::array<Triangle, 2>& pair) {
-        double angle = kPi;
-        for (const Triangle& t : pair) angle = std::min(angle, least_angle(t));
-        return angle;
-    };
-    return least(quad.after) > least(quad.before) * (1.0 + kFlipGain) + kFlipGain;
+bool SeamSheet::is_rounder(const Quad& quad) {
+    const double least = std::min(least_angle_of(quad.left), least_angle_of(quad.right));
+    const double wanted = least * (1.0 + kFlipGain) + kFlipGain;
+    return std::all_of(quad.after.begin(), quad.after.end(), [&](const Triangle& t) {
+        return least_angle(t, kNoIndex, Vec3::Zero()) > wanted;
+    });
 }
 
 void SeamSheet::turn_diagonal(const Quad& quad) {
@@ -58,32 +57,49 @@ void SeamSheet::turn_diagonal(const Quad& quad) {
     enter(quad.right, quad.after[1]);
 }
 
-// Flips edge `k` of a triangle where that is of use. Most are of none, and are not measured again
-// until one of the two triangles has changed.
-bool SeamSheet::flip(Index f, std::size_t k, const SheetLimits& limits) {
-    const Index a = triangles_[f][k], c = triangles_[f][(k + 1) % 3];
-    Quad quad;
-    if (features_.contains(key(a, c)) || !find_quad(a, c, quad)) return false;
-    if (tried_[f][k] >= std::max(changed_[f], changed_[quad.right])) return false;
-    if (!is_rounder(quad)) {
-        tried_[f][k] = clock_;
-        return false;
-    }
+// Whether a flip keeps to the limits, and turns no triangle over.
+bool SeamSheet::may_flip(const Quad& quad, const SheetLimits& limits) {
     if (quad.b == quad.d || is_joined(quad.b, quad.d)) return false;
     const std::array<Index, 2> faces{quad.left, quad.right};
-    const Star now = measure(quad.before, faces, kNoIndex, Vec3::Zero());
-    const Star then = measure(quad.after, faces, kNoIndex, Vec3::Zero());
+    const Star now = star_of(faces);
+    const Star then = star_with(quad.after, faces, kNoIndex, Vec3::Zero());
     if (!is_allowed(now, then, limits, kPi)) return false;
-    const Vec3 mean = normal(quad.before[0], kNoIndex, Vec3::Zero()) +
-                      normal(quad.before[1], kNoIndex, Vec3::Zero());
-    for (const Triangle& t : quad.after) {
-        if (!(normal(t, kNoIndex, Vec3::Zero()).dot(mean) > 0.0)) return false;
+    const Vec3 mean = normal_[quad.left] + normal_[quad.right];
+    return std::all_of(quad.after.begin(), quad.after.end(), [&](const Triangle& t) {
+        return normal(t, kNoIndex, Vec3::Zero()).dot(mean) > 0.0;
+    });
+}
+
+// Flips edge `k` of a triangle where that is of use. Most are of none, and are not measured again
+// until a triangle at their ends has changed; nor are those that may not be.
+bool SeamSheet::flip(Index f, std::size_t k, const SheetLimits& limits) {
+    const Index a = triangles_[f][k], c = triangles_[f][(k + 1) % 3];
+    const std::uint32_t at_ends = last_change({a, c});
+    if (useless_[f][k] >= at_ends) return false;
+    Quad quad;
+    if (is_feature(a, c) || !find_quad(a, c, quad)) {
+        useless_[f][k] = clock_;
+        return false;
+    }
+    if (refused_[f][k] >= std::max(at_ends, last_change({quad.b, quad.d}))) return false;
+    if (!is_rounder(quad)) {
+        useless_[f][k] = clock_;
+        return false;
+    }
+    if (!may_flip(quad, limits)) {
+        refused_[f][k] = clock_;
+        return false;
     }
     turn_diagonal(quad);
     return true;
 }
 
 Index SeamSheet::flip_edges(const SheetLimits& limits, const Context& context) {
+    // What other limits have refused says nothing about these.
+    if (limits.seam != flip_limits_.seam || limits.other != flip_limits_.other) {
+        std::fill(refused_.begin(), refused_.end(), std::array<std::uint32_t, 3>{0, 0, 0});
+        flip_limits_ = limits;
+    }
     Index flips = 0;
     for (int pass = 0; pass < kFlipPasses; ++pass) {
         context.checkpoint();
@@ -114,19 +130,21 @@ bool SeamSheet::split(Index a, Index c, const SheetLimits& limits) {
     x_.push_back(middle);
     mesh_vertex_.push_back(kNoIndex);
     fixed_.push_back(0);
-    around_.emplace_back();
-    const std::array<Triangle, 2> before{{{a, c, d}, {c, a, b}}};
+    add_vertex_lists();
     const std::array<Triangle, 4> after{{{a, m, d}, {m, c, d}, {c, m, b}, {m, a, b}}};
-    if (features_.erase(key(a, c)) > 0) {
-        features_.insert(key(a, m));
-        features_.insert(key(m, c));
+    if (is_feature(a, c)) {
+        remove_feature(a, c);
+        add_feature(a, m);
+        add_feature(m, c);
     } else {
         const std::array<Index, 2> faces{left, right};
         const Vec3 on_surface = nearest_at_first(middle).position;
-        const Star now = measure(before, faces, kNoIndex, Vec3::Zero());
-        const Star flat = measure(after, faces, kNoIndex, Vec3::Zero());
-        const Star then = measure(after, faces, m, on_surface);
-        const bool holds = then.angle >= 0.5 * flat.angle && is_allowed(now, then, limits, 0.0);
+        double flat = kPi;
+        for (const Triangle& t : after) {
+            flat = std::min(flat, least_angle(t, kNoIndex, Vec3::Zero()));
+        }
+        const Star now = star_of(faces), then = star_with(after, faces, m, on_surface);
+        const bool holds = then.angle >= 0.5 * flat && is_allowed(now, then, limits, 0.0);
         if (holds) x_[m] = on_surface;
     }
     size_.push_back(size_at_(x_[m]));
@@ -145,11 +163,10 @@ bool SeamSheet::collapse(Index gone, Index kept, const SheetLimits& limits) {
     if (fixed_[gone] || left_of(gone, kept) == kNoIndex || left_of(kept, gone) == kNoIndex) {
         return false;
     }
-    const std::vector<Index> of_gone = ring(gone), of_kept = ring(kept);
     std::array<Index, 2> along{kNoIndex, kNoIndex};
-    const bool free = std::none_of(of_gone.begin(), of_gone.end(),
-                                   [&](Index w) { return features_.contains(key(gone, w)); });
+    const bool free = is_free(gone);
     if (!free && !(is_sliding(gone, along) && (along[0] == kept || along[1] == kept))) return false;
+    const std::vector<Index> of_gone = ring(gone), of_kept = ring(kept);
     // The link condition (Dey et al. 1999).
     std::vector<Index> common;
     std::set_intersection(of_gone.begin(), of_gone.end(), of_kept.begin(), of_kept.end(),
@@ -164,27 +181,25 @@ bool SeamSheet::collapse(Index gone, Index kept, const SheetLimits& limits) {
         if (length > kTooLong * wanted(kept, w) && length > longest) return false;
     }
     const std::vector<Index> faces = around_[gone];
-    std::vector<Triangle> before, changed, after;
+    std::vector<Triangle> after;
     std::vector<Index> changing;
     for (const Index f : faces) {
-        before.push_back(triangles_[f]);
         Triangle t = triangles_[f];
         if (std::find(t.begin(), t.end(), kept) != t.end()) continue;
-        changed.push_back(t);
         changing.push_back(f);
         std::replace(t.begin(), t.end(), gone, kept);
         after.push_back(t);
     }
-    if (after.empty() || turns(changed, after, kNoIndex, Vec3::Zero(), kGreatestTurn)) return false;
-    const Star now = measure(before, faces, kNoIndex, Vec3::Zero());
-    const Star then = measure(after, faces, kNoIndex, Vec3::Zero());
+    if (after.empty() || turns(changing, after, kNoIndex, Vec3::Zero(), kGreatestTurn))
+        return false;
+    const Star now = star_of(faces), then = star_with(after, faces, kNoIndex, Vec3::Zero());
     if (!is_allowed(now, then, limits, kCollapsedAngle)) return false;
     for (const Index f : faces) leave(f);
     for (std::size_t i = 0; i < after.size(); ++i) enter(changing[i], after[i]);
     if (!free) {
-        features_.erase(key(gone, along[0]));
-        features_.erase(key(gone, along[1]));
-        features_.insert(key(along[0], along[1]));
+        remove_feature(gone, along[0]);
+        remove_feature(gone, along[1]);
+        add_feature(along[0], along[1]);
     }
     return true;
 }
@@ -193,9 +208,7 @@ bool SeamSheet::collapse(Index gone, Index kept, const SheetLimits& limits) {
 void SeamSheet::relax(Index v, const SheetLimits& limits) {
     if (fixed_[v] || around_[v].empty()) return;
     std::array<Index, 2> along{kNoIndex, kNoIndex};
-    const std::vector<Index> neighbors = ring(v);
-    const bool free = std::none_of(neighbors.begin(), neighbors.end(),
-                                   [&](Index w) { return features_.contains(key(v, w)); });
+    const bool free = is_free(v);
     if (!free && !is_sliding(v, along)) return;
     Vec3 mean = Vec3::Zero();
     double sum = 0.0;
@@ -204,8 +217,7 @@ void SeamSheet::relax(Index v, const SheetLimits& limits) {
         const Triangle& t = triangles_[f];
         star.push_back(t);
         const double size = (size_[t[0]] + size_[t[1]] + size_[t[2]]) / 3.0;
-        const double weight =
-            normal(t, kNoIndex, Vec3::Zero()).norm() / (size * size * size * size);
+        const double weight = normal_[f].norm() / (size * size * size * size);
         mean += weight * (x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0;
         sum += weight;
     }
@@ -218,16 +230,16 @@ void SeamSheet::relax(Index v, const SheetLimits& limits) {
         way = on > back ? Vec3(std::clamp(on, 0.0, 0.5) * next)
                         : Vec3(std::clamp(back, 0.0, 0.5) * last);
     }
-    const Star now = measure(star, around_[v], kNoIndex, Vec3::Zero());
+    const Star now = star_of(around_[v]);
     for (const double part : {1.0, 0.5}) {
         Vec3 to = x_[v] + part * way;
         if (free) to = nearest_at_first(to).position;
-        if (turns(star, star, v, to, kOver)) continue;
-        if (!is_allowed(now, measure(star, around_[v], v, to), limits, kMovedAngle)) continue;
+        if (turns(around_[v], star, v, to, kOver)) continue;
+        if (!is_allowed(now, star_with(star, around_[v], v, to), limits, kMovedAngle)) continue;
         x_[v] = to;
         size_[v] = size_at_(to);
         ++clock_;
-        for (const Index f : around_[v]) changed_[f] = clock_;
+        for (const Index f : around_[v]) note_change(f);
         return;
     }
 }
@@ -239,9 +251,8 @@ std::vector<std::array<Index, 2>> SeamSheet::edges_by_length(
     for (const Triangle& t : triangles_) {
         for (std::size_t k = 0; k < 3 && t[0] != kNoIndex; ++k) {
             const Index a = t[k], c = t[(k + 1) % 3];
-            if (a > c || left_of(c, a) == kNoIndex) continue;
             const double length = (x_[c] - x_[a]).norm();
-            if (!is_wanted(length / wanted(a, c))) continue;
+            if (a > c || !is_wanted(length / wanted(a, c)) || left_of(c, a) == kNoIndex) continue;
             const double steps = std::floor(length / step + 0.5);
             edges.push_back({longest_first ? -steps : steps, {a, c}});
         }

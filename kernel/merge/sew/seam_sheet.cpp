@@ -21,11 +21,8 @@ constexpr double kTowards = 1e-4, kNoWeight = 1e-7;
 constexpr double kFlatShape = 1e-10;
 // How far points are put aside to ask what is nearest, in edges.
 constexpr double kAside = 1e-8;
-
-double smallest_angle_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return std::min(
-        {angle_between(b - a, c - a), angle_between(c - b, a - b), angle_between(a - c, b - c)});
-}
+// In place of an angle that has not been asked for.
+constexpr double kNotMeasured = -1.0;
 
 // Barycentric coordinates of the point of a triangle near `p`, which lies on it or next to it.
 Vec3 weights_near(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
@@ -36,6 +33,11 @@ Vec3 weights_near(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
     w /= square;
     for (Index k = 0; k < 3; ++k) w[k] = w[k] > kNoWeight ? w[k] : 0.0;
     return w / w.sum();
+}
+
+// Whether one of a triangle's edges runs from a to b.
+bool is_along(const Triangle& t, Index a, Index b) {
+    return (t[0] == a && t[1] == b) || (t[1] == a && t[2] == b) || (t[2] == a && t[0] == b);
 }
 
 std::vector<ElementMap::Source> weighted_sources(const Triangle& elements, const Vec3& weights) {
@@ -71,7 +73,7 @@ void SeamSheet::take_faces() {
             if (!made) continue;
             x_.push_back(mesh_.position(v));
             mesh_vertex_.push_back(v);
-            around_.emplace_back();
+            add_vertex_lists();
         }
         add_empty(1);
         enter(index_of(t), triangle);
@@ -205,11 +207,10 @@ void SeamSheet::mark_features(double sharp) {
             const Index a = triangles_[f][k], c = triangles_[f][(k + 1) % 3];
             const Index other = left_of(c, a);
             if (other == kNoIndex || other < f) continue;
-            const Vec3 n = normal(triangles_[f], kNoIndex, Vec3::Zero()),
-                       m = normal(triangles_[other], kNoIndex, Vec3::Zero());
+            const Vec3 &n = normal_[f], &m = normal_[other];
             const bool is_sharp =
                 !n.isZero(0.0) && !m.isZero(0.0) && angle_between(n, m) > sharp + kSheetAngle;
-            if (is_sharp || is_chart_border(f, other, a, c)) features_.insert(key(a, c));
+            if (is_sharp || is_chart_border(f, other, a, c)) add_feature(a, c);
         }
     }
 }
@@ -237,27 +238,50 @@ SurfacePoint SeamSheet::nearest_at_first(const Vec3& p) const {
     return rest_->nearest(p + aside_);
 }
 
+void SeamSheet::add_vertex_lists() {
+    around_.emplace_back();
+    changed_.push_back(0);
+    features_at_.push_back(0);
+}
+
 void SeamSheet::add_empty(std::size_t count) {
     const std::size_t size = triangles_.size() + count;
     triangles_.resize(size, {kNoIndex, kNoIndex, kNoIndex});
-    changed_.resize(size, 0);
-    tried_.resize(size, {0, 0, 0});
+    normal_.resize(size, Vec3::Zero());
+    angle_.resize(size, kNotMeasured);
+    useless_.resize(size, {0, 0, 0});
+    refused_.resize(size, {0, 0, 0});
 }
 
 Index SeamSheet::left_of(Index a, Index b) const {
     for (const Index f : around_[a]) {
-        const Triangle& t = triangles_[f];
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (t[k] == a && t[(k + 1) % 3] == b) return f;
-        }
+        if (is_along(triangles_[f], a, b)) return f;
     }
     return kNoIndex;
 }
 
+bool SeamSheet::is_on_seam(Index a, Index b) const {
+    return fixed_[a] && fixed_[b] && seam_.contains(key(a, b));
+}
+
 void SeamSheet::enter(Index f, const Triangle& triangle) {
     triangles_[f] = triangle;
-    changed_[f] = ++clock_;
     for (const Index v : triangle) around_[v].push_back(f);
+    ++clock_;
+    note_change(f);
+}
+
+// After a triangle was made, or one of its vertices has moved.
+void SeamSheet::note_change(Index f) {
+    normal_[f] = normal(triangles_[f], kNoIndex, Vec3::Zero());
+    angle_[f] = kNotMeasured;
+    for (const Index v : triangles_[f]) changed_[v] = clock_;
+}
+
+std::uint32_t SeamSheet::last_change(std::initializer_list<Index> vertices) const {
+    std::uint32_t last = 0;
+    for (const Index v : vertices) last = std::max(last, changed_[v]);
+    return last;
 }
 
 void SeamSheet::leave(Index f) {
@@ -282,11 +306,28 @@ bool SeamSheet::is_joined(Index a, Index b) const {
            outer_edges_.contains(key(a, b));
 }
 
+void SeamSheet::add_feature(Index a, Index b) {
+    if (!features_.insert(key(a, b)).second) return;
+    ++features_at_[a];
+    ++features_at_[b];
+}
+
+void SeamSheet::remove_feature(Index a, Index b) {
+    if (features_.erase(key(a, b)) == 0) return;
+    --features_at_[a];
+    --features_at_[b];
+}
+
+bool SeamSheet::is_feature(Index a, Index b) const {
+    return !is_free(a) && !is_free(b) && features_.contains(key(a, b));
+}
+
 // True where exactly two feature edges, in line, meet at a vertex.
 bool SeamSheet::is_sliding(Index v, std::array<Index, 2>& along) const {
+    if (features_at_[v] != 2) return false;
     std::size_t count = 0;
     for (const Index w : ring(v)) {
-        if (!features_.contains(key(v, w))) continue;
+        if (!is_feature(v, w)) continue;
         if (count < 2) along[count] = w;
         ++count;
     }
@@ -302,49 +343,73 @@ Vec3 SeamSheet::normal(const Triangle& t, Index moved, const Vec3& to) const {
     return n.norm() > kFlatShape * longest ? n : Vec3(Vec3::Zero());
 }
 
-double SeamSheet::least_angle(const Triangle& t) const {
-    return smallest_angle_of(x_[t[0]], x_[t[1]], x_[t[2]]);
+double SeamSheet::least_angle(const Triangle& t, Index moved, const Vec3& to) const {
+    const auto at = [&](std::size_t k) -> const Vec3& { return t[k] == moved ? to : x_[t[k]]; };
+    return smallest_angle(at(0), at(1), at(2));
 }
 
-// The angles of triangles that are there or would be, in place of others, with a vertex at `to`.
-SeamSheet::Star SeamSheet::measure(std::span<const Triangle> triangles,
-                                   std::span<const Index> instead_of, Index moved,
-                                   const Vec3& to) const {
-    std::vector<Vec3> normals;
-    for (const Triangle& t : triangles) normals.push_back(normal(t, moved, to));
-    const auto across = [&](Index a, Index b, Vec3& other) {
-        for (std::size_t j = 0; j < triangles.size(); ++j) {
-            for (std::size_t m = 0; m < 3; ++m) {
-                if (triangles[j][m] != b || triangles[j][(m + 1) % 3] != a) continue;
-                other = normals[j];
-                return true;
+double SeamSheet::least_angle_of(Index f) {
+    if (angle_[f] == kNotMeasured) angle_[f] = least_angle(triangles_[f], kNoIndex, Vec3::Zero());
+    return angle_[f];
+}
+
+// The angles of triangles that are there.
+SeamSheet::Star SeamSheet::star_of(std::span<const Index> faces) {
+    facets_.clear();
+    for (const Index f : faces) facets_.push_back({triangles_[f], normal_[f], least_angle_of(f)});
+    return measured(faces);
+}
+
+// Of triangles that would be, in place of others, with a vertex at `to` that only these have.
+SeamSheet::Star SeamSheet::star_with(std::span<const Triangle> triangles,
+                                     std::span<const Index> instead_of, Index moved,
+                                     const Vec3& to) {
+    facets_.clear();
+    for (const Triangle& t : triangles) {
+        facets_.push_back({t, normal(t, moved, to), least_angle(t, moved, to)});
+    }
+    return measured(instead_of);
+}
+
+// The angles of the facets. Each edge between two of them is measured once.
+SeamSheet::Star SeamSheet::measured(std::span<const Index> instead_of) const {
+    Star star;
+    GreatestAngle seam, other;
+    const auto add = [&](Index a, Index b, const Vec3& n, const Vec3& m) {
+        GreatestAngle& greatest = is_on_seam(a, b) ? seam : other;
+        if (n.isZero(0.0) || m.isZero(0.0)) {
+            greatest.add(kPi);
+        } else {
+            greatest.add(n, m);
+        }
+    };
+    const auto facet_left_of = [&](Index a, Index b) {
+        std::size_t i = 0;
+        while (i < facets_.size() && !is_along(facets_[i].corners, a, b)) ++i;
+        return i;
+    };
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        const Facet& facet = facets_[i];
+        star.angle = std::min(star.angle, facet.angle);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = facet.corners[k], b = facet.corners[(k + 1) % 3];
+            const std::size_t j = facet_left_of(b, a);
+            if (j < facets_.size()) {
+                if (i < j) add(a, b, facet.normal, facets_[j].normal);
+                continue;
+            }
+            const Index f = left_of(b, a);
+            if (f != kNoIndex &&
+                std::find(instead_of.begin(), instead_of.end(), f) == instead_of.end()) {
+                add(a, b, facet.normal, normal_[f]);
+            } else if (fixed_[a] && fixed_[b]) {
+                const auto beyond = beyond_.find(key(a, b));
+                if (beyond != beyond_.end()) add(a, b, facet.normal, beyond->second);
             }
         }
-        const Index f = left_of(b, a);
-        if (f != kNoIndex &&
-            std::find(instead_of.begin(), instead_of.end(), f) == instead_of.end()) {
-            other = normal(triangles_[f], moved, to);
-            return true;
-        }
-        const auto beyond = beyond_.find(key(a, b));
-        if (beyond == beyond_.end()) return false;
-        other = beyond->second;
-        return true;
-    };
-    Star star;
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const Triangle& t = triangles[i];
-        const auto at = [&](std::size_t k) -> const Vec3& { return t[k] == moved ? to : x_[t[k]]; };
-        star.angle = std::min(star.angle, smallest_angle_of(at(0), at(1), at(2)));
-        for (std::size_t k = 0; k < 3; ++k) {
-            Vec3 other;
-            if (!across(t[k], t[(k + 1) % 3], other)) continue;
-            const bool flat = normals[i].isZero(0.0) || other.isZero(0.0);
-            const double angle = flat ? kPi : angle_between(normals[i], other);
-            double& greatest = seam_.contains(key(t[k], t[(k + 1) % 3])) ? star.seam : star.other;
-            greatest = std::max(greatest, angle);
-        }
     }
+    star.seam = seam.value();
+    star.other = other.value();
     return star;
 }
 
@@ -356,11 +421,10 @@ bool SeamSheet::is_allowed(const Star& before, const Star& after, const SheetLim
 }
 
 // Whether a triangle turns by more than `greatest` when it becomes another.
-bool SeamSheet::turns(std::span<const Triangle> before, std::span<const Triangle> after,
-                      Index moved, const Vec3& to, double greatest) const {
+bool SeamSheet::turns(std::span<const Index> before, std::span<const Triangle> after, Index moved,
+                      const Vec3& to, double greatest) const {
     for (std::size_t i = 0; i < after.size(); ++i) {
-        const Vec3 old = normal(before[i], kNoIndex, Vec3::Zero()),
-                   now = normal(after[i], moved, to);
+        const Vec3 &old = normal_[before[i]], now = normal(after[i], moved, to);
         if (!old.isZero(0.0) && angle_between(old, now) > greatest) return true;
     }
     return false;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -73,8 +74,15 @@ class SeamSheet {
     std::vector<ElementMap::Source> corner_sources(const Triangle& triangle, std::size_t k) const;
 
   private:
+    // The greatest dihedral angles and the smallest angle of some triangles.
     struct Star {
         double seam = 0.0, other = 0.0, angle = kPi;
+    };
+    // A triangle that is there or would be.
+    struct Facet {
+        Triangle corners;
+        Vec3 normal;
+        double angle;
     };
 
     static std::uint64_t key(Index a, Index b) { return pair_key(std::min(a, b), std::max(a, b)); }
@@ -89,19 +97,29 @@ class SeamSheet {
     SurfacePoint nearest_at_first(const Vec3& p) const;
 
     Index left_of(Index a, Index b) const;
+    void add_vertex_lists();
     void add_empty(std::size_t count);
+    void note_change(Index f);
     void enter(Index f, const Triangle& triangle);
     void leave(Index f);
     std::vector<Index> ring(Index v) const;
     bool is_joined(Index a, Index b) const;
+    bool is_on_seam(Index a, Index b) const;
+    void add_feature(Index a, Index b);
+    void remove_feature(Index a, Index b);
+    bool is_feature(Index a, Index b) const;
+    // Whether no feature edge ends at a vertex.
+    bool is_free(Index v) const { return features_at_[at(v)] == 0; }
     bool is_sliding(Index v, std::array<Index, 2>& along) const;
 
     Vec3 normal(const Triangle& t, Index moved, const Vec3& to) const;
-    Star measure(std::span<const Triangle> triangles, std::span<const Index> instead_of,
-                 Index moved, const Vec3& to) const;
+    Star star_of(std::span<const Index> faces);
+    Star star_with(std::span<const Triangle> triangles, std::span<const Index> instead_of,
+                   Index moved, const Vec3& to);
+    Star measured(std::span<const Index> instead_of) const;
     static bool is_allowed(const Star& before, const Star& after, const SheetLimits& limits,
                            double good_angle);
-    bool turns(std::span<const Triangle> before, std::span<const Triangle> after, Index moved,
+    bool turns(std::span<const Index> before, std::span<const Triangle> after, Index moved,
                const Vec3& to, double greatest) const;
 
     struct Quad {
@@ -111,9 +129,12 @@ class SeamSheet {
     bool find_quad(Index a, Index c, Quad& quad) const;
     void separate_diagonals();
     void keep_at_first(const Quad& quad);
-    double least_angle(const Triangle& t) const;
-    bool is_rounder(const Quad& quad) const;
+    double least_angle(const Triangle& t, Index moved, const Vec3& to) const;
+    double least_angle_of(Index f);
+    bool is_rounder(const Quad& quad);
+    std::uint32_t last_change(std::initializer_list<Index> vertices) const;
     void turn_diagonal(const Quad& quad);
+    bool may_flip(const Quad& quad, const SheetLimits& limits);
     bool flip(Index f, std::size_t k, const SheetLimits& limits);
     bool split(Index a, Index c, const SheetLimits& limits);
     bool collapse(Index gone, Index kept, const SheetLimits& limits);
@@ -133,12 +154,20 @@ class SeamSheet {
     std::vector<char> fixed_;
     std::vector<Triangle> triangles_;
     std::vector<std::vector<Index>> around_;
-    // When a triangle last changed, and when a flip of each of its edges was last found to be of
-    // no use to the two triangles beside it.
+    // Of each triangle, its normal, and its smallest angle where that has been asked for.
+    std::vector<Vec3> normal_;
+    std::vector<double> angle_;
+    // When a triangle at a vertex last changed, and when each edge of a triangle was last found to
+    // be no better flipped: on account of its two ends, or of all four vertices.
     std::vector<std::uint32_t> changed_;
-    std::vector<std::array<std::uint32_t, 3>> tried_;
+    std::vector<std::array<std::uint32_t, 3>> useless_, refused_;
     std::uint32_t clock_ = 0;
+    SheetLimits flip_limits_;
     std::unordered_set<std::uint64_t> features_, seam_;
+    // How many feature edges end at a vertex.
+    std::vector<Index> features_at_;
+    // Of the star that is being measured.
+    std::vector<Facet> facets_;
     // Edges of the mesh between vertices of the border that are not of the sheet.
     std::unordered_set<std::uint64_t> outer_edges_;
     // Of border edges, along the normal of the face beyond.
