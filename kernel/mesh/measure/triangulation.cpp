@@ -234,10 +234,19 @@ Triangulation triangulate_faces(const Topology& topology, std::span<const Vec3> 
                                 std::span<const Index> faces) {
     Triangulation result;
     result.triangles.reserve(faces.size());
+    result.corners.reserve(faces.size());
+    result.face.reserve(faces.size());
     std::vector<Vec3> points;
     std::vector<Triangle> local;
     for (const Index f : faces) {
         const std::span<const Index> face = topology.face(f);
+        if (face.size() == 3) {
+            const Index first = topology.first_corner(f);
+            result.triangles.push_back({face[0], face[1], face[2]});
+            result.corners.push_back({first, first + 1, first + 2});
+            result.face.push_back(f);
+            continue;
+        }
         points.clear();
         local.clear();
         for (const Index v : face) points.push_back(positions[v]);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -24,6 +24,8 @@ class BoxTree {
   public:
     BoxTree(std::span<const Box> boxes, std::vector<Index> items)
         : boxes_(boxes), items_(std::move(items)) {
+        centers_.reserve(boxes.size());
+        for (const Box& box : boxes) centers_.push_back(box.center());
         if (!items_.empty()) build(0, count_of(items_));
     }
 
@@ -47,7 +49,7 @@ class BoxTree {
         for (Index i = begin; i < end; ++i) {
             box.extend(boxes_[items_[i]].min);
             box.extend(boxes_[items_[i]].max);
-            centers.extend(boxes_[items_[i]].center());
+            centers.extend(centers_[items_[i]]);
         }
         nodes_[at].box = box;
         if (end - begin <= kPairLeafSize) return at;
@@ -56,8 +58,7 @@ class BoxTree {
         const Index middle = begin + (end - begin) / 2;
         std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
                          [&](Index a, Index b) {
-                             const double x = boxes_[a].center()[axis];
-                             const double y = boxes_[b].center()[axis];
+                             const double x = centers_[a][axis], y = centers_[b][axis];
                              return x != y ? x < y : a < b;
                          });
         build(begin, middle);
@@ -81,24 +82,23 @@ class BoxTree {
     }
 
     std::span<const Box> boxes_;
+    std::vector<Vec3> centers_;
     std::vector<Index> items_;
     std::vector<Node> nodes_;
 };
 
-// For each vertex the first one at the same place.
-std::vector<Index> vertices_by_place(std::span<const Vec3> positions) {
-    std::vector<Index> order(positions.size()), first(positions.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto less = [&](Index a, Index b) {
-        const Vec3 &p = positions[a], &q = positions[b];
-        return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-    };
-    std::stable_sort(order.begin(), order.end(), less);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && positions[order[i - 1]] == positions[order[i]];
-        first[order[i]] = same ? first[order[i - 1]] : order[i];
+// Numbers the corners of two triangles so that those at one place have one number.
+void number_by_place(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q, Triangle& a,
+                     Triangle& b) {
+    const std::array<const Vec3*, 6> places{&p[0], &p[1], &p[2], &q[0], &q[1], &q[2]};
+    std::array<Index, 6> number{};
+    for (std::size_t i = 0; i < 6; ++i) {
+        std::size_t first = 0;
+        while (first < i && *places[first] != *places[i]) ++first;
+        number[i] = index_of(first);
     }
-    return first;
+    a = {number[0], number[1], number[2]};
+    b = {number[3], number[4], number[5]};
 }
 
 class Search {
@@ -106,16 +106,12 @@ class Search {
     Search(const Mesh& mesh, const SelfIntersectionOptions& options)
         : mesh_(mesh),
           tolerance_(options.tolerance),
-          place_(vertices_by_place(mesh.positions())),
           in_faces_(flags(options.faces)),
           in_against_(flags(options.against)),
-          triangulation_(triangulate_faces(mesh.topology(), mesh.positions())) {
-        for (const Triangle& t : triangulation_.triangles) {
-            Box box;
-            for (const Index v : t) box.extend(mesh.position(v));
-            const Vec3 margin = Vec3::Constant(tolerance_ * box.diagonal());
-            boxes_.push_back({box.min - margin, box.max + margin});
-        }
+          triangulation_(
+              triangulate_faces(mesh.topology(), mesh.positions(), faces_that_may_meet())) {
+        boxes_.reserve(triangulation_.triangles.size());
+        for (const Triangle& t : triangulation_.triangles) boxes_.push_back(box_of(t));
     }
 
     std::vector<FacePair> find(const Context& context) const {
@@ -148,6 +144,41 @@ class Search {
         return chosen;
     }
 
+    // Of some vertices, with room for what touches it.
+    Box box_of(std::span<const Index> vertices) const {
+        Box box;
+        for (const Index v : vertices) box.extend(mesh_.position(v));
+        const Vec3 margin = Vec3::Constant(tolerance_ * box.diagonal());
+        return {box.min - margin, box.max + margin};
+    }
+
+    // The faces of either set, without those that are far from all of the other.
+    std::vector<Index> faces_that_may_meet() const {
+        Box of_faces, of_others;
+        const Index count = mesh_.face_count();
+        std::vector<Box> boxes;
+        boxes.reserve(at(count));
+        for (Index f = 0; f < count; ++f) {
+            boxes.push_back(box_of(mesh_.topology().face(f)));
+            if (in_faces_[at(f)]) extend(of_faces, boxes.back());
+            if (in_against_[at(f)]) extend(of_others, boxes.back());
+        }
+        std::vector<Index> faces;
+        for (Index f = 0; f < count; ++f) {
+            const Box& box = boxes[at(f)];
+            if ((in_faces_[at(f)] && overlap(box, of_others)) ||
+                (in_against_[at(f)] && overlap(box, of_faces))) {
+                faces.push_back(f);
+            }
+        }
+        return faces;
+    }
+
+    static void extend(Box& box, const Box& by) {
+        box.extend(by.min);
+        box.extend(by.max);
+    }
+
     std::vector<Index> chosen(const std::vector<char>& face_chosen) const {
         std::vector<Index> triangles;
         for (std::size_t t = 0; t < triangulation_.triangles.size(); ++t) {
@@ -164,17 +195,17 @@ class Search {
         if (twice && t > u) return;
         Triangle a = triangulation_.triangles[t], b = triangulation_.triangles[u];
         std::array<Vec3, 3> p, q;
-        double longest = 0.0;
         for (int k = 0; k < 3; ++k) {
             p[k] = mesh_.position(a[k]);
             q[k] = mesh_.position(b[k]);
-            a[k] = place_[a[k]];
-            b[k] = place_[b[k]];
         }
+        number_by_place(p, q, a, b);
+        double longest = 0.0;
         for (int k = 0; k < 3; ++k) {
-            longest =
-                std::max({longest, (p[k] - p[(k + 1) % 3]).norm(), (q[k] - q[(k + 1) % 3]).norm()});
+            longest = std::max({longest, (p[k] - p[(k + 1) % 3]).squaredNorm(),
+                                (q[k] - q[(k + 1) % 3]).squaredNorm()});
         }
+        longest = std::sqrt(longest);
         if (triangles_intersect(a, p, b, q, tolerance_ * longest)) {
             found.push_back({std::min(f, g), std::max(f, g)});
         }
@@ -182,7 +213,6 @@ class Search {
 
     const Mesh& mesh_;
     double tolerance_;
-    std::vector<Index> place_;
     std::vector<char> in_faces_, in_against_;
     Triangulation triangulation_;
     std::vector<Box> boxes_;

@@ -14,9 +14,9 @@ struct Plate {
 
     explicit Plate(const std::array<Vec3, 3>& points, double tolerance) : corners(points) {
         normal = (points[1] - points[0]).cross(points[2] - points[0]);
-        const double longest =
-            std::max({(points[1] - points[0]).norm(), (points[2] - points[1]).norm(),
-                      (points[0] - points[2]).norm()});
+        const double longest = std::sqrt(
+            std::max({(points[1] - points[0]).squaredNorm(), (points[2] - points[1]).squaredNorm(),
+                      (points[0] - points[2]).squaredNorm()}));
         const double length = normal.norm();
         normal = length > tolerance * longest ? Vec3(normal / length) : Vec3(Vec3::Zero());
     }
@@ -69,17 +69,18 @@ int corner_of(const Triangle& a, Index v) {
 }
 
 // Triangles with a common edge meet elsewhere where they are folded upon each other.
-bool is_fold(const Plate& a, const Plate& b, int a_apex, int b_apex, double tolerance) {
-    if (!a.has_area() || !b.has_area()) return false;
-    const Vec3& apex = b.corners[b_apex];
-    return std::abs(a.height(apex)) <= tolerance && a.inside((a_apex + 1) % 3, apex) > tolerance;
+bool is_fold(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, int a_apex, int b_apex,
+             double tolerance) {
+    const Plate plate(a, tolerance);
+    const Vec3& apex = b[b_apex];
+    return plate.has_area() && std::abs(plate.height(apex)) <= tolerance &&
+           plate.inside((a_apex + 1) % 3, apex) > tolerance && Plate(b, tolerance).has_area();
 }
 
 }  // namespace
 
 bool triangles_intersect(const Triangle& a, const std::array<Vec3, 3>& a_corners, const Triangle& b,
                          const std::array<Vec3, 3>& b_corners, double tolerance) {
-    const Plate p(a_corners, tolerance), q(b_corners, tolerance);
     std::array<int, 3> a_own{}, b_own{};
     int shared = 0, own_of_a = 0, own_of_b = 0;
     for (int k = 0; k < 3; ++k) {
@@ -88,8 +89,10 @@ bool triangles_intersect(const Triangle& a, const std::array<Vec3, 3>& a_corners
     }
     shared = 3 - own_of_a;
     if (own_of_a != own_of_b) return false;  // a vertex is used twice: no area
+    if (shared == 2) return is_fold(a_corners, b_corners, a_own[0], b_own[0], tolerance);
+    const Plate p(a_corners, tolerance);
     if (shared == 3) return p.has_area();
-    if (shared == 2) return is_fold(p, q, a_own[0], b_own[0], tolerance);
+    const Plate q(b_corners, tolerance);
     if (shared == 1) {
         return segment_meets(q, a_corners[a_own[0]], a_corners[a_own[1]], tolerance) ||
                segment_meets(p, b_corners[b_own[0]], b_corners[b_own[1]], tolerance);
