@@ -7,6 +7,7 @@ namespace {
 
 ElementMap shifted_behind(const ElementMap& first, const ElementMap& second, Index shift) {
     ElementMap result;
+    result.reserve(first.size() + second.size());
     for (Index i = 0; i < first.size(); ++i) result.add_blend(first[i]);
     std::vector<ElementMap::Source> sources;
     for (Index i = 0; i < second.size(); ++i) {
@@ -38,8 +39,13 @@ MeshMap flipped_map(const Topology& topology) {
 
 ElementMap composed(const ElementMap& outer, const ElementMap& inner) {
     ElementMap result;
+    result.reserve(outer.size());
     std::vector<ElementMap::Source> sources;
     for (Index i = 0; i < outer.size(); ++i) {
+        if (outer[i].size() == 1) {
+            result.add_blend(inner[outer[i].front().element]);
+            continue;
+        }
         sources.clear();
         for (const ElementMap::Source& between : outer[i]) {
             for (const ElementMap::Source& s : inner[between.element]) {

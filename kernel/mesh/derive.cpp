@@ -40,7 +40,7 @@ void normalize(std::span<double> values) {
     for (double& x : values) x /= std::sqrt(square);
 }
 
-Attribute carry(const Attribute& old, const ElementMap& map) {
+Attribute carried(const Attribute& old, const ElementMap& map) {
     Attribute result{old.name, old.domain, old.width, old.type, {}};
     result.values.assign(at(map.size()) * old.width, kNone);
     const bool discrete = is_discrete(old);
@@ -122,7 +122,7 @@ void carry_attributes(const Mesh& source, const MeshMap& map, Mesh& target,
         const ElementMap& elements = attribute.domain == Domain::vertex   ? map.vertices
                                      : attribute.domain == Domain::corner ? map.corners
                                                                           : map.faces;
-        target.attributes().add(carry(attribute, elements));
+        target.attributes().add(carried(attribute, elements));
     }
     blend_skin(source, map.vertices, target);
 }
@@ -164,16 +164,14 @@ void require_size(const ElementMap& map, Index expected, const char* what) {
 
 ElementMap ElementMap::identity(Index count) {
     ElementMap map;
-    map.begin_.reserve(at(count) + 1);
-    map.sources_.reserve(count);
+    map.reserve(count);
     for (Index i = 0; i < count; ++i) map.add_copy(i);
     return map;
 }
 
 ElementMap ElementMap::copies(std::span<const Index> sources) {
     ElementMap map;
-    map.begin_.reserve(sources.size() + 1);
-    map.sources_.reserve(sources.size());
+    map.reserve(count_of(sources));
     for (const Index source : sources) {
         if (source == kNoIndex) {
             map.add_new();
@@ -182,6 +180,11 @@ ElementMap ElementMap::copies(std::span<const Index> sources) {
         }
     }
     return map;
+}
+
+void ElementMap::reserve(Index elements) {
+    begin_.reserve(at(elements) + 1);
+    sources_.reserve(at(elements));
 }
 
 void ElementMap::add_new() {
@@ -200,6 +203,7 @@ void ElementMap::add_mean(std::span<const Index> sources) {
 }
 
 void ElementMap::add_blend(std::span<const Source> sources) {
+    if (sources.size() == 1) return add_copy(sources.front().element);
     double sum = 0.0;
     for (const Source& s : sources) sum += s.weight;
     for (const Source& s : sources) sources_.push_back({s.element, s.weight / sum});
@@ -237,12 +241,20 @@ Mesh derive(const Mesh& source, std::vector<Vec3> positions, FaceList faces, con
     require_size(map.corners, count_of(faces.vertices), "corners");
     require_size(map.faces, faces.size(), "faces");
     Mesh result(std::move(positions), std::move(faces), context);
-    carry_attributes(source, map, result, context);
-    carry_labels(source, map.faces, result);
-    carry_regions(source, map.vertices, result);
-    result.material_libraries() = source.material_libraries();
-    result.set_asset(source.asset());
+    carry(source, map, result, context);
     return result;
+}
+
+void carry(const Mesh& source, const MeshMap& map, Mesh& target, const Context& context) {
+    require_complete_attributes(source);
+    require_size(map.vertices, target.vertex_count(), "vertices");
+    require_size(map.corners, target.topology().corner_count(), "corners");
+    require_size(map.faces, target.face_count(), "faces");
+    carry_attributes(source, map, target, context);
+    carry_labels(source, map.faces, target);
+    carry_regions(source, map.vertices, target);
+    target.material_libraries() = source.material_libraries();
+    target.set_asset(source.asset());
 }
 
 }  // namespace lissom

@@ -30,6 +30,8 @@ class ElementMap {
     /// Element i comes from old element sources[i]; kNoIndex for nowhere.
     static ElementMap copies(std::span<const Index> sources);
 
+    /// Makes room for elements, most of them with one source.
+    void reserve(Index elements);
     void add_new();
     void add_copy(Index source);
     /// The mean of `sources`.
@@ -69,5 +71,9 @@ std::vector<Vec3> blend_positions(const Mesh& source, const ElementMap& vertices
 /// require_complete_attributes; as Mesh::Mesh.
 Mesh derive(const Mesh& source, std::vector<Vec3> positions, FaceList faces, const MeshMap& map,
             const Context& context = {});
+
+/// Gives `target`, a mesh without any, what `source` holds, as derive does for the mesh that it
+/// makes. Errors: as derive.
+void carry(const Mesh& source, const MeshMap& map, Mesh& target, const Context& context = {});
 
 }  // namespace lissom

@@ -186,9 +186,11 @@ class CollarSide {
     SeamSide side_;
 };
 
-// A sewn mesh with sheets in the place of some of its faces.
+// A sewn mesh with sheets in the place of some of its faces: its shape, and what it carries where
+// that is asked for.
 class Remade {
   public:
+    // Errors: as Mesh::Mesh, where the faces made do not fit those around them.
     Remade(const Sewn& old, std::span<const SeamSheet> sheets, const Context& context)
         : old_(old), sheets_(sheets) {
         find_moved();
@@ -197,22 +199,61 @@ class Remade {
         }
         add_vertices();
         add_faces();
-        sewn.mesh = derive(old.mesh, std::move(positions_), std::move(faces_), step, context);
-        sewn.map = composed(step, old.map);
-        sewn.report = old.report;
+        shape_ = Mesh(std::move(positions_), std::move(faces_), context);
         for (const std::vector<Index>& seam : old.seams) {
-            std::vector<Index>& renumbered = sewn.seams.emplace_back();
+            std::vector<Index>& renumbered = seams_.emplace_back();
             for (const Index v : seam) renumbered.push_back(number_[v]);
         }
     }
 
-    Sewn sewn;
-    // From the elements of the new mesh to those of the old one, and the faces made.
-    MeshMap step;
-    std::vector<Index> made;
+    const Mesh& shape() const { return shape_; }
+    const std::vector<std::vector<Index>>& seams() const { return seams_; }
+    // The faces made.
+    const std::vector<Index>& made() const { return made_; }
+
+    // From the elements of the new mesh to those of the old one.
+    const MeshMap& step() {
+        if (step_) return *step_;
+        step_.emplace();
+        for (const Origin& from : vertex_from_) {
+            if (from.sheet) {
+                step_->vertices.add_blend(from.sheet->vertex_sources(from.element));
+            } else {
+                step_->vertices.add_copy(from.element);
+            }
+        }
+        for (const Origin& from : face_from_) {
+            if (from.sheet) {
+                add_made_face(*from.sheet, triangles_[from.element]);
+            } else {
+                add_old_face(from.element);
+            }
+        }
+        return *step_;
+    }
+
+    // The whole of it; to be asked for once, and last.
+    Sewn sewn(const Context& context) {
+        const MeshMap& map = step();
+        Sewn result;
+        result.mesh = std::move(shape_);
+        carry(old_.mesh, map, result.mesh, context);
+        result.map = composed(map, old_.map);
+        result.side_of_face = std::move(sides_);
+        result.seams = std::move(seams_);
+        result.report = old_.report;
+        result.first_source_vertex = first_source_vertex_;
+        return result;
+    }
 
   private:
     static constexpr Index kGone = -2;
+
+    // An element of the old mesh, or where there is a sheet, a vertex of that or a triangle made.
+    struct Origin {
+        const SeamSheet* sheet = nullptr;
+        Index element = kNoIndex;
+    };
 
     SeamSide side_of(const SeamSheet& sheet) const {
         return old_.side_of_face[sheet.faces().front()];
@@ -225,7 +266,7 @@ class Remade {
                 const Index at = sheet.mesh_vertex(v);
                 if (at == kNoIndex) continue;
                 if (!sheet.is_used(v)) number_[at] = kGone;
-                if (sheet.has_moved(v)) moved_.emplace(at, std::pair(&sheet, v));
+                if (sheet.has_moved(v)) moved_.emplace(at, Origin{&sheet, v});
             }
         }
     }
@@ -240,10 +281,10 @@ class Remade {
             number_[v] = next_number();
             const auto moved = moved_.find(v);
             if (moved != moved_.end()) {
-                add_vertex(*moved->second.first, moved->second.second);
+                add_vertex(*moved->second.sheet, moved->second.element);
             } else {
                 positions_.push_back(old_.mesh.position(v));
-                step.vertices.add_copy(v);
+                vertex_from_.push_back({nullptr, v});
             }
         }
         // The source may have no vertices but those of the seam.
@@ -259,7 +300,7 @@ class Remade {
 
     void begin_source_vertices() {
         add_made_vertices(SeamSide::target);
-        sewn.first_source_vertex = next_number();
+        first_source_vertex_ = next_number();
     }
 
     void add_made_vertices(SeamSide side) {
@@ -275,7 +316,7 @@ class Remade {
 
     void add_vertex(const SeamSheet& sheet, Index v) {
         positions_.push_back(sheet.position(v));
-        step.vertices.add_blend(sheet.vertex_sources(v));
+        vertex_from_.push_back({&sheet, v});
     }
 
     void add_faces() {
@@ -287,52 +328,67 @@ class Remade {
         std::vector<Index> vertices;
         for (Index f = 0; f < old_.mesh.face_count(); ++f) {
             if (!at_source && old_.side_of_face[f] == SeamSide::source) {
-                add_made_faces(SeamSide::target);
+                add_triangles(SeamSide::target);
                 at_source = true;
             }
             if (replaced[f]) continue;
             vertices.clear();
-            Index corner = old_.mesh.topology().first_corner(f);
-            for (const Index v : old_.mesh.topology().face(f)) {
-                vertices.push_back(number_[v]);
-                step.corners.add_copy(corner++);
-            }
-            add_face(vertices, f);
+            for (const Index v : old_.mesh.topology().face(f)) vertices.push_back(number_[v]);
+            add_face(vertices, {nullptr, f}, old_.side_of_face[f]);
         }
-        add_made_faces(SeamSide::source);
+        add_triangles(SeamSide::source);
     }
 
-    void add_made_faces(SeamSide side) {
+    void add_triangles(SeamSide side) {
         for (std::size_t s = 0; s < sheets_.size(); ++s) {
             if (side_of(sheets_[s]) != side) continue;
             for (const Triangle& t : sheets_[s].triangles()) {
                 std::array<Index, 3> vertices{};
-                for (std::size_t k = 0; k < 3; ++k) {
-                    vertices[k] = sheet_number_[s][t[k]];
-                    step.corners.add_blend(sheets_[s].corner_sources(t, k));
-                }
-                made.push_back(faces_.size());
-                add_face(vertices, sheets_[s].face_source(t));
+                for (std::size_t k = 0; k < 3; ++k) vertices[k] = sheet_number_[s][t[k]];
+                made_.push_back(faces_.size());
+                add_face(vertices, {&sheets_[s], count_of(triangles_)}, side);
+                triangles_.push_back(t);
             }
         }
     }
 
-    void add_face(std::span<const Index> vertices, Index origin) {
+    void add_face(std::span<const Index> vertices, const Origin& from, SeamSide side) {
         faces_.add(vertices);
-        step.faces.add_copy(origin);
-        sewn.side_of_face.push_back(old_.side_of_face[origin]);
+        face_from_.push_back(from);
+        sides_.push_back(side);
+    }
+
+    void add_old_face(Index f) {
+        const Topology& topology = old_.mesh.topology();
+        const Index first = topology.first_corner(f), count = count_of(topology.face(f));
+        for (Index k = 0; k < count; ++k) step_->corners.add_copy(first + k);
+        step_->faces.add_copy(f);
+    }
+
+    void add_made_face(const SeamSheet& sheet, const Triangle& t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            step_->corners.add_blend(sheet.corner_sources(t, k));
+        }
+        step_->faces.add_copy(sheet.face_source(t));
     }
 
     const Sewn& old_;
     std::span<const SeamSheet> sheets_;
-    std::unordered_map<Index, std::pair<const SeamSheet*, Index>> moved_;
+    std::unordered_map<Index, Origin> moved_;
     std::vector<Index> number_;
     std::vector<std::vector<Index>> sheet_number_;
     std::vector<Vec3> positions_;
     FaceList faces_;
+    Mesh shape_;
+    std::vector<std::vector<Index>> seams_;
+    std::vector<SeamSide> sides_;
+    std::vector<Index> made_;
+    std::vector<Triangle> triangles_;
+    std::vector<Origin> vertex_from_, face_from_;
+    Index first_source_vertex_ = 0;
+    std::optional<MeshMap> step_;
 };
 
-// Whether the seams are no worse for it, and nothing runs through anything that did not.
 // Nothing where the faces made anew do not fit those around them: a sheet does not see edges beyond
 // it.
 std::optional<Remade> remade_with(const Sewn& old, std::span<const SeamSheet> sheets,
@@ -349,22 +405,24 @@ std::optional<Remade> remade_with(const Sewn& old, std::span<const SeamSheet> sh
     }
 }
 
-bool is_kept(const Sewn& old, const Remade& remade, const Context& context) {
-    const SeamQuality before = seam_quality(old.mesh, old.seams);
-    const SeamQuality after = seam_quality(remade.sewn.mesh, remade.sewn.seams);
+// Whether the seams are no worse for it, and nothing runs through anything that did not. `before`
+// is the quality of the old seams.
+bool is_kept(const Sewn& old, const SeamQuality& before, Remade& remade, const Context& context) {
+    const SeamQuality after = seam_quality(remade.shape(), remade.seams());
     const double least = std::min(before.smallest_angle, kGoodSeamAngle);
+    const auto map = [&]() -> const MeshMap& { return remade.step(); };
     return after.greatest_dihedral <= before.greatest_dihedral + kSameQuality &&
            after.greatest_near <= before.greatest_near + kSameQuality &&
            after.smallest_angle >= least - kSameQuality &&
-           !adds_crossings(old.mesh, remade.sewn.mesh, remade.step, remade.made, context);
+           !adds_crossings(old.mesh, remade.shape(), map, remade.made(), context);
 }
 
 // The smallest angle of the triangles made that touch a seam.
 double least_angle_beside(const Remade& remade, std::size_t seam) {
-    const Mesh& mesh = remade.sewn.mesh;
-    const std::set<Index> on(remade.sewn.seams[seam].begin(), remade.sewn.seams[seam].end());
+    const Mesh& mesh = remade.shape();
+    const std::set<Index> on(remade.seams()[seam].begin(), remade.seams()[seam].end());
     double least = kPi;
-    for (const Index f : remade.made) {
+    for (const Index f : remade.made()) {
         const std::span<const Index> face = mesh.topology().face(f);
         if (std::none_of(face.begin(), face.end(), [&](Index v) { return on.contains(v); })) {
             continue;
@@ -374,8 +432,7 @@ double least_angle_beside(const Remade& remade, std::size_t seam) {
     return least;
 }
 
-SheetLimits limits_of(const Sewn& sewn, double allowed) {
-    const SeamQuality now = seam_quality(sewn.mesh, sewn.seams);
+SheetLimits limits_of(const SeamQuality& now, double allowed) {
     return {std::min(allowed, now.greatest_dihedral), std::min(allowed, now.greatest_near)};
 }
 
@@ -385,26 +442,31 @@ void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& con
     if (!(side_edge > kClearlyLonger * kSparse * at.seam_edge())) return;
     const SeamSizes sizes(at.points(), side_edge);
     const std::vector<Index> faces = at.faces(sizes, side_edge);
-    const SheetLimits limits = limits_of(sewn, kRemeshedDihedral);
-    const SheetLimits flips = limits_of(sewn, kFlippedDihedral);
+    const SeamQuality now = seam_quality(sewn.mesh, sewn.seams);
+    const SheetLimits limits = limits_of(now, kRemeshedDihedral);
+    const SheetLimits flips = limits_of(now, kFlippedDihedral);
     // Where sharp edges alone leave slivers, or faces that run through one another, all do better.
+    std::vector<SeamSheet> sheets;
+    sheets.reserve(2);
     std::optional<Remade> best;
     double least = 0.0;
     for (const double sharp : {kSharp, kAllEdges}) {
-        SeamSheet sheet(sewn.mesh, faces, sewn.seams, sharp, context);
+        SeamSheet& sheet = sheets.emplace_back(sewn.mesh, faces, sewn.seams, sharp, context);
         sheet.remesh([&](const Vec3& p) { return sizes.at(p); }, limits, flips, context);
         std::optional<Remade> remade = remade_with(sewn, {&sheet, 1}, context);
-        if (!remade || !is_kept(sewn, *remade, context)) continue;
+        if (!remade) continue;
         const double angle = least_angle_beside(*remade, seam);
         if (best && angle <= least + kSameQuality) continue;
+        if (!is_kept(sewn, now, *remade, context)) continue;
         best.emplace(*std::move(remade));
         least = angle;
         if (least > kGoodSeamAngle) break;
     }
     if (!best) return;
-    best->sewn.report.collar_removed += count_of(faces);
-    best->sewn.report.collar_added += count_of(best->made);
-    sewn = std::move(best->sewn);
+    Sewn made = best->sewn(context);
+    made.report.collar_removed += count_of(faces);
+    made.report.collar_added += count_of(best->made());
+    sewn = std::move(made);
 }
 
 }  // namespace
@@ -433,7 +495,8 @@ void flip_near_seams(Sewn& sewn, const Context& context) {
             faces[sewn.side_of_face[f] == SeamSide::source ? 1 : 0].insert(f);
         }
     }
-    const SheetLimits limits = limits_of(sewn, kFlippedDihedral);
+    const SeamQuality now = seam_quality(sewn.mesh, sewn.seams);
+    const SheetLimits limits = limits_of(now, kFlippedDihedral);
     std::vector<SeamSheet> sheets;
     sheets.reserve(2);
     Index flips = 0;
@@ -445,8 +508,8 @@ void flip_near_seams(Sewn& sewn, const Context& context) {
     }
     if (flips == 0) return;
     std::optional<Remade> remade = remade_with(sewn, sheets, context);
-    if (!remade || !is_kept(sewn, *remade, context)) return;
-    sewn = std::move(remade->sewn);
+    if (!remade || !is_kept(sewn, now, *remade, context)) return;
+    sewn = remade->sewn(context);
     sewn.report.flipped += flips;
 }
 

@@ -105,6 +105,8 @@ SeamGuard::Star SeamGuard::star(Index v) const {
         result.normals.push_back(area_vector(shape_, f));
         for (std::size_t k = 0; k < face.size(); ++k) {
             const Index a = face[k], b = face[(k + 1) % face.size()];
+            // An inner edge that ends here begins here in the next face.
+            if (b == v) continue;
             double& greatest = seam_edges_.contains(edge_key(a, b)) ? result.seam : result.other;
             greatest = std::max(greatest, edge_dihedral(shape_, a, b));
         }
@@ -186,13 +188,14 @@ std::vector<Index> origin_faces(const Topology& old, const Topology& made, const
     return faces;
 }
 
-bool adds_crossings(const Mesh& before, const Mesh& after, const MeshMap& map,
-                    std::span<const Index> made, const Context& context) {
+bool adds_crossings(const Mesh& before, const Mesh& after,
+                    const std::function<const MeshMap&()>& map, std::span<const Index> made,
+                    const Context& context) {
     const std::vector<FacePair> pairs = self_intersections(
         after, {std::vector<Index>(made.begin(), made.end()), std::nullopt}, context);
     if (pairs.empty()) return false;
     const auto origins = [&](Index f) {
-        return origin_faces(before.topology(), after.topology(), map, f);
+        return origin_faces(before.topology(), after.topology(), map(), f);
     };
     std::vector<Index> faces;
     for (const FacePair& pair : pairs) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <unordered_set>
 #include <vector>
@@ -74,10 +75,11 @@ class SeamGuard {
 };
 
 /// True where faces of `after` run through others and come from faces of `before` that did not.
-/// `map` leads from the elements of `after` to those of `before`; `made` are the faces of `after`
-/// that are not what they were.
-bool adds_crossings(const Mesh& before, const Mesh& after, const MeshMap& map,
-                    std::span<const Index> made, const Context& context);
+/// `map` leads from the elements of `after` to those of `before`, and is asked for where faces run
+/// through others; `made` are the faces of `after` that are not what they were.
+bool adds_crossings(const Mesh& before, const Mesh& after,
+                    const std::function<const MeshMap&()>& map, std::span<const Index> made,
+                    const Context& context);
 
 /// What the numbers of elements in a map are ahead of those of a mesh that was appended.
 struct MapShift {

@@ -5,10 +5,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <vector>
 
 namespace lissom {
 namespace {
+
+void sort_unique(std::vector<Index>& elements) {
+    std::sort(elements.begin(), elements.end());
+    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+}
 
 void measure_seam_edges(const Mesh& mesh, std::span<const std::vector<Index>> seams,
                         SeamQuality& quality) {
@@ -34,25 +39,45 @@ void measure_seam_edges(const Mesh& mesh, std::span<const std::vector<Index>> se
     if (quality.vertices > 0) quality.mean_edge = length / quality.vertices;
 }
 
-void measure_near_edges(const Mesh& mesh, const std::set<Index>& on_seam, SeamQuality& quality) {
-    std::set<Index> near = on_seam;
-    for (const Index v : on_seam) {
-        const std::span<const Index> ring = mesh.topology().neighbors(v);
-        near.insert(ring.begin(), ring.end());
+// Dihedral angles at the edges of a vertex, but those to vertices that were asked before: of
+// `asked`, ascending, the ones with lower numbers.
+void measure_spokes(const Mesh& mesh, Index v, std::span<const Index> asked,
+                    std::vector<Vec3>& normals, GreatestAngle& greatest) {
+    // The face on the left of the k-th spoke is the k-th, but for the last spoke of an open fan.
+    const std::span<const Index> ring = mesh.topology().neighbors(v);
+    normals.clear();
+    for (const Index f : mesh.topology().faces_around(v)) {
+        normals.push_back(clear_area_vector(mesh, f));
     }
-    for (const Index v : near) {
-        for (const Index w : mesh.topology().neighbors(v)) {
-            quality.greatest_near = std::max(quality.greatest_near, edge_dihedral(mesh, v, w));
-        }
+    const std::size_t n = normals.size();
+    const bool open = n < ring.size();
+    for (std::size_t k = open ? 1 : 0; k < n; ++k) {
+        if (ring[k] < v && std::binary_search(asked.begin(), asked.end(), ring[k])) continue;
+        const Vec3 &left = normals[k], &right = normals[(k + n - 1) % n];
+        if (!left.isZero(0.0) && !right.isZero(0.0)) greatest.add(left, right);
     }
 }
 
-void measure_triangles(const Mesh& mesh, const std::set<Index>& on_seam, SeamQuality& quality) {
-    std::set<Index> faces;
+void measure_near_edges(const Mesh& mesh, std::span<const Index> on_seam, SeamQuality& quality) {
+    std::vector<Index> near(on_seam.begin(), on_seam.end());
+    for (const Index v : on_seam) {
+        const std::span<const Index> ring = mesh.topology().neighbors(v);
+        near.insert(near.end(), ring.begin(), ring.end());
+    }
+    sort_unique(near);
+    GreatestAngle greatest;
+    std::vector<Vec3> normals;
+    for (const Index v : near) measure_spokes(mesh, v, near, normals, greatest);
+    quality.greatest_near = greatest.value();
+}
+
+void measure_triangles(const Mesh& mesh, std::span<const Index> on_seam, SeamQuality& quality) {
+    std::vector<Index> faces;
     for (const Index v : on_seam) {
         const std::span<const Index> around = mesh.topology().faces_around(v);
-        faces.insert(around.begin(), around.end());
+        faces.insert(faces.end(), around.begin(), around.end());
     }
+    sort_unique(faces);
     std::vector<double> angles;
     for (const Index f : faces) {
         if (mesh.topology().face(f).size() == 3) angles.push_back(smallest_face_angle(mesh, f));
@@ -67,11 +92,12 @@ void measure_triangles(const Mesh& mesh, const std::set<Index>& on_seam, SeamQua
 
 SeamQuality seam_quality(const Mesh& mesh, std::span<const std::vector<Index>> seams) {
     SeamQuality quality;
-    std::set<Index> on_seam;
+    std::vector<Index> on_seam;
     for (const std::vector<Index>& seam : seams) {
         require_vertices(mesh.topology(), seam);
-        on_seam.insert(seam.begin(), seam.end());
+        on_seam.insert(on_seam.end(), seam.begin(), seam.end());
     }
+    sort_unique(on_seam);
     measure_seam_edges(mesh, seams, quality);
     measure_near_edges(mesh, on_seam, quality);
     measure_triangles(mesh, on_seam, quality);
