@@ -185,24 +185,29 @@ class Assembler {
         return known_.gradient[a] ? l : l - gradients_.neighbor[entry].dot(delta_[a]);
     }
 
-    // Adds what the residual of Eq 2.6 at `a` gives to the row of a vertex with coefficient `f` in
-    // it.
-    void add_laplacian_term(Index a, double f, RowAccumulator<double>& row,
+    // Whether the row of vertex `i` needs column `k`: of the matrix only one triangle is kept.
+    bool needs(Index i, Index k) const { return k >= i || known_.position[k]; }
+
+    // Adds what the residual of Eq 2.6 at `a` gives to the row of vertex `i` with coefficient `f`
+    // in it.
+    void add_laplacian_term(Index i, Index a, double f, RowAccumulator<double>& row,
                             RowAccumulator<Vec3>& gradient_row) const {
         f *= laplacian_.weight[a];
-        row.add(a, f * residual_self(a));
+        if (needs(i, a)) row.add(a, f * residual_self(a));
         for (Index e = rings_.begin[a]; e < rings_.begin[a + 1]; ++e) {
-            row.add(rings_.neighbor[e], f * residual_neighbor(a, e));
+            const Index k = rings_.neighbor[e];
+            if (needs(i, k)) row.add(k, f * residual_neighbor(a, e));
         }
         if (known_.gradient[a]) gradient_row.add(a, -f * delta_[a]);
     }
 
-    // Adds what Eq 2.7 gives through M_a to the row of a vertex with coefficient `g` in M_a.
-    void add_coherence_term(Index a, const Vec3& g, RowAccumulator<double>& row,
+    // Adds what Eq 2.7 gives through M_a to the row of vertex `i` with coefficient `g` in M_a.
+    void add_coherence_term(Index i, Index a, const Vec3& g, RowAccumulator<double>& row,
                             RowAccumulator<Vec3>& gradient_row) const {
         const Vec3 scaled = options_.coherence_weight * g;
         for (Index e = coherence_.begin[a]; e < coherence_.begin[a + 1]; ++e) {
-            row.add(coherence_.column[e], scaled.dot(coherence_.value[e]));
+            const Index k = coherence_.column[e];
+            if (needs(i, k)) row.add(k, scaled.dot(coherence_.value[e]));
         }
         for (Index e = coherence_.known_begin[a]; e < coherence_.known_begin[a + 1]; ++e) {
             gradient_row.add(coherence_.known_column[e], coherence_.known_value[e] * scaled);
@@ -217,11 +222,11 @@ class Assembler {
             const Index entry = a == i ? kNoIndex : rings_.entry(a, i);
             if (has_row(a)) {
                 const double f = a == i ? residual_self(a) : residual_neighbor(a, entry);
-                add_laplacian_term(a, f, row, gradient_row);
+                add_laplacian_term(i, a, f, row, gradient_row);
             }
             if (gradients_.defined[a] && !known_.gradient[a]) {
                 const Vec3& g = a == i ? gradients_.self[a] : gradients_.neighbor[entry];
-                add_coherence_term(a, g, row, gradient_row);
+                add_coherence_term(i, a, g, row, gradient_row);
             }
         };
         for (Index r = begin; r < end; ++r) {
@@ -229,18 +234,18 @@ class Assembler {
             row.add(i, 0.0);
             add_terms(i, i);
             for (const Index a : rings_.ring(i)) add_terms(a, i);
-            emit(r, row, gradient_row, rows);
+            emit(row, gradient_row, rows);
         }
         return rows;
     }
 
-    void emit(Index r, RowAccumulator<double>& row, RowAccumulator<Vec3>& gradient_row,
+    void emit(RowAccumulator<double>& row, RowAccumulator<Vec3>& gradient_row,
               SystemRows& rows) const {
         row.drain([&](Index k, double value) {
             if (known_.position[k]) {
                 rows.position_column.push_back(k);
                 rows.position_value.push_back(value);
-            } else if (row_of_[k] >= r) {
+            } else {
                 rows.matrix_column.push_back(row_of_[k]);
                 rows.matrix_value.push_back(value);
             }
