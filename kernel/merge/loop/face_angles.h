@@ -104,14 +104,21 @@ inline Index face_left_of(const Topology& topology, Index from, Index to) {
     return kNoIndex;
 }
 
-/// Dihedral angle at the edge between two vertices: 0 where it is open, and next to a face without
-/// area.
-inline double edge_dihedral(const Mesh& mesh, Index a, Index b) {
+/// Adds the dihedral angle at the edge between two vertices: none where it is open, and next to a
+/// face without area.
+inline void add_edge_dihedral(const Mesh& mesh, Index a, Index b, GreatestAngle& greatest) {
     const Index left = face_left_of(mesh.topology(), a, b);
     const Index right = face_left_of(mesh.topology(), b, a);
-    if (left == kNoIndex || right == kNoIndex) return 0.0;
+    if (left == kNoIndex || right == kNoIndex) return;
     const Vec3 n = clear_area_vector(mesh, left), m = clear_area_vector(mesh, right);
-    return n.squaredNorm() > 0.0 && m.squaredNorm() > 0.0 ? angle_between(n, m) : 0.0;
+    if (n.squaredNorm() > 0.0 && m.squaredNorm() > 0.0) greatest.add(n, m);
+}
+
+/// That angle, or 0.
+inline double edge_dihedral(const Mesh& mesh, Index a, Index b) {
+    GreatestAngle angle;
+    add_edge_dihedral(mesh, a, b, angle);
+    return angle.value();
 }
 
 /// The smallest angle of a face.

@@ -99,6 +99,7 @@ double SeamGuard::move_all(std::span<const Vec3> to, State& state) {
 
 SeamGuard::Star SeamGuard::star(Index v) const {
     Star result;
+    GreatestAngle seam, other;
     const Topology& topology = shape_.topology();
     for (const Index f : topology.faces_around(v)) {
         const std::span<const Index> face = topology.face(f);
@@ -107,13 +108,15 @@ SeamGuard::Star SeamGuard::star(Index v) const {
             const Index a = face[k], b = face[(k + 1) % face.size()];
             // An inner edge that ends here begins here in the next face.
             if (b == v) continue;
-            double& greatest = seam_edges_.contains(edge_key(a, b)) ? result.seam : result.other;
-            greatest = std::max(greatest, edge_dihedral(shape_, a, b));
+            const bool on_seam = seam_edges_.contains(edge_key(a, b));
+            add_edge_dihedral(shape_, a, b, on_seam ? seam : other);
         }
         if (face.size() == 3) {
             result.angle = std::min(result.angle, smallest_face_angle(shape_, f));
         }
     }
+    result.seam = seam.value();
+    result.other = other.value();
     return result;
 }
 

@@ -54,7 +54,7 @@ void measure_spokes(const Mesh& mesh, Index v, std::span<const Index> asked,
     for (std::size_t k = open ? 1 : 0; k < n; ++k) {
         if (ring[k] < v && std::binary_search(asked.begin(), asked.end(), ring[k])) continue;
         const Vec3 &left = normals[k], &right = normals[(k + n - 1) % n];
-        if (!left.isZero(0.0) && !right.isZero(0.0)) greatest.add(left, right);
+        if (left.squaredNorm() > 0.0 && right.squaredNorm() > 0.0) greatest.add(left, right);
     }
 }
 

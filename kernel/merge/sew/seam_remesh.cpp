@@ -74,14 +74,14 @@ bool SeamSheet::may_flip(const Quad& quad, const SheetLimits& limits) {
 // until a triangle at their ends has changed; nor are those that may not be.
 bool SeamSheet::flip(Index f, std::size_t k, const SheetLimits& limits) {
     const Index a = triangles_[f][k], c = triangles_[f][(k + 1) % 3];
-    const std::uint32_t at_ends = last_change({a, c});
+    const std::uint32_t at_ends = std::max(changed_[a], changed_[c]);
     if (useless_[f][k] >= at_ends) return false;
     Quad quad;
     if (is_feature(a, c) || !find_quad(a, c, quad)) {
         useless_[f][k] = clock_;
         return false;
     }
-    if (refused_[f][k] >= std::max(at_ends, last_change({quad.b, quad.d}))) return false;
+    if (refused_[f][k] >= std::max({at_ends, changed_[quad.b], changed_[quad.d]})) return false;
     if (!is_rounder(quad)) {
         useless_[f][k] = clock_;
         return false;
@@ -165,7 +165,7 @@ bool SeamSheet::collapse(Index gone, Index kept, const SheetLimits& limits) {
     }
     std::array<Index, 2> along{kNoIndex, kNoIndex};
     const bool free = is_free(gone);
-    if (!free && !(is_sliding(gone, along) && (along[0] == kept || along[1] == kept))) return false;
+    if (!free && !(is_feature(gone, kept) && is_sliding(gone, along))) return false;
     const std::vector<Index> of_gone = ring(gone), of_kept = ring(kept);
     // The link condition (Dey et al. 1999).
     std::vector<Index> common;

@@ -278,12 +278,6 @@ void SeamSheet::note_change(Index f) {
     for (const Index v : triangles_[f]) changed_[v] = clock_;
 }
 
-std::uint32_t SeamSheet::last_change(std::initializer_list<Index> vertices) const {
-    std::uint32_t last = 0;
-    for (const Index v : vertices) last = std::max(last, changed_[v]);
-    return last;
-}
-
 void SeamSheet::leave(Index f) {
     for (const Index v : triangles_[f]) std::erase(around_[v], f);
     triangles_[f] = {kNoIndex, kNoIndex, kNoIndex};
@@ -291,6 +285,7 @@ void SeamSheet::leave(Index f) {
 
 std::vector<Index> SeamSheet::ring(Index v) const {
     std::vector<Index> found;
+    found.reserve(2 * around_[v].size());
     for (const Index f : around_[v]) {
         for (const Index w : triangles_[f]) {
             if (w != v) found.push_back(w);

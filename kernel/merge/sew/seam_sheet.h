@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -132,7 +131,6 @@ class SeamSheet {
     double least_angle(const Triangle& t, Index moved, const Vec3& to) const;
     double least_angle_of(Index f);
     bool is_rounder(const Quad& quad);
-    std::uint32_t last_change(std::initializer_list<Index> vertices) const;
     void turn_diagonal(const Quad& quad);
     bool may_flip(const Quad& quad, const SheetLimits& limits);
     bool flip(Index f, std::size_t k, const SheetLimits& limits);

@@ -87,18 +87,26 @@ class BoxTree {
     std::vector<Node> nodes_;
 };
 
+bool same_place(const Vec3& a, const Vec3& b) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 // Numbers the corners of two triangles so that those at one place have one number.
 void number_by_place(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q, Triangle& a,
                      Triangle& b) {
-    const std::array<const Vec3*, 6> places{&p[0], &p[1], &p[2], &q[0], &q[1], &q[2]};
-    std::array<Index, 6> number{};
-    for (std::size_t i = 0; i < 6; ++i) {
-        std::size_t first = 0;
-        while (first < i && *places[first] != *places[i]) ++first;
-        number[i] = index_of(first);
+    a = {0, 1, 2};
+    b = {3, 4, 5};
+    for (std::size_t k = 1; k < 3; ++k) {
+        for (std::size_t j = k; j-- > 0;) {
+            if (same_place(p[k], p[j])) a[k] = a[j];
+            if (same_place(q[k], q[j])) b[k] = b[j];
+        }
     }
-    a = {number[0], number[1], number[2]};
-    b = {number[3], number[4], number[5]};
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t j = 3; j-- > 0;) {
+            if (same_place(q[k], p[j])) b[k] = a[j];
+        }
+    }
 }
 
 class Search {
@@ -111,7 +119,11 @@ class Search {
           triangulation_(
               triangulate_faces(mesh.topology(), mesh.positions(), faces_that_may_meet())) {
         boxes_.reserve(triangulation_.triangles.size());
-        for (const Triangle& t : triangulation_.triangles) boxes_.push_back(box_of(t));
+        longest_.reserve(triangulation_.triangles.size());
+        for (const Triangle& t : triangulation_.triangles) {
+            boxes_.push_back(box_of(t));
+            longest_.push_back(longest_side_of(t));
+        }
     }
 
     std::vector<FacePair> find(const Context& context) const {
@@ -150,6 +162,15 @@ class Search {
         for (const Index v : vertices) box.extend(mesh_.position(v));
         const Vec3 margin = Vec3::Constant(tolerance_ * box.diagonal());
         return {box.min - margin, box.max + margin};
+    }
+
+    double longest_side_of(const Triangle& t) const {
+        double squared = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 side = mesh_.position(t[k]) - mesh_.position(t[(k + 1) % 3]);
+            squared = std::max(squared, side.squaredNorm());
+        }
+        return std::sqrt(squared);
     }
 
     // The faces of either set, without those that are far from all of the other.
@@ -200,12 +221,7 @@ class Search {
             q[k] = mesh_.position(b[k]);
         }
         number_by_place(p, q, a, b);
-        double longest = 0.0;
-        for (int k = 0; k < 3; ++k) {
-            longest = std::max({longest, (p[k] - p[(k + 1) % 3]).squaredNorm(),
-                                (q[k] - q[(k + 1) % 3]).squaredNorm()});
-        }
-        longest = std::sqrt(longest);
+        const double longest = std::max(longest_[at(t)], longest_[at(u)]);
         if (triangles_intersect(a, p, b, q, tolerance_ * longest)) {
             found.push_back({std::min(f, g), std::max(f, g)});
         }
@@ -216,6 +232,7 @@ class Search {
     std::vector<char> in_faces_, in_against_;
     Triangulation triangulation_;
     std::vector<Box> boxes_;
+    std::vector<double> longest_;
 };
 
 }  // namespace
