@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/mesh/edit/extract.h"
@@ -30,6 +33,12 @@ struct Plane {
     Vec3 point = Vec3::Zero(), normal = Vec3::UnitX();
 
     Vec3 mirrored(const Vec3& p) const { return p - 2.0 * normal.dot(p - point) * normal; }
+};
+
+// What lies nearest to a mirrored point.
+struct MirrorImage {
+    Vec3 position;
+    double distance;
 };
 
 Mesh component_at(const Mesh& mesh, Index vertex, const Context& context) {
@@ -60,25 +69,40 @@ class MirrorSearch {
         return Eigen::SelfAdjointEigenSolver<Mat3>(sum).eigenvectors();
     }
 
-    double asymmetry(const Plane& plane) const {
+    // What lies nearest to the mirror images of the probes, found faster from what was nearest for
+    // another plane.
+    std::vector<MirrorImage> images(const Plane& plane, std::span<const MirrorImage> before) const {
+        std::vector<MirrorImage> result;
+        result.reserve(probes_.size());
+        for (std::size_t i = 0; i < probes_.size(); ++i) {
+            const Vec3 p = plane.mirrored(probes_[i]);
+            std::optional<SurfacePoint> found;
+            if (i < before.size()) {
+                found = tree_.nearest_within(p, kSurely * (before[i].position - p).norm());
+            }
+            if (!found) found = tree_.nearest(p);
+            result.push_back({found->position, found->distance});
+        }
+        return result;
+    }
+
+    double asymmetry(std::span<const MirrorImage> images) const {
         double squares = 0.0;
-        for (const Vec3& p : probes_) squares += square(tree_.nearest(plane.mirrored(p)).distance);
+        for (const MirrorImage& image : images) squares += square(image.distance);
         return std::sqrt(squares / probes_.size()) / size_;
     }
 
     // The plane between points and what lies nearest to their mirror images.
-    Plane fitted(const Plane& plane) const {
+    Plane fitted(std::span<const MirrorImage> images) const {
         Vec3 middle = Vec3::Zero();
-        std::vector<Vec3> images;
-        for (const Vec3& p : probes_) {
-            images.push_back(tree_.nearest(plane.mirrored(p)).position);
-            middle += 0.5 * (p + images.back()) / count_of(probes_);
+        for (std::size_t i = 0; i < probes_.size(); ++i) {
+            middle += 0.5 * (probes_[i] + images[i].position) / count_of(probes_);
         }
         // Of the mirrored points about the middle, and the points: the least squares of
         // p' - mirror(p) over unit normals is an eigenvector.
         Mat3 products = Mat3::Zero();
         for (std::size_t i = 0; i < probes_.size(); ++i) {
-            const Vec3 a = probes_[i] - middle, b = images[i] - middle;
+            const Vec3 a = probes_[i] - middle, b = images[i].position - middle;
             products += a * b.transpose() + b * a.transpose();
         }
         return {middle, Eigen::SelfAdjointEigenSolver<Mat3>(products).eigenvectors().col(0)};
@@ -86,6 +110,9 @@ class MirrorSearch {
 
   private:
     static double square(double x) { return x * x; }
+
+    // More than what rounding does to a distance.
+    static constexpr double kSurely = 1.0 + 1e-6;
 
     SpatialTree tree_;
     Vec3 center_;
@@ -112,8 +139,16 @@ double angle_between_planes(const Vec3& a, const Vec3& b) {
 
 struct JudgedPlane {
     Plane plane;
+    std::vector<MirrorImage> images;
     double asymmetry = std::numeric_limits<double>::infinity();
 };
+
+JudgedPlane judged(const MirrorSearch& search, const Plane& plane,
+                   std::span<const MirrorImage> before) {
+    std::vector<MirrorImage> images = search.images(plane, before);
+    const double asymmetry = search.asymmetry(images);
+    return {plane, std::move(images), asymmetry};
+}
 
 // All first planes with their asymmetry; the best and the best of a different angle also fitted.
 std::vector<JudgedPlane> judged_planes(const MirrorSearch& search, const Vec3& axis,
@@ -121,7 +156,9 @@ std::vector<JudgedPlane> judged_planes(const MirrorSearch& search, const Vec3& a
     std::vector<JudgedPlane> planes;
     for (const Plane& plane : first_planes(search, axis)) {
         context.checkpoint();
-        planes.push_back({plane, search.asymmetry(plane)});
+        std::span<const MirrorImage> before;
+        if (!planes.empty()) before = planes.back().images;
+        planes.push_back(judged(search, plane, before));
     }
     const auto better = [](const JudgedPlane& a, const JudgedPlane& b) {
         return a.asymmetry < b.asymmetry;
@@ -136,10 +173,9 @@ std::vector<JudgedPlane> judged_planes(const MirrorSearch& search, const Vec3& a
         if (again) continue;
         fitted.push_back(normal);
         for (int step = 0; step < kFits; ++step) {
-            const Plane next = search.fitted(planes[i].plane);
-            const double asymmetry = search.asymmetry(next);
-            if (!(asymmetry < planes[i].asymmetry)) break;
-            planes[i] = {next, asymmetry};
+            JudgedPlane next = judged(search, search.fitted(planes[i].images), planes[i].images);
+            if (!(next.asymmetry < planes[i].asymmetry)) break;
+            planes[i] = std::move(next);
         }
     }
     std::stable_sort(planes.begin(), planes.end(), better);

@@ -254,7 +254,8 @@ void SeamSheet::add_empty(std::size_t count) {
 }
 
 Index SeamSheet::left_of(Index a, Index b) const {
-    for (const Index f : around_[a]) {
+    // A fan has many triangles at its apex, and few at the other end of each edge.
+    for (const Index f : around_[a].size() < around_[b].size() ? around_[a] : around_[b]) {
         if (is_along(triangles_[f], a, b)) return f;
     }
     return kNoIndex;
