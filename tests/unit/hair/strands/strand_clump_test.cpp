@@ -66,6 +66,76 @@ TEST_CASE("a copy of the guide beside it stays parallel where the pull begins") 
     CHECK((made.strand(1).leftCols(10) - strands.strand(1).leftCols(10)).norm() < 1e-5);
 }
 
+TEST_CASE("a point moves by what is asked, for every shape, strength and distance of roots") {
+    // Around a straight guide the frame is the same everywhere.
+    std::vector<std::vector<Vec3>> lists(1);
+    for (int k = 0; k <= 10; ++k) lists[0].emplace_back(0.0, 0.02 * k, 0.0);
+    for (int s = 1; s <= 8; ++s) {
+        std::vector<Vec3> points;
+        for (int k = 0; k <= 10; ++k)
+            points.emplace_back(0.01 * s + 0.003 * k, 0.02 * k, -0.004 * k);
+        lists.push_back(points);
+    }
+    const Strands strands = strands_of(lists);
+    ClumpOptions options = full_pull();
+    options.radius = 0.1;
+    for (const double shape : {0.5, 1.0, 3.0}) {
+        for (const double strength : {0.25, 1.0}) {
+            options.shape = shape;
+            options.strength = strength;
+            const Strands made = clumped(strands, options);
+            for (Index s = 1; s <= 8; ++s) {
+                // Level at the guide and at the radius, half in between.
+                const double d = 0.1 * s;
+                const double pull = strength * (1.0 - d * d * (3.0 - 2.0 * d));
+                for (Index k = 0; k <= 10; ++k) {
+                    const double along = std::pow(0.1 * k, shape);
+                    const Vec3 p = strands.strand(s).col(k).cast<double>();
+                    const Vec3 goal(0.01 * s * (1.0 - along), 0.02 * k, 0.0);
+                    const Vec3 wanted = p + along * pull * (goal - p);
+                    CHECK((made.strand(s).col(k).cast<double>() - wanted).norm() < 1e-6);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("clumps differ in strength by the variation, and move as wholes by the offset") {
+    // Pairs far from each other: a guide and a strand beside it that leans away from it.
+    std::vector<std::vector<Vec3>> lists;
+    for (int s = 0; s < 200; ++s) lists.push_back({Vec3(s, 0, 0), Vec3(s, 0.2, 0)});
+    for (int s = 0; s < 200; ++s)
+        lists.push_back({Vec3(s + 0.001, 0, 0), Vec3(s + 0.001, 0.2, 0.1)});
+    const Strands strands = strands_of(lists);
+    ClumpOptions options = full_pull();
+    options.clumps = 200;
+    options.strength = 0.4;
+    options.variation = 0.5;
+    Strands made = clumped(strands, options);
+    double least = 1.0, most = 0.0, sum = 0.0;
+    for (Index s = 200; s < 400; ++s) {
+        const double pull = 1.0 - made.strand(s)(2, 1) / 0.1;
+        least = std::min(least, pull);
+        most = std::max(most, pull);
+        sum += pull / 200.0;
+    }
+    CHECK(least == doctest::Approx(0.2).epsilon(0.05));
+    CHECK(most == doctest::Approx(0.6).epsilon(0.05));
+    CHECK(sum == doctest::Approx(0.4).epsilon(0.05));
+    options.strength = 1.0;
+    options.variation = 0.0;
+    options.offset = 0.02;
+    made = clumped(strands, options);
+    double farthest = 0.0;
+    for (Index s = 0; s < 200; ++s) {
+        const Eigen::Vector3f moved = made.strand(s).col(1) - strands.strand(s).col(1);
+        CHECK((made.strand(s + 200).col(1) - made.strand(s).col(1)).norm() < 1e-4);
+        farthest = std::max(farthest, double(moved.norm()));
+    }
+    CHECK(farthest > 0.015);
+    CHECK(farthest < 0.035);
+}
+
 TEST_CASE("strands beyond the radius and of other groups stay") {
     Strands strands = strands_of({{{0, 0, 0}, {0, 1, 0}},
                                   {{0.02, 0, 0}, {0.1, 1, 0}},
@@ -78,6 +148,8 @@ TEST_CASE("strands beyond the radius and of other groups stay") {
     CHECK(!same_points(made.strand(1), strands.strand(1)));
     CHECK(same_points(made.strand(2), strands.strand(2)));
     CHECK(same_points(made.strand(3), strands.strand(3)));
+    options.within_groups = false;
+    CHECK(!same_points(clumped(strands, options).strand(3), strands.strand(3)));
 }
 
 TEST_CASE("strands gather with those of their side of a parting") {
@@ -149,6 +221,11 @@ TEST_CASE("clump refuses options out of range") {
     };
     CHECK(refused([](ClumpOptions& o) { o.clumps = 0; }));
     CHECK(refused([](ClumpOptions& o) { o.strength = 1.1; }));
+    CHECK(refused([](ClumpOptions& o) { o.strength = -0.1; }));
+    CHECK(refused([](ClumpOptions& o) { o.variation = 1.1; }));
+    CHECK(refused([](ClumpOptions& o) { o.variation = -0.1; }));
+    CHECK(refused([](ClumpOptions& o) { o.apart = -1.0; }));
+    CHECK(refused([](ClumpOptions& o) { o.tip_spread = -1.0; }));
     CHECK(refused([](ClumpOptions& o) { o.radius = 0.0; }));
     CHECK(refused([](ClumpOptions& o) { o.shape = -1.0; }));
     CHECK(refused([](ClumpOptions& o) { o.offset = std::nan(""); }));

@@ -83,6 +83,72 @@ TEST_CASE("hair of different kinds can be appended") {
     for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k] == doctest::Approx(b[k]));
 }
 
+TEST_CASE("whatever values are given for, strands keep theirs when they are appended") {
+    using enum StrandDomain;
+    const auto hair = [](StrandDomain domain, unsigned seed) {
+        Strands strands = random_hair(4, seed);
+        StrandValues<float> values{0.1f * static_cast<float>(seed), domain};
+        const Index count = domain == all ? 0 : domain == strand ? 4 : strands.point_count();
+        for (Index i = 0; i < count; ++i) {
+            values.values.push_back(0.01f * static_cast<float>(i) +
+                                    0.001f * static_cast<float>(seed));
+        }
+        StrandWidths widths;
+        static_cast<StrandValues<float>&>(widths) = values;
+        strands.set_widths(widths);
+        strands.set_transparency(values);
+        return strands;
+    };
+    const auto check = [](const Strands& part, const Strands& joined, Index from) {
+        std::vector<float> x, y;
+        for (Index s = 0; s < part.size(); ++s) {
+            CHECK(same_points(part.strand(s), joined.strand(from + s)));
+            widths_of(part, s, x);
+            widths_of(joined, from + s, y);
+            CHECK(x == y);
+            for (Index k = 0; k < part.point_count(s); ++k) {
+                CHECK(part.transparency().at(s, part.first_point(s) + k) ==
+                      joined.transparency().at(from + s, joined.first_point(from + s) + k));
+            }
+        }
+    };
+    for (const StrandDomain first : {all, strand, point}) {
+        for (const StrandDomain second : {all, strand, point}) {
+            const Strands a = hair(first, 1), b = hair(second, 2);
+            Strands joined = a;
+            append(joined, b);
+            REQUIRE(joined.size() == 8);
+            check(a, joined, 0);
+            check(b, joined, 4);
+            // To nothing and of nothing.
+            Strands none;
+            append(none, b);
+            check(b, none, 0);
+            joined = a;
+            append(joined, Strands{});
+            check(a, joined, 0);
+            CHECK(joined.size() == 4);
+        }
+    }
+}
+
+TEST_CASE("groups of the same name become one, in whatever order they are") {
+    Strands a = random_hair(3), b = random_hair(4, 2);
+    a.set_groups({0, 1, kNoIndex}, {"left", "right"});
+    b.set_groups({2, 0, 1, kNoIndex}, {"tail", "right", "left"});
+    append(a, b);
+    CHECK(a.group_names() == std::vector<std::string>{"left", "right", "tail"});
+    CHECK(a.groups() == std::vector<Index>{0, 1, kNoIndex, 0, 2, 1, kNoIndex});
+}
+
+TEST_CASE("only ids that exist already change when strands are appended") {
+    Strands a = random_hair(3), b = random_hair(4, 2);
+    a.set_ids({5, 9, 2});
+    b.set_ids({4, 9, 30, 2});
+    append(a, b);
+    CHECK(a.ids() == std::vector<std::uint32_t>{5, 9, 2, 4, 31, 30, 32});
+}
+
 TEST_CASE("ids stay different when strands are appended") {
     Strands strands = random_hair(5);
     append(strands, random_hair(5, 2));
@@ -101,6 +167,26 @@ TEST_CASE("a transform moves points and scales widths") {
     transform(strands, rotation(Vec3::UnitX(), 1.0, Vec3(1, 2, 3)));
     CHECK(strand_statistics(strands).mean_length ==
           doctest::Approx(2 * strand_statistics(before).mean_length));
+}
+
+TEST_CASE("every point goes where the map takes it, and widths keep volumes, mirrored or not") {
+    for (const double side : {1.0, -1.0}) {
+        Affine map{Mat3::Zero(), Vec3(10, -20, 30)};
+        map.linear << 2.0 * side, 0.5, 0.0, 0.0, 4.0, -1.0, 0.0, 0.0, 8.0;
+        Strands strands = random_hair(600);
+        StrandWidths widths;
+        widths.common = 1e-4f;
+        strands.set_widths(widths);
+        const Strands before = strands;
+        transform(strands, map);
+        for (Index s = 0; s < strands.size(); ++s) {
+            for (Index k = 0; k < strands.point_count(s); ++k) {
+                const Vec3 wanted = map(before.strand(s).col(k).cast<double>());
+                CHECK((strands.strand(s).col(k).cast<double>() - wanted).norm() < 1e-5);
+            }
+        }
+        CHECK(strands.widths().common == doctest::Approx(4e-4));
+    }
 }
 
 TEST_CASE("a transform that cannot be is refused and changes nothing") {

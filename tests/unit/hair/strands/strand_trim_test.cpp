@@ -71,6 +71,61 @@ TEST_CASE("trimming at random belongs to the id of a strand") {
     CHECK(hash(trimmed(strands, options)) != hash(whole));
 }
 
+TEST_CASE("at random strands keep from all of it to the variation less, evenly") {
+    const Strands strands = random_hair(500);
+    StrandTrimOptions options;
+    options.factor = 0.8;
+    for (const double variation : {0.25, 0.5, 1.0}) {
+        options.variation = variation;
+        const Strands made = trimmed(strands, options);
+        double least = 1.0, most = 0.0, sum = 0.0;
+        for (Index s = 0; s < strands.size(); ++s) {
+            const double part = length(made.strand(s)) / length(strands.strand(s)) / 0.8;
+            least = std::min(least, part);
+            most = std::max(most, part);
+            sum += part / 500.0;
+        }
+        CHECK(std::abs(least - std::max(1.0 - variation, 0.0)) < 0.05);
+        CHECK(std::abs(most - 1.0) < 0.02);
+        CHECK(std::abs(sum - (1.0 - 0.5 * variation)) < 0.04);
+    }
+}
+
+TEST_CASE("a plane with jitter cuts each strand somewhere else, as often above as below") {
+    std::vector<std::vector<Vec3>> lists(500, {Vec3(0, 0, 0), Vec3(0, 1, 0)});
+    StrandTrimOptions options;
+    options.plane = StrandTrimPlane{{5, 0.5, 7}, {0, 2, 0}};
+    options.jitter = 0.25;
+    const Strands made = trimmed(strands_of(lists), options);
+    double least = 1.0, most = 0.0, sum = 0.0;
+    for (Index s = 0; s < made.size(); ++s) {
+        const double height = made.strand(s)(1, 1);
+        least = std::min(least, height);
+        most = std::max(most, height);
+        sum += height / 500.0;
+    }
+    CHECK(std::abs(least - 0.25) < 0.01);
+    CHECK(std::abs(most - 0.75) < 0.01);
+    CHECK(std::abs(sum - 0.5) < 0.03);
+}
+
+TEST_CASE("of several limits the one that leaves least counts, and the first passage of a plane") {
+    // Up, down and up again through a plane at 0.5.
+    const Strands strands =
+        strands_of({{{0, 0, 0}, {0, 1, 0}, {0.1, 0, 0}, {0.2, 1, 0}}, {{0, 0, 0}, {0, 0.3, 0}}});
+    StrandTrimOptions options;
+    options.plane = StrandTrimPlane{{0, 0.5, 0}, {0, 1, 0}};
+    CHECK(length(trimmed(strands, options).strand(0)) == doctest::Approx(0.5));
+    CHECK(length(trimmed(strands, options).strand(1)) == doctest::Approx(0.3));
+    options.length = 0.4;
+    CHECK(length(trimmed(strands, options).strand(0)) == doctest::Approx(0.4));
+    options.factor = 0.1;
+    CHECK(length(trimmed(strands, options).strand(0)) < 0.31);
+    options.least = 0.45;
+    CHECK(length(trimmed(strands, options).strand(0)) == doctest::Approx(0.45));
+    CHECK(same_points(trimmed(strands, options).strand(1), strands.strand(1)));
+}
+
 TEST_CASE("trimming nothing changes nothing") {
     const Strands strands = rich_hair(30);
     CHECK(hash(trimmed(strands, {})) == hash(strands));

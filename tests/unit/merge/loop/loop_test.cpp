@@ -22,6 +22,14 @@ std::vector<Index> ascending(Index count) {
     return ids;
 }
 
+// A tube whose vertices crowd on one side, bent out of round.
+Mesh uneven_tube(Index count) {
+    return tube(count, 4, [](double angle, double height) {
+        const double a = angle + 0.6 * std::sin(angle);
+        return Vec3(1.3 * std::cos(a), std::sin(a), height + 0.2 * std::sin(2.0 * a + 1.0));
+    });
+}
+
 }  // namespace
 
 TEST_CASE("moments of a loop are those of its curve, however its vertices are spread") {
@@ -47,6 +55,90 @@ TEST_CASE("frames of a loop: along it, out of the surface, and the cross product
             CHECK((frames[k].col(0) - Vec3(-std::sin(a), std::cos(a), 0)).norm() < 0.05);
             CHECK((frames[k].col(1) - Vec3(std::cos(a), std::sin(a), 0)).norm() < 0.05);
             CHECK(frames[k].determinant() == doctest::Approx(1.0));
+        }
+    }
+}
+
+TEST_CASE("normals of a loop are the surface's at the loop, wherever a sphere is cut") {
+    for (const double cut : {0.8, 1.2, 1.57, 2.0, 2.5}) {
+        const Mesh mesh = tube(96, 13, [=](double angle, double height) {
+            const double polar = cut - 0.6 * height;
+            return Vec3(std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle),
+                        std::cos(polar));
+        });
+        const Loop loop(mesh, ascending(96));
+        for (const double sigma : {0.0, 0.015}) {
+            const std::vector<Mat3> frames = loop.frames(sigma);
+            // The faces at the cut themselves lean by almost twice that.
+            for (Index k = 0; k < 96; ++k) {
+                CHECK((frames[k].col(1) - mesh.position(k)).norm() < 0.013);
+            }
+        }
+    }
+}
+
+TEST_CASE("where a loop begins and which way it runs changes nothing but the sign of tangents") {
+    const Index n = 60;
+    const Mesh mesh = uneven_tube(n);
+    std::vector<Index> later(n), back(n);
+    for (Index k = 0; k < n; ++k) {
+        later[k] = (k + 17) % n;
+        back[k] = n - 1 - k;
+    }
+    const Loop loop(mesh, ascending(n)), turned(mesh, later), reversed(mesh, back);
+    for (const double sigma : {0.0, 0.015, 0.1, 0.4}) {
+        CAPTURE(sigma);
+        const auto frames = loop.frames(sigma), other = turned.frames(sigma);
+        const auto backwards = reversed.frames(sigma);
+        for (Index k = 0; k < n; ++k) {
+            CHECK((frames[later[k]] - other[k]).norm() < 1e-9);
+            CHECK((frames[back[k]].col(0) + backwards[k].col(0)).norm() < 1e-9);
+            CHECK((frames[back[k]].col(1) - backwards[k].col(1)).norm() < 1e-9);
+        }
+    }
+    CHECK((loop.center() - turned.center()).norm() < 1e-12);
+    CHECK((loop.axis() + reversed.axis()).norm() < 1e-9);
+    CHECK(loop.mean_turn() == doctest::Approx(reversed.mean_turn()));
+}
+
+TEST_CASE("moments of a loop are exact: points on its edges add nothing, far away or near") {
+    const std::vector<Vec3> corners{{0, 0, 0}, {3, 0, 0.5}, {4, 2, 0}, {1, 3, -0.5}, {-1, 1, 0}};
+    const auto polygon = [&](Index split, const Vec3& place, double size) {
+        return tube(5 * split, 2, [=](double angle, double height) {
+            const auto k = std::lround(angle / (2.0 * kPi) * 5 * split);
+            // Points gather at the beginning of each edge.
+            const double t = std::pow(double(k % split) / split, 2.0);
+            const Vec3 &a = corners[k / split % 5], &b = corners[(k / split + 1) % 5];
+            return Vec3(place + size * (a + t * (b - a) + 3.0 * height * Vec3::UnitZ()));
+        });
+    };
+    const Loop plain(polygon(1, Vec3::Zero(), 1.0), ascending(5));
+    for (const Index split : {2, 9}) {
+        for (const double size : {0.01, 1.0, 50.0}) {
+            const Vec3 place = size * Vec3(300, -200, 100);
+            const Mesh mesh = polygon(split, place, size);
+            const Loop loop(mesh, ascending(5 * split));
+            CHECK((loop.center() - place - size * plain.center()).norm() < 1e-9 * size);
+            CHECK(loop.radius() == doctest::Approx(size * plain.radius()).epsilon(1e-9));
+            CHECK(loop.length() == doctest::Approx(size * plain.length()).epsilon(1e-9));
+            CHECK((loop.axis() - plain.axis()).norm() < 1e-9);
+        }
+    }
+}
+
+TEST_CASE("the nearest place of a loop is nearer than any sample of it, from anywhere") {
+    const Mesh mesh = uneven_tube(60);
+    const Loop loop(mesh, ascending(60));
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 point(2.0 * std::sin(1.0 * i), 2.0 * std::cos(2.3 * i), std::sin(3.7 * i));
+        double distance = 0.0;
+        const LoopPoint place = loop.nearest(point, distance);
+        CHECK((point_of(loop.points(), place) - point).norm() == doctest::Approx(distance));
+        for (Index k = 0; k < 60; ++k) {
+            for (const double t : {0.0, 0.3, 0.5, 0.8}) {
+                const Vec3 sample = point_of(loop.points(), {k, t});
+                CHECK((sample - point).norm() >= distance - 1e-12);
+            }
         }
     }
 }
