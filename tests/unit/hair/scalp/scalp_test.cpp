@@ -337,6 +337,30 @@ TEST_CASE("a higher hairline leaves a smaller scalp") {
     CHECK(Scalp(egg(), high).region().size() < Scalp(egg(), low).region().size());
 }
 
+TEST_CASE("a direction that is given is kept, whatever the other, unless they are parallel") {
+    const Mesh mesh = egg();
+    for (int k = 0; k <= 12; ++k) {
+        // Fronts from straight up to straight down; up alone goes along.
+        const double angle = kPi * k / 12.0;
+        const Vec3 front(0.3 * std::sin(angle), std::cos(angle), 0.9 * std::sin(angle));
+        HeadHints both{Vec3(0, 2, 0), front}, one{{}, front}, other{front, {}};
+        if (k == 0 || k == 12) {
+            CHECK(test::error_of([&] { guess_head_frame(mesh, both); }).code() ==
+                  ErrorCode::invalid_argument);
+        } else {
+            const Mat3 axes = guess_head_frame(mesh, both).axes;
+            CHECK((axes.col(1) - Vec3::UnitY()).norm() < 1e-12);
+            CHECK(axes.col(2).dot(front) > 0.0);
+            CHECK((axes.transpose() * axes - Mat3::Identity()).norm() < 1e-12);
+        }
+        for (const HeadHints& hints : {one, other}) {
+            const Mat3 axes = guess_head_frame(mesh, hints).axes;
+            CHECK((axes.col(hints.front ? 2 : 1) - front.normalized()).norm() < 1e-12);
+            CHECK((axes.transpose() * axes - Mat3::Identity()).norm() < 1e-12);
+        }
+    }
+}
+
 TEST_CASE("scalps without sense are refused") {
     const Mesh mesh = egg();
     const auto code = [&](const auto& change) {

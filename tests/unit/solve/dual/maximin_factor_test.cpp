@@ -98,3 +98,27 @@ TEST_CASE("maximin factor: after edits it is what it would be from nothing, to t
         CHECK(test::greatest_difference(applied(edited, x), applied(fresh, x)) == 0.0);
     }
 }
+
+TEST_CASE("maximin factor: without the memory it needs, or cancelled, it stays what it was") {
+    const GridSize size{20, 20, 20};
+    std::mt19937 random(54);
+    const GridGreen green(size, 0.0, {});
+    const ConstraintRows few = rows_of(size, test::random_constraints(size, 50, random));
+    const ConstraintRows many = rows_of(size, test::random_constraints(size, 500, random));
+    MaximinFactor factor;
+    factor.update(green, few, {});
+    const Field x = random_vectors(few.size()), before = applied(factor, x);
+    ContextOptions limits;
+    // A row has dozens of entries of twelve bytes.
+    limits.memory_limit = 20 * 12 * many.size();
+    CHECK(test::error_of([&] { factor.update(green, many, Context(limits)); }).code() ==
+          ErrorCode::memory_limit);
+    CHECK(test::greatest_difference(applied(factor, x), before) == 0.0);
+    const Context cancelled;
+    cancelled.cancel();
+    CHECK(test::error_of([&] { factor.update(green, many, cancelled); }).code() ==
+          ErrorCode::cancelled);
+    CHECK(test::greatest_difference(applied(factor, x), before) == 0.0);
+    limits.memory_limit = 200 * 12 * many.size();
+    CHECK_NOTHROW(factor.update(green, many, Context(limits)));
+}
