@@ -102,7 +102,8 @@ class Lattice {
             result.value += weight * value;
             result.one_sided &= inside[grid_.index(point[0], point[1], point[2])] == side;
         }
-        result.value = std::clamp(result.value, result.low, result.high);
+        // At a lattice point rounding may leave low above high, which std::clamp must not be given.
+        result.value = std::min(std::max(result.value, result.low), result.high);
         return result;
     }
 
