@@ -70,6 +70,35 @@ TEST_CASE("a boundary that crosses itself is refused") {
     CHECK(code_of(mesh, {boundaries(mesh)[0]}) == ErrorCode::boundary_conflict);
 }
 
+TEST_CASE("a boundary is refused wherever it meets itself, and only there, however it lies") {
+    // Corners of polygons with long and short edges; the loop begins at any of them.
+    const std::vector<Vec3> crossing{{0, 0, 0},    {9, 0, 0},  {9, 3, 0}, {4, 3, 0},
+                                     {4.3, -1, 0}, {3, -1, 0}, {3, 3, 0}, {0, 3, 0}};
+    const std::vector<Vec3> lying{{0, 0, 0}, {9, 0, 0}, {9, 3, 0}, {6, 0, 0}, {2, 0, 0}, {0, 3, 0}};
+    const std::vector<Vec3> near{{0, 0, 0},   {9, 0, 0},   {9, 3, 0},
+                                 {6, 0.1, 0}, {2, 0.1, 0}, {0, 3, 0}};
+    const auto refused = [](const std::vector<Vec3>& corners, std::size_t begin,
+                            const Affine& map) {
+        const std::size_t n = corners.size();
+        const Mesh mesh = tube(count_of(corners), 3, [&](double angle, double height) {
+            const auto k = static_cast<std::size_t>(std::lround(angle / (2.0 * kPi) * double(n)));
+            return map(corners[(k + begin) % n] + 5.0 * height * Vec3::UnitZ());
+        });
+        return code_of(mesh, {boundaries(mesh)[0]}) == ErrorCode::boundary_conflict;
+    };
+    for (const double angle : {0.0, 0.7, 1.4, 2.5}) {
+        for (const double size : {0.01, 1.0, 100.0}) {
+            const Affine map = scaling(Vec3::Constant(size), Vec3::Zero()) *
+                               rotation(Vec3(1, 2, -1), angle, Vec3::Zero());
+            for (std::size_t begin = 0; begin < crossing.size(); ++begin) {
+                CHECK(refused(crossing, begin, map));
+                CHECK(refused(lying, begin, map));
+                CHECK(!refused(near, begin, map));
+            }
+        }
+    }
+}
+
 TEST_CASE("a mesh that is inside out is turned over") {
     const Mesh outward = round_tube(24, 6);
     Mesh inward = outward;

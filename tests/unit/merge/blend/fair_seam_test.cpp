@@ -216,4 +216,6 @@ TEST_CASE("options out of range, unknown vertices and a cancel change nothing") 
     CHECK(hash(cone.mesh) == before);
     CHECK(fair_seam(cone.mesh, {}).empty());
     CHECK(hash(cone.mesh) == before);
+    // The least that is allowed.
+    CHECK_NOTHROW(fair(cone, {.rings = 1, .core = 1, .umbrella = 0, .passes = 1}));
 }

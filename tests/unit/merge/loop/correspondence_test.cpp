@@ -112,6 +112,7 @@ TEST_CASE("keys that contradict each other are refused by name") {
     REQUIRE(off);
     CHECK(off->code() == ErrorCode::key_conflict);
     CHECK(off->elements().ids == std::vector<Index>{50});
+    CHECK(off->elements().count == 1);
     CHECK(error_of(source, target, {{Vec3(9, 9, 9), Index{0}}}));
     CHECK(error_of(source, target, {{Index{3}, Index{0}}, {Index{3}, Index{10}}}));
     CHECK(error_of(source, target, {{Index{3}, Index{7}}, {Index{9}, Index{7}}}));
