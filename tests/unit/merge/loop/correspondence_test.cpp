@@ -113,7 +113,11 @@ TEST_CASE("keys that contradict each other are refused by name") {
     CHECK(off->code() == ErrorCode::key_conflict);
     CHECK(off->elements().ids == std::vector<Index>{50});
     CHECK(off->elements().count == 1);
-    CHECK(error_of(source, target, {{Vec3(9, 9, 9), Index{0}}}));
+    // Ids run with the angle.
+    const auto away = error_of(source, target, {{Vec3(0, 9, 0), Index{0}}});
+    REQUIRE(away);
+    CHECK(away->elements().ids == std::vector<Index>{10});
+    CHECK(away->elements().count == 1);
     CHECK(error_of(source, target, {{Index{3}, Index{0}}, {Index{3}, Index{10}}}));
     CHECK(error_of(source, target, {{Index{3}, Index{7}}, {Index{9}, Index{7}}}));
 }
