@@ -1,7 +1,5 @@
 #include "kernel/deform/system/gradient_residual.h"
 
-#include <algorithm>
-
 #include "kernel/deform/system/gradient_system.h"
 
 namespace lissom {
@@ -49,7 +47,7 @@ void GradientResidual::add_coherence_term(Index v, const std::vector<Mat3>& m, M
     for (Index e = work_.rings.begin[v]; e < work_.rings.begin[v + 1]; ++e) {
         const Index n = work_.rings.neighbor[e];
         if (!has_gradient(n)) continue;
-        const double weight = std::max(work_.geometry.cotangent[e], kSmallestCoherence);
+        const double weight = scale_free_coherence(work_.geometry.cotangent[e]);
         pull -= coherence_weight_ * weight * (m[v] - m[n]);
     }
 }

@@ -103,7 +103,7 @@ class Assembler {
         const double stiffness = work_.stiffness_between(a, b);
         // Eq 2.7 counts every pair from both its ends.
         if (!options_.scale_free) return 2.0 * stiffness;
-        return stiffness * std::max(geometry_.cotangent[entry], kSmallestCoherence);
+        return stiffness * scale_free_coherence(geometry_.cotangent[entry]);
     }
 
     // Calls use(b, weight) for every pair (a, b) of SF in Eq 2.7 where both have gradients.

@@ -2,6 +2,7 @@
 /// coherence of the deformation gradients; private to kernel/deform.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -19,8 +20,12 @@
 
 namespace lissom {
 
-/// Coherence weights below this have no say but could make the weighted graph fall apart.
-inline constexpr double kSmallestCoherence = 1e-3;
+/// Weight of a pair of neighbours in the scale-free form of Eq 2.7: the cotangent weight of their
+/// edge. Weights below the least have no say but could make the weighted graph fall apart.
+inline double scale_free_coherence(double cotangent_weight) {
+    constexpr double kLeast = 1e-3;
+    return std::max(cotangent_weight, kLeast);
+}
 
 /// Normal equations of Eq 2.8 with the known quantities moved to the right-hand side:
 /// A x_free = - (known_positions X + known_gradients W). Rows are free vertices; columns of the two

@@ -47,16 +47,16 @@ std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::strin
     const std::string what = std::to_string(count) + " " + std::string(elements);
     if (count < 0) refuse(ErrorCode::file_syntax, "the header announces " + what, place);
     const std::size_t number = count;
-    if (number > file_bytes) {
-        refuse(ErrorCode::file_too_large,
-               "the header announces " + what + ", but the file has only " +
-                   std::to_string(file_bytes) + " bytes; it is damaged or cut short",
-               place);
-    }
     if (number > kMaximumElements) {
         refuse(ErrorCode::file_too_large,
                "the header announces " + what + ", more than the " +
                    std::to_string(kMaximumElements) + " that can be numbered; split the file",
+               place);
+    }
+    if (number > file_bytes) {
+        refuse(ErrorCode::file_truncated,
+               "the header announces " + what + ", but the file has only " +
+                   std::to_string(file_bytes) + " bytes; it is damaged or cut short",
                place);
     }
     return number;

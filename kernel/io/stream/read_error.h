@@ -33,7 +33,8 @@ struct Tally {
 [[noreturn]] void refuse_truncated(const Tally& tally);
 
 /// A number of elements announced by a header, once it is known that a file of `file_bytes` bytes
-/// may hold as many. Errors: file_syntax for a negative count; file_too_large.
+/// may hold as many. Errors: file_syntax for a negative count; file_too_large for more than can be
+/// numbered; file_truncated for more than there are bytes.
 std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::string_view elements,
                           Place place);
 

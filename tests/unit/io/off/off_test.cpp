@@ -191,6 +191,7 @@ TEST_CASE("OFF errors say where and what") {
     check_error("OFF\n-3 1 0\n", ErrorCode::file_syntax, 2);
     check_error("OFF\n10000000000 1 0\n", ErrorCode::file_too_large, 2);
     check_error("OFF\n3 99999999999999999999 0\n" + kTriangle, ErrorCode::file_too_large, 2);
+    check_error("OFF\n1000 1 0\n" + kTriangle, ErrorCode::file_truncated, 2);
     check_error("FOO\n3 1 0\n", ErrorCode::file_syntax, 1);
     check_error("4OFF\n3 1 0\n", ErrorCode::unsupported, 1);
     check_error("nOFF\n4\n3 1 0\n", ErrorCode::unsupported, 1);
