@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/core/rotation.h"
 #include "kernel/mesh/measure/measures.h"
 
 namespace lissom {
@@ -65,8 +66,7 @@ void DirectionCarrier::follow(Mesh& mesh) const {
         for (Index i = 0; i < attribute.size(); ++i) {
             const Index v = vertex_of(mesh, attribute, i);
             if (before_[v] == after[v] || before_[v].isZero() || after[v].isZero()) continue;
-            turn(Eigen::Quaterniond::FromTwoVectors(before_[v], after[v]).toRotationMatrix(), unit,
-                 attribute.at(i));
+            turn(least_rotation(before_[v], after[v]).toRotationMatrix(), unit, attribute.at(i));
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/core/rotation.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -52,4 +53,26 @@ TEST_CASE("a rotation without axis or angle is refused") {
           ErrorCode::invalid_argument);
     CHECK(test::error_of([&] { rotation(Vec3(0, 0, 1), nan, Vec3::Zero()); }).code() ==
           ErrorCode::invalid_argument);
+}
+
+TEST_CASE(
+    "the least rotation between directions turns one to the other about an axis square to both") {
+    const Vec3 from(0.3, -2.0, 0.7);
+    const Vec3 axis = from.unitOrthogonal();
+    for (int degrees = 0; degrees <= 180; ++degrees) {
+        CAPTURE(degrees);
+        const Vec3 to = 5.0 * rotation(axis, degrees * kDegree, Vec3::Zero())(from);
+        const Eigen::Quaterniond turn = least_rotation(from, to);
+        CHECK((turn * from.normalized() - to.normalized()).norm() < 1e-14);
+        CHECK(std::abs(turn.norm() - 1.0) < 1e-14);
+        CHECK(std::abs(turn.vec().dot(from)) < 1e-14);
+    }
+    // Close to opposite directions the axis is still square to the first, and the turn still exact.
+    for (double off = 1e-3; off > 1e-18; off *= 0.1) {
+        CAPTURE(off);
+        const Vec3 to = -from.normalized() + off * axis;
+        const Eigen::Quaterniond turn = least_rotation(from, to);
+        CHECK((turn * from.normalized() - to.normalized()).norm() < 1e-7);
+        CHECK(std::abs(turn.norm() - 1.0) < 1e-7);
+    }
 }

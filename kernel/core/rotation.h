@@ -1,0 +1,14 @@
+/// Rotations between directions.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "kernel/core/geometry.h"
+
+namespace lissom {
+
+/// The rotation by the least angle that takes the direction of `from` to that of `to`; between
+/// opposite directions, half a turn about some axis square to them. Neither has length zero.
+Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to);
+
+}  // namespace lissom
