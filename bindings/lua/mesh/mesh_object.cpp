@@ -6,14 +6,29 @@
 #include "kernel/mesh/measure/measures.h"
 
 namespace lissom::lua {
+namespace {
+
+// A query then takes some times as long as after building the tree again, which takes the time of
+// tens of thousands of queries.
+constexpr double kWornOut = 4.0;
+
+}  // namespace
 
 std::size_t MeshObject::memory_bytes() const {
     return mesh.memory_bytes() + (derived_.tree ? derived_.tree->memory_bytes() : 0);
 }
 
+void MeshObject::forget_shape() {
+    const bool same_topology = derived_.topology == mesh.shared_topology();
+    Derived next;
+    next.topology = mesh.shared_topology();
+    if (same_topology) next.tree = std::move(derived_.tree);
+    derived_ = std::move(next);
+}
+
 void MeshObject::changed() {
     ++changes;
-    derived_ = {};
+    forget_shape();
 }
 
 void MeshObject::close() {
@@ -24,8 +39,7 @@ void MeshObject::close() {
 
 MeshObject::Derived& MeshObject::derived() {
     if (derived_.topology != mesh.shared_topology() || derived_.revision != mesh.revision()) {
-        derived_ = {};
-        derived_.topology = mesh.shared_topology();
+        forget_shape();
         derived_.revision = mesh.revision();
     }
     return derived_;
@@ -33,7 +47,10 @@ MeshObject::Derived& MeshObject::derived() {
 
 const SpatialTree& MeshObject::tree(const Context& context) {
     Derived& kept = derived();
-    if (!kept.tree) kept.tree.emplace(mesh, context);
+    if (kept.tree_is_current) return *kept.tree;
+    if (kept.tree) kept.tree->refit(mesh, context);
+    if (!kept.tree || kept.tree->wear() > kWornOut) kept.tree.emplace(mesh, context);
+    kept.tree_is_current = true;
     return *kept.tree;
 }
 

@@ -28,7 +28,8 @@ struct MeshObject {
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const;
-    /// To be called after every change but of single positions.
+    /// To be called after every change but of single positions. What was computed for one shape is
+    /// forgotten, but a tree for the same topology, which is refitted when it is next asked for.
     void changed();
     /// Frees everything; regions and other dependents then refuse to work.
     void close();
@@ -39,16 +40,18 @@ struct MeshObject {
     const std::vector<Vec3>& normals();
 
   private:
-    // What was computed for one shape.
+    // What was computed for one shape; of the tree only the topology is sure to be that.
     struct Derived {
         std::shared_ptr<const Topology> topology;
-        std::uint64_t revision = 0;
+        std::optional<std::uint64_t> revision;
         std::optional<SpatialTree> tree;
+        bool tree_is_current = false;
         std::optional<HeatDistances> heat;
         std::vector<Vec3> normals;
     };
 
     Derived& derived();
+    void forget_shape();
 
     Derived derived_;
 };

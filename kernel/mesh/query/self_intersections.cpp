@@ -20,9 +20,9 @@ bool overlap(const Box& a, const Box& b) {
 }
 
 // A hierarchy of boxes over some triangles, halved along the longest side.
-class BoxTree {
+class PairTree {
   public:
-    BoxTree(std::span<const Box> boxes, std::vector<Index> items)
+    PairTree(std::span<const Box> boxes, std::vector<Index> items)
         : boxes_(boxes), items_(std::move(items)) {
         centers_.reserve(boxes.size());
         for (const Box& box : boxes) centers_.push_back(box.center());
@@ -129,7 +129,7 @@ class Search {
     std::vector<FacePair> find(const Context& context) const {
         std::vector<Index> first = chosen(in_faces_), second = chosen(in_against_);
         if (first.size() > second.size()) std::swap(first, second);
-        const BoxTree tree(boxes_, std::move(first));
+        const PairTree tree(boxes_, std::move(first));
         const auto count = count_of(second);
         std::vector<std::vector<FacePair>> found((count + kGrain - 1) / kGrain);
         context.parallel_for(0, count, kGrain, [&](Index begin, Index end) {

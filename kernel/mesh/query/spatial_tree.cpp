@@ -5,31 +5,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace lissom {
 namespace {
 
-constexpr Index kLeafSize = 4;
-constexpr int kBins = 16;
-// Below this depth nodes are halved, so that no path is longer than kStackSize.
-constexpr int kMaximumFreeDepth = 48;
-constexpr std::size_t kStackSize = 128;
 // What rounding may do to distances, as a fraction of them; far above it, far below what is
 // visible.
 constexpr double kRounding = 1e-13;
-
-double surface(const Box& box) {
-    if (box.empty()) return 0.0;
-    const Vec3 d = box.max - box.min;
-    return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
-}
-
-void extend(Box& box, const Box& other) {
-    box.min = box.min.cwiseMin(other.min);
-    box.max = box.max.cwiseMax(other.max);
-}
+// Points that are as near as this fraction of a surface's size are at one place.
+constexpr double kSamePlace = 1e-9;
 
 double squared_distance(const Box& box, const Vec3& p) {
     return (box.min - p).cwiseMax(p - box.max).cwiseMax(0.0).squaredNorm();
@@ -90,12 +75,12 @@ void require_finite(const Vec3& v, const char* what) {
 
 // A ray with what each test needs: the axis it runs along most as z, the shear that turns it into
 // that axis, and how far rounding may move a hit.
-struct SpatialTree::Ray {
+struct SpatialTree::Line {
     Vec3 origin, direction, inverse;
     std::array<int, 3> axis{};
     double shear_x = 0.0, shear_y = 0.0, padding = 0.0;
 
-    Ray(const Vec3& from, const Vec3& towards, const Box& box) : origin(from) {
+    Line(const Vec3& from, const Vec3& towards, const Box& box) : origin(from) {
         require_finite(from, "the origin of the ray");
         require_finite(towards, "the direction of the ray");
         const double largest = towards.cwiseAbs().maxCoeff(&axis[2]);
@@ -137,95 +122,42 @@ struct SpatialTree::Ray {
 };
 
 SpatialTree::SpatialTree(const Mesh& mesh, const Context& context)
-    : positions_(mesh.positions().begin(), mesh.positions().end()), revision_(mesh.revision()) {
+    : positions_(mesh.positions().begin(), mesh.positions().end()),
+      topology_(mesh.shared_topology()),
+      revision_(mesh.revision()) {
     if (mesh.face_count() == 0) {
         throw Error(ErrorCode::mesh_empty, "a spatial tree needs a mesh with faces");
     }
+    Progress progress(context, "spatial tree");
     Triangulation triangulation = triangulate_faces(mesh.topology(), mesh.positions());
     triangles_ = std::move(triangulation.triangles);
     faces_ = std::move(triangulation.face);
-    build(context);
+    std::vector<Box> boxes(triangles_.size());
+    for (std::size_t t = 0; t < boxes.size(); ++t) boxes[t] = box_of(index_of(t));
+    boxes_ = BoxTree(boxes, context);
     charge_ = context.charge(memory_bytes(), "a spatial tree");
 }
 
-void SpatialTree::build(const Context& context) {
-    Progress progress(context, "spatial tree");
-    std::vector<Box> boxes(triangles_.size());
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-        for (const Index v : triangles_[t]) boxes[t].extend(positions_[v]);
+void SpatialTree::refit(const Mesh& mesh, const Context& context) {
+    if (mesh.shared_topology() != topology_) {
+        throw Error(ErrorCode::topology_mismatch,
+                    "the mesh has another topology than the one that the spatial tree was built "
+                    "for; build a new tree");
     }
-    order_.resize(triangles_.size());
-    std::iota(order_.begin(), order_.end(), 0);
-
-    std::vector<std::pair<Index, int>> open{{0, 0}};
-    nodes_.push_back({{}, 0, count_of(order_)});
-    for (std::size_t steps = 0; !open.empty(); ++steps) {
-        if (steps % 4096 == 0) context.checkpoint();
-        const auto [at, depth] = open.back();
-        open.pop_back();
-        Node node = nodes_[at];
-        for (Index i = 0; i < node.count; ++i) extend(node.box, boxes[order_[node.first + i]]);
-        nodes_[at].box = node.box;
-        if (node.count <= kLeafSize) continue;
-        const Index middle = split(node, order_, boxes, depth >= kMaximumFreeDepth);
-        const auto children = count_of(nodes_);
-        nodes_.push_back({{}, node.first, middle - node.first});
-        nodes_.push_back({{}, middle, node.first + node.count - middle});
-        nodes_[at].first = children;
-        nodes_[at].count = 0;
-        open.emplace_back(children, depth + 1);
-        open.emplace_back(children + 1, depth + 1);
-    }
+    // How polygons are divided depends on the shape, but not into how many triangles.
+    std::optional<Triangulation> divided;
+    if (!topology_->is_triangle_mesh()) divided = triangulate_faces(*topology_, mesh.positions());
+    context.checkpoint();
+    if (divided) triangles_ = std::move(divided->triangles);
+    std::copy(mesh.positions().begin(), mesh.positions().end(), positions_.begin());
+    boxes_.refit([this](Index triangle) { return box_of(triangle); });
+    revision_ = mesh.revision();
 }
 
-// Divides the triangles of a node by the surface area heuristic over bins of box centers (Wald
-// 2007), or in two halves where that finds nothing or `halve` is asked for. Returns where the
-// second part begins.
-Index SpatialTree::split(const Node& node, std::vector<Index>& order, const std::vector<Box>& boxes,
-                         bool halve) const {
-    const auto begin = order.begin() + node.first, end = begin + node.count;
-    Box centers;
-    for (auto i = begin; i != end; ++i) centers.extend(boxes[*i].center());
-    int axis = 0;
-    const double extent = (centers.max - centers.min).maxCoeff(&axis);
-    const auto bin_of = [&](Index t) {
-        const double where = (boxes[t].center()[axis] - centers.min[axis]) / extent;
-        return std::min(kBins - 1, static_cast<int>(where * kBins));
-    };
-    int best = 0;
-    if (extent > 0.0 && !halve) {
-        std::array<Box, kBins> bin_box;
-        std::array<Index, kBins> bin_count{};
-        for (auto i = begin; i != end; ++i) {
-            extend(bin_box[bin_of(*i)], boxes[*i]);
-            ++bin_count[bin_of(*i)];
-        }
-        std::array<double, kBins> cost{};
-        Box left, right;
-        for (int b = 1, n = 0; b < kBins; ++b) {
-            extend(left, bin_box[b - 1]);
-            n += bin_count[b - 1];
-            cost[b] = surface(left) * n;
-        }
-        for (int b = kBins - 1, n = 0; b > 0; --b) {
-            extend(right, bin_box[b]);
-            n += bin_count[b];
-            cost[b] += surface(right) * n;
-            const bool divides = n > 0 && n < node.count;
-            if (divides && (best == 0 || cost[b] < cost[best])) best = b;
-        }
-    }
-    if (best > 0) {
-        const auto middle =
-            std::stable_partition(begin, end, [&](Index t) { return bin_of(t) < best; });
-        return node.first + index_of(middle - begin);
-    }
-    const auto middle = begin + node.count / 2;
-    std::nth_element(begin, middle, end, [&](Index a, Index b) {
-        const double at_a = boxes[a].center()[axis], at_b = boxes[b].center()[axis];
-        return at_a != at_b ? at_a < at_b : a < b;
-    });
-    return node.first + node.count / 2;
+Box SpatialTree::box_of(Index triangle) const {
+    Box box;
+    for (const Index v : triangles_[triangle]) box.extend(positions_[v]);
+    return box;
 }
 
 std::optional<SpatialTree::Hit> SpatialTree::nearest_triangle(const Vec3& point,
@@ -233,15 +165,14 @@ std::optional<SpatialTree::Hit> SpatialTree::nearest_triangle(const Vec3& point,
     require_finite(point, "the point");
     Hit best;
     double best_square = limit * limit;
-    std::array<std::pair<double, Index>, kStackSize> stack;
+    std::array<std::pair<double, Index>, BoxTree::kStackSize> stack;
     std::size_t size = 0;
-    stack[size++] = {squared_distance(nodes_[0].box, point), 0};
+    stack[size++] = {squared_distance(bounds(), point), 0};
     while (size > 0) {
         const auto [lower_bound, at] = stack[--size];
         if (lower_bound > best_square * (1.0 + kRounding)) continue;
-        const Node& node = nodes_[at];
-        for (Index i = 0; i < node.count; ++i) {
-            const Index t = order_[node.first + i];
+        const BoxTree::Node& node = boxes_.node(at);
+        for (const Index t : boxes_.items(node)) {
             const auto [a, b, c] = triangles_[t];
             const auto candidate =
                 nearest_on_triangle({positions_[a], positions_[b], positions_[c]}, point);
@@ -255,8 +186,9 @@ std::optional<SpatialTree::Hit> SpatialTree::nearest_triangle(const Vec3& point,
         }
         if (node.count > 0) continue;
         // The nearer child is put on top.
-        std::pair<double, Index> near{squared_distance(nodes_[node.first].box, point), node.first};
-        std::pair<double, Index> far{squared_distance(nodes_[node.first + 1].box, point),
+        std::pair<double, Index> near{squared_distance(boxes_.node(node.first).box, point),
+                                      node.first};
+        std::pair<double, Index> far{squared_distance(boxes_.node(node.first + 1).box, point),
                                      node.first + 1};
         if (far.first < near.first) std::swap(near, far);
         stack[size++] = far;
@@ -276,7 +208,7 @@ std::optional<SurfacePoint> SpatialTree::nearest_within(const Vec3& point, doubl
     return surface_point(*hit);
 }
 
-std::optional<SpatialTree::Hit> SpatialTree::hit_triangle(Index triangle, const Ray& ray) const {
+std::optional<SpatialTree::Hit> SpatialTree::hit_triangle(Index triangle, const Line& ray) const {
     const auto [a, b, c] = triangles_[triangle];
     const Vec3 pa = ray.shear(positions_[a]), pb = ray.shear(positions_[b]),
                pc = ray.shear(positions_[c]);
@@ -294,42 +226,74 @@ std::optional<SpatialTree::Hit> SpatialTree::hit_triangle(Index triangle, const 
 
 // Calls visit(hit) for all hits in boxes that the ray enters before `limit`, which visit may lower.
 template <typename Visit>
-void SpatialTree::visit_along(const Ray& ray, const double& limit, const Visit& visit) const {
-    std::array<std::pair<double, Index>, kStackSize> stack;
+void SpatialTree::visit_along(const Line& ray, const double& limit, const Visit& visit) const {
+    std::array<std::pair<double, Index>, BoxTree::kStackSize> stack;
     std::size_t size = 0;
-    stack[size++] = {ray.entry(nodes_[0].box), 0};
+    stack[size++] = {ray.entry(bounds()), 0};
     while (size > 0) {
         const auto [entry, at] = stack[--size];
         if (!(entry <= limit) || !std::isfinite(entry)) continue;
-        const Node& node = nodes_[at];
-        for (Index i = 0; i < node.count; ++i) {
-            if (const std::optional<Hit> hit = hit_triangle(order_[node.first + i], ray))
-                visit(*hit);
+        const BoxTree::Node& node = boxes_.node(at);
+        for (const Index t : boxes_.items(node)) {
+            if (const std::optional<Hit> hit = hit_triangle(t, ray)) visit(*hit);
         }
         if (node.count > 0) continue;
-        std::pair<double, Index> near{ray.entry(nodes_[node.first].box), node.first};
-        std::pair<double, Index> far{ray.entry(nodes_[node.first + 1].box), node.first + 1};
+        std::pair<double, Index> near{ray.entry(boxes_.node(node.first).box), node.first};
+        std::pair<double, Index> far{ray.entry(boxes_.node(node.first + 1).box), node.first + 1};
         if (far.first < near.first) std::swap(near, far);
         stack[size++] = far;
         stack[size++] = near;
     }
 }
 
-std::optional<SurfacePoint> SpatialTree::pick(const Vec3& origin, const Vec3& direction) const {
-    const Ray ray(origin, direction, nodes_[0].box);
+// Twice the area of a triangle, along its normal.
+Vec3 SpatialTree::area_normal(Index triangle) const {
+    const auto [a, b, c] = triangles_[triangle];
+    return (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]);
+}
+
+std::optional<SurfacePoint> SpatialTree::pick(const Vec3& origin, const Vec3& direction,
+                                              const RayOptions& options) const {
+    const Line ray(origin, direction, bounds());
     Hit best;
-    best.distance = std::numeric_limits<double>::infinity();
+    best.distance = options.limit;
     visit_along(ray, best.distance, [&](const Hit& hit) {
-        if (hit.distance > best.distance) return;
-        if (hit.distance == best.distance && hit.triangle > best.triangle) return;
+        if (!(hit.distance <= best.distance)) return;
+        if (hit.distance == best.distance && best.triangle != kNoIndex &&
+            hit.triangle > best.triangle) {
+            return;
+        }
+        if (!options.back_faces && area_normal(hit.triangle).dot(ray.direction) >= 0.0) return;
         best = hit;
     });
     if (best.triangle == kNoIndex) return std::nullopt;
     return surface_point(best);
 }
 
+bool SpatialTree::hides(const Vec3& point, const Vec3& towards, const HideOptions& options) const {
+    const Line ray(point, towards, bounds());
+    const double coordinates =
+        std::max(bounds().min.cwiseAbs().maxCoeff(), bounds().max.cwiseAbs().maxCoeff());
+    const double rounding = kSamePlace * bounds().diagonal() +
+                            8.0 * std::numeric_limits<double>::epsilon() * coordinates;
+    const double touching = std::max(options.touching, rounding);
+    bool hidden = false;
+    double limit = options.eye;
+    visit_along(ray, limit, [&](const Hit& hit) {
+        if (!(hit.distance <= limit) || hit.distance <= options.slack) return;
+        if (!options.back_faces && area_normal(hit.triangle).dot(ray.direction) <= 0.0) return;
+        const auto [a, b, c] = triangles_[hit.triangle];
+        const auto nearest =
+            nearest_on_triangle({positions_[a], positions_[b], positions_[c]}, point);
+        if (nearest.squared_distance <= touching * touching) return;
+        hidden = true;
+        limit = -1.0;
+    });
+    return hidden;
+}
+
 std::vector<SurfacePoint> SpatialTree::pick_all(const Vec3& origin, const Vec3& direction) const {
-    const Ray ray(origin, direction, nodes_[0].box);
+    const Line ray(origin, direction, bounds());
     std::vector<Hit> hits;
     visit_along(ray, std::numeric_limits<double>::infinity(),
                 [&](const Hit& hit) { hits.push_back(hit); });
@@ -366,13 +330,9 @@ SurfacePoint SpatialTree::surface_point(const Hit& hit) const {
     return point;
 }
 
-Box SpatialTree::bounds() const {
-    return nodes_[0].box;
-}
-
 std::size_t SpatialTree::memory_bytes() const {
     return positions_.size() * sizeof(Vec3) + triangles_.size() * sizeof(Triangle) +
-           (faces_.size() + order_.size()) * sizeof(Index) + nodes_.size() * sizeof(Node);
+           faces_.size() * sizeof(Index) + boxes_.memory_bytes();
 }
 
 }  // namespace lissom

@@ -4,7 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -12,6 +15,7 @@
 #include "kernel/core/index.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/query/box_tree.h"
 
 namespace lissom {
 
@@ -31,11 +35,41 @@ struct SurfacePoint {
     Vec3 normal = Vec3::Zero();
 };
 
+/// Which hits of a ray count.
+struct RayOptions {
+    /// Greatest distance, in units of length.
+    double limit = std::numeric_limits<double>::infinity();
+    /// Whether triangles count that the ray meets from behind.
+    bool back_faces = true;
+};
+
+/// What hides a point from an eye.
+struct HideOptions {
+    /// Distance of the eye.
+    double eye = std::numeric_limits<double>::infinity();
+    /// Whether triangles hide it that the eye sees from behind.
+    bool back_faces = true;
+    /// Triangles that are as near to the point as this do not hide it, as those that meet in a
+    /// vertex; at least what rounding asks for.
+    double touching = 0.0;
+    /// Nor does what is as near to it as this on the way to the eye.
+    double slack = 0.0;
+};
+
 class SpatialTree {
   public:
     /// Copies the present shape of `mesh`, which may change or die afterwards.
     /// Errors: mesh_empty without faces; memory_limit; cancelled.
     explicit SpatialTree(const Mesh& mesh, const Context& context = {});
+
+    /// Takes the present shape of `mesh`, which must have the topology of the mesh that the tree
+    /// was built for. Queries give the same answers as those of a new tree; the time is linear and
+    /// a small part of building one, but see `wear`. Errors: topology_mismatch; memory_limit;
+    /// cancelled. The tree is then as it was.
+    void refit(const Mesh& mesh, const Context& context = {});
+    /// How much more a query is expected to cost than when the tree was built: 1 for a new tree.
+    /// Building it again is worth the time where this is far above 1 and many queries follow.
+    double wear() const { return boxes_.wear(); }
 
     /// The point of the surface nearest to `point`; of equally near triangles the one of the
     /// smallest face.
@@ -48,46 +82,52 @@ class SpatialTree {
     /// the smallest face. `direction` need not have unit length. Rays through edges and vertices do
     /// not slip through (Woop, Benthin and Wald 2013).
     /// Errors: invalid_argument for a direction without length; not_finite.
-    std::optional<SurfacePoint> pick(const Vec3& origin, const Vec3& direction) const;
+    std::optional<SurfacePoint> pick(const Vec3& origin, const Vec3& direction,
+                                     const RayOptions& options = {}) const;
+
+    /// Whether the surface lies between `point` and an eye in the direction `towards`. A point of
+    /// the surface is not hidden by the triangles that it is a point of, however flat the view.
+    /// Errors: as `pick`.
+    bool hides(const Vec3& point, const Vec3& towards, const HideOptions& options = {}) const;
 
     /// All hits of a ray in ascending distance; equally far ones in the order of their faces.
     /// Errors: as `pick`.
     std::vector<SurfacePoint> pick_all(const Vec3& origin, const Vec3& direction) const;
 
-    /// Mesh::revision of the shape it was built for.
+    /// Mesh::revision of the shape it has.
     std::uint64_t revision() const { return revision_; }
-    Box bounds() const;
+    Box bounds() const { return boxes_.bounds(); }
+
+    /// The shape that the tree is of: its triangles, the faces they are part of, and their boxes.
+    const std::shared_ptr<const Topology>& shared_topology() const { return topology_; }
+    const Topology& topology() const { return *topology_; }
+    std::span<const Vec3> positions() const { return positions_; }
+    std::span<const Triangle> triangles() const { return triangles_; }
+    std::span<const Index> faces() const { return faces_; }
+    const BoxTree& boxes() const { return boxes_; }
     std::size_t memory_bytes() const;
 
   private:
-    /// A leaf has `count` > 0 triangles from `first` on; the children of another node are `first`
-    /// and the one after.
-    struct Node {
-        Box box;
-        Index first = 0, count = 0;
-    };
-    struct Ray;
+    struct Line;
     struct Hit {
         Index triangle = kNoIndex;
         Vec3 barycentric = Vec3::Zero();
         double distance = 0.0;
     };
 
-    void build(const Context& context);
-    Index split(const Node& node, std::vector<Index>& order, const std::vector<Box>& boxes,
-                bool halve) const;
+    Box box_of(Index triangle) const;
     std::optional<Hit> nearest_triangle(const Vec3& point, double limit) const;
-    std::optional<Hit> hit_triangle(Index triangle, const Ray& ray) const;
+    std::optional<Hit> hit_triangle(Index triangle, const Line& ray) const;
     template <typename Visit>
-    void visit_along(const Ray& ray, const double& limit, const Visit& visit) const;
+    void visit_along(const Line& ray, const double& limit, const Visit& visit) const;
+    Vec3 area_normal(Index triangle) const;
     SurfacePoint surface_point(const Hit& hit) const;
 
     std::vector<Vec3> positions_;
     std::vector<Triangle> triangles_;
     std::vector<Index> faces_;
-    /// Triangles in the order of the leaves.
-    std::vector<Index> order_;
-    std::vector<Node> nodes_;
+    BoxTree boxes_;
+    std::shared_ptr<const Topology> topology_;
     std::uint64_t revision_ = 0;
     MemoryCharge charge_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/mesh/edges.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
@@ -175,4 +176,26 @@ TEST_CASE("every generated and real mesh has one boundary edge out of and into a
         }
         CHECK(count == mesh.topology().boundary_edge_count());
     }
+}
+
+TEST_CASE("edges are found by their vertices, and know their faces") {
+    const Mesh mesh = test::patch();
+    const Topology& topology = mesh.topology();
+    for (Index e = 0; e < topology.edge_count(); ++e) {
+        const auto [a, b] = topology.edge(e);
+        CHECK(find_edge(topology, a, b) == e);
+        CHECK(find_edge(topology, b, a) == e);
+        const auto [left, right] = faces_at_edge(topology, e);
+        for (const Index f : {left, right}) {
+            if (f == kNoIndex) continue;
+            const auto face = topology.face(f);
+            CHECK(std::find(face.begin(), face.end(), a) != face.end());
+            CHECK(std::find(face.begin(), face.end(), b) != face.end());
+        }
+        CHECK(left != kNoIndex);
+    }
+    CHECK(find_edge(topology, 1, 3) == kNoIndex);
+    CHECK(find_edge(topology, 0, 5) == kNoIndex);
+    CHECK(faces_at_edge(topology, find_edge(topology, 0, 2)) == std::pair<Index, Index>(0, 1));
+    CHECK(faces_at_edge(topology, find_edge(topology, 0, 1)).second == kNoIndex);
 }

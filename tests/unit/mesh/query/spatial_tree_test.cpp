@@ -91,6 +91,66 @@ void check_pick(const Mesh& mesh, int queries, std::uint32_t seed) {
     }
 }
 
+bool same_point(const SurfacePoint& a, const SurfacePoint& b) {
+    return a.face == b.face && a.triangle == b.triangle && a.barycentric == b.barycentric &&
+           a.position == b.position && a.distance == b.distance && a.vertex == b.vertex &&
+           a.normal == b.normal;
+}
+
+// Queries of both trees around the mesh, nearest points and rays, must be equal to the bit.
+void check_same_answers(const SpatialTree& tree, const SpatialTree& expected, std::uint32_t seed) {
+    REQUIRE(tree.bounds().min == expected.bounds().min);
+    REQUIRE(tree.bounds().max == expected.bounds().max);
+    test::Random random(seed);
+    const Box box = expected.bounds();
+    for (int i = 0; i < 60; ++i) {
+        const Vec3 from = box.center() + box.diagonal() * random.direction();
+        CHECK(same_point(tree.nearest(from), expected.nearest(from)));
+        const Vec3 towards = random.in_box(box) - from;
+        const auto hits = tree.pick_all(from, towards), others = expected.pick_all(from, towards);
+        CHECK(std::equal(hits.begin(), hits.end(), others.begin(), others.end(), same_point));
+        const auto first = tree.pick(from, towards);
+        REQUIRE(first.has_value() == !others.empty());
+        if (first) CHECK(same_point(*first, others[0]));
+    }
+}
+
+// A twist about y by `turns`, noise as a fraction of the size, then a similarity.
+Mesh deformed(const Mesh& mesh, double turns, double noise, const Affine& map, std::uint32_t seed) {
+    Mesh result = mesh;
+    test::Random random(seed);
+    const double size = bounds(mesh).diagonal();
+    for (Vec3& p : result.edit_positions()) {
+        p = rotation(Vec3::UnitY(), turns * 2.0 * kPi * p.y() / size, Vec3::Zero())(p);
+        p = map(p + noise * size * random.direction());
+    }
+    return result;
+}
+
+// Two triangles to a square in the xy plane, and squares and pentagons that are divided another way
+// once they are bent.
+Mesh mixed_polygons() {
+    FaceList faces;
+    std::vector<Vec3> positions;
+    for (Index i = 0; i <= 20; ++i) {
+        for (const double y : {0.0, 1.0}) positions.emplace_back(i, y, 0.0);
+    }
+    for (Index i = 0; i < 20; ++i) {
+        const Index a = 2 * i, b = a + 2, c = a + 3, d = a + 1;
+        if (i % 3 == 0) {
+            faces.add({a, b, c});
+            faces.add({a, c, d});
+        } else if (i % 3 == 1) {
+            faces.add({a, b, c, d});
+        } else {
+            const Index apex = count_of(positions);
+            positions.emplace_back(i + 0.5, 1.5, 0.0);
+            faces.add({a, b, c, apex, d});
+        }
+    }
+    return Mesh(std::move(positions), std::move(faces));
+}
+
 }  // namespace
 
 TEST_CASE("nearest points are those of brute force") {
@@ -231,4 +291,146 @@ TEST_CASE("queries without sense are refused") {
           ErrorCode::not_finite);
     CHECK(code([&] { (void)tree.nearest(Vec3(0, test::kInfinity, 0)); }) == ErrorCode::not_finite);
     CHECK(code([] { SpatialTree{Mesh()}; }) == ErrorCode::mesh_empty);
+}
+
+TEST_CASE("a refitted tree gives the answers of a new one") {
+    test::Random random(11);
+    const Affine far = translation(Vec3(3e7, -1e7, 2e7)) * test::similarity(random, 0.01);
+    for (const Mesh& mesh : {make_torus({.segments = 40, .tube_segments = 20}),
+                             make_box({.segments = {5, 6, 7}}), mixed_polygons()}) {
+        SpatialTree tree(mesh);
+        std::uint32_t seed = 20;
+        for (const Affine& map : {Affine{}, test::similarity(random, 1e3), far}) {
+            for (const double turns : {0.0, 0.2, 3.0}) {
+                for (const double noise : {0.0, 0.01, 0.5}) {
+                    CAPTURE(turns);
+                    CAPTURE(noise);
+                    const Mesh moved = deformed(mesh, turns, noise, map, ++seed);
+                    tree.refit(moved);
+                    CHECK(tree.revision() == moved.revision());
+                    check_same_answers(tree, SpatialTree(moved), seed);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("a tree that is refitted to a point and back is as new") {
+    const Mesh mesh = make_sphere({.segments = 8});
+    SpatialTree tree(mesh);
+    Mesh point = mesh;
+    for (Vec3& p : point.edit_positions()) p = Vec3(1, 2, 3);
+    tree.refit(point);
+    CHECK(tree.wear() == 1.0);
+    CHECK(tree.nearest(Vec3(1, 2, 5)).distance == Approx(2.0));
+    tree.refit(mesh);
+    CHECK(tree.wear() == Approx(1.0));
+    check_same_answers(tree, SpatialTree(mesh), 30);
+}
+
+TEST_CASE("a tree tells its wear: motions leave it as it is, scattered triangles wear it out") {
+    const Mesh mesh = make_sphere({.segments = 24});
+    test::Random random(12);
+    SpatialTree tree(mesh);
+    CHECK(tree.wear() == 1.0);
+    tree.refit(deformed(mesh, 0.0, 0.0, scaling(Vec3::Constant(7.0), Vec3::Zero()), 1));
+    CHECK(tree.wear() == Approx(1.0));
+    tree.refit(deformed(mesh, 0.1, 0.0, {}, 1));
+    CHECK(tree.wear() < 1.5);
+    double last = 1.0;
+    for (const double noise : {0.02, 0.1, 0.5}) {
+        tree.refit(deformed(mesh, 0.0, noise, {}, 1));
+        CHECK(tree.wear() > last);
+        last = tree.wear();
+    }
+    // Two halves of the triangles that lay mixed fly apart.
+    FaceList faces;
+    std::vector<Vec3> positions;
+    for (Index i = 0; i < 2000; ++i) {
+        const Vec3 corner = random.in_box({Vec3::Zero(), Vec3::Ones()});
+        for (int k = 0; k < 3; ++k) positions.push_back(corner + 0.01 * random.direction());
+        faces.add({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    Mesh dust(std::move(positions), std::move(faces));
+    SpatialTree dust_tree(dust);
+    for (Index v = 0; v < dust.vertex_count(); ++v) {
+        if (v / 3 % 2 == 0) dust.set_position(v, dust.position(v) + Vec3(20, 0, 0));
+    }
+    dust_tree.refit(dust);
+    CHECK(dust_tree.wear() > 4.0);
+    check_same_answers(dust_tree, SpatialTree(dust), 31);
+}
+
+TEST_CASE("a refit that is refused or cancelled leaves the tree as it was") {
+    const Context context;
+    Mesh mesh = make_box({.segments = {3, 3, 3}});
+    SpatialTree tree(mesh, context);
+    const Mesh other = make_box({.segments = {3, 3, 3}});
+    CHECK(test::error_of([&] { tree.refit(other); }).code() == ErrorCode::topology_mismatch);
+    const Mesh before = mesh;
+    const auto revision = mesh.revision();
+    for (Vec3& p : mesh.edit_positions()) p *= 2.0;
+    context.cancel();
+    CHECK(test::error_of([&] { tree.refit(mesh, context); }).code() == ErrorCode::cancelled);
+    CHECK(tree.revision() == revision);
+    check_same_answers(tree, SpatialTree(before), 32);
+}
+
+TEST_CASE("rays have a limit, and may pass through triangles from behind") {
+    const SpatialTree tree(make_sphere({.segments = 16}));
+    const Vec3 from(3, 0.1, 0.2), towards(-1, 0, 0);
+    const auto first = tree.pick(from, towards);
+    REQUIRE(first);
+    CHECK(!tree.pick(from, towards, {.limit = 0.99 * first->distance}));
+    CHECK(tree.pick(from, towards, {.limit = first->distance})->face == first->face);
+    CHECK(tree.pick(from, towards, {.back_faces = false})->face == first->face);
+    CHECK(tree.pick(Vec3::Zero(), towards));
+    CHECK(!tree.pick(Vec3::Zero(), towards, {.back_faces = false}));
+}
+
+TEST_CASE("of a convex surface those vertices are hidden none of whose faces is seen") {
+    test::Random random(13);
+    const std::vector<Affine> places{
+        {}, translation(Vec3(1e6, -3e6, 2e6)), scaling(Vec3(1.0, 1e-5, 1.0), Vec3::Zero())};
+    for (const Mesh& shape : {test::tetrahedron(), make_box({.segments = {4, 5, 6}}),
+                              make_cylinder({.segments = 17})}) {
+        for (const Affine& place : places) {
+            const Mesh mesh = test::moved(shape, place);
+            const SpatialTree tree(mesh);
+            const std::vector<Vec3> normals = face_normals(mesh);
+            const double size = bounds(mesh).diagonal();
+            for (int i = 0; i < 60; ++i) {
+                // Eyes nearly in the plane of a face, on either side of it.
+                const Index f = random.index(mesh.face_count());
+                const Vec3 along = normals[f].cross(random.direction()).normalized();
+                const double lift = std::pow(10.0, random.uniform(-5.0, 0.0));
+                const Vec3 eye = mesh.position(mesh.topology().face(f)[0]) +
+                                 size * (3.0 * along + (i % 2 == 0 ? lift : -lift) * normals[f]);
+                for (Index v = 0; v < mesh.vertex_count(); ++v) {
+                    const Vec3 towards = eye - mesh.position(v);
+                    double best = -1.0;
+                    for (const Index g : mesh.topology().faces_around(v)) {
+                        best = std::max(best, normals[g].dot(towards.normalized()));
+                    }
+                    if (std::abs(best) < 1e-7) continue;
+                    CHECK(tree.hides(mesh.position(v), towards, {.eye = towards.norm()}) ==
+                          (best < 0.0));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("a point is hidden by what lies between it and the eye, and by nothing beyond") {
+    const SpatialTree tree(make_grid({.size = {2, 2}, .segments = {2, 2}}));
+    const Vec3 up = Vec3::UnitY(), below(0.3, -1, 0.2), above(0.3, 1, 0.2);
+    CHECK(tree.hides(below, up));
+    CHECK(tree.hides(below, up, {.eye = 1.5}));
+    CHECK(!tree.hides(below, up, {.eye = 0.5}));
+    CHECK(!tree.hides(below, up, {.slack = 1.1}));
+    CHECK(!tree.hides(below, up, {.touching = 1.1}));
+    CHECK(tree.hides(below, up, {.back_faces = false}));
+    CHECK(tree.hides(above, -up));
+    CHECK(!tree.hides(above, -up, {.back_faces = false}));
+    CHECK(!tree.hides(above, up));
 }
