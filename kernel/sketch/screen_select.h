@@ -1,0 +1,65 @@
+/// Selection of vertices and faces by what is drawn over a picture: a rectangle, a lasso, a brush.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/mesh/region.h"
+#include "kernel/sketch/pick_scene.h"
+#include "kernel/sketch/view.h"
+
+namespace lissom {
+
+/// What is selected where a shape is drawn.
+enum class SelectKind {
+    /// Vertices that are seen inside.
+    vertices,
+    /// Faces of which the centroid of a triangle is seen inside, and under a brush those that it
+    /// touches; with all their vertices.
+    faces
+};
+
+struct SelectOptions {
+    SelectKind kind = SelectKind::vertices;
+    /// Also what surfaces hide.
+    bool through = false;
+    /// Whether faces count that are seen from behind. If not, they are as if they were not there:
+    /// neither selected, nor their vertices, nor hiding anything.
+    bool back_faces = true;
+};
+
+/// What is selected of one surface.
+struct Selected {
+    /// Its number in the scene.
+    Index object;
+    Region vertices;
+    /// The selected faces, ascending; empty where vertices were asked for.
+    std::vector<Index> faces;
+};
+
+/// What is seen inside a shape, of every surface of the scene in their order. Pixels may lie
+/// outside the picture. What is partly behind the camera is selected by what is in front. Errors:
+/// not_finite; invalid_argument for a negative radius or a picture without size; cancelled.
+///
+/// The rectangle with two opposite corners `a` and `b`.
+std::vector<Selected> select_rectangle(const PickScene& scene, const View& view, const Vec2& a,
+                                       const Vec2& b, const SelectOptions& options = {},
+                                       const Context& context = {});
+/// What the closed outline goes around, in either direction; where it crosses itself, all that it
+/// goes around at least once. Fewer than three points enclose nothing.
+std::vector<Selected> select_lasso(const PickScene& scene, const View& view,
+                                   std::span<const Vec2> outline, const SelectOptions& options = {},
+                                   const Context& context = {});
+
+/// A disk that is moved along a polyline; one point is a dab.
+struct Brush {
+    std::span<const Vec2> stroke;
+    /// Pixels.
+    double radius = 20.0;
+};
+std::vector<Selected> select_brush(const PickScene& scene, const View& view, const Brush& brush,
+                                   const SelectOptions& options = {}, const Context& context = {});
+
+}  // namespace lissom
