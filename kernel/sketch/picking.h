@@ -2,6 +2,7 @@
 /// drawn for it.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 

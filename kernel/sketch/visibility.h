@@ -6,6 +6,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/query/spatial_tree.h"
 #include "kernel/sketch/cursor_frame.h"
 #include "kernel/sketch/pick_scene.h"
 #include "kernel/sketch/view.h"

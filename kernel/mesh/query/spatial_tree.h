@@ -16,6 +16,7 @@
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/box_tree.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 
