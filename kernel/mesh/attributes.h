@@ -72,6 +72,8 @@ struct FaceLabels {
 
     /// Index of `label` in `names`; adds it where it is new.
     Index add(std::string_view label);
+
+    bool operator==(const FaceLabels&) const = default;
 };
 
 /// All attributes and labels of one mesh, in the order they were added.

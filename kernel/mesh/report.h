@@ -58,6 +58,8 @@ struct Finding {
     std::vector<Index> ids;
     /// One sentence, or the names of what was left out.
     std::string message;
+
+    bool operator==(const Finding&) const = default;
 };
 
 /// Findings in the order in which they were made; at most one of each kind.
@@ -72,6 +74,7 @@ class Report {
     const std::vector<Finding>& findings() const { return findings_; }
     const Finding* find(FindingKind kind) const;
     bool empty() const { return findings_.empty(); }
+    bool operator==(const Report&) const = default;
 
   private:
     std::vector<Finding> findings_;

@@ -36,7 +36,7 @@ const std::vector<Rule>& rules() {
          {"Eigen"}},
         {"kernel/scene",
          {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform", "kernel/merge",
-          "kernel/hair", "kernel/sketch", "kernel/scene"},
+          "kernel/hair", "kernel/sketch", "kernel/io", "kernel/scene"},
          {"Eigen"}},
         {"kernel/io",
          {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform", "kernel/merge",
@@ -81,7 +81,7 @@ const std::vector<Names>& room_orders() {
          "kernel/io/gltf", "kernel/io/obj", "kernel/io/off", "kernel/io/ply", "kernel/io/stl",
          "kernel/io/usda", "kernel/io/hair", "kernel/io"},
         {"bindings/lua/core", "bindings/lua/mesh", "bindings/lua/deform", "bindings/lua/merge",
-         "bindings/lua/hair", "bindings/lua/reference"},
+         "bindings/lua/hair", "bindings/lua/scene", "bindings/lua/reference"},
         {"bindings/cli/terminal", "bindings/cli"},
         {"viewer/draw", "viewer/strands", "viewer/gl", "viewer", "viewer/lua", "viewer/main"},
     };

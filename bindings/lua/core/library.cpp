@@ -40,7 +40,8 @@ Library kernel_library() {
     Library library{
         .name = "lissom",
         .summary =
-            "Modeling by few handles: meshes, regions, paths, deformation, merging and hair."};
+            "Modeling by few handles: meshes, regions, paths, deformation, merging, hair and "
+            "scenes."};
     library.constants = {{"version", LISSOM_VERSION, "Version of the library."}};
     add(library.functions, mesh_file_functions());
     add(library.functions, mesh_functions());
@@ -50,18 +51,20 @@ Library kernel_library() {
     add(library.functions, scalp_functions());
     add(library.functions, hairstyle_functions());
     add(library.functions, strand_functions());
+    add(library.functions, scene_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
     library.functions.push_back(failures_function());
     library.types = {whole_mesh_type(),  region_type(),    whole_path_type(), buffer_type(),
                      deformation_type(), handle_type(),    merging_type(),    provenance_type(),
                      scalp_type(),       hairstyle_type(), curve_type(),      strands_type(),
-                     parameters_type()};
+                     scene_type(),       parameters_type()};
     library.records = kernel_records();
     add(library.records, cut_records());
     add(library.records, merge_records());
     add(library.records, hairstyle_records());
     add(library.records, strand_records());
+    add(library.records, scene_records());
     return library;
 }
 

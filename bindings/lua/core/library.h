@@ -50,6 +50,10 @@ Type strands_type();
 std::vector<Function> strand_functions();
 std::vector<Record> strand_records();
 
+Type scene_type();
+std::vector<Function> scene_functions();
+std::vector<Record> scene_records();
+
 Type parameters_type();
 std::vector<Function> parameter_functions();
 

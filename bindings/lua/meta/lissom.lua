@@ -303,6 +303,28 @@
 ---@field count integer Number of strands concerned.
 ---@field strands integer[] The strands, the first hundred of them.
 
+---An object of a scene.
+---@class lissom.SceneEntry
+---@field name string Its name.
+---@field number integer Its number, which it keeps and which no other gets.
+---@field kind string mesh, deformation, strands, hairstyle or polyline.
+---@field transform number[][] Rows of the 4 x 4 matrix from its space to the scene's.
+---@field visible boolean Whether it is drawn.
+---@field style table How it is drawn; the fields are the options of scene:set.
+
+---A step of a scene's history.
+---@class lissom.HistoryStep
+---@field name string Its name.
+---@field bytes integer What it added to the memory of the history.
+
+---The steps of a scene's history, oldest first.
+---@class lissom.History
+---@field [integer] lissom.HistoryStep The steps in order.
+---@field place integer How many of them can be undone; the others can be done again.
+---@field bytes integer Memory of all steps, beside one copy of the present content.
+---@field limit integer What `bytes` is kept below.
+---@field dropped integer How many steps were forgotten because of it.
+
 ---An oriented 2-manifold of polygons, with or without boundary. Vertices and faces count from 1.
 ---@class lissom.Mesh
 ---@operator len: integer
@@ -1775,6 +1797,174 @@ function Strands:smooth(options) end
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Strands:close() end
 
+---Named objects in an order, with a history of what was done to them.
+---@class lissom.Scene
+---@operator len: integer
+local Scene = {}
+
+---@class lissom.Scene.AddOptions.Style
+---@field color? string|lissom.Vector Colour of the object, instead of that of its kind.
+---@field vertex_colors? boolean Draws the attribute "color" where a mesh has it.
+---@field shading? "smooth"|"flat" Smooth normals, or one a face.
+---@field crease? number Edges sharper than this angle stay sharp. In degrees.
+---@field wire? boolean Draws the polygons' edges.
+---@field wire_color? string|lissom.Vector Their colour.
+---@field wire_width? number Their width. In pixels.
+---@field line_width? number Width of curves and open boundaries. In pixels.
+---@field boundaries? boolean Draws the loops of open boundaries.
+---@field region? string The named region of a mesh to draw in a colour of its own; "": none.
+---@field handles? boolean Draws region and handles of a deformation.
+---@field level? number Part of the strands that is drawn.
+
+---@class lissom.Scene.AddOptions
+---@field transform? number[][] Where it stands in the scene: rows of a 4 x 4 matrix. The object's own coordinates stay.
+---@field visible? boolean Whether it is drawn.
+---@field style? lissom.Scene.AddOptions.Style How it is drawn; what is left out stays.
+
+---Adds an object under a name, behind all others. The scene holds the object itself, not a copy: who changes it changes what the scene shows.
+---@param name string A name that no object of the scene has.
+---@param object lissom.Mesh What is added.
+---@param options? lissom.Scene.AddOptions
+---@return any object # The object.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:add(name, object, options) end
+
+---The object of a name; nil, message, code where there is none.
+---@param name string The name of the object.
+---@return any object # The very object that was added.
+function Scene:get(name) end
+
+---Number, kind, place and look of an object; nil, message, code where there is none of this name.
+---@param name string The name of the object.
+---@return lissom.SceneEntry entry # A table of its own.
+function Scene:info(name) end
+
+---The names of all objects, in their order.
+---@return string[] names # A list.
+function Scene:names() end
+
+---Takes an object out of the scene. The object itself lives on.
+---@param name string The name of the object.
+---@return lissom.Scene scene # The scene itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:remove(name) end
+
+---Gives an object another name.
+---@param name string The name of the object.
+---@param new_name string A name that no other object has.
+---@return lissom.Scene scene # The scene itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:rename(name, new_name) end
+
+---Gives an object another place in the order.
+---@param name string The name of the object.
+---@param place integer Its place; 1 is the first.
+---@return lissom.Scene scene # The scene itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:move(name, place) end
+
+---@class lissom.Scene.SetOptions.Style
+---@field color? string|lissom.Vector Colour of the object, instead of that of its kind.
+---@field vertex_colors? boolean Draws the attribute "color" where a mesh has it.
+---@field shading? "smooth"|"flat" Smooth normals, or one a face.
+---@field crease? number Edges sharper than this angle stay sharp. In degrees.
+---@field wire? boolean Draws the polygons' edges.
+---@field wire_color? string|lissom.Vector Their colour.
+---@field wire_width? number Their width. In pixels.
+---@field line_width? number Width of curves and open boundaries. In pixels.
+---@field boundaries? boolean Draws the loops of open boundaries.
+---@field region? string The named region of a mesh to draw in a colour of its own; "": none.
+---@field handles? boolean Draws region and handles of a deformation.
+---@field level? number Part of the strands that is drawn.
+
+---@class lissom.Scene.SetOptions
+---@field transform? number[][] Where it stands in the scene: rows of a 4 x 4 matrix. The object's own coordinates stay.
+---@field visible? boolean Whether it is drawn.
+---@field style? lissom.Scene.SetOptions.Style How it is drawn; what is left out stays.
+
+---Changes where an object stands and how it is drawn; what is left out stays.
+---@param name string The name of the object.
+---@param options? lissom.Scene.SetOptions
+---@return lissom.Scene scene # The scene itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:set(name, options) end
+
+---Runs a function whose changes of the scene and its objects are one step, which undo takes back. After an error in it the scene and its objects are as they were, and the error goes on. A step inside a step becomes part of that. The function cannot yield; in a coroutine use begin and commit.
+---@param name string What undo calls it.
+---@param action fun(): any What is done.
+---@return any ... # What the function returns.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:step(name, action) end
+
+---Opens a step, for instance when a drag begins; commit or rollback ends it.
+---@param name string What undo calls it.
+---@return lissom.Scene scene # The scene itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:begin(name) end
+
+---Ends the step opened last. A step in which nothing changed is none.
+---@return boolean changed # Whether anything changed.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:commit() end
+
+---Ends the step opened last and takes back what was done since.
+---@return lissom.Scene scene # The scene itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:rollback() end
+
+---Takes back the last step: the contents go back into the objects themselves. What was changed outside a step is a step called "edited".
+---@return string|nil name # The name of the step; nil where there is none.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:undo() end
+
+---Does the step again that was undone last. A new step forgets those that were undone.
+---@return string|nil name # The name of the step; nil where there is none.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:redo() end
+
+---The steps, and what they hold.
+---@return lissom.History history # A table of its own.
+function Scene:history() end
+
+---Forgets all steps; the scene stays as it is.
+---@return lissom.Scene scene # The scene itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:clear_history() end
+
+---Hash of names, order, looks and contents of all objects; the same on every machine, whatever led to the scene.
+---@return string hash # 16 hexadecimal digits.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:hash() end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Scene:close() end
+
 ---Values of a script's parameters: `params.length`. Values that are set are checked as those of the command line.
 ---@class lissom.Params
 ---@field [string] any
@@ -1788,7 +1978,7 @@ function Params:schema() end
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Params:close() end
 
----Modeling by few handles: meshes, regions, paths, deformation, merging and hair.
+---Modeling by few handles: meshes, regions, paths, deformation, merging, hair and scenes.
 ---@class lissom
 ---@field version string Version of the library.
 local lissom = {}
@@ -2076,6 +2266,17 @@ function lissom.load_strands(path, options) end
 ---@param options lissom.StrandsOptions
 ---@return lissom.Strands strands # The new strands.
 function lissom.strands(options) end
+
+---@class lissom.SceneOptions
+---@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten where it would be more. In bytes. Default: 536870912.
+
+---Makes an empty scene.
+---@param options? lissom.SceneOptions
+---@return lissom.Scene scene # Give it objects by add.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.scene(options) end
 
 ---@class lissom.ParamsOptions.Declarations
 ---@field type "number"|"integer"|"boolean"|"string"|"choice"|"file"|"folder" What its values are. A folder is one to write to: it is made, where it is missing, when the parameters are declared or it is set.

@@ -1,0 +1,55 @@
+/// Scenes of a script, and its objects as the items of one.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "bindings/lua/core/call.h"
+#include "kernel/scene/scene.h"
+
+namespace lissom::lua {
+
+struct SceneObject {
+    static constexpr const char* kTypeName = "lissom.Scene";
+
+    explicit SceneObject(const SceneOptions& options) : scene(options) {}
+
+    Scene scene;
+    /// Depth of the innermost scene:step whose function runs now: what it opened, it ends.
+    std::size_t step_depth = 0;
+    std::size_t charged_bytes = 0;
+
+    std::size_t memory_bytes() const { return scene.history_bytes(); }
+};
+
+/// An item whose object scripts hold.
+class ScriptItem {
+  public:
+    virtual ~ScriptItem() = default;
+    /// Pushes the object, the same userdata as long as a script holds it.
+    virtual int push(Call& call) const = 0;
+};
+
+/// The argument that an object of a scene is given by.
+Parameter item_argument(std::string name, std::string help);
+
+/// Which type of object the argument `path` at stack index `index` is; read in step 1.
+struct ItemArgument {
+    Holder* holder;
+    int index;
+
+    static ItemArgument read(const Call& call, int index);
+    /// Inside Call::attempt only.
+    std::shared_ptr<SceneItem> item() const;
+    /// Lets scene:get find the userdata of the argument again.
+    void remember(const Call& call) const;
+};
+
+/// Options transform=, visible=, style={...} of an object in a scene.
+std::vector<Parameter> look_fields();
+/// `look` with what the call gives for them. Inside Call::attempt only.
+ObjectLook changed_look(const Call& call, ObjectLook look);
+/// Pushes a lissom.SceneEntry.
+int push_entry(const Call& call, const NamedObject& object);
+
+}  // namespace lissom::lua

@@ -1,0 +1,66 @@
+/// ContentStore: counts the bytes that the states of a scene hold, each thing once, for as long as
+/// one of them holds it.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kernel/core/context.h"
+
+namespace lissom {
+
+/// Something that states hold, with the bytes that it counts.
+struct KeptBytes {
+    explicit KeptBytes(MemoryCharge counted) : charge(std::move(counted)) {}
+
+    MemoryCharge charge;
+};
+
+/// A value that states hold, and that live objects may hold as well: a topology, labels, a setup.
+template <typename T>
+struct Kept : KeptBytes {
+    Kept(MemoryCharge counted, std::shared_ptr<const T> kept)
+        : KeptBytes(std::move(counted)), value(std::move(kept)) {}
+
+    std::shared_ptr<const T> value;
+};
+
+class ContentStore {
+  public:
+    /// Bytes of all that is alive.
+    std::size_t bytes() const { return account_->used(); }
+    /// Counts `bytes` for as long as the result lives.
+    MemoryCharge charge(std::size_t bytes) const { return {account_, bytes, kPurpose}; }
+
+    /// Keeps `value`, which counts `bytes`; for a value that is kept already, the same result.
+    /// Null for null.
+    template <typename T>
+    std::shared_ptr<const Kept<T>> keep(const std::shared_ptr<const T>& value, std::size_t bytes) {
+        if (!value) return nullptr;
+        std::weak_ptr<const KeptBytes>& known = kept_[value.get()];
+        if (auto found = known.lock()) return std::static_pointer_cast<const Kept<T>>(found);
+        auto made = std::make_shared<const Kept<T>>(charge(bytes), value);
+        known = made;
+        forget_dead();
+        return made;
+    }
+
+  private:
+    static constexpr std::string_view kPurpose = "the history of a scene";
+
+    void forget_dead();
+
+    std::shared_ptr<MemoryAccount> account_ = std::make_shared<MemoryAccount>(0);
+    // By the address of the value, which lives as long as what is kept of it.
+    std::map<const void*, std::weak_ptr<const KeptBytes>> kept_;
+    std::size_t forget_at_ = 64;
+};
+
+/// Bytes of all things of `list`, each counted once.
+std::size_t bytes_of(std::vector<const KeptBytes*> list);
+
+}  // namespace lissom

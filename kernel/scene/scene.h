@@ -1,0 +1,157 @@
+/// Scene: named objects in an order, and a history of what was done to them.
+///
+///     Scene scene;
+///     auto bar = std::make_shared<Mesh>(make_bar());
+///     scene.add("bar", std::make_shared<MeshItem>(bar));
+///     scene.step("bend", [&] { transform(*bar, map); });
+///     scene.undo();    // `bar` itself is as before
+///
+/// Objects are live: whoever holds one may change it at any time, and undo puts content back into
+/// the very object. What was changed outside a step is found at the next step, undo or hash, and
+/// becomes a step of its own called "edited".
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+#include "kernel/scene/content_store.h"
+#include "kernel/scene/history.h"
+#include "kernel/scene/scene_item.h"
+#include "kernel/scene/scene_state.h"
+
+namespace lissom {
+
+struct SceneOptions {
+    /// Bytes that the history may hold beside one copy of the present content; the oldest steps go
+    /// where it would be more.
+    std::size_t history_bytes = std::size_t{512} << 20;
+};
+
+/// What the history of a scene holds.
+struct HistoryReport {
+    struct Step {
+        std::string name;
+        /// What the step added to the memory of the history.
+        std::size_t bytes = 0;
+    };
+
+    /// Oldest first.
+    std::vector<Step> steps;
+    /// The first `place` of them can be undone, the others done again.
+    std::size_t place = 0;
+    /// Bytes of all steps together, beside one copy of the present content.
+    std::size_t bytes = 0;
+    std::size_t limit = 0;
+    /// Number of steps that were forgotten because of the limit.
+    std::size_t dropped = 0;
+};
+
+/// Used by one thread at a time. After an error the scene and the contents of its objects are as
+/// they were. Every function that takes memory may throw memory_limit.
+class Scene {
+  public:
+    /// Name of the step that holds what was changed outside a step.
+    static constexpr std::string_view kEdited = "edited";
+
+    explicit Scene(const SceneOptions& options = {});
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    // ---- Objects. Outside a step, each change is a step of its own, for instance "add bar".
+
+    /// Adds an object behind all others. Two objects may show one item. Errors: invalid_argument
+    /// for an empty name or one that another object has; as require_look.
+    ObjectId add(std::string name, std::shared_ptr<SceneItem> item, ObjectLook look = {});
+    /// Errors of the following: out_of_range for an object that the scene does not have.
+    void remove(ObjectId id);
+    /// Errors: also as add.
+    void rename(ObjectId id, std::string name);
+    /// Gives an object the place `place` in the order, from 0. Errors: also out_of_range for that.
+    void reorder(ObjectId id, Index place);
+    /// Errors: also as require_look.
+    void set_look(ObjectId id, ObjectLook look);
+
+    const ObjectList& objects() const { return objects_; }
+    /// The object called `name`, or null.
+    const NamedObject* find(std::string_view name) const;
+    const NamedObject& object(ObjectId id) const;
+
+    // ---- Steps
+
+    /// Opens a step: what is done to the scene and its objects until `commit` is undone at once. A
+    /// step inside another becomes part of it. Errors: invalid_argument for an empty name.
+    void begin(std::string name);
+    /// Ends the step opened last. False where nothing has changed: then there is no step to undo.
+    /// Errors: invalid_argument where none is open.
+    bool commit();
+    /// Ends the step opened last and takes back what was done since. Errors: as commit.
+    void rollback();
+    /// Number of open steps.
+    std::size_t depth() const { return open_.size(); }
+
+    /// Runs work() as a step. Where it throws, the scene is as it was before, and the error goes
+    /// on.
+    template <typename Work>
+    void step(std::string name, const Work& work) {
+        begin(std::move(name));
+        try {
+            work();
+            commit();
+        } catch (...) {
+            rollback();
+            throw;
+        }
+    }
+
+    /// Undoes the last step, or does the last undone one again, and returns its name; nothing at
+    /// the end. Errors: invalid_argument while a step is open.
+    std::optional<std::string> undo();
+    std::optional<std::string> redo();
+    HistoryReport history() const;
+    /// HistoryReport::bytes.
+    std::size_t history_bytes() const { return history_.bytes(); }
+    /// Forgets all steps; the scene stays as it is. Errors: as undo.
+    void clear_history();
+
+    /// Of names, order, looks and contents of all objects, whatever led there; the same on every
+    /// run, platform and number of threads.
+    std::uint64_t hash();
+    /// The scene as it is now.
+    std::shared_ptr<const SceneState> state();
+
+  private:
+    struct OpenStep {
+        std::string name;
+        /// What rollback returns to.
+        std::shared_ptr<const SceneState> before;
+        std::size_t bytes;
+    };
+
+    template <typename Change>
+    void change(const char* verb, const std::string& name, const Change& change);
+    ObjectList::iterator place_of(ObjectId id);
+    void require_free_name(std::string_view name) const;
+    void require_closed(const char* what) const;
+    void settle();
+    void capture();
+    void record(std::string name, std::size_t bytes_before);
+    void restore(const std::shared_ptr<const SceneState>& wanted);
+
+    SceneOptions options_;
+    ContentStore store_;
+    ObjectList objects_;
+    std::uint64_t next_id_ = 1;
+    /// The state captured last: outside steps the present one of the history.
+    std::shared_ptr<const SceneState> seen_;
+    History history_;
+    std::vector<OpenStep> open_;
+};
+
+}  // namespace lissom
