@@ -109,13 +109,22 @@ const std::shared_ptr<const Preparation>& Deformer::State::prepare(const Context
 }
 
 void Deformer::State::show(DeformFrame frame) {
-    std::swap(shown, frame);
-    scratch.recycle(std::move(frame));
+    if (own) {
+        std::swap(*own, frame);
+        scratch.recycle(std::move(frame));
+        return;
+    }
+    auto next = std::make_shared<DeformFrame>(std::move(frame));
+    own = next.get();
+    shown = std::move(next);
 }
 
-const DeformFrame& Deformer::State::complete() {
-    if (!shown.gradients) shown.gradients = frame_gradients(shown, scratch);
-    shown.preparation.reset();
+// What others hold is complete.
+const std::shared_ptr<const DeformFrame>& Deformer::State::complete() {
+    if (own) {
+        if (!own->gradients) own->gradients = frame_gradients(*own, scratch);
+        own->preparation.reset();
+    }
     return shown;
 }
 
@@ -155,14 +164,14 @@ const std::vector<Vec3>& Deformer::solve_draft(const Context& context) {
 }
 
 const std::vector<Vec3>& Deformer::positions() const {
-    return state_->shown.positions;
+    return state_->shown->positions;
 }
 const std::vector<Vec3>& Deformer::rest_positions() const {
     return state_->rest->positions;
 }
 
 void Deformer::apply_to(Mesh& mesh) const {
-    with_memory_errors([&] { write_frame(*state_->rest, state_->shown, mesh); });
+    with_memory_errors([&] { write_frame(*state_->rest, *state_->shown, mesh); });
 }
 
 void Deformer::require_surroundings(const Mesh& mesh) const {
@@ -175,8 +184,11 @@ void Deformer::apply_rest_to(Mesh& mesh) const {
 }
 
 std::shared_ptr<const ShownResult> Deformer::result() {
-    return with_memory_errors(
-        [&] { return std::make_shared<const DeformFrame>(state_->complete()); });
+    return with_memory_errors([&] {
+        const auto result = state_->complete();
+        state_->own = nullptr;
+        return result;
+    });
 }
 
 void Deformer::show(const ShownResult& result) {
@@ -184,9 +196,17 @@ void Deformer::show(const ShownResult& result) {
     with_memory_errors([&] { state_->show(result); });
 }
 
+void Deformer::show(std::shared_ptr<const ShownResult> result) {
+    require(result != nullptr, "there is no result to show");
+    if (!result->gradients) return show(*result);
+    require_frame(*state_->rest, *result);
+    state_->own = nullptr;
+    state_->shown = std::move(result);
+}
+
 const std::vector<Mat3>& Deformer::gradients() {
     return with_memory_errors(
-        [&]() -> const std::vector<Mat3>& { return *state_->complete().gradients; });
+        [&]() -> const std::vector<Mat3>& { return *state_->complete()->gradients; });
 }
 
 DeformStats Deformer::stats() const {
@@ -222,7 +242,7 @@ void Deformer::reset() {
 void Deformer::rebase() {
     State& s = *state_;
     with_memory_errors([&] {
-        const auto rest = rebased(*s.rest, s.shown);
+        const auto rest = rebased(*s.rest, *s.shown);
         auto holds = std::make_shared<const Holds>(moved_to(*rest, *s.holds));
         Poses poses = resting_poses(*rest, *holds);
         DeformFrame frame = rest_frame(*rest);

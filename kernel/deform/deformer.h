@@ -200,11 +200,14 @@ class Deformer {
     /// Throws topology_mismatch where `mesh` has another topology, or has changed around the region
     /// since the deformer was made: the result would tear there.
     void require_surroundings(const Mesh& mesh) const;
-    /// What is shown, to be put back by `show`, to the bit, whatever was solved in between.
+    /// What is shown, to be put back by `show`, to the bit, whatever was solved in between. The
+    /// same object until something else is shown.
     std::shared_ptr<const ShownResult> result();
-    /// Shows a result of this deformer again, or a frame of its preparation. The handles stay where
-    /// they are; see `restore`. Errors: invalid_argument for one of another region.
+    /// Shows a result of this deformer again, or a frame of its preparation; the second form
+    /// without a copy. The handles stay where they are; see `restore`. Errors: invalid_argument for
+    /// one of another region.
     void show(const ShownResult& result);
+    void show(std::shared_ptr<const ShownResult> result);
     /// `mesh` as apply_to leaves it, with the vertices that a refinement of coarse borders
     /// inserted: behind its own, where the last result has them. Faces that they lie on become
     /// triangles; attributes are interpolated. A mesh without such vertices is only copied. Errors:

@@ -99,13 +99,13 @@ Mesh Deformer::refined_mesh(const Mesh& mesh, const Context& context) {
         Mesh deformed = mesh;
         apply_to(deformed);
         const std::shared_ptr<const WorkingPatch> work =
-            s.shown.patch ? s.shown.patch : s.prepare(context)->work;
+            s.shown->patch ? s.shown->patch : s.prepare(context)->work;
         const Patch& patch = work->patch;
         if (patch.inserted.empty()) return deformed;
         const std::span<const Vec3> own = deformed.positions();
         std::vector<Vec3> positions(own.begin(), own.end());
-        if (s.shown.patch) {
-            positions.insert(positions.end(), s.shown.inserted.begin(), s.shown.inserted.end());
+        if (s.shown->patch) {
+            positions.insert(positions.end(), s.shown->inserted.begin(), s.shown->inserted.end());
         } else {
             for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
                 positions.push_back(patch.rest[v] + patch.origin);

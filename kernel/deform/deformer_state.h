@@ -34,7 +34,9 @@ struct Deformer::State {
     Poses poses;
     /// The last one; it serves as long as it is that of `rest` and `holds`.
     std::shared_ptr<const Preparation> preparation;
-    DeformFrame shown;
+    std::shared_ptr<const DeformFrame> shown;
+    /// `shown` as long as nobody else holds it: others see no change of theirs.
+    DeformFrame* own = nullptr;
     FrameScratch scratch;
     /// Of the last preparation, and how many there were.
     DeformStats costs;
@@ -43,8 +45,9 @@ struct Deformer::State {
           const Context& given)
         : context(given),
           rest(make_rest_shape(mesh, region, options, context)),
-          holds(std::make_shared<const Holds>()),
-          shown(rest_frame(*rest)) {}
+          holds(std::make_shared<const Holds>()) {
+        show(rest_frame(*rest));
+    }
 
     const DeformOptions& options() const { return rest->options(); }
     const Handle& handle(HandleId id) const { return handle_of(*holds, id); }
@@ -55,7 +58,7 @@ struct Deformer::State {
 
     const std::shared_ptr<const Preparation>& prepare(const Context& given);
     void show(DeformFrame frame);
-    const DeformFrame& complete();
+    const std::shared_ptr<const DeformFrame>& complete();
 
     /// Changes holds and poses by change(edit) on copies, and keeps those when it is done.
     template <typename Change>

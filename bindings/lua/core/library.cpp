@@ -52,13 +52,14 @@ Library kernel_library() {
     add(library.functions, hairstyle_functions());
     add(library.functions, strand_functions());
     add(library.functions, scene_functions());
+    add(library.functions, polyline_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
     library.functions.push_back(failures_function());
     library.types = {whole_mesh_type(),  region_type(),    whole_path_type(), buffer_type(),
                      deformation_type(), handle_type(),    merging_type(),    provenance_type(),
                      scalp_type(),       hairstyle_type(), curve_type(),      strands_type(),
-                     scene_type(),       parameters_type()};
+                     scene_type(),       polyline_type(),  parameters_type()};
     library.records = kernel_records();
     add(library.records, cut_records());
     add(library.records, merge_records());

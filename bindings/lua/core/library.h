@@ -53,6 +53,8 @@ std::vector<Record> strand_records();
 Type scene_type();
 std::vector<Function> scene_functions();
 std::vector<Record> scene_records();
+Type polyline_type();
+std::vector<Function> polyline_functions();
 
 Type parameters_type();
 std::vector<Function> parameter_functions();

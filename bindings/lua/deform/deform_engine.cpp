@@ -70,7 +70,7 @@ class Standing {
     const Mesh& mesh() const { return mesh_; }
 
     void restore_handles(Deformer& deformer) const { deformer.restore(*poses_); }
-    void restore_result(Deformer& deformer) const { deformer.show(*result_); }
+    void restore_result(Deformer& deformer) const { deformer.show(result_); }
 
     void restore_mesh(MeshObject& object) const {
         Mesh& mesh = object.mesh;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "bindings/lua/mesh/mesh_object.h"
@@ -16,12 +15,12 @@ struct DeformObject {
     DeformObject(std::shared_ptr<MeshObject> owner, Deformer made)
         : mesh(std::move(owner)),
           topology(mesh->mesh.shared_topology()),
-          content(std::move(made)) {}
+          content(std::make_shared<Deformer>(std::move(made))) {}
 
     std::shared_ptr<MeshObject> mesh;
     std::shared_ptr<const Topology> topology;
     /// Empty once it was closed.
-    std::optional<Deformer> content;
+    std::shared_ptr<Deformer> content;
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,11 +25,11 @@ struct HairstyleObject {
     static constexpr const char* kTypeName = "lissom.Hairstyle";
 
     HairstyleObject(std::shared_ptr<MeshObject> owner, Hairstyle made)
-        : head(std::move(owner)), content(std::move(made)) {}
+        : head(std::move(owner)), content(std::make_shared<Hairstyle>(std::move(made))) {}
 
     std::shared_ptr<MeshObject> head;
     /// Empty once it was closed.
-    std::optional<Hairstyle> content;
+    std::shared_ptr<Hairstyle> content;
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const { return content ? content->memory_bytes() : 0; }

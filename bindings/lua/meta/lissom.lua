@@ -1823,7 +1823,7 @@ local Scene = {}
 
 ---Adds an object under a name, behind all others. The scene holds the object itself, not a copy: who changes it changes what the scene shows.
 ---@param name string A name that no object of the scene has.
----@param object lissom.Mesh What is added.
+---@param object lissom.Mesh|lissom.Deformation|lissom.Strands|lissom.Hairstyle|lissom.Polyline What is added.
 ---@param options? lissom.Scene.AddOptions
 ---@return any object # The object.
 ---@return string? message # What is wrong, where the first result is nil.
@@ -1964,6 +1964,50 @@ function Scene:hash() end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Scene:close() end
+
+---A curve through points in space: a drawn stroke, a guide.
+---@class lissom.Polyline
+---@operator len: integer
+local Polyline = {}
+
+---Its points.
+---@return lissom.Vector[] points # A list of {x, y, z}.
+function Polyline:points() end
+
+---Replaces its points.
+---@param points lissom.Vector[] Any number of them.
+---@return lissom.Polyline line # The polyline itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Polyline:set_points(points) end
+
+---@class lissom.Polyline.TransformOptions.Rotate
+---@field axis "x"|"y"|"z"|lissom.Vector Axis of the rotation.
+---@field angle number Angle, counter-clockwise seen against the axis. In degrees.
+---@field about? lissom.Vector A point on the axis. Default: the option `about`.
+
+---@class lissom.Polyline.TransformOptions
+---@field translate? lissom.Vector Added last. In mesh units. Default: {0, 0, 0}.
+---@field rotate? lissom.Polyline.TransformOptions.Rotate Applied after the scale. Default: none.
+---@field scale? number|lissom.Vector Factor for all axes, or one for each; applied first. Default: 1.
+---@field about? lissom.Vector The point that scale and rotation keep. Default: the origin.
+
+---Scales, then rotates, then translates all points.
+---@param options? lissom.Polyline.TransformOptions
+---@return lissom.Polyline line # The polyline itself.
+function Polyline:transform(options) end
+
+---Whether its last point is joined to the first.
+---@return boolean closed # As it was made.
+function Polyline:is_closed() end
+
+---Its length.
+---@return number length # In the unit of its points.
+function Polyline:length() end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Polyline:close() end
 
 ---Values of a script's parameters: `params.length`. Values that are set are checked as those of the command line.
 ---@class lissom.Params
@@ -2277,6 +2321,18 @@ function lissom.strands(options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function lissom.scene(options) end
+
+---@class lissom.PolylineOptions
+---@field points lissom.Vector[] What it runs through, in order.
+---@field closed? boolean Joins the last point to the first. Default: false.
+
+---Makes a free curve.
+---@param options lissom.PolylineOptions
+---@return lissom.Polyline line # A new polyline.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.polyline(options) end
 
 ---@class lissom.ParamsOptions.Declarations
 ---@field type "number"|"integer"|"boolean"|"string"|"choice"|"file"|"folder" What its values are. A folder is one to write to: it is made, where it is missing, when the parameters are declared or it is set.

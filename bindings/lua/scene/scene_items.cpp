@@ -2,9 +2,17 @@
 #include <cstring>
 #include <utility>
 
+#include "bindings/lua/deform/deform_object.h"
+#include "bindings/lua/hair/hair_object.h"
+#include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
+#include "bindings/lua/scene/polyline_object.h"
 #include "bindings/lua/scene/scene_object.h"
+#include "kernel/scene/deform_item.h"
+#include "kernel/scene/hairstyle_item.h"
 #include "kernel/scene/mesh_item.h"
+#include "kernel/scene/polyline_item.h"
+#include "kernel/scene/strands_item.h"
 
 namespace lissom::lua {
 namespace {
@@ -25,9 +33,71 @@ class MeshObjectItem : public MeshItem, public ScriptItem {
     std::shared_ptr<MeshObject> object_;
 };
 
-std::shared_ptr<SceneItem> mesh_item(std::shared_ptr<void> object) {
-    return std::make_shared<MeshObjectItem>(
-        std::static_pointer_cast<MeshObject>(std::move(object)));
+// The scene keeps what a script closes, and gives it back with the object.
+template <typename Item, typename Object>
+class ContentItem : public Item, public ScriptItem {
+  public:
+    template <typename... Parts>
+    explicit ContentItem(std::shared_ptr<Object> object, Parts... parts)
+        : Item(object->content, std::move(parts)...),
+          object_(std::move(object)),
+          content_(object_->content) {}
+
+    int push(Call& call) const override {
+        object_->content = content_;
+        return call.push_shared(object_);
+    }
+
+  private:
+    void restored() override { object_->content = content_; }
+
+    std::shared_ptr<Object> object_;
+    decltype(Object::content) content_;
+};
+
+class StrandsObjectItem : public StrandsItem, public ScriptItem {
+  public:
+    explicit StrandsObjectItem(std::shared_ptr<StrandsObject> object)
+        : StrandsItem(std::shared_ptr<Strands>(object, &object->strands)),
+          object_(std::move(object)) {}
+
+    int push(Call& call) const override { return call.push_shared(object_); }
+
+  private:
+    std::shared_ptr<StrandsObject> object_;
+};
+
+class PolylineObjectItem : public PolylineItem, public ScriptItem {
+  public:
+    explicit PolylineObjectItem(std::shared_ptr<PolylineObject> object)
+        : PolylineItem(std::shared_ptr<Polyline>(object, &object->polyline)),
+          object_(std::move(object)) {}
+
+    int push(Call& call) const override { return call.push_shared(object_); }
+
+  private:
+    std::shared_ptr<PolylineObject> object_;
+};
+
+// ---- Items of objects
+
+template <typename Item, typename Object>
+std::shared_ptr<SceneItem> item_of(std::shared_ptr<void> object) {
+    return std::make_shared<Item>(std::static_pointer_cast<Object>(std::move(object)));
+}
+
+std::shared_ptr<SceneItem> deformation_item(std::shared_ptr<void> object) {
+    auto edit = std::static_pointer_cast<DeformObject>(std::move(object));
+    (void)edit->deformer();
+    auto mesh = std::make_shared<MeshObjectItem>(edit->mesh);
+    return std::make_shared<ContentItem<DeformItem, DeformObject>>(
+        std::move(edit), std::shared_ptr<SceneItem>(std::move(mesh)));
+}
+
+std::shared_ptr<SceneItem> hairstyle_item(std::shared_ptr<void> object) {
+    auto style = std::static_pointer_cast<HairstyleObject>(std::move(object));
+    (void)style->style();
+    return std::make_shared<ContentItem<HairstyleItem, HairstyleObject>>(std::move(style));
 }
 
 struct ItemType {
@@ -38,7 +108,13 @@ struct ItemType {
 };
 
 constexpr ItemType kItemTypes[] = {
-    {MeshObject::kTypeName, "mesh", "A mesh.", mesh_item},
+    {MeshObject::kTypeName, "mesh", "A mesh.", item_of<MeshObjectItem, MeshObject>},
+    {DeformObject::kTypeName, "edit", "A deformation in progress, with its mesh.",
+     deformation_item},
+    {StrandsObject::kTypeName, "strands", "Hair.", item_of<StrandsObjectItem, StrandsObject>},
+    {HairstyleObject::kTypeName, "style", "A hairstyle with its curves.", hairstyle_item},
+    {PolylineObject::kTypeName, "line", "A free curve.",
+     item_of<PolylineObjectItem, PolylineObject>},
 };
 
 const ItemType& type_of(const Holder& holder) {
@@ -55,7 +131,6 @@ Parameter item_argument(std::string name, std::string help) {
     for (const ItemType& type : kItemTypes) {
         alternatives.push_back(object(type.argument, type.name, type.help));
     }
-    if (alternatives.size() == 1) return object(std::move(name), alternatives[0].type_name, help);
     return either(std::move(name), std::move(alternatives), std::move(help));
 }
 

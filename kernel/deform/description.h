@@ -1,0 +1,58 @@
+/// A deformation as plain data, with the numbers of its mesh: for files, and for hashes.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/deformer.h"
+#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/mesh_point.h"
+#include "kernel/deform/options.h"
+#include "kernel/deform/rest_shape.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+struct HandleDescription {
+    /// What it holds: vertices of the mesh, in the handle's own order, and points between them.
+    std::vector<Index> vertices;
+    std::vector<MeshPoint> points;
+    HandleOptions options;
+    /// The handle that is its mirror image, and the plane between them.
+    std::optional<HandleId> partner;
+    MirrorPlane mirror;
+    HandlePose pose;
+};
+
+/// Who is held, and where it goes.
+struct DeformDescription {
+    /// By HandleId; empty where one was removed.
+    std::vector<std::optional<HandleDescription>> handles;
+    std::vector<PointConstraint> constraints;
+    /// Stiffness of each vertex of the region, in its order; empty where all are 1.
+    std::vector<double> stiffness;
+};
+
+DeformDescription describe(const DeformSetup& setup);
+
+/// The setup of this description on a rest shape: to the bit the one described where the rest shape
+/// is the same. Errors: those of Deformer's add_handle, set_transform and constrain;
+/// invalid_argument for partners that are not each other's, or a stiffness that has not one factor
+/// a vertex of the region.
+DeformSetup setup_of(const DeformDescription& description, std::shared_ptr<const RestShape> rest);
+
+/// The region of a rest shape, its options, and where the region's vertices lie.
+const Region& region_of(const RestShape& rest);
+const DeformOptions& options_of(const RestShape& rest);
+const std::vector<Vec3>& positions_of(const RestShape& rest);
+
+/// Bytes that a rest shape, holds or a result take, about.
+std::size_t memory_bytes(const RestShape& rest);
+std::size_t memory_bytes(const Holds& holds);
+std::size_t memory_bytes(const ShownResult& result);
+
+}  // namespace lissom

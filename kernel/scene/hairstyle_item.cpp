@@ -1,0 +1,64 @@
+#include "kernel/scene/hairstyle_item.h"
+
+#include "kernel/core/hasher.h"
+#include "kernel/io/style_file.h"
+
+namespace lissom {
+namespace {
+
+std::size_t size_in_bytes(const StyleInputs& inputs) {
+    std::size_t bytes = inputs.scalp_step.size() * sizeof(GridConstraint);
+    for (const PlacedCurve& placed : inputs.curves) {
+        bytes += sizeof placed + drawn_points(placed.curve).size() * sizeof(Vec3);
+    }
+    return bytes;
+}
+
+void add_frame(Hasher& hasher, const Scalp& scalp) {
+    for (const double x : scalp.frame().center) hasher.add(x);
+    for (const double x : scalp.frame().axes.reshaped()) hasher.add(x);
+    hasher.add(scalp.scale());
+    hasher.add(scalp.unit());
+    hasher.add(scalp.root_faces());
+}
+
+}  // namespace
+
+HairstyleContent::HairstyleContent(const Hairstyle& style, ContentStore& store)
+    : inputs_(store.keep(std::make_shared<const StyleInputs>(style.inputs()),
+                         size_in_bytes(style.inputs()))),
+      options_(style.options()),
+      scalp_(style.shared_scalp()) {}
+
+void HairstyleContent::list_kept(std::vector<const KeptBytes*>& list) const {
+    list.push_back(inputs_.get());
+}
+
+// What a style file says, and what it leaves out: the place on the head, and the scalp step.
+std::uint64_t HairstyleContent::compute_hash() const {
+    StyleContent content{{}, options_, {}, !inputs().scalp_step.empty()};
+    for (const PlacedCurve& placed : inputs().curves) content.curves.push_back(placed.curve);
+    Hasher hasher;
+    hasher.add(encode_style(content));
+    add_frame(hasher, *scalp_);
+    for (const GridConstraint& constraint : inputs().scalp_step) {
+        hasher.add(constraint.point);
+        for (const auto x : constraint.value) hasher.add(static_cast<double>(x));
+        hasher.add(static_cast<double>(constraint.weight));
+    }
+    return hasher.value();
+}
+
+std::shared_ptr<const ItemContent> HairstyleItem::capture(
+    const std::shared_ptr<const ItemContent>& last, ContentStore& store) const {
+    const auto* before = dynamic_cast<const HairstyleContent*>(last.get());
+    if (before && before->inputs() == style_->inputs()) return last;
+    return std::make_shared<const HairstyleContent>(*style_, store);
+}
+
+void HairstyleItem::restore(const ItemContent& content, const ItemContent*) {
+    style_->restore(dynamic_cast<const HairstyleContent&>(content).inputs());
+    restored();
+}
+
+}  // namespace lissom

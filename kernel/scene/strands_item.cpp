@@ -1,0 +1,123 @@
+#include "kernel/scene/strands_item.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "kernel/hair/strands/strand_measures.h"
+
+namespace lissom {
+
+/// All of strands but their points; private to this file.
+struct StrandFrame {
+    std::vector<Index> offsets;
+    StrandWidths widths;
+    StrandRoots roots;
+    std::vector<Index> groups;
+    std::vector<std::string> group_names;
+    std::vector<std::uint32_t> ids;
+    std::optional<StrandValues<Eigen::Vector3f>> colors;
+    StrandValues<float> transparency;
+    std::string comment;
+};
+
+namespace {
+
+template <typename Value>
+bool equal(const StrandValues<Value>& a, const StrandValues<Value>& b) {
+    return a.common == b.common && a.domain == b.domain && a.values == b.values;
+}
+
+bool equal(const StrandRoots& a, const StrandRoots& b) {
+    return a.faces == b.faces && a.barycentrics == b.barycentrics && a.uvs == b.uvs;
+}
+
+bool equal_colors(const std::optional<StrandValues<Eigen::Vector3f>>& a,
+                  const StrandValues<Eigen::Vector3f>* b) {
+    if (!a || !b) return !a && !b;
+    return equal(*a, *b);
+}
+
+bool equal(const StrandFrame& frame, const Strands& strands) {
+    return std::equal(frame.offsets.begin(), frame.offsets.end(), strands.offsets().begin(),
+                      strands.offsets().end()) &&
+           equal(frame.widths, strands.widths()) &&
+           frame.widths.profile == strands.widths().profile &&
+           equal(frame.roots, strands.roots()) && frame.groups == strands.groups() &&
+           frame.group_names == strands.group_names() && frame.ids == strands.ids() &&
+           equal_colors(frame.colors, strands.colors()) &&
+           equal(frame.transparency, strands.transparency()) && frame.comment == strands.comment();
+}
+
+StrandFrame frame_of(const Strands& strands) {
+    StrandFrame frame{{strands.offsets().begin(), strands.offsets().end()},
+                      strands.widths(),
+                      strands.roots(),
+                      strands.groups(),
+                      strands.group_names(),
+                      strands.ids(),
+                      std::nullopt,
+                      strands.transparency(),
+                      strands.comment()};
+    if (strands.colors()) frame.colors = *strands.colors();
+    return frame;
+}
+
+}  // namespace
+
+StrandsContent::StrandsContent(const Strands& strands, const StrandsContent* last,
+                               ContentStore& store)
+    : points_(std::as_bytes(strands.points()), last ? last->points_ : SharedBlocks(), store) {
+    if (last && equal(*last->frame_->value, strands)) {
+        frame_ = last->frame_;
+        return;
+    }
+    const std::size_t bytes = strands.memory_bytes() - strands.points().size_bytes();
+    frame_ = store.keep(std::make_shared<const StrandFrame>(frame_of(strands)), bytes);
+}
+
+Strands StrandsContent::strands() const {
+    const StrandFrame& frame = *frame_->value;
+    Strands strands(std::vector<float>(points_.size() / sizeof(float)), frame.offsets);
+    points_.copy_to(std::as_writable_bytes(strands.edit_points()));
+    strands.set_widths(frame.widths);
+    strands.set_roots(frame.roots);
+    strands.set_groups(frame.groups, frame.group_names);
+    strands.set_ids(frame.ids);
+    if (frame.colors) strands.set_colors(*frame.colors);
+    strands.set_transparency(frame.transparency);
+    strands.set_comment(frame.comment);
+    return strands;
+}
+
+bool StrandsContent::write_points(Strands& strands, const StrandsContent& present) const {
+    if (frame_ != present.frame_) return false;
+    points_.copy_changes_to(std::as_writable_bytes(strands.edit_points()), present.points_);
+    return true;
+}
+
+void StrandsContent::list_kept(std::vector<const KeptBytes*>& list) const {
+    points_.list_kept(list);
+    list.push_back(frame_.get());
+}
+
+std::uint64_t StrandsContent::compute_hash() const {
+    return lissom::hash(strands());
+}
+
+std::shared_ptr<const ItemContent> StrandsItem::capture(
+    const std::shared_ptr<const ItemContent>& last, ContentStore& store) const {
+    const auto* before = dynamic_cast<const StrandsContent*>(last.get());
+    auto content = std::make_shared<const StrandsContent>(*strands_, before, store);
+    if (before && *content == *before) return last;
+    return content;
+}
+
+void StrandsItem::restore(const ItemContent& content, const ItemContent* present) {
+    const auto& wanted = dynamic_cast<const StrandsContent&>(content);
+    const auto* now = dynamic_cast<const StrandsContent*>(present);
+    if (!now || !wanted.write_points(*strands_, *now)) *strands_ = wanted.strands();
+}
+
+}  // namespace lissom
