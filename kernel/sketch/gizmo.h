@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/sketch/camera.h"
 #include "kernel/sketch/view.h"
 
 namespace lissom {

@@ -48,7 +48,8 @@ std::optional<Nearest> first_vertex(const PickWorld& world, const Vec2& cursor,
         for (const Index v : facet.triangle) vertices.emplace(facet.object, v);
     }
     Nearest best;
-    for (const auto& [object, v] : vertices) {
+    for (const auto& vertex : vertices) {
+        const Index object = vertex.first, v = vertex.second;
         const Vec3 p = world.world(object, v), seen = world.view.project(p);
         const double pixels = (seen.head<2>() - cursor).norm();
         if (!(pixels <= options.radius) || seen.z() <= 0.0 || pixels >= best.pixels) continue;
@@ -93,7 +94,7 @@ std::optional<Nearest> first_edge(const PickWorld& world, const Vec2& cursor,
     for (Index object = 0; object < count_of(world.meshes); ++object) {
         const Topology& topology = world.meshes[at(object)].topology();
         for (Index e = 0; e < topology.edge_count(); ++e) {
-            const auto [a, b] = topology.edge(e);
+            const Index a = topology.edge(e).first, b = topology.edge(e).second;
             if (boundaries && !(topology.is_boundary(a) && topology.is_boundary(b))) continue;
             const auto [pixels, p] =
                 nearest_on_edge(world.view, cursor, world.world(object, a), world.world(object, b));
