@@ -7,7 +7,10 @@ unused_args = false
 -- not (x <= y) is true where one of them is NaN; x > y is not.
 ignore = { "581" }
 
-files["tests/scripts"] = { read_globals = { "test", "expect" } }
+-- What `lissom test` gives to tests.
+for _, tests in ipairs{ "**/*_test.lua", "**/scenes/**/*.lua", "tests/scripts" } do
+   files[tests] = { read_globals = { "test", "expect" } }
+end
 -- Annotations for editors, made from the registration table: they declare and define nothing.
 for _, folder in ipairs{ "bindings/lua/meta", "viewer/meta" } do
    files[folder] = { ignore = { "111", "112", "113", "211", "212", "241", "631" } }

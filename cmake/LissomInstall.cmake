@@ -55,7 +55,8 @@ if(TARGET lissom)
             FILES_MATCHING PATTERN "*.lua")
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples
             DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
-            FILES_MATCHING PATTERN "*.lua" PATTERN "engine/*.c" PATTERN "engine/*.vert")
+            FILES_MATCHING PATTERN "*.lua" PATTERN "engine/*.c" PATTERN "engine/*.vert"
+                           PATTERN "golden/*.png")
     # Annotations of the Lua functions for editors, a setting that finds them, and the reference.
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/lua/meta ${PROJECT_SOURCE_DIR}/viewer/meta
             DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom)

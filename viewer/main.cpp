@@ -1,5 +1,6 @@
 // The `lissom` program with the viewer's verbs and functions.
 #include "bindings/cli/program.h"
+#include "viewer/lua/picture_check.h"
 #include "viewer/lua/render_verb.h"
 #include "viewer/lua/viewer_library.h"
 
@@ -8,5 +9,6 @@ int main(int argc, char** argv) {
     parts.libraries.push_back(lissom::lua::viewer_library);
     parts.verbs.push_back(
         {"render", "MESH... -o FILE", "Draws meshes into a picture.", lissom::cli::render});
+    parts.compare_pictures = lissom::cli::compare_pictures;
     return lissom::cli::run_program(argc, argv, parts);
 }

@@ -6,6 +6,7 @@ namespace lissom::cli {
 ProgramParts kernel_parts() {
     ProgramParts parts;
     parts.verbs = {{"run", "FILE [--name value ...]", "Runs a Lua script.", run_script},
+                   {"test", "PATH...", "Runs the tests of scripts.", run_tests},
                    {"inspect", "MESH...", "Says what is in mesh files.", inspect},
                    {"convert", "IN OUT", "Writes meshes in another format.", convert},
                    {"repl", "", "Runs Lua line by line.", repl},

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bindings/cli/test/picture_check.h"
 #include "bindings/lua/core/state.h"
 #include "kernel/core/context.h"
 #include "kernel/core/error.h"
@@ -47,9 +48,11 @@ struct ProgramParts {
     std::vector<lua::Library (*)()> libraries;
     /// Lines of --version after the first.
     std::vector<std::string> version_lines;
+    /// Compares the pictures of tests; null in a program that draws none.
+    ComparePictures compare_pictures = nullptr;
 };
 
-/// The verbs run, inspect, convert, repl and explain, and the kernel's library.
+/// The verbs run, test, inspect, convert, repl and explain, and the kernel's library.
 ProgramParts kernel_parts();
 
 /// Runs the verb that the command line names. Returns the exit status: that of the verb,

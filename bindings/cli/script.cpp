@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bindings/cli/help_guard.h"
+#include "bindings/cli/process/child_process.h"
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/io/stream/file.h"
@@ -16,12 +17,6 @@ namespace lissom::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path program_folder() {
-    std::error_code error;
-    const fs::path self = fs::read_symlink("/proc/self/exe", error);
-    return error ? fs::path() : self.parent_path();
-}
 
 bool is_within(const fs::path& path, const fs::path& folder) {
     std::error_code error;
@@ -125,7 +120,40 @@ void push_place(lua_State* L) {
     lua_pushliteral(L, "");
 }
 
-// The handler of lua_pcall: error -> "file:line: message", and the traceback of the place.
+// A list of name, shown name and line for each line of a script on the stack.
+void push_calls(lua_State* L) {
+    lua_newtable(L);
+    lua_Integer count = 0;
+    lua_Debug frame;
+    for (int level = 1; level < 100 && lua_getstack(L, level, &frame); ++level) {
+        lua_getinfo(L, "Sl", &frame);
+        if (frame.source[0] != '@' || frame.currentline < 1) continue;
+        lua_pushstring(L, frame.source + 1);
+        lua_rawseti(L, -2, ++count);
+        lua_pushstring(L, frame.short_src);
+        lua_rawseti(L, -2, ++count);
+        lua_pushinteger(L, frame.currentline);
+        lua_rawseti(L, -2, ++count);
+    }
+}
+
+// What push_calls has left on top of the stack.
+std::vector<ScriptLine> calls_at_top(lua_State* L) {
+    std::vector<ScriptLine> calls;
+    const auto count = static_cast<lua_Integer>(lua_rawlen(L, -1));
+    for (lua_Integer i = 1; i < count; i += 3) {
+        lua_rawgeti(L, -1, i);
+        lua_rawgeti(L, -2, i + 1);
+        lua_rawgeti(L, -3, i + 2);
+        calls.push_back(
+            {lua_tostring(L, -3), lua_tostring(L, -2), static_cast<int>(lua_tointeger(L, -1))});
+        lua_pop(L, 3);
+    }
+    return calls;
+}
+
+// The handler of lua_pcall: error -> "file:line: message", the traceback of the place, and its
+// calls.
 int explain_error(lua_State* L) {
     luaL_tolstring(L, 1, nullptr);
     if (!names_a_chunk(L, lua_tostring(L, -1))) {
@@ -133,11 +161,13 @@ int explain_error(lua_State* L) {
         lua_insert(L, -2);
         lua_concat(L, 2);
     }
-    lua_createtable(L, 2, 0);
+    lua_createtable(L, 3, 0);
     lua_pushvalue(L, -2);
     lua_rawseti(L, -2, 1);
     luaL_traceback(L, L, nullptr, 1);
     lua_rawseti(L, -2, 2);
+    push_calls(L);
+    lua_rawseti(L, -2, 3);
     return 1;
 }
 
@@ -178,7 +208,7 @@ std::string code_in(const std::string& message) {
 
 std::string Script::shipped_scripts() {
     std::error_code error;
-    const fs::path folder = program_folder();
+    const fs::path folder = program_file().parent_path();
     const fs::path installed = folder / ".." / "share" / "lissom" / "scripts";
     if (fs::is_directory(installed, error)) return fs::weakly_canonical(installed, error).string();
     // A program where it was built serves those of the source; one that was installed, or copied
@@ -240,6 +270,10 @@ ScriptResult Script::run_loaded(int status) {
     ScriptResult result = call_function();
     if (result.status == kSuccess) result = returned_failure(first);
     return result;
+}
+
+ScriptResult Script::run_function() {
+    return run_loaded(LUA_OK);
 }
 
 ScriptResult Script::call_function() {
@@ -305,8 +339,12 @@ ScriptResult Script::failure() {
         lua_pop(L_, 1);
         return result;
     }
-    // A memory error reaches us without the handler's table.
-    if (lua_type(L_, -1) == LUA_TTABLE) lua_rawgeti(L_, -1, 1);
+    // A memory error reaches us without the handler's table, a mistake of syntax without calls.
+    if (lua_type(L_, -1) == LUA_TTABLE) {
+        if (lua_rawgeti(L_, -1, 3) == LUA_TTABLE) result.calls = calls_at_top(L_);
+        lua_pop(L_, 1);
+        lua_rawgeti(L_, -1, 1);
+    }
     const char* text = lua_tostring(L_, -1);
     result.message = text ? text : "an error without a message";
     find_place(result);

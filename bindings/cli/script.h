@@ -9,6 +9,13 @@
 
 namespace lissom::cli {
 
+/// A line of a script that was being run.
+struct ScriptLine {
+    /// Name of the script; as messages show it, where a long one is cut short.
+    std::string file, shown;
+    int line = 0;
+};
+
 /// How a script ended.
 struct ScriptResult {
     int status = kSuccess;
@@ -19,6 +26,8 @@ struct ScriptResult {
     /// Where, if known.
     std::string file;
     int line = 0;
+    /// What was being run when it failed: the innermost line first, then who called it.
+    std::vector<ScriptLine> calls;
 };
 
 class Script {
@@ -40,6 +49,9 @@ class Script {
     /// Calls the function on top of the stack, whose results stay there. It has failed too where it
     /// dropped failures of lissom (see lua::DroppedFailure).
     ScriptResult call_function();
+    /// The same for one that is run as a script: its first results may be nil and the message of a
+    /// failure, which then is its own.
+    ScriptResult run_function();
 
     /// Folder of the Lua library that ships with the program; empty where it is not found.
     static std::string shipped_scripts();

@@ -49,6 +49,10 @@ ScriptTraits script_traits(std::string_view text) {
     return {has_word(text, "params") || requires_others(text), has_word(text, "arg")};
 }
 
+bool calls_test(std::string_view text) {
+    return has_word(text, "test");
+}
+
 std::optional<std::string> script_text(const std::string& file) {
     const auto all_of = [](std::istream& stream) {
         return std::string(std::istreambuf_iterator<char>(stream), {});

@@ -17,6 +17,9 @@ struct ScriptTraits {
 /// Looks for words, also in comments and strings: what is said is false only where it is so.
 ScriptTraits script_traits(std::string_view text);
 
+/// Whether it may call `test`: looks for the word, as script_traits does.
+bool calls_test(std::string_view text);
+
 /// The text of a regular file, or of the standard input for "-"; nothing where it cannot be read.
 std::optional<std::string> script_text(const std::string& file);
 

@@ -82,7 +82,8 @@ const std::vector<Names>& room_orders() {
          "kernel/io/usda", "kernel/io/hair", "kernel/io"},
         {"bindings/lua/core", "bindings/lua/mesh", "bindings/lua/deform", "bindings/lua/merge",
          "bindings/lua/hair", "bindings/lua/scene", "bindings/lua/reference"},
-        {"bindings/cli/terminal", "bindings/cli"},
+        {"bindings/cli/terminal", "bindings/cli/process", "bindings/cli/test/picture_check",
+         "bindings/cli", "bindings/cli/test"},
         {"viewer/draw", "viewer/strands", "viewer/gl", "viewer", "viewer/lua", "viewer/main"},
     };
     return orders;

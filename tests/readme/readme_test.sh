@@ -38,6 +38,8 @@ run_script() {
     (cd "$work/lua" && "$root/dev" lissom run "$1")
 }
 
+run_tests() { "$root/dev" lissom test "$1"; }
+
 run_program() {
     local name prefix=$work/prefix
     name=$(basename "$1" .cpp)
@@ -68,7 +70,11 @@ for block in "$work"/blocks/*; do
             already_run "$line" "$@" || check "$line" run_command "$line"
         done <"$block"
         ;;
-    *.lua) check "Lua block $(basename "$block")" run_script "$block" ;;
+    *.lua)
+        run=run_script
+        ! grep -q '^test(' "$block" || run=run_tests
+        check "Lua block $(basename "$block")" $run "$block"
+        ;;
     *.cpp) check "C++ block $(basename "$block")" run_program "$block" ;;
     esac
 done

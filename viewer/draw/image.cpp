@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "kernel/core/error.h"
 
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #define STBI_WRITE_NO_STDIO
@@ -13,6 +18,7 @@
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #endif
+#include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
@@ -79,6 +85,24 @@ std::string encode_png(const Image& image) {
         throw Error(ErrorCode::memory_limit, "there is not enough memory to write the picture");
     }
     return bytes;
+}
+
+Image decode_png(std::string_view bytes) {
+    if (bytes.size() > at(std::numeric_limits<int>::max())) {
+        throw Error(ErrorCode::memory_limit, "the picture is too large");
+    }
+    Image image;
+    int channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
+                              index_of(bytes.size()), &image.width, &image.height, &channels, 4),
+        stbi_image_free);
+    if (!pixels) {
+        throw Error(ErrorCode::file_syntax,
+                    std::string("the bytes are no PNG picture (") + stbi_failure_reason() + ")");
+    }
+    image.rgba.assign(pixels.get(), pixels.get() + 4 * at(image.width) * image.height);
+    return image;
 }
 
 }  // namespace lissom

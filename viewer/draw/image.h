@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/core/index.h"
@@ -40,5 +41,8 @@ struct Image {
 /// The bytes of a PNG file; without an alpha channel where every pixel is opaque. The same image
 /// gives the same bytes. Errors: invalid_argument for an image without pixels; memory_limit.
 std::string encode_png(const Image& image);
+
+/// The image of a PNG file. Errors: file_syntax for bytes that are none; memory_limit.
+Image decode_png(std::string_view bytes);
 
 }  // namespace lissom

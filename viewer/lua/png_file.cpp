@@ -18,6 +18,15 @@ void require_picture_path(const std::filesystem::path& path) {
                 display_name(path) + ": pictures are written as .png; name the file so");
 }
 
+Image load_picture(const std::filesystem::path& path, const Context& context) {
+    const FileContent file = read_file(path, context);
+    try {
+        return decode_png(file.bytes);
+    } catch (const Error& error) {
+        throw Error(error.code(), display_name(path) + ": " + error.message());
+    }
+}
+
 void save_picture(const Image& image, const std::filesystem::path& path, const Context& context) {
     require_picture_path(path);
     write_file_atomically(path, encode_png(image), context);

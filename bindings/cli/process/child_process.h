@@ -1,0 +1,68 @@
+/// Other processes of this program, and what they tell it. All of the platform that `lissom test`
+/// needs is in child_process.cpp, for systems with POSIX.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lissom::cli {
+
+/// How a process ended.
+struct ProcessEnd {
+    /// Its exit status; the number of the signal that ended it where there was one.
+    int status = 0;
+    bool by_signal = false;
+
+    /// "status 3", "signal 11 (Segmentation fault)".
+    std::string text() const;
+};
+
+/// This program, started again. It reads nothing, and writes to a file; what it has to tell comes
+/// by lines of its own (see ParentProcess). It is killed with this object, and so is what it has
+/// started.
+class ChildProcess {
+  public:
+    /// Starts the program with `words` as its command line. Both its outputs go to the end of the
+    /// file `output`. Throws std::runtime_error where the system refuses.
+    ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& output);
+    ~ChildProcess();
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+
+    /// What it has told since the last call, without waiting.
+    std::vector<std::string> lines();
+    /// Whether it has ended and all it told was taken.
+    bool has_ended() const;
+    /// Only of one that has ended.
+    const ProcessEnd& end() const;
+    /// Ends it and what it has started at once.
+    void kill();
+
+    /// Waits until one of the processes tells something or ends, or the time is over.
+    static void wait(const std::vector<const ChildProcess*>& processes, double seconds);
+
+  private:
+    struct Parts;
+
+    std::unique_ptr<Parts> own_;
+};
+
+/// The process that started this one by ChildProcess; at most one object in a process. If it dies,
+/// this process is ended where the system can do so.
+class ParentProcess {
+  public:
+    ParentProcess();
+
+    /// Tells it a line; false where nobody listens.
+    bool tell(const std::string& line) const;
+};
+
+/// Does to this program what Ctrl-C does.
+void interrupt_program();
+
+/// The file of this program; empty where the system does not tell.
+std::filesystem::path program_file();
+
+}  // namespace lissom::cli

@@ -1,0 +1,22 @@
+/// What `lissom test` asks of a library that can read pictures.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace lissom::cli {
+
+struct PictureCheck {
+    std::filesystem::path picture, golden;
+    /// Where the two and their difference are drawn side by side, where they differ.
+    std::filesystem::path difference;
+    /// Greatest difference of a colour, 0 to 1, that counts as none.
+    double tolerance = 0.05;
+    /// The part of the pixels that may differ by more.
+    double pixels = 0.001;
+};
+
+/// What differs, as a message; empty where nothing does. Throws Error where a file cannot be read.
+using ComparePictures = std::string (*)(const PictureCheck& check);
+
+}  // namespace lissom::cli

@@ -1,0 +1,34 @@
+/// Runs files of tests, each in a process of its own and several at a time.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bindings/cli/test/results.h"
+
+namespace lissom::cli {
+
+struct RunnerOptions {
+    std::string filter;
+    bool list = false, update = false;
+    long long seed = 1;
+    /// Seconds a test may take; 0: any.
+    double timeout = 60.0;
+    /// Processes at a time, and threads of the kernel in each.
+    int jobs = 1, threads = 1;
+    /// Asked several times a second; true ends all processes.
+    std::function<bool()> stopped;
+    /// Takes the results in the order of the files, each as soon as those before it are there.
+    std::function<void(const FileResult&)> take;
+};
+
+/// Runs the tests. A process that dies, or does not heed the time limit, fails the test that it
+/// ran; another process runs the rest of the file. Where `stopped` ended them, files that had not
+/// ended are not told. Returns the folder that keeps the files of failed tests; empty where there
+/// are none.
+std::filesystem::path run_test_files(const std::vector<std::filesystem::path>& files,
+                                     const RunnerOptions& options);
+
+}  // namespace lissom::cli

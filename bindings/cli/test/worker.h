@@ -1,0 +1,50 @@
+/// The process that runs the tests of one file, and what it tells the one that started it.
+///
+/// Each line is an object of JSON with "event":
+///
+///     limit      seconds: something runs that may take so long
+///     begin      name, line; folder: where the test may write; output: size of the output until
+///     then left_out   text: why a picture was not compared updated    path: a golden picture that
+///     was written end        status: passed, failed or skipped; seconds, output, and a failure's
+///     message, file, line,
+///                code, kind, calls; folder where its files were kept
+///     test       name, line: one that is only listed
+///     file       status, message, ...: as end, for what came before the first test
+///     done       the file was run to its end
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bindings/cli/json.h"
+#include "bindings/cli/program.h"
+
+namespace lissom::cli {
+
+/// What a process is to do.
+struct TestJob {
+    /// The script, and its name in messages.
+    std::filesystem::path file;
+    std::string shown;
+    /// The file that all its output goes to.
+    std::filesystem::path output;
+    /// Where tests may write, each in a folder of its own below it.
+    std::filesystem::path folder;
+    /// Part of the names of the tests to run, or a Lua pattern of them; all where it is empty.
+    std::string filter;
+    bool list = false, update = false;
+    long long seed = 1;
+    /// Seconds a test may take; 0: any.
+    double timeout = 60.0;
+    /// Tests that were run by a process before this one.
+    int finished = 0;
+};
+
+Json job_json(const TestJob& job);
+TestJob job_of(const Json& json);
+
+/// Runs the job, which job_json wrote.
+int run_test_job(Program& program, const std::string& json);
+
+}  // namespace lissom::cli
