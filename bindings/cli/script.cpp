@@ -182,6 +182,12 @@ bool lacks_require(const std::string& message) {
     return blames_nil(message) && message.find("(global 'lissom')") != std::string::npos;
 }
 
+// Whether a script is one of tests, which another verb runs.
+bool lacks_tests(const std::string& message) {
+    return blames_nil(message) && (message.find("(global 'test')") != std::string::npos ||
+                                   message.find("(global 'expect')") != std::string::npos);
+}
+
 // Splits "file:line: message".
 void find_place(ScriptResult& result) {
     for (std::size_t at = 0; (at = result.message.find(':', at + 1)) != std::string::npos;) {
@@ -356,6 +362,8 @@ ScriptResult Script::failure() {
     if (came_as_nil) result.code = std::string(code_name(last.code));
     if (lacks_require(result.message)) {
         result.message += "\na script loads the library first: local lissom = require \"lissom\"";
+    } else if (lacks_tests(result.message)) {
+        result.message += "\ntests are run by: lissom test " + options_.arguments.script;
     } else if (opened.has_failed && blames_nil(result.message)) {
         result.message += "\n" + std::string(opened.last_failure_place) +
                           "the nil may come from here: " + last.message + " [" + result.code + "]";

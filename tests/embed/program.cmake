@@ -18,6 +18,13 @@ require 'recipes.add_tail'
 ")
 check("scripts beside the program" ${PREFIX}/bin/lissom run ${FOLDER}/beside.lua)
 
+file(WRITE ${FOLDER}/installed_test.lua "
+test('an installed program runs tests', function()
+    expect.equal(#require('lissom').shapes.box(), 8)
+end)
+")
+check("tests" ${PREFIX}/bin/lissom test ${FOLDER}/installed_test.lua)
+
 # Alone it has no scripts: it does not look where it was built either.
 # Outside of the folder it was built in, where it would take those of its source.
 execute_process(COMMAND mktemp -d OUTPUT_VARIABLE alone OUTPUT_STRIP_TRAILING_WHITESPACE)

@@ -241,8 +241,11 @@ class Files(Folder):
         listed = self.run_tests("--list", ".", status=0).stdout
         self.assertEqual([line.split(":")[0] for line in listed.splitlines()],
                          ["a/two_test.lua", "b/one_test.lua", "scenes/bend.lua", "scenes/deep/far.lua"])
-        within = self.run_tests("--list", "scenes", status=0).stdout
-        self.assertEqual(len(within.splitlines()), 2)
+        for folder in ("scenes", "scenes/.", "./scenes/"):
+            within = self.run_tests("--list", folder, status=0).stdout
+            self.assertEqual(len(within.splitlines()), 2)
+        os.symlink("..", os.path.join(self.folder, "scenes/deep/up"))
+        self.assertEqual(len(self.run_tests("--list", ".", status=0).stdout.splitlines()), 4)
         twice = self.run_tests("--list", "b/helper.lua", "b", "b/one_test.lua", status=0).stdout
         self.assertEqual([line.split(":")[0] for line in twice.splitlines()],
                          ["b/helper.lua", "b/one_test.lua"])
@@ -256,6 +259,12 @@ class Files(Folder):
         self.assertIn("no such file or folder", self.run_tests("none", status=1).stderr)
         os.mkdir(os.path.join(self.folder, "empty"))
         self.assertIn("there are no tests in empty", self.run_tests("empty", status=1).stderr)
+
+    def test_another_verb_says_who_runs_tests(self):
+        self.write("a_test.lua", "test('runs', function() end)")
+        ended = subprocess.run([PROGRAM, "run", "a_test.lua"], cwd=self.folder, capture_output=True,
+                               text=True, check=False)
+        self.assertIn("tests are run by: lissom test a_test.lua", ended.stderr)
 
     def test_paths_are_relative_to_the_file_and_modules_are_found_beside_it(self):
         self.write("deep/folder/helper.lua", "return { check = function(a) expect.equal(a, 1) end }")
@@ -409,7 +418,8 @@ class Scripts(Folder):
 class Processes(Folder):
     def test_five_hundred_files_side_by_side(self):
         for i in range(500):
-            self.write(f"many/n{i:03}_test.lua", f"test('test {i}', function() expect.truthy({i} ~= 250) end)")
+            self.write(f"many/n{i:03}_test.lua",
+                       f"test('test {i}', function() expect.truthy({i} ~= 250) end)")
         ended = self.run_tests("--jobs", "8", "many", status=1)
         named = re.findall(r"many/(n\d+)_test\.lua  \(", ended.stdout)
         self.assertEqual(named, [f"n{i:03}" for i in range(500)])
@@ -482,7 +492,8 @@ local function scene(size)
     return { mesh = lissom.shapes.box{ size = { 1, 1, size } }, size = { 120, 90 }, occlusion = 0 }
 end
 test("from a file", function()
-    local file = assert(lissom.render{ mesh = lissom.shapes.box(), size = { 60, 60 }, file = test.file("a.png") })
+    local options = { mesh = lissom.shapes.box(), size = { 60, 60 }, file = test.file("a.png") }
+    local file = assert(lissom.render(options))
     expect.picture(file, "golden/a.png")
 end)
 test("by its options", function() expect.picture(scene(SIZE), "golden/b.png") end)
@@ -535,6 +546,18 @@ class Pictures(Folder):
         self.write("golden/b.png", "no picture")
         self.assertIn("golden/b.png: the bytes are no PNG picture",
                       self.picture_tests(status=1)["by its options"]["message"])
+
+    def test_wrong_options_of_a_picture_are_told_with_their_line(self):
+        self.can_draw()
+        self.write("one_test.lua", '''local lissom = require "lissom"
+            test("draws", function()
+                expect.picture({ mesh = lissom.shapes.box(), szie = 5 }, "a.png")
+            end)
+            test("compares", function() expect.picture("a.png", "b.png", { t = 1 }) end)''')
+        tests = self.results("one_test.lua", status=1)
+        self.assertIn("unknown option 'szie'", tests["draws"]["message"])
+        self.assertEqual(tests["draws"]["at"], {"file": "one_test.lua", "line": 3})
+        self.assertIn("no option \"t\"; there are tolerance and pixels", tests["compares"]["message"])
 
     def test_without_opengl_pictures_are_left_out_and_told(self):
         blind = {"EGL_PLATFORM": "none", "__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent.json"}

@@ -1,7 +1,6 @@
 -- A mesh far from the origin of its coordinates deforms as the same mesh brought back from there, to 1e-9
 -- of its size, whichever way its handles are moved.
 local lissom = require "lissom"
-local expect = require "expect"
 
 local rest = lissom.shapes.bar{ across = 3, along = 12 }
 local size = rest:size()
@@ -32,41 +31,47 @@ end
 
 local function at(shift, x, y, z) return { shift[1] + x, shift[2] + y, shift[3] + z } end
 
-compare(function(h) h:rotate{ axis = { 1, 2, 3 }, angle = 70 } end)
-compare(function(h) h:translate(0.7, -0.3, 0.2) end)
-compare(function(h) h:scale{ 1.3, 0.8, 1.1 } end)
-compare(function(h) h:set{ translate = { 0.5, 0, 0 }, rotate = { axis = "x", angle = 50 }, scale = 1.2 } end)
-compare(function(h)
-    for _ = 1, 50 do h:rotate{ axis = { 3, 1, 2 }, angle = 1.5 }:translate(0.01, 0.02, 0):scale(1.002) end
-end)
-compare(function(h, shift)
-    h:rotate{ axis = "z", angle = 40, about = at(shift, 1, 2, 0) }:scale(1.1, { about = at(shift, 0, 1, 0) })
-    h:set{ rotate = { axis = "x", angle = 50, about = at(shift, 0, 1, 0) }, about = at(shift, 0, 2, 0) }
-end)
-compare(function(h, shift)
-    local x, y = shift[1], shift[2]
-    h:set_matrix{ { 0, -1, 0, x + y }, { 1, 0, 0, y - x }, { 0, 0, 1, 0.25 }, { 0, 0, 0, 1 } }
-end)
-compare(function(h, shift, edit)
-    local v = edit:mesh():region("top"):vertices()[1]
-    edit:constrain{ vertex = v - 1, position = at(shift, 0.4, 2.5, 0.1) }
-    h:translate(0.1, 0, 0)
+test("deform_far", function()
+    compare(function(h) h:rotate{ axis = { 1, 2, 3 }, angle = 70 } end)
+    compare(function(h) h:translate(0.7, -0.3, 0.2) end)
+    compare(function(h) h:scale{ 1.3, 0.8, 1.1 } end)
+    compare(function(h)
+        h:set{ translate = { 0.5, 0, 0 }, rotate = { axis = "x", angle = 50 }, scale = 1.2 }
+    end)
+    compare(function(h)
+        for _ = 1, 50 do h:rotate{ axis = { 3, 1, 2 }, angle = 1.5 }:translate(0.01, 0.02, 0):scale(1.002) end
+    end)
+    compare(function(h, shift)
+        h:rotate{ axis = "z", angle = 40, about = at(shift, 1, 2, 0) }
+        h:scale(1.1, { about = at(shift, 0, 1, 0) })
+        h:set{ rotate = { axis = "x", angle = 50, about = at(shift, 0, 1, 0) }, about = at(shift, 0, 2, 0) }
+    end)
+    compare(function(h, shift)
+        local x, y = shift[1], shift[2]
+        h:set_matrix{ { 0, -1, 0, x + y }, { 1, 0, 0, y - x }, { 0, 0, 1, 0.25 }, { 0, 0, 0, 1 } }
+    end)
+    compare(function(h, shift, edit)
+        local v = edit:mesh():region("top"):vertices()[1]
+        edit:constrain{ vertex = v - 1, position = at(shift, 0.4, 2.5, 0.1) }
+        h:translate(0.1, 0, 0)
+    end)
 end)
 
--- There and back is rest, to the bit; a translation adds its offset.
-local mesh = shifted(rest, 1)
-local before = mesh:hash()
-local edit = lissom.deform(mesh)
-edit:handle(mesh:region("bottom"))
-local top = edit:handle(mesh:region("top"))
-top:rotate{ axis = { 1, 1, 0 }, angle = 35 }
-edit:solve()
-expect.truthy(mesh:hash() ~= before)
-top:rotate{ axis = { 1, 1, 0 }, angle = -35 }
-edit:solve()
-expect.equal(mesh:hash(), before)
-local v = mesh:region("top"):vertices()[1]
-local x, y, z = mesh:position(v)
-top:translate(0.125, 0.3, -0.7)
-edit:solve()
-expect.near_list({ mesh:position(v) }, { x + 0.125, y + 0.3, z - 0.7 }, 0)
+test("there and back is rest, to the bit; a translation adds its offset", function()
+    local mesh = shifted(rest, 1)
+    local before = mesh:hash()
+    local edit = lissom.deform(mesh)
+    edit:handle(mesh:region("bottom"))
+    local top = edit:handle(mesh:region("top"))
+    top:rotate{ axis = { 1, 1, 0 }, angle = 35 }
+    edit:solve()
+    expect.truthy(mesh:hash() ~= before)
+    top:rotate{ axis = { 1, 1, 0 }, angle = -35 }
+    edit:solve()
+    expect.equal(mesh:hash(), before)
+    local v = mesh:region("top"):vertices()[1]
+    local x, y, z = mesh:position(v)
+    top:translate(0.125, 0.3, -0.7)
+    edit:solve()
+    expect.near({ mesh:position(v) }, { x + 0.125, y + 0.3, z - 0.7 }, 0)
+end)

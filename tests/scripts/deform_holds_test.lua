@@ -1,6 +1,5 @@
 -- What a deformation holds: soft handles, points of faces and edges, paths.
 local lissom = require "lissom"
-local expect = require "expect"
 
 local function scene()
     local bar = lissom.shapes.bar{ across = 4, along = 20 }
@@ -18,119 +17,133 @@ local function point_of(mesh, face, weights)
     return p
 end
 
--- Soft handles.
-local bar, edit = scene()
-local top = edit:handle(bar:region("top"), { weight = 1 })
-top:translate(1, 0, 0)
-edit:solve()
-local x = select(1, bar:position(bar:region("top"):vertices()[1]))
-local rest = select(1, lissom.shapes.bar{ across = 4, along = 20 }:position(
-    bar:region("top"):vertices()[1]))
-expect.truthy(x - rest > 0.1 and x - rest < 0.9)
-expect.error("above 0", function() edit:handle(bar:region("top"), { weight = 0 }) end)
-
--- Points of faces: where they were asked to be.
-bar, edit = scene()
-local hit = bar:pick({ 0.13, 1.02, 5 }, { 0, 0, -1 })
-local weights = { 0.4, 0.3, 0.2, 0.1 }
-local before = point_of(bar, hit.face, weights)
-edit:constrain{ face = hit.face, bary = weights, position = { before[1] + 1, before[2], 0.2 } }
-expect.truthy(edit:solve())
-expect.near_list(point_of(bar, hit.face, weights), { before[1] + 1, before[2], 0.2 })
-edit:constrain{ face = hit.face, bary = weights }
-edit:constrain{ triangle = hit.triangle, bary = hit.bary, position = { 0, 2, 1 } }
-edit:solve()
-local sum = 0
-for k, v in ipairs(hit.triangle) do sum = sum + hit.bary[k] * select(3, bar:position(v)) end
-expect.near(sum, 1)
-edit:constrain{ edge = { hit.triangle[1], hit.triangle[2] }, at = 0.25, position = { 0, 1, 0 } }
-edit:reset()
-
--- Handles of points and of paths.
-local held = edit:handle({ hit, { vertex = bar:region("top"):vertices()[1] } })
-held:translate(0, 0, 0.5)
-edit:solve()
-sum = 0
-for k, v in ipairs(hit.triangle) do sum = sum + hit.bary[k] * select(3, bar:position(v)) end
-expect.near(sum, hit.position[3] + 0.5)
-held:remove()
-local path = bar:path{ points = { { -0.5, 1.5, 0.5 }, { 0.5, 1.5, 0.5 } } }
-local drawn = edit:handle(path, { weight = 5, gradient = false })
-expect.equal(#drawn:region(), #path:vertices())
-drawn:translate(0, 0, 0.5)
-expect.truthy(edit:solve())
-
--- Stiffness: the middle of a bent bar stays straight where it is stiff.
-local function bend_of_middle(factor)
-    local mesh, bent = scene()
-    local bending = bent:handle(mesh:region("top"))
-    bent:stiffness(mesh:region{ box = { min = { -1, -1, -1 }, max = { 1, 1, 1 } } }, factor)
-    bending:rotate{ axis = "z", angle = 60 }:translate(1, 0, 0)
-    bent:solve()
-    local a = mesh:nearest(0.5, -1, 0).position
-    local b = mesh:nearest(0.5, 1, 0).position
-    local m = mesh:nearest((a[1] + b[1]) / 2, (a[2] + b[2]) / 2, 0).position
-    return math.sqrt(((a[1] + b[1]) / 2 - m[1]) ^ 2 + ((a[2] + b[2]) / 2 - m[2]) ^ 2)
+local function front_point(mesh)
+    return mesh:pick({ 0.13, 1.02, 5 }, { 0, 0, -1 })
 end
-expect.truthy(bend_of_middle(200) < 0.5 * bend_of_middle(1))
 
--- Going on from a result.
-bar, edit = scene()
-top = edit:handle(bar:region("top"))
-top:translate(0.5, 0, 0)
-edit:solve()
-local applied = bar:hash()
-expect.equal(edit:apply(), edit)
-expect.equal(bar:hash(), applied)
-expect.equal(top:matrix()[1][4], 0)
-top:rotate{ axis = "z", angle = 30 }
-edit:solve()
-edit:reset()
-expect.equal(bar:hash(), applied)
-top:translate(0, 0.5, 0)
-edit:solve()
-local moved = bar:hash()
-expect.equal(top:set_region(bar:region("top"):grow(1)), top)
-expect.equal(bar:hash(), moved)
-expect.near(top:matrix()[2][4], 0.5)
-expect.truthy(edit:solve():hash() ~= moved)
-
--- Mirror images, falloffs and transitions.
-bar, edit = scene()
-local side = bar:region{ box = { min = { 0.4, -0.5, -1 }, max = { 1, 0.5, 1 } } }
-local mirror = { point = { 0, 0, 0 }, normal = { 2, 0, 0 } }
-local right = edit:handle(side, { mirror = mirror, falloff = 0.5 })
-local left = right:mirrored()
-expect.equal(left:mirrored(), right)
-expect.equal(edit:handles()[1]:mirrored(), nil)
-right:translate(0.5, 0.1, 0)
-expect.near_list(left:center(), { -right:center()[1], right:center()[2], right:center()[3] })
-edit:solve()
-expect.near(bar:bounds().max[1], -bar:bounds().min[1])
-expect.truthy(bar:bounds().max[1] > 0.9)
-expect.error("[handle_overlap]", function() edit:handle(bar:region("top"), { mirror = mirror }) end)
-expect.equal(#edit:handles(), 3)
-expect.error("normal", function()
-    edit:handle(bar:region("top"), { mirror = { point = { 0, 0, 0 }, normal = { 0, 0, 0 } } })
+test("soft handles", function()
+    local bar, edit = scene()
+    local top = edit:handle(bar:region("top"), { weight = 1 })
+    top:translate(1, 0, 0)
+    edit:solve()
+    local x = select(1, bar:position(bar:region("top"):vertices()[1]))
+    local rest = select(1, lissom.shapes.bar{ across = 4, along = 20 }:position(
+        bar:region("top"):vertices()[1]))
+    expect.truthy(x - rest > 0.1 and x - rest < 0.9)
+    expect.error(function() edit:handle(bar:region("top"), { weight = 0 }) end, "above 0")
 end)
 
-local sheet = lissom.shapes.grid{ size = 4, segments = 24 }
+test("points of faces: where they were asked to be", function()
+    local bar, edit = scene()
+    local hit = front_point(bar)
+    local weights = { 0.4, 0.3, 0.2, 0.1 }
+    local before = point_of(bar, hit.face, weights)
+    edit:constrain{ face = hit.face, bary = weights, position = { before[1] + 1, before[2], 0.2 } }
+    expect.truthy(edit:solve())
+    expect.near(point_of(bar, hit.face, weights), { before[1] + 1, before[2], 0.2 })
+    edit:constrain{ face = hit.face, bary = weights }
+    edit:constrain{ triangle = hit.triangle, bary = hit.bary, position = { 0, 2, 1 } }
+    edit:solve()
+    local sum = 0
+    for k, v in ipairs(hit.triangle) do sum = sum + hit.bary[k] * select(3, bar:position(v)) end
+    expect.near(sum, 1)
+    edit:constrain{ edge = { hit.triangle[1], hit.triangle[2] }, at = 0.25, position = { 0, 1, 0 } }
+    edit:reset()
+end)
 
-local function rim(transition)
-    local mesh = sheet:copy()
-    local inner = mesh:region{ sphere = { center = { 0, 0, 0 }, radius = 1.6 } }
-    local part = lissom.deform(mesh, { region = inner, transition = transition })
-    part:handle(mesh:region{ sphere = { center = { 0, 0, 0 }, radius = 0.4 } }):translate(0, 1, 0)
-    part:solve()
-    return select(2, mesh:position(mesh:nearest(1.25, 0, 0).vertex))
-end
-expect.truthy(rim(0.8) < 0.6 * rim(0))
+test("handles of points and of paths", function()
+    local bar, edit = scene()
+    local hit = front_point(bar)
+    local held = edit:handle({ hit, { vertex = bar:region("top"):vertices()[1] } })
+    held:translate(0, 0, 0.5)
+    edit:solve()
+    local sum = 0
+    for k, v in ipairs(hit.triangle) do sum = sum + hit.bary[k] * select(3, bar:position(v)) end
+    expect.near(sum, hit.position[3] + 0.5)
+    held:remove()
+    local path = bar:path{ points = { { -0.5, 1.5, 0.5 }, { 0.5, 1.5, 0.5 } } }
+    local drawn = edit:handle(path, { weight = 5, gradient = false })
+    expect.equal(#drawn:region(), #path:vertices())
+    drawn:translate(0, 0, 0.5)
+    expect.truthy(edit:solve())
+end)
 
--- Misuse.
-expect.error("from 0.0001 to 100000", function() edit:stiffness(bar:region("top"), 0) end)
-expect.error("list of points expected", function() edit:handle({}) end)
-expect.error("list of points expected", function() edit:handle({ 7 }) end)
-expect.error("ids of points are integers", function() edit:handle({ { vertex = 0 } }) end)
-expect.error("one of vertex, edge and face", function() edit:constrain{ position = { 0, 0, 0 } } end)
-expect.error("face and bary together", function() edit:constrain{ face = 1, position = { 0, 0, 0 } } end)
-expect.error("4 corners", function() edit:handle({ { face = 1, bary = { 0.5, 0.5, 0 } } }) end)
+test("stiffness: the middle of a bent bar stays straight where it is stiff", function()
+    local function bend_of_middle(factor)
+        local mesh, bent = scene()
+        local bending = bent:handle(mesh:region("top"))
+        bent:stiffness(mesh:region{ box = { min = { -1, -1, -1 }, max = { 1, 1, 1 } } }, factor)
+        bending:rotate{ axis = "z", angle = 60 }:translate(1, 0, 0)
+        bent:solve()
+        local a = mesh:nearest(0.5, -1, 0).position
+        local b = mesh:nearest(0.5, 1, 0).position
+        local m = mesh:nearest((a[1] + b[1]) / 2, (a[2] + b[2]) / 2, 0).position
+        return math.sqrt(((a[1] + b[1]) / 2 - m[1]) ^ 2 + ((a[2] + b[2]) / 2 - m[2]) ^ 2)
+    end
+    expect.truthy(bend_of_middle(200) < 0.5 * bend_of_middle(1))
+end)
+
+test("going on from a result", function()
+    local bar, edit = scene()
+    local top = edit:handle(bar:region("top"))
+    top:translate(0.5, 0, 0)
+    edit:solve()
+    local applied = bar:hash()
+    expect.equal(edit:apply(), edit)
+    expect.equal(bar:hash(), applied)
+    expect.equal(top:matrix()[1][4], 0)
+    top:rotate{ axis = "z", angle = 30 }
+    edit:solve()
+    edit:reset()
+    expect.equal(bar:hash(), applied)
+    top:translate(0, 0.5, 0)
+    edit:solve()
+    local moved = bar:hash()
+    expect.equal(top:set_region(bar:region("top"):grow(1)), top)
+    expect.equal(bar:hash(), moved)
+    expect.near(top:matrix()[2][4], 0.5)
+    expect.truthy(edit:solve():hash() ~= moved)
+end)
+
+test("mirror images, falloffs and transitions", function()
+    local bar, edit = scene()
+    local side = bar:region{ box = { min = { 0.4, -0.5, -1 }, max = { 1, 0.5, 1 } } }
+    local mirror = { point = { 0, 0, 0 }, normal = { 2, 0, 0 } }
+    local right = edit:handle(side, { mirror = mirror, falloff = 0.5 })
+    local left = right:mirrored()
+    expect.equal(left:mirrored(), right)
+    expect.equal(edit:handles()[1]:mirrored(), nil)
+    right:translate(0.5, 0.1, 0)
+    expect.near(left:center(), { -right:center()[1], right:center()[2], right:center()[3] })
+    edit:solve()
+    expect.near(bar:bounds().max[1], -bar:bounds().min[1])
+    expect.truthy(bar:bounds().max[1] > 0.9)
+    expect.error(function() edit:handle(bar:region("top"), { mirror = mirror }) end, "[handle_overlap]")
+    expect.equal(#edit:handles(), 3)
+    expect.error(function()
+        edit:handle(bar:region("top"), { mirror = { point = { 0, 0, 0 }, normal = { 0, 0, 0 } } })
+    end, "normal")
+
+    local sheet = lissom.shapes.grid{ size = 4, segments = 24 }
+
+    local function rim(transition)
+        local mesh = sheet:copy()
+        local inner = mesh:region{ sphere = { center = { 0, 0, 0 }, radius = 1.6 } }
+        local part = lissom.deform(mesh, { region = inner, transition = transition })
+        part:handle(mesh:region{ sphere = { center = { 0, 0, 0 }, radius = 0.4 } }):translate(0, 1, 0)
+        part:solve()
+        return select(2, mesh:position(mesh:nearest(1.25, 0, 0).vertex))
+    end
+    expect.truthy(rim(0.8) < 0.6 * rim(0))
+end)
+
+test("misuse", function()
+    local bar, edit = scene()
+    expect.error(function() edit:stiffness(bar:region("top"), 0) end, "from 0.0001 to 100000")
+    expect.error(function() edit:handle({}) end, "list of points expected")
+    expect.error(function() edit:handle({ 7 }) end, "list of points expected")
+    expect.error(function() edit:handle({ { vertex = 0 } }) end, "ids of points are integers")
+    expect.error(function() edit:constrain{ position = { 0, 0, 0 } } end, "one of vertex, edge and face")
+    expect.error(function() edit:constrain{ face = 1, position = { 0, 0, 0 } } end, "face and bary together")
+    expect.error(function() edit:handle({ { face = 1, bary = { 0.5, 0.5, 0 } } }) end, "4 corners")
+end)

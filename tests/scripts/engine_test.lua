@@ -1,5 +1,4 @@
 local lissom = require "lissom"
-local expect = require "expect"
 
 local function bar()
     local mesh = lissom.shapes.bar{ across = 2, along = 16 }
@@ -14,102 +13,108 @@ local function read_bytes(path)
     return bytes
 end
 
--- ---- save_basis
+local mesh, edit, bottom, top
+-- How the handle and the mesh stand before every test.
+local matrix, before
 
-local path = os.tmpname()
-local mesh, edit, bottom, top = bar()
-expect.truthy(rawequal(edit:save_basis(path), edit))
-local bytes = read_bytes(path)
-expect.equal(bytes:sub(1, 8), "LSMBASIS")
-expect.equal(#bytes, 64 + 16 * 2 + 16 * #mesh + 16 * 2 * #mesh + #"bottom" + #"top" + 2)
-expect.equal(bytes:sub(-11), "bottom\0top\0")
-assert(edit:save_basis(path, { names = { "foot" } }))
-expect.equal(read_bytes(path):sub(-6), "foot\0\0")
-expect.error("3 names for 2 handles", function() edit:save_basis(path, { names = { "a", "b", "c" } }) end)
-local saved, _, code = edit:save_basis("no/such/folder/a.basis")
-expect.truthy(saved == nil and code == "file_write_failed")
-bottom:remove()
-top:remove()
-saved, _, code = edit:save_basis(path)
-expect.truthy(saved == nil and code == "unconstrained")
+test.before(function()
+    mesh, edit, bottom, top = bar()
+    top:translate(0.25, 0, 0)
+    edit:preview()
+    matrix, before = top:matrix(), mesh:hash()
+end)
 
--- ---- bake: shapes at the keys are those of solve, to the digits of a file
-
-local function shape_at(baked, target)
-    local shape = baked:copy()
-    if target > 0 then
-        local positions, difference = shape:positions(), baked:attribute("morph." .. target .. ".position")
-        for i = 1, #positions do positions[i] = positions[i] + difference[i] end
-    end
-    return shape
-end
-
-mesh, edit, bottom, top = bar()
-top:translate(0.25, 0, 0)
-edit:preview()
-local matrix, before = top:matrix(), mesh:hash()
 local function pose(time)
     top:set{ rotate = { axis = "z", angle = 50 * time }, translate = { time, 0, 0 } }
 end
 
-local glb = path .. ".glb"
-for _, options in ipairs{ {}, { preview = true } } do
-    local baked = edit:bake{ pose = pose, times = { 0, 0.5, 2 }, preview = options.preview }
-    expect.equal(mesh:hash(), before)
-    expect.near_list(top:matrix()[1], matrix[1], 0)
-    expect.truthy(rawequal(baked:save(glb), baked))
-    local read = assert(lissom.load(glb))
-    for target, time in pairs{ [0] = 0, 0.5, 2 } do
-        local wanted = lissom.shapes.bar{ across = 2, along = 16 }
-        local other = lissom.deform(wanted)
-        other:handle(wanted:region("bottom"))
-        local handle = other:handle(wanted:region("top"))
-        handle:set{ rotate = { axis = "z", angle = 50 * time }, translate = { time, 0, 0 } }
-        if options.preview then other:preview() else other:solve() end
-        local a, b = shape_at(read, target):positions(), wanted:positions()
-        for i = 1, #a do expect.near(a[i], b[i], 2e-6) end
-    end
-end
-
--- Every frame starts from where the handles stand, and has its time and number.
-local calls = {}
-local baked = edit:bake{ duration = 1, fps = 4, pose = function(time, frame)
-    calls[#calls + 1] = { time, frame, top:matrix()[1][4] }
-    top:translate(1, 0, 0)
-end }
-expect.equal(#calls, 5)
-for i, call in ipairs(calls) do expect.near_list(call, { (i - 1) / 4, i, 0.25 }, 0) end
-expect.truthy(pcall(baked.attribute, baked, "morph.1.position"))
-expect.equal(baked:attribute("morph.2.position"), nil)
-expect.truthy(baked:attribute("morph.1.normal"))
-baked = edit:bake{ times = { 0 }, pose = pose, normals = false, interpolation = "step", name = "x" }
-expect.equal(baked:attribute("normal"), nil)
-
--- ---- bake: whatever the function does, handles and mesh are as they were
-
 local function expect_unchanged()
     expect.equal(mesh:hash(), before)
-    expect.near_list(top:matrix()[1], matrix[1], 0)
+    expect.near(top:matrix()[1], matrix[1], 0)
 end
 
-expect.error("no more", function()
-    edit:bake{ duration = 1, fps = 4, pose = function(time)
-        top:translate(1, 0, 0)
-        if time > 0.4 then error("no more") end
-    end }
+test("save_basis writes the handles' weights, their names and the topology's size", function()
+    local path = test.file("bar.basis")
+    expect.truthy(rawequal(edit:save_basis(path), edit))
+    local bytes = read_bytes(path)
+    expect.equal(bytes:sub(1, 8), "LSMBASIS")
+    expect.equal(#bytes, 64 + 16 * 2 + 16 * #mesh + 16 * 2 * #mesh + #"bottom" + #"top" + 2)
+    expect.equal(bytes:sub(-11), "bottom\0top\0")
+    assert(edit:save_basis(path, { names = { "foot" } }))
+    expect.equal(read_bytes(path):sub(-6), "foot\0\0")
+    expect.error(function()
+        edit:save_basis(path, { names = { "a", "b", "c" } })
+    end, "3 names for 2 handles")
+    expect.failure("file_write_failed", edit:save_basis("no/such/folder/a.basis"))
+    bottom:remove()
+    top:remove()
+    expect.failure("unconstrained", edit:save_basis(path))
 end)
-expect_unchanged()
-local thrown = {}
-local ok, got = pcall(edit.bake, edit, { duration = 1, pose = function() error(thrown) end })
-expect.truthy(not ok and rawequal(got, thrown))
-edit:bake{ duration = 1, fps = 2, pose = function()
-    top:translate(0, 1, 0)
-    edit:solve()
-end }
-expect_unchanged()
 
--- The deformation shows afterwards what it showed: what `apply` takes is not the last pose.
-do
+test("bake: shapes at the keys are those of solve, to the digits of a file", function()
+    local function shape_at(baked, target)
+        local shape = baked:copy()
+        if target > 0 then
+            local positions = shape:positions()
+            local difference = baked:attribute("morph." .. target .. ".position")
+            for i = 1, #positions do positions[i] = positions[i] + difference[i] end
+        end
+        return shape
+    end
+    local glb = test.file("bar.glb")
+    for _, options in ipairs{ {}, { preview = true } } do
+        local baked = edit:bake{ pose = pose, times = { 0, 0.5, 2 }, preview = options.preview }
+        expect.equal(mesh:hash(), before)
+        expect.near(top:matrix()[1], matrix[1], 0)
+        expect.truthy(rawequal(baked:save(glb), baked))
+        local read = assert(lissom.load(glb))
+        for target, time in pairs{ [0] = 0, 0.5, 2 } do
+            local wanted = lissom.shapes.bar{ across = 2, along = 16 }
+            local other = lissom.deform(wanted)
+            other:handle(wanted:region("bottom"))
+            local handle = other:handle(wanted:region("top"))
+            handle:set{ rotate = { axis = "z", angle = 50 * time }, translate = { time, 0, 0 } }
+            if options.preview then other:preview() else other:solve() end
+            local a, b = shape_at(read, target):positions(), wanted:positions()
+            for i = 1, #a do expect.near(a[i], b[i], 2e-6) end
+        end
+    end
+end)
+
+test("bake: every frame starts from where the handles stand, and has its time and number", function()
+    local calls = {}
+    local baked = edit:bake{ duration = 1, fps = 4, pose = function(time, frame)
+        calls[#calls + 1] = { time, frame, top:matrix()[1][4] }
+        top:translate(1, 0, 0)
+    end }
+    expect.equal(#calls, 5)
+    for i, call in ipairs(calls) do expect.near(call, { (i - 1) / 4, i, 0.25 }, 0) end
+    expect.truthy(pcall(baked.attribute, baked, "morph.1.position"))
+    expect.equal(baked:attribute("morph.2.position"), nil)
+    expect.truthy(baked:attribute("morph.1.normal"))
+    baked = edit:bake{ times = { 0 }, pose = pose, normals = false, interpolation = "step", name = "x" }
+    expect.equal(baked:attribute("normal"), nil)
+end)
+
+test("bake: whatever the function does, handles and mesh are as they were", function()
+    expect.error(function()
+        edit:bake{ duration = 1, fps = 4, pose = function(time)
+            top:translate(1, 0, 0)
+            if time > 0.4 then error("no more") end
+        end }
+    end, "no more")
+    expect_unchanged()
+    local thrown = {}
+    local ok, got = pcall(edit.bake, edit, { duration = 1, pose = function() error(thrown) end })
+    expect.truthy(not ok and rawequal(got, thrown))
+    edit:bake{ duration = 1, fps = 2, pose = function()
+        top:translate(0, 1, 0)
+        edit:solve()
+    end }
+    expect_unchanged()
+end)
+
+test("bake: what `apply` takes afterwards is what was shown, and not the last pose", function()
     local shape, deformation, _, tip = bar()
     local normals = shape:add_attribute{ name = "normal", domain = "vertex", width = 3 }
     for i = 1, #shape do normals[3 * i - 2], normals[3 * i - 1], normals[3 * i] = shape:normal(i) end
@@ -121,43 +126,42 @@ do
     expect.equal(shape:hash(), shown)
     deformation:apply()
     expect.equal(shape:hash(), shown)
-end
-expect.error("'bake' needs either 'duration' or 'times'", function() edit:bake{ pose = pose } end)
-expect.error("'bake' needs either 'duration' or 'times'", function()
-    edit:bake{ pose = pose, times = { 0 }, duration = 1 }
 end)
-expect.error("more than 10000 frames", function() edit:bake{ pose = pose, duration = 1e9 } end)
-expect.error("ascending", function() edit:bake{ pose = pose, times = { 1, 0.5 } } end)
-expect.error("[invalid_argument]", function() edit:bake{ pose = pose, times = {} } end)
-expect.error("pose", function() edit:bake{ duration = 1 } end)
-expect_unchanged()
 
--- A pose without a solution, a cancel and a handle that goes.
-local extra = edit:handle(mesh:region{ where = function(_, _, y) return math.abs(y) < 0.2 end })
-baked = edit:bake{ times = { 0, 1 }, pose = function(time) if time == 0 then extra:remove() end end }
-expect.truthy(baked)
-expect.equal(#edit:handles(), 2)
-lissom.listen{ progress = function() return false end }
-local handle = edit:handle(mesh:region{ where = function(_, _, y) return math.abs(y) < 0.2 end })
-baked, _, code = edit:bake{ duration = 1, pose = pose }
-expect.truthy(baked == nil and code == "cancelled")
-lissom.listen{}
-handle:remove()
-expect_unchanged()
-lissom.listen{ progress = function() error("in a listener") end }
-expect.error("in a listener", function()
-    edit:bake{ duration = 1, pose = function(time)
-        pose(time)
-        bottom:translate(0, 0, 0)
-        edit:handle(mesh:region{ where = function(_, _, y) return math.abs(y - time) < 0.2 end })
-    end }
+test("bake: misuse", function()
+    expect.error(function() edit:bake{ pose = pose } end, "'bake' needs either 'duration' or 'times'")
+    expect.error(function()
+        edit:bake{ pose = pose, times = { 0 }, duration = 1 }
+    end, "'bake' needs either 'duration' or 'times'")
+    expect.error(function() edit:bake{ pose = pose, duration = 1e9 } end, "more than 10000 frames")
+    expect.error(function() edit:bake{ pose = pose, times = { 1, 0.5 } } end, "ascending")
+    expect.error(function() edit:bake{ pose = pose, times = {} } end, "[invalid_argument]")
+    expect.error(function() edit:bake{ duration = 1 } end, "pose")
+    expect_unchanged()
 end)
-lissom.listen{}
-expect_unchanged()
-expect.error("[handle_removed]", function()
-    edit:bake{ duration = 1, pose = function() edit:close() end }
-end)
-expect.equal(mesh:hash(), before)
 
-os.remove(glb)
-os.remove(path)
+test("bake: a pose without a solution, a cancel and a handle that goes", function()
+    local extra = edit:handle(mesh:region{ where = function(_, _, y) return math.abs(y) < 0.2 end })
+    assert(edit:bake{ times = { 0, 1 }, pose = function(time) if time == 0 then extra:remove() end end })
+    expect.equal(#edit:handles(), 2)
+    lissom.listen{ progress = function() return false end }
+    local handle = edit:handle(mesh:region{ where = function(_, _, y) return math.abs(y) < 0.2 end })
+    expect.failure("cancelled", edit:bake{ duration = 1, pose = pose })
+    lissom.listen{}
+    handle:remove()
+    expect_unchanged()
+    lissom.listen{ progress = function() error("in a listener") end }
+    expect.error(function()
+        edit:bake{ duration = 1, pose = function(time)
+            pose(time)
+            bottom:translate(0, 0, 0)
+            edit:handle(mesh:region{ where = function(_, _, y) return math.abs(y - time) < 0.2 end })
+        end }
+    end, "in a listener")
+    lissom.listen{}
+    expect_unchanged()
+    expect.error(function()
+        edit:bake{ duration = 1, pose = function() edit:close() end }
+    end, "[handle_removed]")
+    expect.equal(mesh:hash(), before)
+end)

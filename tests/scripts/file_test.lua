@@ -1,87 +1,86 @@
 local lissom = require "lissom"
-local expect = require "expect"
 
-local name = os.tmpname()
-local function path(extension) return name .. extension end
-
--- What is saved is loaded: faces, groups, regions where the format can.
-local cactus = lissom.shapes.cactus{ vertices = 2000 }
-for _, extension in ipairs{ ".obj", ".ply", ".off", ".stl" } do
-    expect.truthy(rawequal(cactus:save(path(extension)), cactus))
-    local back = assert(lissom.load(path(extension)))
-    expect.near(back:area(), cactus:area(), 1e-5)
-    if extension ~= ".stl" then expect.equal(back:face_count(), cactus:face_count()) end
-    os.remove(path(extension))
-end
-cactus:save(path(".ply"), { binary = false })
-expect.equal(#lissom.load(path(".ply")), #cactus)
-os.remove(path(".ply"))
-
--- Axes and units.
+local function path(extension) return test.file("mesh" .. extension) end
 local box = lissom.shapes.box{ size = { 1, 2, 3 } }
-box:save(path(".obj"), { up = "z", unit = 10 })
-local turned = lissom.load(path(".obj"))
-expect.near_list(turned:bounds().max, { 0.05, 0.15, 0.1 })
-expect.near_list(lissom.load(path(".obj"), { up = "z", unit = 10 }):bounds().max, { 0.5, 1, 1.5 })
-os.remove(path(".obj"))
 
--- The world's faults.
-expect.failure("file_not_found", lissom.load(path(".obj")))
-expect.failure("unknown_format", box:save(path(".doc")))
-expect.failure("file_write_failed", box:save("/no/such/folder/x.obj"))
 local function load_text(extension, text, options)
     local file = assert(io.open(path(extension), "wb"))
     file:write(text)
     file:close()
     local mesh, message, code, elements = lissom.load(path(extension), options)
-    os.remove(path(extension))
     return mesh, message, code, elements
 end
-expect.failure("unknown_format", load_text(".doc", "text"))
-expect.failure("file_empty", load_text(".obj", ""))
-expect.failure("file_syntax", load_text(".obj", "v 1 2 x\n"))
-expect.failure("face_index", load_text(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"))
-expect.failure("not_finite", load_text(".obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
 
--- What is mended is reported; without repair it is an error that names the elements.
-local folded = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\nf 1 2 2\n"
-local mended = assert(load_text(".obj", folded))
-expect.equal(#mended, 3)
-local report = mended:report()
-expect.equal(report.faces_collapsed.count, 1)
-expect.equal(report.faces_collapsed.element, "face")
-expect.equal(report.faces_collapsed.of, "file")
-expect.near_list(report.faces_collapsed.ids, { 2 })
-expect.near_list(report.vertices_unreferenced.ids, { 4 })
-expect.equal(report[1].kind, "faces_collapsed")
-local _, message, code, elements = load_text(".obj", folded, { repair = false })
-expect.equal(code, "repeated_vertex")
-expect.near_list(elements.ids, { 2 })
-expect.truthy(message:find("face 2;", 1, true))
+test("what is saved is loaded: faces, groups, regions where the format can", function()
+    local cactus = lissom.shapes.cactus{ vertices = 2000 }
+    for _, extension in ipairs{ ".obj", ".ply", ".off", ".stl" } do
+        expect.truthy(rawequal(cactus:save(path(extension)), cactus))
+        local back = assert(lissom.load(path(extension)))
+        expect.near(back:area(), cactus:area(), 1e-5)
+        if extension ~= ".stl" then expect.equal(back:face_count(), cactus:face_count()) end
+    end
+    cactus:save(path(".ply"), { binary = false })
+    expect.equal(#lissom.load(path(".ply")), #cactus)
+end)
 
--- Welding.
-local torn = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n"
-expect.equal(#load_text(".obj", torn), 4)
-expect.equal(#load_text(".obj", torn, { weld = "all" }), 4)
-expect.equal(#load_text(".obj", torn, { weld = false }), 6)
-expect.near_list(load_text(".obj", torn):report().vertices_welded.ids, { 4, 6 })
-local sheets = lissom.mesh{
-    positions = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 } },
-    faces = { { 1, 2, 3 }, { 1, 2, 4 }, { 1, 2, 5 } },
-    repair = true,
-}
-expect.near_list(sheets:report().edges_nonmanifold.ids[1], { 1, 2 })
+test("axes and units", function()
+    box:save(path(".obj"), { up = "z", unit = 10 })
+    local turned = lissom.load(path(".obj"))
+    expect.near(turned:bounds().max, { 0.05, 0.15, 0.1 })
+    expect.near(lissom.load(path(".obj"), { up = "z", unit = 10 }):bounds().max, { 0.5, 1, 1.5 })
+end)
 
--- Misuse.
-expect.error("bad argument #1 to 'load' (string expected, got nil)", function() lissom.load(nil) end)
-expect.error("finite number above 0 expected, got 0", function() lissom.load("a.obj", { unit = 0 }) end)
-expect.error("seams", function() lissom.load("a.obj", { weld = true }) end)
-expect.error("welt", function() lissom.load("a.obj", { welt = "all" }) end)
-os.remove(name)
+test("the world's faults", function()
+    expect.failure("file_not_found", lissom.load(path(".obj")))
+    expect.failure("unknown_format", box:save(path(".doc")))
+    expect.failure("file_write_failed", box:save("/no/such/folder/x.obj"))
+    expect.failure("unknown_format", load_text(".doc", "text"))
+    expect.failure("file_empty", load_text(".obj", ""))
+    expect.failure("file_syntax", load_text(".obj", "v 1 2 x\n"))
+    expect.failure("face_index", load_text(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"))
+    expect.failure("not_finite", load_text(".obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
+end)
 
--- A mesh that is inside out is told, with the call that turns it.
-do
-    local place = os.tmpname() .. ".obj"
+test("what is mended is reported; without repair it is an error that names the elements", function()
+    local folded = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\nf 1 2 2\n"
+    local mended = assert(load_text(".obj", folded))
+    expect.equal(#mended, 3)
+    local report = mended:report()
+    expect.equal(report.faces_collapsed.count, 1)
+    expect.equal(report.faces_collapsed.element, "face")
+    expect.equal(report.faces_collapsed.of, "file")
+    expect.near(report.faces_collapsed.ids, { 2 })
+    expect.near(report.vertices_unreferenced.ids, { 4 })
+    expect.equal(report[1].kind, "faces_collapsed")
+    local _, message, code, elements = load_text(".obj", folded, { repair = false })
+    expect.equal(code, "repeated_vertex")
+    expect.near(elements.ids, { 2 })
+    expect.truthy(message:find("face 2;", 1, true))
+end)
+
+test("welding", function()
+    local torn = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n"
+    expect.equal(#load_text(".obj", torn), 4)
+    expect.equal(#load_text(".obj", torn, { weld = "all" }), 4)
+    expect.equal(#load_text(".obj", torn, { weld = false }), 6)
+    expect.near(load_text(".obj", torn):report().vertices_welded.ids, { 4, 6 })
+    local sheets = lissom.mesh{
+        positions = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 } },
+        faces = { { 1, 2, 3 }, { 1, 2, 4 }, { 1, 2, 5 } },
+        repair = true,
+    }
+    expect.near(sheets:report().edges_nonmanifold.ids[1], { 1, 2 })
+end)
+
+test("misuse", function()
+    expect.error(function() lissom.load(nil) end, "bad argument #1 to 'load' (string expected, got nil)")
+    expect.error(function() lissom.load("a.obj", { unit = 0 }) end, "finite number above 0 expected, got 0")
+    expect.error(function() lissom.load("a.obj", { weld = true }) end, "seams")
+    expect.error(function() lissom.load("a.obj", { welt = "all" }) end, "welt")
+end)
+
+test("a mesh that is inside out is told, with the call that turns it", function()
+    local place = path(".obj")
     local told = {}
     lissom.listen{ log = function(level, text) told[#told + 1] = level .. ": " .. text end }
     assert(lissom.shapes.sphere():flip():save(place))
@@ -94,9 +93,8 @@ do
     assert(lissom.load(place))
     expect.equal(#told, 0)
     lissom.listen{}
-    os.remove(place)
     local none, told_of = lissom.load("")
     expect.truthy(none == nil and told_of:find("the path is empty", 1, true))
     none, told_of = lissom.shapes.box():save("")
     expect.truthy(none == nil and told_of:find("the path is empty", 1, true))
-end
+end)

@@ -1,20 +1,18 @@
 -- Hair stays outside of heads, on its side of a parting, and goes through the tie of a ponytail, on any head.
 local lissom = require "lissom"
-local expect = require "expect"
+local models = require "models"
 local ponytail = require "presets.ponytail"
 local strokes = require "strokes"
 
 local count = 2000
 
-local function heads()
-    local list = { generated = lissom.shapes.head{} }
-    local data = os.getenv("LISSOM_TEST_DATA") or ""
-    for _, name in ipairs{ "ict_head.obj", "makehuman_head.obj", "LeePerrySmith.glb",
+-- Declares a test for each head.
+local function on_heads(name, check)
+    test(name .. ", generated", function() check(lissom.shapes.head{}) end)
+    for _, file in ipairs{ "ict_head.obj", "makehuman_head.obj", "LeePerrySmith.glb",
         "hairstep_usc_head.obj" } do
-        list[name] = lissom.load(data .. "/heads/" .. name)
-        if not list[name] then expect.skip(name) end
+        test(name .. ", " .. file, function() check(assert(lissom.load(models.path("heads/" .. file)))) end)
     end
-    return list
 end
 
 -- Nothing deeper inside the head than half a millimetre; no damage, no sharp turn.
@@ -122,33 +120,44 @@ local function widest_gap(style, hair, tie)
     return gap
 end
 
-for _, head in pairs(heads()) do
-    -- No hair hangs in front of a low tail by itself.
+on_heads("no hair hangs in front of a low tail by itself", function(head)
     for _, height in ipairs{ 0, 12 } do
         local style, hair, tie = ponytail.grow(head, { height = height }, {}, { count = count })
         expect.truthy(widest_gap(style, hair, tie) < 0.004)
     end
-    -- A low ponytail leaves the ears free.
+end)
+
+on_heads("a low ponytail leaves the ears free", function(head)
     for _, low in ipairs{ { height = -15, tightness = 0.2 }, { height = -10 } } do
         local style, hair = ponytail.grow(head, low, {}, { count = count })
         expect.truthy(over_ears(style, hair) < 0.003)
     end
-    -- High tails fall, and take the hair of the nape along.
+end)
+
+on_heads("high tails fall, and take the hair of the nape along", function(head)
     local _, high, tail = ponytail.grow(head, { height = 50, tightness = 1 }, {}, { count = count })
     expect.truthy(#high:select{ group = "ponytail" } > 0.98 * #high)
     expect.truthy(tail.droop < 0.06)
-    -- Hair goes through loose ties, too, and does not stop in front of them.
+end)
+
+on_heads("hair goes through loose ties, too, and does not stop in front of them", function(head)
     local loose = { height = -5, side = 0.75, length = 0.25, tightness = 0 }
-    local loose_style, loose_hair = ponytail.grow(head, loose, {}, { count = count })
-    expect.truthy(#loose_hair:select{ group = "ponytail" } > 0.93 * #loose_hair)
-    expect_sound(loose_style, loose_hair)
+    local style, hair = ponytail.grow(head, loose, {}, { count = count })
+    expect.truthy(#hair:select{ group = "ponytail" } > 0.93 * #hair)
+    expect_sound(style, hair)
+end)
+
+on_heads("ponytails of all kinds are sound", function(head)
     for _, setting in ipairs(settings) do
         local style, hair = ponytail.grow(head, setting, {}, { count = count })
         expect.truthy(#hair:select{ group = "ponytail" } > 0.98 * #hair)
         expect_sound(style, hair)
     end
+end)
+
+on_heads("hair stays on its side of a parting", function(head)
     local style = parted(head)
     local hair = style:grow{ count = count, length = 0.2 }
     expect.truthy(crossing_share(style, hair) < 0.005)
     expect_sound(style, hair)
-end
+end)

@@ -1,8 +1,7 @@
 local lissom = require "lissom"
-local expect = require "expect"
 
--- Two parts that fit: a cap, and a bowl of another size that lies elsewhere.
 local function ball(segments) return lissom.shapes.sphere{ kind = "triangles", segments = segments or 12 } end
+
 local function half(mesh, height, normal)
     return (mesh:cut{ plane = { point = { 0, height or 0, 0 }, normal = normal or { 0, 1, 0 } } })
 end
@@ -10,8 +9,11 @@ local cap = half(ball())
 local bowl = half(ball(), 0.1):transform{
     rotate = { axis = "x", angle = 180 }, scale = 3, translate = { 5, 1, 2 },
 }
+
 local function rim(mesh) return mesh:boundaries()[1] end
+
 local function join(keys) return { source = rim(cap), target = rim(bowl), keys = keys } end
+
 local function extreme(boundary, axis)
     local best, points = 1, boundary:points()
     for i, p in ipairs(points) do
@@ -21,56 +23,8 @@ local function extreme(boundary, axis)
 end
 local from, to = extreme(rim(cap), 1), extreme(rim(bowl), 1)
 local cap_hash, bowl_hash = cap:hash(), bowl:hash()
-
--- What comes back.
 local mesh, report = lissom.merge{ source = cap, target = bowl, joins = { join{ { from, to } } } }
-expect.truthy(mesh:is_closed() and mesh:is_manifold())
-expect.equal(mesh:genus(), 0)
-expect.equal(mesh:components(), 1)
-expect.equal(cap:hash(), cap_hash)
-expect.equal(bowl:hash(), bowl_hash)
-expect.near(report.joins[1].scale, 3, 0.1)
-expect.equal(report.joins[1].guessed, false)
-expect.equal(report.joins[1].certainty, nil)
-expect.equal(report.joins[1].source_size, #rim(cap))
-expect.equal(report.joins[1].target_size, #rim(bowl))
-expect.truthy(report.joins[1].source_turn < 20 and not report.joins[1].source_trimmed)
-expect.equal(#report.warnings, 0)
-expect.truthy(not report.flipped.source and #report.flipped.targets == 0)
-expect.truthy(report.free_vertices > 100 and report.displaced_vertices >= 0)
-expect.truthy(report.prepare_seconds >= 0 and report.solve_seconds >= 0)
-expect.truthy(report.first_factor_seconds >= 0 and report.second_factor_seconds >= 0)
-expect.truthy(report.seam.after.greatest_dihedral < 25 and report.seam.after.rms_dihedral < 15)
-expect.truthy(report.seam.before.greatest_dihedral > 0)
-expect.truthy(report.seam.after.greatest_near >= report.seam.after.greatest_dihedral - 1e-9)
-expect.equal(#mesh:self_intersections(), 0)
 
--- Regions and seams are those of the merged mesh, and say which side a vertex is on.
-expect.truthy(rawequal(report.seams[1]:mesh(), mesh) and report.seams[1]:is_closed())
-expect.equal(#report.source + #report.target, #mesh + #report.seams[1])
-for _, v in ipairs(report.seams[1]:vertices()) do
-    expect.truthy(report.source:contains(v) and report.target:contains(v))
-end
-expect.truthy(report.target:contains(1))
-
--- Provenance: elements off the seam come from one element, with their order; weights sum to 1.
-local sides = { source = 0, target = 0 }
-for v = 1, #mesh do
-    local sum, origins = 0, report.provenance:vertex(v)
-    for _, origin in ipairs(origins) do
-        sum = sum + origin.weight
-        expect.truthy(origin.vertex >= 1 and origin.vertex <= (origin.side == "source" and #cap or #bowl))
-        expect.equal(origin.target, origin.side == "target" and 1 or nil)
-    end
-    expect.near(sum, 1, 1e-12)
-    if #origins == 1 then sides[origins[1].side] = sides[origins[1].side] + 1 end
-end
-expect.truthy(sides.source > 0.8 * #cap and sides.target > 0.8 * #bowl)
-local face = report.provenance:face(mesh:face_count())[1]
-expect.truthy(face.side == "source" and face.face >= 1 and face.face <= cap:face_count())
-expect.error("[out_of_range]", function() report.provenance:vertex(#mesh + 1) end)
-
--- Keys are ids or points, in any number; both name the same place.
 local function same(a, b, tolerance)
     expect.equal(#a, #b)
     local p, q = a:positions(), b:positions()
@@ -80,352 +34,11 @@ local function same(a, b, tolerance)
         end
     end
 end
-local by_points = lissom.merge{ joins = { join{ { { cap:position(from) }, { bowl:position(to) } } } } }
-same(by_points, mesh, 1e-9)
-local mixed = lissom.merge{ joins = { join{ { from, { bowl:position(to) } } } } }
-same(mixed, mesh, 1e-9)
-local _, guessed = lissom.merge{ joins = { join() } }
-expect.truthy(guessed.joins[1].guessed and guessed.joins[1].certainty >= 1)
-expect.truthy(guessed.joins[1].certainty > 1.5 or #guessed.warnings > 0)
-
--- Wherever the source lies.
-local moved = cap:copy():transform{
-    scale = 100, rotate = { axis = { 1, 2, 3 }, angle = 77 }, translate = { -4000, 900, 77 },
-}
-local elsewhere = lissom.merge{
-    joins = { { source = rim(moved), target = rim(bowl), keys = { { from, to } } } },
-}
-same(elsewhere, mesh, 1e-9 * mesh:size())
-
--- Without smoothing and collars the target stays to the bit.
-local sharp, sharp_report = lissom.merge{ smooth = 0, collar = false, joins = { join{ { from, to } } } }
-expect.equal(sharp_report.seam.collar_added, 0)
-for v = 1, #sharp do
-    local origins = sharp_report.provenance:vertex(v)
-    if #origins == 1 and origins[1].side == "target" then
-        local x, y, z = sharp:position(v)
-        local a, b, c = bowl:position(origins[1].vertex)
-        expect.truthy(x == a and y == b and z == c)
-    end
-end
-
--- Every option is taken, and every way to sew closes the seam.
-for _, seam in ipairs{ "conform", "fair", "band" } do
-    local sewn, of_seam = lissom.merge{ seam = seam, joins = { join{ { from, to } } } }
-    expect.truthy(sewn:is_closed() and sewn:is_manifold())
-    expect.equal(of_seam.seam.band_removed > 0, seam == "band")
-end
-for _, options in ipairs{
-    { transition = { source = 0.3, target = 0.9 } }, { refine = false }, { trim = false }, { collar = false },
-    { greatest_turn = 5 }, { fidelity = "thesis" }, { fidelity = "lissom", smooth = 10 },
-} do
-    options.joins = { join{ { from, to } } }
-    expect.truthy(lissom.merge(options):is_closed())
-end
-
--- A sparse side gets a collar: no slivers at the seam, and nothing worse than it was.
-local dense = half(lissom.shapes.sphere{ segments = 96 }, 0.1)
-local coarse = half(lissom.shapes.sphere{ segments = 12 }, 0.1)
-local function sewn(collar)
-    return lissom.merge{ collar = collar, joins = { { source = rim(dense), target = rim(coarse) } } }
-end
-local fine, of_fine = sewn()
-local plain, of_plain = sewn(false)
-expect.truthy(fine:is_closed() and plain:is_closed())
-expect.truthy(of_fine.seam.collar_added > of_fine.seam.collar_removed and of_fine.seam.collar_removed > 0)
-expect.equal(of_plain.seam.collar_added, 0)
-expect.truthy(of_fine.seam.after.smallest_angle > 12 and of_plain.seam.after.smallest_angle < 10)
-for _, of_seam in ipairs{ of_fine.seam, of_plain.seam } do
-    expect.truthy(of_seam.after.greatest_dihedral <= of_seam.before.greatest_dihedral + 1e-4)
-    expect.truthy(of_seam.after.greatest_near <= of_seam.before.greatest_near + 1e-4)
-end
-
--- Fixed: the source stays but near its boundary, or but for what is not held.
-local near = half(ball(), 0.1):transform{ rotate = { axis = "x", angle = 180 }, translate = { 0, -0.1, 0 } }
-local function fixed(options)
-    options.configuration = "fixed"
-    options.joins = { { source = rim(cap), target = rim(near), keys = { { from, extreme(rim(near), 1) } } } }
-    return lissom.merge(options)
-end
-local top = cap:region{ plane = { point = { 0, 0.7, 0 }, normal = { 0, 1, 0 } } }
-local function expect_held(result, of_result)
-    local held = 0
-    for v = 1, #result do
-        local origins = of_result.provenance:vertex(v)
-        if #origins == 1 and origins[1].side == "source" and top:contains(origins[1].vertex) then
-            local x, y, z = result:position(v)
-            local a, b, c = cap:position(origins[1].vertex)
-            expect.truthy(x == a and y == b and z == c)
-            held = held + 1
-        end
-    end
-    expect.equal(held, #top)
-end
-expect_held(fixed{ fixed = { top } })
-expect_held(fixed{ reach = 0.4 })
-expect_held(fixed{ reach = 0.4, frames = "keep" })
--- In the free configuration what is fixed moves as a whole.
-local whole, of_whole = lissom.merge{ fixed = { top }, joins = { join{ { from, to } } } }
-expect.truthy(whole:is_closed())
-local ratios = {}
-for v = 1, #whole do
-    local origins = of_whole.provenance:vertex(v)
-    if #origins == 1 and origins[1].side == "source" and top:contains(origins[1].vertex) then
-        table.insert(ratios, { { whole:position(v) }, { cap:position(origins[1].vertex) } })
-    end
-end
-local function distance(a, b)
-    return math.sqrt((a[1] - b[1]) ^ 2 + (a[2] - b[2]) ^ 2 + (a[3] - b[3]) ^ 2)
-end
-local scale = distance(ratios[1][1], ratios[#ratios][1]) / distance(ratios[1][2], ratios[#ratios][2])
-for i = 2, #ratios do
-    expect.near(distance(ratios[1][1], ratios[i][1]) / distance(ratios[1][2], ratios[i][2]), scale, 1e-6)
-end
-
--- Several joins, on several targets.
 local tube = lissom.shapes.cylinder{ radius = 0.5, height = 2, segments = 24, rings = 12, caps = false }
 local ends = tube:boundaries()
 local low = half(ball(), -0.5, { 0, -1, 0 }):transform{ translate = { 0, 3, 0 } }
 local high = half(ball(), 0.6):transform{ translate = { 3, 5, 0 } }
-local bottom_first = ends[1]:points()[1][2] < 0
-local bottom, upper = ends[bottom_first and 1 or 2], ends[bottom_first and 2 or 1]
-local chain, of_chain = lissom.merge{ source = tube, target = { low, high }, joins = {
-    { source = bottom, target = rim(low), keys = { { extreme(bottom, 1), extreme(rim(low), 1) } } },
-    { source = upper, target = rim(high), keys = { { extreme(upper, 1), extreme(rim(high), 1) } } },
-} }
-expect.truthy(chain:is_closed())
-expect.equal(chain:components(), 1)
-expect.equal(#of_chain.joins, 2)
-expect.equal(#of_chain.seams, 2)
-expect.equal(of_chain.provenance:vertex(#low)[1].side, "target")
--- On one target: a handle.
-local holed = half(ball(), -0.8):copy()
-holed = half(holed, 0.8, { 0, -1, 0 })
-local rims = holed:boundaries()
-local handle, of_handle = lissom.merge{ joins = {
-    { source = ends[1], target = rims[1] }, { source = ends[2], target = rims[2] },
-} }
-expect.truthy(handle:is_closed())
-expect.equal(handle:genus(), 1)
-expect.truthy(of_handle.joins[1].guessed)
 
--- Solved again after a key moved.
-local merging = lissom.merging{ joins = { join{ { from, to } } } }
-same(merging:solve(), mesh, 0)
-local other = rim(bowl):vertices()[5]
-merging:set_keys(1, { { from, other } })
-local turned = merging:solve()
-same(turned, lissom.merge{ joins = { join{ { from, other } } } }, 1e-9)
-expect.error("[out_of_range]", function() merging:set_keys(2, {}) end)
-expect.error("keys", function() merging:set_keys(1, { { from } }) end)
--- Keys are checked when they are set; those of before stay.
-local unset, key_message, key_code = merging:set_keys(1, { { #cap + 1, other } })
-expect.failure("key_conflict", unset, key_message, key_code)
-same(merging:solve(), turned, 0)
-merging:close()
-expect.error("closed", function() merging:solve() end)
-
--- Directions that belong together decide where round rims meet, and one without the other is refused.
-local around = lissom.shapes.cylinder{ radius = 1, height = 2, segments = 40, rings = 8, caps = false }
-local ring_of = around:boundaries()[1]
-for _, front in ipairs{ "z", "-x", { 1, 0, 1 } } do
-    local fitted, of_fitted = lissom.merge{ joins = { { source = rim(cap), target = ring_of } },
-        source_front = front, target_front = "z" }
-    expect.truthy(fitted and of_fitted.joins[1].guessed and of_fitted.joins[1].certainty > 1.5)
-    local d = front == "z" and { 0, 0, 1 } or front == "-x" and { -1, 0, 0 } or { 0.70710678, 0, 0.70710678 }
-    -- What lies at the front of the cap's rim comes to lie at the front of the cylinder's.
-    for v = 1, #fitted do
-        local origins = of_fitted.provenance:vertex(v)
-        if #origins == 1 and origins[1].side == "source" then
-            local x, _, z = cap:position(origins[1].vertex)
-            local r = math.sqrt(x * x + z * z)
-            if r > 0.5 and (x * d[1] + z * d[3]) / r > 0.999 then
-                local a, _, c = fitted:position(v)
-                expect.truthy(c / math.sqrt(a * a + c * c) > 0.99)
-            end
-        end
-    end
-end
-expect.error("directions come in pairs", function()
-    lissom.merge{ joins = { join() }, source_front = "z" }
-end)
-expect.error("source_up", function()
-    lissom.merge{ joins = { join() }, source_up = "north", target_up = "y" }
-end)
-
--- The verdict.
-expect.truthy(report.ok and report.verdict:find("^good: "))
-local _, of_folded = lissom.merge{ joins = { join{ { from, to } } }, smooth = 0, intersections = false }
-expect.truthy(of_folded.verdict:find("were not looked for", 1, true) or not of_folded.ok)
-
--- Loose parts are told.
-local with_eye = cap:copy():append(ball(2):transform{ scale = 0.1, translate = { 0.3, 0.8, 0 } })
-local _, of_eye = lissom.merge{
-    joins = { { source = rim(with_eye), target = rim(bowl), keys = { { from, to } } } },
-}
-expect.equal(of_eye.loose_parts, 1)
-expect.truthy(of_eye.warnings[1]:find("1 part of the source", 1, true))
-
--- Transitions: widths that suit, and those that have no room.
-local suited, of_suited = lissom.merge{ joins = { join{ { from, to } } }, transition = true }
-expect.truthy(suited:is_closed() and of_suited.transition[1].source.width > 0.5)
-expect.equal(#of_suited.warnings, 0)
-local _, of_wide = lissom.merge{
-    joins = { join{ { from, to } } }, transition = { source = 100, target = 0.5 },
-}
-expect.equal(#of_wide.warnings, 1)
-expect.truthy(of_wide.warnings[1]:find("in place of 29", 1, true))
-expect.truthy(of_suited.transition_kept > 0.9)
--- One that would fold the surface is left out, and that is said.
-local function bent_tube(segments, bend)
-    local bent = lissom.shapes.cylinder{ height = 2, segments = segments, rings = 6, caps = false }
-    for v = 1, #bent do
-        local x, y, z = bent:position(v)
-        bent:set_position(v, x + bend * math.sin(2 * y), y, z)
-    end
-    return bent
-end
-local _, of_refused = lissom.merge{ collar = false, transition = { source = 1.5, target = 1.5 },
-    joins = { { source = bent_tube(3, 0):boundaries()[1], target = bent_tube(40, 0.5):boundaries()[1] } } }
-expect.equal(of_refused.transition_kept, 0)
-expect.truthy(table.concat(of_refused.warnings, "\n"):find("the transition was left out", 1, true))
--- Behind a spike the lines away from the seam meet: the band is folded there, which is told.
-local function spiked_tube(spike)
-    local pipe = lissom.shapes.cylinder{ height = 4, segments = 40, rings = 30, caps = false }
-    for v = 1, #pipe do
-        local x, y, z = pipe:position(v)
-        local k = 1 + spike * math.exp(-(z * z + (y - 1.2) ^ 2) / 0.06)
-        if x > 0 then pipe:set_position(v, x * k, y, z * k) end
-    end
-    return pipe
-end
-local function end_of(pipe, sign)
-    for _, boundary in ipairs(pipe:boundaries()) do
-        if boundary:points()[1][2] * sign > 0 then return boundary end
-    end
-end
-for spike, folded in pairs{ [0] = false, [6] = true } do
-    local _, of_spike = lissom.merge{
-        joins = { { source = end_of(spiked_tube(0), -1), target = end_of(spiked_tube(spike), 1) } },
-        transition = { target = 1.6 },
-    }
-    expect.equal(table.concat(of_spike.warnings, "\n"):find("is folded, at", 1, true) ~= nil, folded)
-end
-local without, of_without = lissom.merge{ joins = { join{ { from, to } } }, transition = false }
-same(without, mesh, 0)
-expect.equal(#of_without.transition, 0)
-expect.equal(of_without.transition_kept, nil)
-expect.error("table of options or true expected", function()
-    lissom.merge{ joins = { join() }, transition = 3 }
-end)
-
--- Inside out is turned over, jagged is trimmed, and both are said.
-local inside_out = cap:copy():flip()
-local flipped, of_flipped = lissom.merge{ joins = { { source = rim(inside_out), target = rim(bowl) } } }
-expect.truthy(flipped:is_closed() and of_flipped.flipped.source and #of_flipped.warnings > 0)
-expect.truthy(flipped:volume() > 0)
-local ball_mesh = ball()
-local above = ball_mesh:region{ plane = { point = { 0, 0.2, 0 }, normal = { 0.3, 1, 0 } } }
-local toothed = ball_mesh:extract(above)
-local trimmed, of_trimmed = lissom.merge{ joins = { { source = rim(toothed), target = rim(bowl) } } }
-expect.truthy(trimmed:is_closed() and of_trimmed.joins[1].source_trimmed)
-expect.truthy(of_trimmed.joins[1].source_turn > 20)
-
--- Attributes, groups, materials, regions and skins come along.
-local function dressed(mesh_of, hue, name)
-    local uv = mesh_of:add_attribute{ name = "uv", domain = "vertex", width = 2 }
-    local color = mesh_of:add_attribute{ name = "color", domain = "vertex", width = 4 }
-    local heat = mesh_of:add_attribute{ name = "heat", domain = "face", type = "float64" }
-    local joints = mesh_of:add_attribute{ name = "joints", domain = "vertex", width = 4, type = "uint16" }
-    local weights = mesh_of:add_attribute{ name = "weights", domain = "vertex", width = 4 }
-    for v = 1, #mesh_of do
-        local x, y = mesh_of:position(v)
-        uv[2 * v - 1], uv[2 * v] = x, y
-        for k = 1, 4 do color[4 * v - 4 + k] = k == 4 and 1 or hue end
-        joints[4 * v - 3], joints[4 * v - 2] = 0, 1
-        local w = math.max(0, math.min(1, 0.5 + x / 4))
-        weights[4 * v - 3], weights[4 * v - 2] = w, 1 - w
-    end
-    for f = 1, mesh_of:face_count() do heat[f] = hue end
-    return mesh_of:set_region(name, mesh_of:region{ all = true })
-end
-local warm, cold = dressed(cap:copy(), 0.75, "upper"), dressed(bowl:copy(), 0.25, "lower")
-local both, of_both = lissom.merge{ smooth = 0,
-    joins = { { source = rim(warm), target = rim(cold), keys = { { from, to } } } } }
-local color, heat, weights, uv = both:attribute("color"), both:attribute("heat"), both:attribute("weights"),
-    both:attribute("uv")
-for v = 1, #both do
-    local origins = of_both.provenance:vertex(v)
-    local wanted, sum = 0, 0
-    for _, origin in ipairs(origins) do
-        wanted = wanted + origin.weight * (origin.side == "source" and 0.75 or 0.25)
-    end
-    expect.near(color[4 * v - 3], wanted, 1e-6)
-    for k = 1, 4 do sum = sum + weights[4 * v - 4 + k] end
-    expect.near(sum, 1, 1e-6)
-    if #origins == 1 then
-        local mesh_of = origins[1].side == "source" and warm or cold
-        expect.equal(weights[4 * v - 3], mesh_of:attribute("weights")[4 * origins[1].vertex - 3])
-        expect.truthy(both:region(origins[1].side == "source" and "upper" or "lower"):contains(v))
-        expect.truthy(not both:region(origins[1].side == "source" and "lower" or "upper"):contains(v))
-    end
-end
--- Along the seam both parts keep their own texture coordinates: these are of corners now.
-local corners = 0
-for f = 1, both:face_count() do
-    for _, v in ipairs(both:face(f)) do
-        corners = corners + 1
-        local origins = of_both.provenance:vertex(v)
-        if #origins == 1 then
-            local mesh_of = origins[1].side == "source" and warm or cold
-            expect.equal(uv[2 * corners], mesh_of:attribute("uv")[2 * origins[1].vertex])
-        end
-    end
-    expect.equal(heat[f], of_both.provenance:face(f)[1].side == "source" and 0.75 or 0.25)
-end
-
--- Groups and materials, as files give them.
-local function grouped(mesh_of, group, material)
-    local path = os.tmpname() .. ".obj"
-    local file = assert(io.open(path, "w"))
-    for v = 1, #mesh_of do
-        file:write(string.format("v %.17g %.17g %.17g\n", mesh_of:position(v)))
-    end
-    file:write("g ", group, "\nusemtl ", material, "\n")
-    for _, face_of in ipairs(mesh_of:faces()) do file:write("f ", table.concat(face_of, " "), "\n") end
-    file:close()
-    local loaded = assert(lissom.load(path))
-    os.remove(path)
-    return loaded
-end
-local hat, pot = grouped(cap, "hat", "felt"), grouped(bowl, "pot", "clay")
-local labelled = lissom.merge{ joins = { { source = rim(hat), target = rim(pot) } } }
-for _, label in ipairs{
-    { group = "hat" }, { group = "pot" }, { material = "felt" }, { material = "clay" },
-} do
-    local part = labelled:region(label)
-    expect.truthy(#part > 50 and #part < #labelled)
-end
-
--- Misuse is an error that names what is wrong.
-expect.error("joins", function() lissom.merge{} end)
-expect.error("joins", function() lissom.merge{ joins = {} } end)
-expect.error("list of joins expected", function() lissom.merge{ joins = { { source = rim(cap) } } } end)
-expect.error("did you mean 'keys'", function()
-    lissom.merge{ joins = { { source = rim(cap), target = rim(bowl), key = {} } } }
-end)
-expect.error("keys are pairs", function() lissom.merge{ joins = { join{ { from } } } } end)
-expect.error("keys are pairs", function() lissom.merge{ joins = { join{ { from, { 1, 2 } } } } } end)
-expect.error("smooth", function() lissom.merge{ joins = { join() }, smoth = 3 } end)
-expect.error("fair", function() lissom.merge{ joins = { join() }, seam = "glue" } end)
-expect.error("transition.sauce", function()
-    lissom.merge{ joins = { join() }, transition = { sauce = 1 } }
-end)
-expect.error("source", function() lissom.merge{ source = bowl, joins = { join() } } end)
-expect.error("target", function() lissom.merge{ target = { bowl, low }, joins = { join() } } end)
-
--- Bad input fails with a code and leaves everything as it was: `action` returns nil, a message, the code and
--- the elements, or raises an error with the code where it is misuse.
 local function fails(code, kind, action)
     local results = { pcall(action) }
     if not results[1] then
@@ -443,6 +56,7 @@ local function fails(code, kind, action)
     expect.equal(cap:hash(), cap_hash)
     expect.equal(bowl:hash(), bowl_hash)
 end
+
 local function merging_fails(code, kind, joins, options)
     fails(code, kind, function()
         local all = { joins = joins }
@@ -451,116 +65,540 @@ local function merging_fails(code, kind, joins, options)
     end)
 end
 
--- Paths that are no boundaries.
-local open = cap:path{ points = { rim(cap):vertices()[1], rim(cap):vertices()[9] } }
-merging_fails("not_a_boundary", "vertex", { { source = open, target = rim(bowl) } })
-local inner = cap:path{ points = { { 0.5, 0.8, 0 }, { 0, 0.8, 0.5 }, { -0.5, 0.8, 0 } }, closed = true }
-merging_fails("not_a_boundary", "vertex", { { source = inner, target = rim(bowl) } })
-local old = half(ball())
-local stale = rim(old)
-old:fill(stale)
-merging_fails("topology_mismatch", nil, { { source = stale, target = rim(bowl) } })
+test("what comes back", function()
+    expect.truthy(mesh:is_closed() and mesh:is_manifold())
+    expect.equal(mesh:genus(), 0)
+    expect.equal(mesh:components(), 1)
+    expect.equal(cap:hash(), cap_hash)
+    expect.equal(bowl:hash(), bowl_hash)
+    expect.near(report.joins[1].scale, 3, 0.1)
+    expect.equal(report.joins[1].guessed, false)
+    expect.equal(report.joins[1].certainty, nil)
+    expect.equal(report.joins[1].source_size, #rim(cap))
+    expect.equal(report.joins[1].target_size, #rim(bowl))
+    expect.truthy(report.joins[1].source_turn < 20 and not report.joins[1].source_trimmed)
+    expect.equal(#report.warnings, 0)
+    expect.truthy(not report.flipped.source and #report.flipped.targets == 0)
+    expect.truthy(report.free_vertices > 100 and report.displaced_vertices >= 0)
+    expect.truthy(report.prepare_seconds >= 0 and report.solve_seconds >= 0)
+    expect.truthy(report.first_factor_seconds >= 0 and report.second_factor_seconds >= 0)
+    expect.truthy(report.seam.after.greatest_dihedral < 25 and report.seam.after.rms_dihedral < 15)
+    expect.truthy(report.seam.before.greatest_dihedral > 0)
+    expect.truthy(report.seam.after.greatest_near >= report.seam.after.greatest_dihedral - 1e-9)
+    expect.equal(#mesh:self_intersections(), 0)
+end)
 
--- Joins that get in each other's way.
-merging_fails("boundary_conflict", nil, { { source = rim(cap), target = rim(cap) } })
-merging_fails("boundary_conflict", nil, { { source = ends[1], target = ends[2] } })
-merging_fails("boundary_conflict", nil, { join(), join() })
-merging_fails("boundary_conflict", nil, {
-    { source = ends[1], target = rim(bowl) }, { source = ends[2], target = rim(bowl) },
-})
-merging_fails("invalid_argument", nil, {
-    { source = rim(cap), target = rim(bowl) }, { source = ends[1], target = rim(high) },
-})
-
--- Keys.
-local inside
-for v = 1, #cap do
-    local _, y = cap:position(v)
-    if y > 0.9 then inside = v end
-end
-merging_fails("key_conflict", "vertex", { join{ { inside, to } } })
-merging_fails("key_conflict", nil, { join{ { #cap + 1, to } } })
-local s, t = rim(cap):vertices(), rim(bowl):vertices()
-merging_fails("key_conflict", nil, { join{ { s[1], t[1] }, { s[1], t[9] } } })
--- The source's loop runs against the target's.
-local m, n = #s, #t
-local third, two_thirds = math.floor(m / 3), math.floor(2 * m / 3)
-merging_fails("key_conflict", nil, { join{
-    { s[1], t[1] }, { s[third], t[math.floor(n / 3)] }, { s[two_thirds], t[math.floor(2 * n / 3)] },
-} })
-local ordered = lissom.merge{ joins = { join{
-    { s[1], t[1] }, { s[third], t[math.floor(2 * n / 3)] }, { s[two_thirds], t[math.floor(n / 3)] },
-} } }
-expect.truthy(ordered:is_closed())
-
--- What is fixed.
-merging_fails("handle_overlap", "vertex", { join() }, { fixed = { cap:region{ all = true } } })
-merging_fails("handle_overlap", "vertex", { join() },
-    { fixed = { rim(cap):region() }, configuration = "fixed" })
-
--- Skins whose joints have no names are of the same ones.
-local function skinned(mesh_of, joint)
-    local copy = mesh_of:copy()
-    local joints = copy:add_attribute{ name = "joints", domain = "vertex", width = 4, type = "uint16" }
-    local values = copy:add_attribute{ name = "weights", domain = "vertex", width = 4 }
-    for v = 1, #copy do joints[4 * v - 3], values[4 * v - 3] = joint, 1 end
-    return copy
-end
-local with_skin = lissom.merge{
-    joins = { { source = rim(skinned(cap, 1)), target = rim(skinned(bowl, 2)) } },
-}
-expect.truthy(with_skin:is_closed())
-
--- Loops of no length, and small ones.
-local flat = cap:copy()
-for _, v in ipairs(rim(flat):vertices()) do flat:set_position(v, 0, 0, 0) end
-merging_fails("boundary_conflict", nil, { { source = rim(flat), target = rim(bowl) } })
-local corner = lissom.mesh{
-    positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
-    faces = { { 1, 3, 2 }, { 1, 2, 4 }, { 1, 4, 3 } },
-}
-expect.equal(#rim(corner), 3)
-local tiny = lissom.merge{ joins = { { source = rim(corner), target = rim(bowl) } } }
-expect.truthy(tiny:is_closed())
-local onto_tiny = lissom.merge{ joins = { { source = rim(cap), target = rim(corner) } } }
-expect.truthy(onto_tiny:is_closed())
-
--- Values that make no sense.
-for _, options in ipairs{
-    { smooth = -1 }, { transition = { source = -1 } }, { reach = 0, configuration = "fixed" },
-    { greatest_turn = 200 },
-} do
-    options.joins = { join() }
-    fails("invalid_argument", nil, function()
-        local ok, message = pcall(lissom.merge, options)
-        expect.truthy(not ok)
-        expect.truthy(#message > 10)
-        return nil, message, "invalid_argument"
-    end)
-end
-
--- A join that is written wrongly says which field, and how to get a boundary.
-do
-    local function refused(text, one)
-        expect.error(text, function() lissom.merge{ joins = { one } } end)
+test("regions and seams are those of the merged mesh, and say which side a vertex is on", function()
+    expect.truthy(rawequal(report.seams[1]:mesh(), mesh) and report.seams[1]:is_closed())
+    expect.equal(#report.source + #report.target, #mesh + #report.seams[1])
+    for _, v in ipairs(report.seams[1]:vertices()) do
+        expect.truthy(report.source:contains(v) and report.target:contains(v))
     end
-    refused("no field 'key', did you mean 'keys'?", { source = rim(cap), target = rim(bowl), key = {} })
-    refused("expected in 'source', got lissom.Mesh; write source:boundaries()[1]",
-        { source = cap, target = rim(bowl) })
-    refused("expected in 'target', got table; write mesh:boundaries()[1]",
-        { source = rim(cap), target = bowl:boundaries() })
-end
+    expect.truthy(report.target:contains(1))
+end)
 
--- A source that stays where it was put meets what is nearest, and that is no guess.
-do
-    local over = half(ball(16)):transform{ translate = { 0, 0.3, 0 } }
-    local below = half(ball(20), 0, { 0, -1, 0 })
-    local joins = { { source = rim(over), target = rim(below) } }
-    local placed, of_placed = lissom.merge{ configuration = "fixed", joins = joins }
-    expect.truthy(placed:is_closed() and of_placed.joins[1].certainty > 1.5)
-    for _, warning in ipairs(of_placed.warnings) do
-        expect.truthy(not warning:find("guess", 1, true))
+test("provenance: elements off the seam come from one element, with their order", function()
+    -- Provenance: elements off the seam come from one element, with their order; weights sum to 1.
+    local sides = { source = 0, target = 0 }
+    for v = 1, #mesh do
+        local sum, origins = 0, report.provenance:vertex(v)
+        for _, origin in ipairs(origins) do
+            sum = sum + origin.weight
+            expect.truthy(origin.vertex >= 1 and origin.vertex <= (origin.side == "source" and #cap or #bowl))
+            expect.equal(origin.target, origin.side == "target" and 1 or nil)
+        end
+        expect.near(sum, 1, 1e-12)
+        if #origins == 1 then sides[origins[1].side] = sides[origins[1].side] + 1 end
     end
-    local _, of_free = lissom.merge{ joins = joins }
-    expect.truthy(of_free.joins[1].certainty < 1.5)
-end
+    expect.truthy(sides.source > 0.8 * #cap and sides.target > 0.8 * #bowl)
+    local face = report.provenance:face(mesh:face_count())[1]
+    expect.truthy(face.side == "source" and face.face >= 1 and face.face <= cap:face_count())
+    expect.error(function() report.provenance:vertex(#mesh + 1) end, "[out_of_range]")
+end)
+
+test("keys are ids or points, in any number; both name the same place", function()
+    local by_points = lissom.merge{ joins = { join{ { { cap:position(from) }, { bowl:position(to) } } } } }
+    same(by_points, mesh, 1e-9)
+    local mixed = lissom.merge{ joins = { join{ { from, { bowl:position(to) } } } } }
+    same(mixed, mesh, 1e-9)
+    local _, guessed = lissom.merge{ joins = { join() } }
+    expect.truthy(guessed.joins[1].guessed and guessed.joins[1].certainty >= 1)
+    expect.truthy(guessed.joins[1].certainty > 1.5 or #guessed.warnings > 0)
+end)
+
+test("wherever the source lies", function()
+    local moved = cap:copy():transform{
+        scale = 100, rotate = { axis = { 1, 2, 3 }, angle = 77 }, translate = { -4000, 900, 77 },
+    }
+    local elsewhere = lissom.merge{
+        joins = { { source = rim(moved), target = rim(bowl), keys = { { from, to } } } },
+    }
+    same(elsewhere, mesh, 1e-9 * mesh:size())
+end)
+
+test("without smoothing and collars the target stays to the bit", function()
+    local sharp, sharp_report = lissom.merge{ smooth = 0, collar = false, joins = { join{ { from, to } } } }
+    expect.equal(sharp_report.seam.collar_added, 0)
+    for v = 1, #sharp do
+        local origins = sharp_report.provenance:vertex(v)
+        if #origins == 1 and origins[1].side == "target" then
+            local x, y, z = sharp:position(v)
+            local a, b, c = bowl:position(origins[1].vertex)
+            expect.truthy(x == a and y == b and z == c)
+        end
+    end
+end)
+
+test("every option is taken, and every way to sew closes the seam", function()
+    for _, seam in ipairs{ "conform", "fair", "band" } do
+        local sewn, of_seam = lissom.merge{ seam = seam, joins = { join{ { from, to } } } }
+        expect.truthy(sewn:is_closed() and sewn:is_manifold())
+        expect.equal(of_seam.seam.band_removed > 0, seam == "band")
+    end
+    for _, options in ipairs{
+        { transition = { source = 0.3, target = 0.9 } },
+        { refine = false }, { trim = false }, { collar = false },
+        { greatest_turn = 5 }, { fidelity = "thesis" }, { fidelity = "lissom", smooth = 10 },
+    } do
+        options.joins = { join{ { from, to } } }
+        expect.truthy(lissom.merge(options):is_closed())
+    end
+end)
+
+test("a sparse side gets a collar: no slivers at the seam, and nothing worse than it was", function()
+    local dense = half(lissom.shapes.sphere{ segments = 96 }, 0.1)
+    local coarse = half(lissom.shapes.sphere{ segments = 12 }, 0.1)
+    local function sewn(collar)
+        return lissom.merge{ collar = collar, joins = { { source = rim(dense), target = rim(coarse) } } }
+    end
+    local fine, of_fine = sewn()
+    local plain, of_plain = sewn(false)
+    expect.truthy(fine:is_closed() and plain:is_closed())
+    expect.truthy(of_fine.seam.collar_added > of_fine.seam.collar_removed and of_fine.seam.collar_removed > 0)
+    expect.equal(of_plain.seam.collar_added, 0)
+    expect.truthy(of_fine.seam.after.smallest_angle > 12 and of_plain.seam.after.smallest_angle < 10)
+    for _, of_seam in ipairs{ of_fine.seam, of_plain.seam } do
+        expect.truthy(of_seam.after.greatest_dihedral <= of_seam.before.greatest_dihedral + 1e-4)
+        expect.truthy(of_seam.after.greatest_near <= of_seam.before.greatest_near + 1e-4)
+    end
+end)
+
+test("fixed: the source stays but near its boundary, or but for what is not held", function()
+    local near = half(ball(), 0.1):transform{
+        rotate = { axis = "x", angle = 180 }, translate = { 0, -0.1, 0 },
+    }
+    local function fixed(options)
+        options.configuration = "fixed"
+        local key = { from, extreme(rim(near), 1) }
+        options.joins = { { source = rim(cap), target = rim(near), keys = { key } } }
+        return lissom.merge(options)
+    end
+    local top = cap:region{ plane = { point = { 0, 0.7, 0 }, normal = { 0, 1, 0 } } }
+    local function expect_held(result, of_result)
+        local held = 0
+        for v = 1, #result do
+            local origins = of_result.provenance:vertex(v)
+            if #origins == 1 and origins[1].side == "source" and top:contains(origins[1].vertex) then
+                local x, y, z = result:position(v)
+                local a, b, c = cap:position(origins[1].vertex)
+                expect.truthy(x == a and y == b and z == c)
+                held = held + 1
+            end
+        end
+        expect.equal(held, #top)
+    end
+    expect_held(fixed{ fixed = { top } })
+    expect_held(fixed{ reach = 0.4 })
+    expect_held(fixed{ reach = 0.4, frames = "keep" })
+    -- In the free configuration what is fixed moves as a whole.
+    local whole, of_whole = lissom.merge{ fixed = { top }, joins = { join{ { from, to } } } }
+    expect.truthy(whole:is_closed())
+    local ratios = {}
+    for v = 1, #whole do
+        local origins = of_whole.provenance:vertex(v)
+        if #origins == 1 and origins[1].side == "source" and top:contains(origins[1].vertex) then
+            table.insert(ratios, { { whole:position(v) }, { cap:position(origins[1].vertex) } })
+        end
+    end
+    local function distance(a, b)
+        return math.sqrt((a[1] - b[1]) ^ 2 + (a[2] - b[2]) ^ 2 + (a[3] - b[3]) ^ 2)
+    end
+    local scale = distance(ratios[1][1], ratios[#ratios][1]) / distance(ratios[1][2], ratios[#ratios][2])
+    for i = 2, #ratios do
+        expect.near(distance(ratios[1][1], ratios[i][1]) / distance(ratios[1][2], ratios[i][2]), scale, 1e-6)
+    end
+end)
+
+test("several joins, on several targets", function()
+    local bottom_first = ends[1]:points()[1][2] < 0
+    local bottom, upper = ends[bottom_first and 1 or 2], ends[bottom_first and 2 or 1]
+    local chain, of_chain = lissom.merge{ source = tube, target = { low, high }, joins = {
+        { source = bottom, target = rim(low), keys = { { extreme(bottom, 1), extreme(rim(low), 1) } } },
+        { source = upper, target = rim(high), keys = { { extreme(upper, 1), extreme(rim(high), 1) } } },
+    } }
+    expect.truthy(chain:is_closed())
+    expect.equal(chain:components(), 1)
+    expect.equal(#of_chain.joins, 2)
+    expect.equal(#of_chain.seams, 2)
+    expect.equal(of_chain.provenance:vertex(#low)[1].side, "target")
+    -- On one target: a handle.
+    local holed = half(ball(), -0.8):copy()
+    holed = half(holed, 0.8, { 0, -1, 0 })
+    local rims = holed:boundaries()
+    local handle, of_handle = lissom.merge{ joins = {
+        { source = ends[1], target = rims[1] }, { source = ends[2], target = rims[2] },
+    } }
+    expect.truthy(handle:is_closed())
+    expect.equal(handle:genus(), 1)
+    expect.truthy(of_handle.joins[1].guessed)
+end)
+
+test("solved again after a key moved", function()
+    local merging = lissom.merging{ joins = { join{ { from, to } } } }
+    same(merging:solve(), mesh, 0)
+    local other = rim(bowl):vertices()[5]
+    merging:set_keys(1, { { from, other } })
+    local turned = merging:solve()
+    same(turned, lissom.merge{ joins = { join{ { from, other } } } }, 1e-9)
+    expect.error(function() merging:set_keys(2, {}) end, "[out_of_range]")
+    expect.error(function() merging:set_keys(1, { { from } }) end, "keys")
+    -- Keys are checked when they are set; those of before stay.
+    local unset, key_message, key_code = merging:set_keys(1, { { #cap + 1, other } })
+    expect.failure("key_conflict", unset, key_message, key_code)
+    same(merging:solve(), turned, 0)
+    merging:close()
+    expect.error(function() merging:solve() end, "closed")
+end)
+
+test("directions that belong together decide where round rims meet, and one without the", function()
+    -- Directions that belong together decide where round rims meet, and one without the other is refused.
+    local around = lissom.shapes.cylinder{ radius = 1, height = 2, segments = 40, rings = 8, caps = false }
+    local ring_of = around:boundaries()[1]
+    for _, front in ipairs{ "z", "-x", { 1, 0, 1 } } do
+        local fitted, of_fitted = lissom.merge{ joins = { { source = rim(cap), target = ring_of } },
+            source_front = front, target_front = "z" }
+        expect.truthy(fitted and of_fitted.joins[1].guessed and of_fitted.joins[1].certainty > 1.5)
+        local d = front == "z" and { 0, 0, 1 } or front == "-x" and { -1, 0, 0 } or
+            { 0.70710678, 0, 0.70710678 }
+        -- What lies at the front of the cap's rim comes to lie at the front of the cylinder's.
+        for v = 1, #fitted do
+            local origins = of_fitted.provenance:vertex(v)
+            if #origins == 1 and origins[1].side == "source" then
+                local x, _, z = cap:position(origins[1].vertex)
+                local r = math.sqrt(x * x + z * z)
+                if r > 0.5 and (x * d[1] + z * d[3]) / r > 0.999 then
+                    local a, _, c = fitted:position(v)
+                    expect.truthy(c / math.sqrt(a * a + c * c) > 0.99)
+                end
+            end
+        end
+    end
+    expect.error(function()
+        lissom.merge{ joins = { join() }, source_front = "z" }
+    end, "directions come in pairs")
+    expect.error(function()
+        lissom.merge{ joins = { join() }, source_up = "north", target_up = "y" }
+    end, "source_up")
+end)
+
+test("the verdict", function()
+    expect.truthy(report.ok and report.verdict:find("^good: "))
+    local _, of_folded = lissom.merge{ joins = { join{ { from, to } } }, smooth = 0, intersections = false }
+    expect.truthy(of_folded.verdict:find("were not looked for", 1, true) or not of_folded.ok)
+end)
+
+test("loose parts are told", function()
+    local with_eye = cap:copy():append(ball(2):transform{ scale = 0.1, translate = { 0.3, 0.8, 0 } })
+    local _, of_eye = lissom.merge{
+        joins = { { source = rim(with_eye), target = rim(bowl), keys = { { from, to } } } },
+    }
+    expect.equal(of_eye.loose_parts, 1)
+    expect.truthy(of_eye.warnings[1]:find("1 part of the source", 1, true))
+end)
+
+test("transitions: widths that suit, and those that have no room", function()
+    local suited, of_suited = lissom.merge{ joins = { join{ { from, to } } }, transition = true }
+    expect.truthy(suited:is_closed() and of_suited.transition[1].source.width > 0.5)
+    expect.equal(#of_suited.warnings, 0)
+    local _, of_wide = lissom.merge{
+        joins = { join{ { from, to } } }, transition = { source = 100, target = 0.5 },
+    }
+    expect.equal(#of_wide.warnings, 1)
+    expect.truthy(of_wide.warnings[1]:find("in place of 29", 1, true))
+    expect.truthy(of_suited.transition_kept > 0.9)
+    -- One that would fold the surface is left out, and that is said.
+    local function bent_tube(segments, bend)
+        local bent = lissom.shapes.cylinder{ height = 2, segments = segments, rings = 6, caps = false }
+        for v = 1, #bent do
+            local x, y, z = bent:position(v)
+            bent:set_position(v, x + bend * math.sin(2 * y), y, z)
+        end
+        return bent
+    end
+    local refused = { source = rim(bent_tube(3, 0)), target = rim(bent_tube(40, 0.5)) }
+    local _, of_refused = lissom.merge{ collar = false, transition = { source = 1.5, target = 1.5 },
+        joins = { refused } }
+    expect.equal(of_refused.transition_kept, 0)
+    expect.truthy(table.concat(of_refused.warnings, "\n"):find("the transition was left out", 1, true))
+    -- Behind a spike the lines away from the seam meet: the band is folded there, which is told.
+    local function spiked_tube(spike)
+        local pipe = lissom.shapes.cylinder{ height = 4, segments = 40, rings = 30, caps = false }
+        for v = 1, #pipe do
+            local x, y, z = pipe:position(v)
+            local k = 1 + spike * math.exp(-(z * z + (y - 1.2) ^ 2) / 0.06)
+            if x > 0 then pipe:set_position(v, x * k, y, z * k) end
+        end
+        return pipe
+    end
+    local function end_of(pipe, sign)
+        for _, boundary in ipairs(pipe:boundaries()) do
+            if boundary:points()[1][2] * sign > 0 then return boundary end
+        end
+    end
+    for spike, folded in pairs{ [0] = false, [6] = true } do
+        local _, of_spike = lissom.merge{
+            joins = { { source = end_of(spiked_tube(0), -1), target = end_of(spiked_tube(spike), 1) } },
+            transition = { target = 1.6 },
+        }
+        expect.equal(table.concat(of_spike.warnings, "\n"):find("is folded, at", 1, true) ~= nil, folded)
+    end
+    local without, of_without = lissom.merge{ joins = { join{ { from, to } } }, transition = false }
+    same(without, mesh, 0)
+    expect.equal(#of_without.transition, 0)
+    expect.equal(of_without.transition_kept, nil)
+    expect.error(function()
+        lissom.merge{ joins = { join() }, transition = 3 }
+    end, "table of options or true expected")
+end)
+
+test("inside out is turned over, jagged is trimmed, and both are said", function()
+    local inside_out = cap:copy():flip()
+    local flipped, of_flipped = lissom.merge{ joins = { { source = rim(inside_out), target = rim(bowl) } } }
+    expect.truthy(flipped:is_closed() and of_flipped.flipped.source and #of_flipped.warnings > 0)
+    expect.truthy(flipped:volume() > 0)
+    local ball_mesh = ball()
+    local above = ball_mesh:region{ plane = { point = { 0, 0.2, 0 }, normal = { 0.3, 1, 0 } } }
+    local toothed = ball_mesh:extract(above)
+    local trimmed, of_trimmed = lissom.merge{ joins = { { source = rim(toothed), target = rim(bowl) } } }
+    expect.truthy(trimmed:is_closed() and of_trimmed.joins[1].source_trimmed)
+    expect.truthy(of_trimmed.joins[1].source_turn > 20)
+end)
+
+test("attributes, groups, materials, regions and skins come along", function()
+    local function dressed(mesh_of, hue, name)
+        local uv = mesh_of:add_attribute{ name = "uv", domain = "vertex", width = 2 }
+        local color = mesh_of:add_attribute{ name = "color", domain = "vertex", width = 4 }
+        local heat = mesh_of:add_attribute{ name = "heat", domain = "face", type = "float64" }
+        local joints = mesh_of:add_attribute{ name = "joints", domain = "vertex", width = 4, type = "uint16" }
+        local weights = mesh_of:add_attribute{ name = "weights", domain = "vertex", width = 4 }
+        for v = 1, #mesh_of do
+            local x, y = mesh_of:position(v)
+            uv[2 * v - 1], uv[2 * v] = x, y
+            for k = 1, 4 do color[4 * v - 4 + k] = k == 4 and 1 or hue end
+            joints[4 * v - 3], joints[4 * v - 2] = 0, 1
+            local w = math.max(0, math.min(1, 0.5 + x / 4))
+            weights[4 * v - 3], weights[4 * v - 2] = w, 1 - w
+        end
+        for f = 1, mesh_of:face_count() do heat[f] = hue end
+        return mesh_of:set_region(name, mesh_of:region{ all = true })
+    end
+    local warm, cold = dressed(cap:copy(), 0.75, "upper"), dressed(bowl:copy(), 0.25, "lower")
+    local both, of_both = lissom.merge{ smooth = 0,
+        joins = { { source = rim(warm), target = rim(cold), keys = { { from, to } } } } }
+    local color, heat = both:attribute("color"), both:attribute("heat")
+    local weights, uv = both:attribute("weights"), both:attribute("uv")
+    for v = 1, #both do
+        local origins = of_both.provenance:vertex(v)
+        local wanted, sum = 0, 0
+        for _, origin in ipairs(origins) do
+            wanted = wanted + origin.weight * (origin.side == "source" and 0.75 or 0.25)
+        end
+        expect.near(color[4 * v - 3], wanted, 1e-6)
+        for k = 1, 4 do sum = sum + weights[4 * v - 4 + k] end
+        expect.near(sum, 1, 1e-6)
+        if #origins == 1 then
+            local mesh_of = origins[1].side == "source" and warm or cold
+            expect.equal(weights[4 * v - 3], mesh_of:attribute("weights")[4 * origins[1].vertex - 3])
+            expect.truthy(both:region(origins[1].side == "source" and "upper" or "lower"):contains(v))
+            expect.truthy(not both:region(origins[1].side == "source" and "lower" or "upper"):contains(v))
+        end
+    end
+    -- Along the seam both parts keep their own texture coordinates: these are of corners now.
+    local corners = 0
+    for f = 1, both:face_count() do
+        for _, v in ipairs(both:face(f)) do
+            corners = corners + 1
+            local origins = of_both.provenance:vertex(v)
+            if #origins == 1 then
+                local mesh_of = origins[1].side == "source" and warm or cold
+                expect.equal(uv[2 * corners], mesh_of:attribute("uv")[2 * origins[1].vertex])
+            end
+        end
+        expect.equal(heat[f], of_both.provenance:face(f)[1].side == "source" and 0.75 or 0.25)
+    end
+end)
+
+test("groups and materials, as files give them", function()
+    local function grouped(mesh_of, group, material)
+        local path = os.tmpname() .. ".obj"
+        local file = assert(io.open(path, "w"))
+        for v = 1, #mesh_of do
+            file:write(string.format("v %.17g %.17g %.17g\n", mesh_of:position(v)))
+        end
+        file:write("g ", group, "\nusemtl ", material, "\n")
+        for _, face_of in ipairs(mesh_of:faces()) do file:write("f ", table.concat(face_of, " "), "\n") end
+        file:close()
+        local loaded = assert(lissom.load(path))
+        os.remove(path)
+        return loaded
+    end
+    local hat, pot = grouped(cap, "hat", "felt"), grouped(bowl, "pot", "clay")
+    local labelled = lissom.merge{ joins = { { source = rim(hat), target = rim(pot) } } }
+    for _, label in ipairs{
+        { group = "hat" }, { group = "pot" }, { material = "felt" }, { material = "clay" },
+    } do
+        local part = labelled:region(label)
+        expect.truthy(#part > 50 and #part < #labelled)
+    end
+end)
+
+test("misuse is an error that names what is wrong", function()
+    expect.error(function() lissom.merge{} end, "joins")
+    expect.error(function() lissom.merge{ joins = {} } end, "joins")
+    expect.error(function() lissom.merge{ joins = { { source = rim(cap) } } } end, "list of joins expected")
+    expect.error(function()
+        lissom.merge{ joins = { { source = rim(cap), target = rim(bowl), key = {} } } }
+    end, "did you mean 'keys'")
+    expect.error(function() lissom.merge{ joins = { join{ { from } } } } end, "keys are pairs")
+    expect.error(function() lissom.merge{ joins = { join{ { from, { 1, 2 } } } } } end, "keys are pairs")
+    expect.error(function() lissom.merge{ joins = { join() }, smoth = 3 } end, "smooth")
+    expect.error(function() lissom.merge{ joins = { join() }, seam = "glue" } end, "fair")
+    expect.error(function()
+        lissom.merge{ joins = { join() }, transition = { sauce = 1 } }
+    end, "transition.sauce")
+    expect.error(function() lissom.merge{ source = bowl, joins = { join() } } end, "source")
+    expect.error(function() lissom.merge{ target = { bowl, low }, joins = { join() } } end, "target")
+end)
+
+test("paths that are no boundaries", function()
+    local open = cap:path{ points = { rim(cap):vertices()[1], rim(cap):vertices()[9] } }
+    merging_fails("not_a_boundary", "vertex", { { source = open, target = rim(bowl) } })
+    local inner = cap:path{ points = { { 0.5, 0.8, 0 }, { 0, 0.8, 0.5 }, { -0.5, 0.8, 0 } }, closed = true }
+    merging_fails("not_a_boundary", "vertex", { { source = inner, target = rim(bowl) } })
+    local old = half(ball())
+    local stale = rim(old)
+    old:fill(stale)
+    merging_fails("topology_mismatch", nil, { { source = stale, target = rim(bowl) } })
+end)
+
+test("joins that get in each other's way", function()
+    merging_fails("boundary_conflict", nil, { { source = rim(cap), target = rim(cap) } })
+    merging_fails("boundary_conflict", nil, { { source = ends[1], target = ends[2] } })
+    merging_fails("boundary_conflict", nil, { join(), join() })
+    merging_fails("boundary_conflict", nil, {
+        { source = ends[1], target = rim(bowl) }, { source = ends[2], target = rim(bowl) },
+    })
+    merging_fails("invalid_argument", nil, {
+        { source = rim(cap), target = rim(bowl) }, { source = ends[1], target = rim(high) },
+    })
+end)
+
+test("keys", function()
+    local inside
+    for v = 1, #cap do
+        local _, y = cap:position(v)
+        if y > 0.9 then inside = v end
+    end
+    merging_fails("key_conflict", "vertex", { join{ { inside, to } } })
+    merging_fails("key_conflict", nil, { join{ { #cap + 1, to } } })
+    local s, t = rim(cap):vertices(), rim(bowl):vertices()
+    merging_fails("key_conflict", nil, { join{ { s[1], t[1] }, { s[1], t[9] } } })
+    -- The source's loop runs against the target's.
+    local m, n = #s, #t
+    local third, two_thirds = math.floor(m / 3), math.floor(2 * m / 3)
+    merging_fails("key_conflict", nil, { join{
+        { s[1], t[1] }, { s[third], t[math.floor(n / 3)] }, { s[two_thirds], t[math.floor(2 * n / 3)] },
+    } })
+    local ordered = lissom.merge{ joins = { join{
+        { s[1], t[1] }, { s[third], t[math.floor(2 * n / 3)] }, { s[two_thirds], t[math.floor(n / 3)] },
+    } } }
+    expect.truthy(ordered:is_closed())
+end)
+
+test("what is fixed", function()
+    merging_fails("handle_overlap", "vertex", { join() }, { fixed = { cap:region{ all = true } } })
+    merging_fails("handle_overlap", "vertex", { join() },
+        { fixed = { rim(cap):region() }, configuration = "fixed" })
+end)
+
+test("skins whose joints have no names are of the same ones", function()
+    local function skinned(mesh_of, joint)
+        local copy = mesh_of:copy()
+        local joints = copy:add_attribute{ name = "joints", domain = "vertex", width = 4, type = "uint16" }
+        local values = copy:add_attribute{ name = "weights", domain = "vertex", width = 4 }
+        for v = 1, #copy do joints[4 * v - 3], values[4 * v - 3] = joint, 1 end
+        return copy
+    end
+    local with_skin = lissom.merge{
+        joins = { { source = rim(skinned(cap, 1)), target = rim(skinned(bowl, 2)) } },
+    }
+    expect.truthy(with_skin:is_closed())
+end)
+
+test("loops of no length, and small ones", function()
+    local flat = cap:copy()
+    for _, v in ipairs(rim(flat):vertices()) do flat:set_position(v, 0, 0, 0) end
+    merging_fails("boundary_conflict", nil, { { source = rim(flat), target = rim(bowl) } })
+    local corner = lissom.mesh{
+        positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
+        faces = { { 1, 3, 2 }, { 1, 2, 4 }, { 1, 4, 3 } },
+    }
+    expect.equal(#rim(corner), 3)
+    local tiny = lissom.merge{ joins = { { source = rim(corner), target = rim(bowl) } } }
+    expect.truthy(tiny:is_closed())
+    local onto_tiny = lissom.merge{ joins = { { source = rim(cap), target = rim(corner) } } }
+    expect.truthy(onto_tiny:is_closed())
+end)
+
+test("values that make no sense", function()
+    for _, options in ipairs{
+        { smooth = -1 }, { transition = { source = -1 } }, { reach = 0, configuration = "fixed" },
+        { greatest_turn = 200 },
+    } do
+        options.joins = { join() }
+        fails("invalid_argument", nil, function()
+            local ok, message = pcall(lissom.merge, options)
+            expect.truthy(not ok)
+            expect.truthy(#message > 10)
+            return nil, message, "invalid_argument"
+        end)
+    end
+end)
+
+test("a join that is written wrongly says which field, and how to get a boundary", function()
+    do
+        local function refused(text, one)
+            expect.error(function() lissom.merge{ joins = { one } } end, text)
+        end
+        refused("no field 'key', did you mean 'keys'?", { source = rim(cap), target = rim(bowl), key = {} })
+        refused("expected in 'source', got lissom.Mesh; write source:boundaries()[1]",
+            { source = cap, target = rim(bowl) })
+        refused("expected in 'target', got table; write mesh:boundaries()[1]",
+            { source = rim(cap), target = bowl:boundaries() })
+    end
+end)
+
+test("a source that stays where it was put meets what is nearest, and that is no guess", function()
+    do
+        local over = half(ball(16)):transform{ translate = { 0, 0.3, 0 } }
+        local below = half(ball(20), 0, { 0, -1, 0 })
+        local joins = { { source = rim(over), target = rim(below) } }
+        local placed, of_placed = lissom.merge{ configuration = "fixed", joins = joins }
+        expect.truthy(placed:is_closed() and of_placed.joins[1].certainty > 1.5)
+        for _, warning in ipairs(of_placed.warnings) do
+            expect.truthy(not warning:find("guess", 1, true))
+        end
+        local _, of_free = lissom.merge{ joins = joins }
+        expect.truthy(of_free.joins[1].certainty < 1.5)
+    end
+end)

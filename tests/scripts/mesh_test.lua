@@ -1,197 +1,183 @@
 local lissom = require "lissom"
-local expect = require "expect"
-
--- Counts and measures of a known shape.
 local box = lissom.shapes.box{ size = { 1, 2, 3 } }
-expect.equal(#box, 8)
-expect.equal(box:vertex_count(), 8)
-expect.equal(box:face_count(), 6)
-expect.near(box:area(), 22)
-expect.near(box:volume(), 6)
-expect.near_list(box:bounds().min, { -0.5, -1, -1.5 })
-expect.near(box:bounds().diagonal, math.sqrt(14))
-expect.equal(box:components(), 1)
-expect.equal(box:genus(), 0)
-expect.truthy(box:is_closed() and box:is_manifold())
-expect.truthy(tostring(box):find("8 vertices, 6 faces", 1, true))
-
--- size() does not change when the mesh turns.
-local size = box:size()
-box:transform{ rotate = { axis = { 1, 2, 3 }, angle = 40, about = { 5, 5, 5 } } }
-expect.near(box:size(), size, 1e-12)
-
--- Degrees, counter-clockwise; scale before rotation before translation.
-local triangle = lissom.mesh{
-    positions = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
-    faces = { { 1, 2, 3 } },
-}
-triangle:transform{ rotate = { axis = "z", angle = 90 }, scale = 2, translate = { 0, 0, 5 } }
-expect.near_list({ triangle:position(1) }, { 0, 2, 5 })
-triangle:transform{ scale = { 1, 1, 0.5 }, about = { 0, 0, 5 } }
-expect.near_list({ triangle:position(3) }, { 0, 0, 6 })
-
--- Elements.
-local grid = lissom.shapes.grid()
-expect.equal(#grid:face(1), 4)
-expect.equal(#grid:faces(), 100)
-expect.equal(#grid:neighbors(1), 2)
-expect.near_list({ grid:normal(1) }, { 0, 1, 0 })
-expect.error("face 101 is not one of the 100 of the mesh", function() grid:face(101) end)
-grid:set_position(1, 1, 2, 3)
-expect.near_list({ grid:position(1) }, { 1, 2, 3 })
-grid:set_position(1, { 4, 5, 6 })
-expect.near_list({ grid:position(1) }, { 4, 5, 6 })
-
--- Queries see the present shape, whatever changed it: single positions, all of them, a buffer, faces.
-local asked = lissom.shapes.torus()
-local function same_answers()
-    local fresh = asked:copy()
-    for i = 1, 20 do
-        local from = { 3 * math.sin(i), 2 * math.cos(3 * i), 3 * math.cos(i) }
-        local a, b = asked:nearest(from), fresh:nearest(from)
-        expect.equal(a.face, b.face)
-        expect.equal(a.distance, b.distance)
-        local towards = { -from[1], 0.3 - from[2], -from[3] }
-        a, b = asked:pick(from, towards), fresh:pick(from, towards)
-        expect.equal(a and a.face, b and b.face)
-        expect.equal(a and a.distance, b and b.distance)
-    end
-end
-same_answers()
-asked:set_position(1, 2, 0, 0)
-same_answers()
-asked:transform{ rotate = { axis = { 1, 2, 3 }, angle = 50 }, scale = { 1, 2, 0.5 } }
-same_answers()
-local buffer = asked:positions()
-for i = 1, #buffer do buffer[i] = buffer[i] + 0.1 * math.sin(97 * i) end
-buffer:changed()
-same_answers()
-asked:triangulate()
-same_answers()
-asked:smooth{ iterations = 2 }
-same_answers()
-
--- In place and chained, or a new mesh.
-local two = lissom.shapes.box()
-expect.equal(two:append(two):components(), 2)
-expect.equal(two:triangulate():face_count(), 24)
-local before = two:volume()
-expect.near(two:flip():volume(), -before)
-local copy = two:copy()
-expect.truthy(copy == two and not rawequal(copy, two))
-copy:set_position(1, 9, 9, 9)
-expect.truthy(copy ~= two)
-expect.equal(lissom.shapes.box():subdivide(2):face_count(), 96)
-expect.equal(#lissom.shapes.box():subdivide(0), 8)
-
--- A mirror keeps the surface looking outward.
-expect.near(lissom.shapes.box():transform{ scale = { -1, 1, 1 } }:volume(), 1)
-
--- Smoothing a region leaves the rest alone.
 local cactus = lissom.shapes.cactus{ vertices = 2000 }
 local arm = cactus:region("left_arm")
-local still = cactus:region("base"):vertices()[1]
-local x, y, z = cactus:position(still)
-local hash = cactus:hash()
-cactus:smooth{ iterations = 3, region = arm, keep_volume = true, weights = "cotangent" }
-expect.truthy(cactus:hash() ~= hash)
-expect.near_list({ cactus:position(still) }, { x, y, z }, 0)
-
--- Parts and what they were.
-local part, map = cactus:extract(arm)
-expect.equal(#map, #part)
-expect.near_list({ part:position(1) }, { cactus:position(map[1]) }, 0)
-local rest = cactus:remove(arm)
-expect.equal(part:face_count() + rest:face_count(), cactus:face_count())
-
--- Nearest point and ray.
-local ball = lissom.shapes.sphere{ segments = 32 }
-local found = ball:nearest(2, 0, 0)
-expect.near(found.distance, 1, 1e-2)
-expect.near(found.bary[1] + found.bary[2] + found.bary[3], 1)
-expect.equal(ball:pick({ 0, 5, 0 }, { 0, 1, 0 }), nil)
-local hit = ball:pick({ 0, 5, 0 }, { 0, -1, 0 })
-expect.near(hit.distance, 4, 1e-2)
-expect.near_list({ ball:position(hit.vertex) }, hit.position, 0.2)
--- ... of the present shape.
-ball:transform{ translate = { 0, 10, 0 } }
-expect.near(ball:nearest(0, 0, 0).distance, 9, 1e-2)
-local positions = ball:positions()
-for i = 2, #positions, 3 do positions[i] = positions[i] - 10 end
-expect.near(ball:nearest(0, 3, 0).distance, 2, 1e-2)
-
--- Distances.
-local plane = lissom.shapes.grid{ size = 1, segments = 20 }
-local corner = plane:nearest(-0.5, 0, -0.5).vertex
-local opposite = plane:nearest(0.5, 0, 0.5).vertex
-expect.near(plane:distances{ from = corner, method = "edges" }[opposite], 2)
-expect.near(plane:distances{ from = { corner } }[opposite], math.sqrt(2), 0.05)
-expect.equal(plane:distances{ from = plane:region("border") }[corner], 0)
-expect.equal(lissom.shapes.box():append(lissom.shapes.box()):distances{ from = 1 }[9], 1 / 0)
-
--- Names of groups and materials.
-local path = os.tmpname() .. ".obj"
-local file = assert(io.open(path, "w"))
-file:write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng left\nusemtl red\nf 1 2 3\ng right\nf 1 3 4\n")
-file:close()
-local square = assert(lissom.load(path))
-expect.equal(table.concat(square:groups(), " "), "left right")
-expect.equal(table.concat(square:materials(), " "), "red")
-expect.equal(#square:region{ group = square:groups()[2] }, 3)
-expect.equal(#lissom.shapes.grid():groups(), 0)
-os.remove(path)
-
--- How far a shape is from another.
-local plain = lissom.shapes.grid{ size = 1, segments = 4 }
-local shape = plain:copy():transform{ scale = { 2, 1, 1 } }
-local change = shape:distortion(plain)
-expect.equal(#change.stretch, #plain)
-for i = 1, #plain do
-    expect.near(change.stretch[i], 2)
-    expect.near(change.area[i], 2)
-    expect.near(change.angle[i], 0)
-    expect.equal(change.flips[i], 0)
-end
-shape:set_position(13, 1.3, 0, 0)
-change = shape:distortion(plain)
-expect.equal(#change.flipped, change.flips[13])
-expect.truthy(#change.flipped > 0)
-expect.error("[topology_mismatch]", function() shape:distortion(lissom.shapes.box()) end)
-
--- A check names what is odd.
-local odd = lissom.mesh{
-    positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 5, 5, 5 } },
-    faces = { { 1, 2, 3 } },
-}
-local report = odd:check()
-expect.near_list(report.isolated_vertices, { 4 })
-expect.near_list(report.zero_area_faces, { 1 })
-expect.equal(report.manifold, false)
-expect.equal(report.components, 2)
-
--- Data that is no manifold: nil, message, code, elements from 1.
-local flat = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 1, 1 } }
-expect.failure("face_index", lissom.mesh{ positions = flat, faces = { { 1, 2, 6 } } })
-local mesh, message, code, elements =
-    lissom.mesh{ positions = flat, faces = { { 1, 2, 3 }, { 2, 1, 4 }, { 1, 2, 5 } } }
-expect.failure("nonmanifold_edge", mesh, message, code)
-expect.equal(elements.kind, "edge")
-expect.equal(elements.count, 1)
-expect.near_list(elements.ids[1], { 1, 2 })
-expect.truthy(message:find("1-2", 1, true))
-
--- What is no method but an option says of which.
 local any = lissom.shapes.box{ size = 2 }
-expect.error("no method 'rotate'; write mesh:transform{ rotate = ... }", function()
-    any:rotate{ axis = "x", angle = 3 }
-end)
-expect.error("did you mean 'regions'?", function() any:regionss() end)
 
--- Bounds print as numbers, and are a plain table otherwise.
-local extent = any:bounds()
-expect.equal(tostring(extent),
-    "{min = {-1, -1, -1}, max = {1, 1, 1}, center = {0, 0, 0}, diagonal = 3.4641}")
-local keys = {}
-for key in pairs(extent) do keys[#keys + 1] = key end
-table.sort(keys)
-expect.equal(table.concat(keys, " "), "center diagonal max min")
+test("counts and measures of a known shape", function()
+    expect.equal(#box, 8)
+    expect.equal(box:vertex_count(), 8)
+    expect.equal(box:face_count(), 6)
+    expect.near(box:area(), 22)
+    expect.near(box:volume(), 6)
+    expect.near(box:bounds().min, { -0.5, -1, -1.5 })
+    expect.near(box:bounds().diagonal, math.sqrt(14))
+    expect.equal(box:components(), 1)
+    expect.equal(box:genus(), 0)
+    expect.truthy(box:is_closed() and box:is_manifold())
+    expect.truthy(tostring(box):find("8 vertices, 6 faces", 1, true))
+end)
+
+test("size() does not change when the mesh turns", function()
+    local size = box:size()
+    box:transform{ rotate = { axis = { 1, 2, 3 }, angle = 40, about = { 5, 5, 5 } } }
+    expect.near(box:size(), size, 1e-12)
+end)
+
+test("degrees, counter-clockwise; scale before rotation before translation", function()
+    local triangle = lissom.mesh{
+        positions = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
+        faces = { { 1, 2, 3 } },
+    }
+    triangle:transform{ rotate = { axis = "z", angle = 90 }, scale = 2, translate = { 0, 0, 5 } }
+    expect.near({ triangle:position(1) }, { 0, 2, 5 })
+    triangle:transform{ scale = { 1, 1, 0.5 }, about = { 0, 0, 5 } }
+    expect.near({ triangle:position(3) }, { 0, 0, 6 })
+end)
+
+test("elements", function()
+    local grid = lissom.shapes.grid()
+    expect.equal(#grid:face(1), 4)
+    expect.equal(#grid:faces(), 100)
+    expect.equal(#grid:neighbors(1), 2)
+    expect.near({ grid:normal(1) }, { 0, 1, 0 })
+    expect.error(function() grid:face(101) end, "face 101 is not one of the 100 of the mesh")
+    grid:set_position(1, 1, 2, 3)
+    expect.near({ grid:position(1) }, { 1, 2, 3 })
+    grid:set_position(1, { 4, 5, 6 })
+    expect.near({ grid:position(1) }, { 4, 5, 6 })
+end)
+
+test("in place and chained, or a new mesh", function()
+    local two = lissom.shapes.box()
+    expect.equal(two:append(two):components(), 2)
+    expect.equal(two:triangulate():face_count(), 24)
+    local before = two:volume()
+    expect.near(two:flip():volume(), -before)
+    local copy = two:copy()
+    expect.truthy(copy == two and not rawequal(copy, two))
+    copy:set_position(1, 9, 9, 9)
+    expect.truthy(copy ~= two)
+    expect.equal(lissom.shapes.box():subdivide(2):face_count(), 96)
+    expect.equal(#lissom.shapes.box():subdivide(0), 8)
+end)
+
+test("a mirror keeps the surface looking outward", function()
+    expect.near(lissom.shapes.box():transform{ scale = { -1, 1, 1 } }:volume(), 1)
+end)
+
+test("smoothing a region leaves the rest alone", function()
+    local still = cactus:region("base"):vertices()[1]
+    local x, y, z = cactus:position(still)
+    local hash = cactus:hash()
+    cactus:smooth{ iterations = 3, region = arm, keep_volume = true, weights = "cotangent" }
+    expect.truthy(cactus:hash() ~= hash)
+    expect.near({ cactus:position(still) }, { x, y, z }, 0)
+end)
+
+test("parts and what they were", function()
+    local part, map = cactus:extract(arm)
+    expect.equal(#map, #part)
+    expect.near({ part:position(1) }, { cactus:position(map[1]) }, 0)
+    local rest = cactus:remove(arm)
+    expect.equal(part:face_count() + rest:face_count(), cactus:face_count())
+end)
+
+test("nearest point and ray", function()
+    local ball = lissom.shapes.sphere{ segments = 32 }
+    local found = ball:nearest(2, 0, 0)
+    expect.near(found.distance, 1, 1e-2)
+    expect.near(found.bary[1] + found.bary[2] + found.bary[3], 1)
+    expect.equal(ball:pick({ 0, 5, 0 }, { 0, 1, 0 }), nil)
+    local hit = ball:pick({ 0, 5, 0 }, { 0, -1, 0 })
+    expect.near(hit.distance, 4, 1e-2)
+    expect.near({ ball:position(hit.vertex) }, hit.position, 0.2)
+    -- ... of the present shape.
+    ball:transform{ translate = { 0, 10, 0 } }
+    expect.near(ball:nearest(0, 0, 0).distance, 9, 1e-2)
+    local positions = ball:positions()
+    for i = 2, #positions, 3 do positions[i] = positions[i] - 10 end
+    expect.near(ball:nearest(0, 3, 0).distance, 2, 1e-2)
+end)
+
+test("distances", function()
+    local plane = lissom.shapes.grid{ size = 1, segments = 20 }
+    local corner = plane:nearest(-0.5, 0, -0.5).vertex
+    local opposite = plane:nearest(0.5, 0, 0.5).vertex
+    expect.near(plane:distances{ from = corner, method = "edges" }[opposite], 2)
+    expect.near(plane:distances{ from = { corner } }[opposite], math.sqrt(2), 0.05)
+    expect.equal(plane:distances{ from = plane:region("border") }[corner], 0)
+    expect.equal(lissom.shapes.box():append(lissom.shapes.box()):distances{ from = 1 }[9], 1 / 0)
+end)
+
+test("names of groups and materials", function()
+    local path = os.tmpname() .. ".obj"
+    local file = assert(io.open(path, "w"))
+    file:write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng left\nusemtl red\nf 1 2 3\ng right\nf 1 3 4\n")
+    file:close()
+    local square = assert(lissom.load(path))
+    expect.equal(table.concat(square:groups(), " "), "left right")
+    expect.equal(table.concat(square:materials(), " "), "red")
+    expect.equal(#square:region{ group = square:groups()[2] }, 3)
+    expect.equal(#lissom.shapes.grid():groups(), 0)
+    os.remove(path)
+end)
+
+test("how far a shape is from another", function()
+    local plain = lissom.shapes.grid{ size = 1, segments = 4 }
+    local shape = plain:copy():transform{ scale = { 2, 1, 1 } }
+    local change = shape:distortion(plain)
+    expect.equal(#change.stretch, #plain)
+    for i = 1, #plain do
+        expect.near(change.stretch[i], 2)
+        expect.near(change.area[i], 2)
+        expect.near(change.angle[i], 0)
+        expect.equal(change.flips[i], 0)
+    end
+    shape:set_position(13, 1.3, 0, 0)
+    change = shape:distortion(plain)
+    expect.equal(#change.flipped, change.flips[13])
+    expect.truthy(#change.flipped > 0)
+    expect.error(function() shape:distortion(lissom.shapes.box()) end, "[topology_mismatch]")
+end)
+
+test("a check names what is odd", function()
+    local odd = lissom.mesh{
+        positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 5, 5, 5 } },
+        faces = { { 1, 2, 3 } },
+    }
+    local report = odd:check()
+    expect.near(report.isolated_vertices, { 4 })
+    expect.near(report.zero_area_faces, { 1 })
+    expect.equal(report.manifold, false)
+    expect.equal(report.components, 2)
+end)
+
+test("data that is no manifold: nil, message, code, elements from 1", function()
+    local flat = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 1, 1 } }
+    expect.failure("face_index", lissom.mesh{ positions = flat, faces = { { 1, 2, 6 } } })
+    local mesh, message, code, elements =
+        lissom.mesh{ positions = flat, faces = { { 1, 2, 3 }, { 2, 1, 4 }, { 1, 2, 5 } } }
+    expect.failure("nonmanifold_edge", mesh, message, code)
+    expect.equal(elements.kind, "edge")
+    expect.equal(elements.count, 1)
+    expect.near(elements.ids[1], { 1, 2 })
+    expect.truthy(message:find("1-2", 1, true))
+end)
+
+test("what is no method but an option says of which", function()
+    expect.error(function()
+        any:rotate{ axis = "x", angle = 3 }
+    end, "no method 'rotate'; write mesh:transform{ rotate = ... }")
+    expect.error(function() any:regionss() end, "did you mean 'regions'?")
+end)
+
+test("bounds print as numbers, and are a plain table otherwise", function()
+    local extent = any:bounds()
+    expect.equal(tostring(extent),
+        "{min = {-1, -1, -1}, max = {1, 1, 1}, center = {0, 0, 0}, diagonal = 3.4641}")
+    local keys = {}
+    for key in pairs(extent) do keys[#keys + 1] = key end
+    table.sort(keys)
+    expect.equal(table.concat(keys, " "), "center diagonal max min")
+end)

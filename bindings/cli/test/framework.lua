@@ -340,7 +340,9 @@ local function draw(scene, golden)
     options.file = scene.file or host.folder() .. "/" .. golden:match("[^/\\]*$")
     local render = rawget(lissom, "render")
     if not render then return nil, "this program cannot draw", "no_display" end
-    return render(options)
+    local done, file, message, code = pcall(render, options)
+    if not done then error(file, 3) end
+    return file, message, code
 end
 
 local function exists(path)
@@ -360,7 +362,7 @@ function expect.picture(picture, golden, options)
         end
     end
     local check = { golden = golden, tolerance = fraction(options, "tolerance", 0.05),
-        pixels = fraction(options, "pixels", 0.001), picture = picture }
+        pixels = fraction(options, "pixels", 0.0005), picture = picture }
     if type(picture) == "table" then
         local file, message, code = draw(picture, golden)
         if code == "no_display" then

@@ -13,7 +13,7 @@ struct PictureCheck {
     /// Greatest difference of a colour, 0 to 1, that counts as none.
     double tolerance = 0.05;
     /// The part of the pixels that may differ by more.
-    double pixels = 0.001;
+    double pixels = 0.0005;
 };
 
 /// What differs, as a message; empty where nothing does. Throws Error where a file cannot be read.

@@ -11,10 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Whether one of the folders from the one that was named down to the file is called so.
 bool is_below_scenes(const fs::path& file, const fs::path& folder) {
-    const fs::path parent =
-        fs::absolute(folder).lexically_normal() / file.lexically_relative(folder);
-    const fs::path folders = parent.parent_path();
+    const fs::path named = fs::weakly_canonical(folder).filename();
+    const fs::path folders = (named / file.lexically_relative(folder)).parent_path();
     return std::find(folders.begin(), folders.end(), "scenes") != folders.end();
 }
 
@@ -26,8 +26,7 @@ bool is_test(const fs::path& file, const fs::path& folder) {
 
 std::vector<fs::path> tests_below(const fs::path& folder) {
     std::vector<fs::path> found;
-    const auto options = fs::directory_options::follow_directory_symlink |
-                         fs::directory_options::skip_permission_denied;
+    const auto options = fs::directory_options::skip_permission_denied;
     for (auto at = fs::recursive_directory_iterator(folder, options);
          at != fs::recursive_directory_iterator(); ++at) {
         const fs::path& path = at->path();

@@ -83,7 +83,7 @@ function expect.hash(object, wanted) end
 
 ---@class lissom.PictureTolerance
 ---@field tolerance? number How far a colour may lie outside of those around its pixel in the other picture, 0 to 1. Default: 0.05.
----@field pixels? number The part of the pixels that may lie further, 0 to 1. Default: 0.001.
+---@field pixels? number The part of the pixels that may lie further, 0 to 1. Default: 0.0005.
 
 ---A picture is the same as a golden one, up to what drivers draw differently. `lissom test --update` writes golden pictures that are missing or differ. Where nothing can be drawn the picture is left out, and the report says so.
 ---@param picture string|lissom.RenderOptions A .png file, or the options of lissom.render without `file`.
