@@ -1,122 +1,145 @@
 local lissom = require "lissom"
-local expect = require "expect"
 
--- A deformation brings its mesh along; handles stay the same objects.
-local scene = lissom.scene{}
-local bar = lissom.shapes.bar()
-local rest = bar:hash()
-local edit = scene:add("bend", lissom.deform(bar))
-edit:handle(bar:region("bottom"))
-local top = edit:handle(bar:region("top"))
-expect.truthy(rawequal(scene:get("bend"), edit))
-expect.equal(scene:info("bend").kind, "deformation")
+-- A scene of one deformation for each test.
+local scene, bar, rest, edit, top, before
 
-scene:begin("drag")
-for angle = 20, 60, 20 do
-    top:set{ rotate = { axis = "z", angle = angle } }
-    edit:solve{ draft = angle < 60 }
-end
-scene:commit()
-local bent, matrix = bar:hash(), top:matrix()
-expect.equal(scene:undo(), "drag")
-expect.equal(bar:hash(), rest)
-expect.equal(top:matrix()[1][1], 1)
-expect.equal(scene:redo(), "drag")
-expect.equal(bar:hash(), bent)
-for row = 1, 4 do expect.near_list(top:matrix()[row], matrix[row], 0) end
-edit:solve()
-expect.equal(bar:hash(), bent)
-
--- What a script changed between two steps is found, and a handle that was added is gone.
-edit:handle({ bar:nearest(0.5, 0, 0) })
-expect.equal(#edit:handles(), 3)
-expect.equal(scene:undo(), "edited")
-expect.equal(#edit:handles(), 2)
-edit:apply()
-edit:reset()
-expect.equal(bar:hash(), bent)
-expect.equal(scene:undo(), "edited")
-edit:reset()
-expect.equal(bar:hash(), rest)
-
--- The mesh has a name as well, and both show the same.
-scene:add("bar", bar)
-local before = scene:hash()
-scene:step("turn", function()
-    top:rotate{ axis = "z", angle = 30 }
-    edit:solve()
+test.before(function()
+    scene = lissom.scene{}
+    bar = lissom.shapes.bar()
+    rest = bar:hash()
+    edit = scene:add("bend", lissom.deform(bar))
+    edit:handle(bar:region("bottom"))
+    top = edit:handle(bar:region("top"))
+    before = scene:hash()
 end)
-scene:undo()
-expect.equal(scene:hash(), before)
-expect.equal(bar:hash(), rest)
 
--- After an error in the middle of a bend everything is as it was.
-expect.error("stop", function()
-    scene:step("fail", function()
+local function drag()
+    scene:begin("drag")
+    for angle = 20, 60, 20 do
+        top:set{ rotate = { axis = "z", angle = angle } }
+        edit:solve{ draft = angle < 60 }
+    end
+    scene:commit()
+    return bar:hash()
+end
+
+test("a deformation brings its mesh along; handles stay the same objects", function()
+    expect.truthy(rawequal(scene:get("bend"), edit))
+    expect.equal(scene:info("bend").kind, "deformation")
+
+    local bent, matrix = drag(), top:matrix()
+    expect.equal(scene:undo(), "drag")
+    expect.equal(bar:hash(), rest)
+    expect.equal(top:matrix()[1][1], 1)
+    expect.equal(scene:redo(), "drag")
+    expect.equal(bar:hash(), bent)
+    for row = 1, 4 do expect.near(top:matrix()[row], matrix[row], 0) end
+    edit:solve()
+    expect.equal(bar:hash(), bent)
+end)
+
+test("what a script changed between two steps is found, and a handle that was added is gone", function()
+    local bent = drag()
+    edit:handle({ bar:nearest(0.5, 0, 0) })
+    expect.equal(#edit:handles(), 3)
+    expect.equal(scene:undo(), "edited")
+    expect.equal(#edit:handles(), 2)
+    edit:apply()
+    edit:reset()
+    expect.equal(bar:hash(), bent)
+    expect.equal(scene:undo(), "edited")
+    edit:reset()
+    expect.equal(bar:hash(), rest)
+end)
+
+test("the mesh has a name as well, and both show the same", function()
+    scene:add("bar", bar)
+    local both = scene:hash()
+    scene:step("turn", function()
         top:rotate{ axis = "z", angle = 30 }
         edit:solve()
-        error("stop")
     end)
+    scene:undo()
+    expect.equal(scene:hash(), both)
+    expect.equal(bar:hash(), rest)
 end)
-expect.equal(scene:hash(), before)
 
--- What bake moves is put back, and no edit.
-scene:clear_history()
-assert(edit:bake{ duration = 0.2, fps = 10, pose = function(t) top:rotate{ axis = "z", angle = 90 * t } end })
-expect.equal(scene:undo(), nil)
+test("after an error in the middle of a bend everything is as it was", function()
+    expect.error(function()
+        scene:step("fail", function()
+            top:rotate{ axis = "z", angle = 30 }
+            edit:solve()
+            error("stop")
+        end)
+    end, "stop")
+    expect.equal(scene:hash(), before)
+end)
 
--- A scene keeps what a script closes.
-edit:close()
-edit = scene:get("bend")
-expect.equal(#edit:handles(), 2)
-top = edit:handles()[2]
-top:translate(1, 0, 0)
-edit:solve()
-expect.equal(scene:undo(), "edited")
-expect.equal(bar:hash(), rest)
+test("what bake moves is put back, and no edit", function()
+    scene:clear_history()
+    assert(edit:bake{ duration = 0.2, fps = 10, pose = function(t)
+        top:rotate{ axis = "z", angle = 90 * t }
+    end })
+    expect.equal(scene:undo(), nil)
+end)
 
--- Strands.
-local points = {}
-for k = 0, 9 do points[#points + 1] = { 0.001 * k * k, 0.01 * k, 0 } end
-local hair = scene:add("hair", lissom.strands{ points = points, counts = { 10 } })
-local straight = hair:hash()
-scene:step("noise", function() hair:noise{ amplitude = 0.01 } end)
-expect.truthy(hair:hash() ~= straight)
-expect.equal(scene:undo(), "noise")
-expect.equal(hair:hash(), straight)
-scene:step("trim", function() hair:trim{ length = 0.02 } end)
-expect.equal(scene:undo(), "trim")
-expect.equal(hair:hash(), straight)
-expect.equal(scene:info("hair").kind, "strands")
+test("a scene keeps what a script closes", function()
+    edit:close()
+    local kept = scene:get("bend")
+    expect.equal(#kept:handles(), 2)
+    kept:handles()[2]:translate(1, 0, 0)
+    kept:solve()
+    expect.equal(scene:undo(), "edited")
+    expect.equal(bar:hash(), rest)
+end)
 
--- A hairstyle with its curves.
-local head = lissom.shapes.head{}
-local style = scene:add("style", lissom.hairstyle(head, { resolution = 4000 }))
-local empty = scene:hash()
-local function at(azimuth, elevation)
-    return (style:at{ azimuth = azimuth, elevation = elevation, lift = 0.01 })
-end
-local curve
-scene:step("draw", function() curve = style:stream{ points = { at(10, 60), at(75, 35), at(90, -10) } } end)
-local drawn = scene:hash()
-local grown = style:grow{ count = 40 }:hash()
-scene:step("move", function() curve:set_points{ at(0, 60), at(60, 35) } end)
-expect.equal(scene:undo(), "move")
-expect.equal(scene:hash(), drawn)
-expect.equal(style:grow{ count = 40 }:hash(), grown)
-expect.equal(scene:undo(), "draw")
-expect.equal(scene:hash(), empty)
-expect.equal(#style:curves(), 0)
-expect.equal(scene:redo(), "draw")
-expect.equal(#curve:points(), 3)
-style:close()
-expect.equal(#scene:get("style"):curves(), 1)
+test("strands", function()
+    local points = {}
+    for k = 0, 9 do points[#points + 1] = { 0.001 * k * k, 0.01 * k, 0 } end
+    local hair = scene:add("hair", lissom.strands{ points = points, counts = { 10 } })
+    local straight = hair:hash()
+    scene:step("noise", function() hair:noise{ amplitude = 0.01 } end)
+    expect.truthy(hair:hash() ~= straight)
+    expect.equal(scene:undo(), "noise")
+    expect.equal(hair:hash(), straight)
+    scene:step("trim", function() hair:trim{ length = 0.02 } end)
+    expect.equal(scene:undo(), "trim")
+    expect.equal(hair:hash(), straight)
+    expect.equal(scene:info("hair").kind, "strands")
+end)
 
--- Free curves.
-local line = scene:add("line", lissom.polyline{ points = { { 0, 0, 0 }, { 1, 0, 0 } } })
-scene:step("longer", function() line:set_points{ { 0, 0, 0 }, { 3, 0, 0 } } end)
-expect.equal(line:length(), 3)
-expect.equal(scene:undo(), "longer")
-expect.equal(line:length(), 1)
-expect.truthy(rawequal(scene:get("line"), line))
-expect.equal(tostring(line), "lissom.Polyline: 2 points")
+test("a hairstyle with its curves", function()
+    local head = lissom.shapes.head{}
+    local style = scene:add("style", lissom.hairstyle(head, { resolution = 4000 }))
+    local empty = scene:hash()
+    local function at(azimuth, elevation)
+        return (style:at{ azimuth = azimuth, elevation = elevation, lift = 0.01 })
+    end
+    local curve
+    scene:step("draw", function()
+        curve = style:stream{ points = { at(10, 60), at(75, 35), at(90, -10) } }
+    end)
+    local drawn = scene:hash()
+    local grown = style:grow{ count = 40 }:hash()
+    scene:step("move", function() curve:set_points{ at(0, 60), at(60, 35) } end)
+    expect.equal(scene:undo(), "move")
+    expect.equal(scene:hash(), drawn)
+    expect.equal(style:grow{ count = 40 }:hash(), grown)
+    expect.equal(scene:undo(), "draw")
+    expect.equal(scene:hash(), empty)
+    expect.equal(#style:curves(), 0)
+    expect.equal(scene:redo(), "draw")
+    expect.equal(#curve:points(), 3)
+    style:close()
+    expect.equal(#scene:get("style"):curves(), 1)
+end)
+
+test("free curves", function()
+    local line = scene:add("line", lissom.polyline{ points = { { 0, 0, 0 }, { 1, 0, 0 } } })
+    scene:step("longer", function() line:set_points{ { 0, 0, 0 }, { 3, 0, 0 } } end)
+    expect.equal(line:length(), 3)
+    expect.equal(scene:undo(), "longer")
+    expect.equal(line:length(), 1)
+    expect.truthy(rawequal(scene:get("line"), line))
+    expect.equal(tostring(line), "lissom.Polyline: 2 points")
+end)
