@@ -448,6 +448,18 @@ class Processes(Folder):
         self.assertIn("the process crashed: signal ", tests["takes all its time"]["message"])
         self.assertEqual(tests["still runs"]["status"], "passed")
 
+    def test_what_cannot_be_stopped_is_killed(self):
+        self.write("one_test.lua", '''test("sleeps", function()
+                os.execute("sleep 60")
+            end, { timeout = 0.2 })
+            test("still runs", function() end)''')
+        start = time.monotonic()
+        tests = self.results("one_test.lua", status=1)
+        self.assertLess(time.monotonic() - start, 30)
+        self.assertIn("could not be stopped within 5 s", tests["sleeps"]["message"])
+        self.assertEqual(tests["still runs"]["status"], "passed")
+        self.assertEqual(self.processes(), [])
+
     def test_ctrl_c_ends_all_and_leaves_nothing(self):
         self.write("a_test.lua", "test('waits', function() os.execute('sleep 60') end)")
         self.write("b_test.lua", "test('spins', function() while true do end end)")

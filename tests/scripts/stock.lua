@@ -26,7 +26,7 @@ end
 
 local host = {
     settings = { shown = file, path = file, seed = 1, finished = 0, timeout = 0 },
-    cannot_draw = function() return "a stock interpreter draws no pictures" end,
+    no_picture = function() return "a stock interpreter draws no pictures" end,
     picture = function() error("a stock interpreter draws no pictures") end,
 }
 

@@ -46,10 +46,21 @@ void set_pixel(Image& image, int x, int y, const Color& color) {
     std::copy(bytes.begin(), bytes.end(), image.pixel(x, y));
 }
 
+// The pictures with a grey gap between them.
+Image side_by_side(const std::array<const Image*, 3>& images) {
+    constexpr int kGap = 8;
+    const int width = images[0]->width, height = images[0]->height;
+    Image result(3 * width + 2 * kGap, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < result.width; ++x) set_pixel(result, x, y, {0.5, 0.5, 0.5});
+    }
+    for (int i = 0; i < 3; ++i) result.paste(*images[at(i)], i * (width + kGap), 0);
+    return result;
+}
+
 }  // namespace
 
 ImageDifference compare_images(const Image& picture, const Image& golden, double tolerance) {
-    constexpr int kGap = 8;
     ImageDifference result;
     Image marks(golden.width, golden.height);
     std::size_t count = 0;
@@ -67,10 +78,7 @@ ImageDifference compare_images(const Image& picture, const Image& golden, double
         }
     }
     result.fraction = static_cast<double>(count) / (at(golden.width) * golden.height);
-    result.shown = Image(3 * golden.width + 2 * kGap, golden.height);
-    result.shown.paste(golden, 0, 0);
-    result.shown.paste(picture, golden.width + kGap, 0);
-    result.shown.paste(marks, 2 * (golden.width + kGap), 0);
+    result.shown = side_by_side({&golden, &picture, &marks});
     return result;
 }
 

@@ -4,7 +4,7 @@
 --     host.settings            filter, list, seed, timeout, finished (tests that need not run again)
 --     host.call(action, limit) calls it; nil, or what went wrong: { message =, file =, line =, code = }
 --     host.report(event)       tells what happens
---     host.cannot_draw()       why the running test could draw no picture, or nil
+--     host.no_picture(exists)  why a picture that exists or not cannot be compared here, or nil
 --     host.folder()            a new folder for the files of the running test
 --     host.picture(check)      compares two picture files: nil, or what differs
 --
@@ -224,8 +224,9 @@ local function fail(message)
     error(message, 3)
 end
 
-local function misused(message)
-    error(message, 3)
+-- The same for an expectation that was called wrongly; `depth` calls lie between.
+local function misused(message, depth)
+    error(message, 3 + (depth or 0))
 end
 
 -- A table whose missing names are told, with those that it has.
@@ -319,29 +320,39 @@ end
 
 local known_picture_options = { tolerance = true, pixels = true }
 
--- "no OpenGL here: ..." where nothing can be drawn; the picture is left out then, if that is allowed.
-local function leave_out(reason)
-    host.report{ event = "left_out", text = reason }
-    return settings.require_pictures and "LISSOM_REQUIRE_GL is set, but " .. reason or nil
-end
-
 local function fraction(options, name, standard)
     local value = options[name]
     if value == nil then return standard end
     if type(value) == "number" and value >= 0 and value <= 1 then return value end
-    error("expect.picture: " .. name .. " must be a number from 0 to 1, got " .. show(value), 3)
+    error("expect.picture: " .. name .. " must be a number from 0 to 1, got " .. show(value), 4)
 end
 
--- Draws what lissom.render is to draw into a file of the test; the file, or nil and what went wrong.
+-- What the host is to compare, but for the file. Called by the expectation itself, as the functions below.
+local function read_check(picture, golden, options)
+    if type(picture) ~= "string" and type(picture) ~= "table" then
+        misused("expect.picture: a file or the options of lissom.render are needed, got " .. show(picture), 1)
+    end
+    if type(golden) ~= "string" or not golden:find("%.png$") then
+        misused("expect.picture: the golden picture must be the name of a .png file, got " .. show(golden), 1)
+    end
+    for key in pairs(options) do
+        if not known_picture_options[key] then
+            misused("expect.picture: no option " .. show(key) .. "; there are tolerance and pixels", 1)
+        end
+    end
+    return { golden = golden, tolerance = fraction(options, "tolerance", 0.05),
+        pixels = fraction(options, "pixels", 0.0005) }
+end
+
+-- Draws into a file of the test: the file, or nil and what went wrong, as lissom.render.
 local function draw(scene, golden)
-    local lissom = require "lissom"
+    local render = rawget(require "lissom", "render")
+    if not render then return nil, "this program draws no pictures", "no_display" end
     local options = {}
     for key, value in pairs(scene) do options[key] = value end
     options.file = scene.file or host.folder() .. "/" .. golden:match("[^/\\]*$")
-    local render = rawget(lissom, "render")
-    if not render then return nil, "this program cannot draw", "no_display" end
     local done, file, message, code = pcall(render, options)
-    if not done then error(file, 3) end
+    if not done then error(file, 4) end
     return file, message, code
 end
 
@@ -351,39 +362,32 @@ local function exists(path)
     return file ~= nil
 end
 
-function expect.picture(picture, golden, options)
-    options = options or {}
-    if type(golden) ~= "string" or not golden:find("%.png$") then
-        misused("expect.picture: the golden picture must be the name of a .png file, got " .. show(golden))
-    end
-    for key in pairs(options) do
-        if not known_picture_options[key] then
-            misused("expect.picture: no option " .. show(key) .. "; there are tolerance and pixels")
-        end
-    end
-    local check = { golden = golden, tolerance = fraction(options, "tolerance", 0.05),
-        pixels = fraction(options, "pixels", 0.0005), picture = picture }
+-- The file to compare; or nil, why there is none, and whether this machine is the reason.
+local function picture_file(picture, golden)
     if type(picture) == "table" then
         local file, message, code = draw(picture, golden)
-        if code == "no_display" then
-            local refused = leave_out(message)
-            if refused then fail(refused) end
-            return
-        end
-        if not file then fail("the picture could not be drawn: " .. tostring(message)) end
-        check.picture = file
-    elseif type(picture) ~= "string" then
-        misused("expect.picture: a file or the options of lissom.render are needed, got " .. show(picture))
+        if file or code == "no_display" then return file, message, true end
+        return nil, "the picture could not be drawn: " .. tostring(message)
     end
-    if not exists(check.picture) then
-        -- Perhaps for want of OpenGL.
-        local reason = host.cannot_draw()
-        local refused = reason and leave_out(reason)
-        if refused or not reason then fail(refused or "there is no file " .. show(check.picture)) end
+    local is_there = exists(picture)
+    local reason = host.no_picture(is_there)
+    if reason then return nil, reason, true end
+    if not is_there then return nil, "there is no file " .. show(picture) end
+    return picture
+end
+
+function expect.picture(picture, golden, options)
+    local check = read_check(picture, golden, options or {})
+    local file, reason, is_excused = picture_file(picture, golden)
+    if not file and is_excused and not settings.require_pictures then
+        host.report{ event = "left_out", text = reason }
         return
     end
-    local differs = host.picture(check)
-    if differs then fail(differs) end
+    if not file and is_excused then reason = "LISSOM_REQUIRE_GL is set, but " .. reason end
+    if not file then fail(reason) end
+    check.picture = file
+    local difference = host.picture(check)
+    if difference then fail(difference) end
 end
 
 -- ---- test

@@ -115,7 +115,7 @@ class Worker {
     int call(lua_State* L);
     int report(lua_State* L);
     int folder(lua_State* L);
-    int cannot_draw(lua_State* L);
+    int no_picture(lua_State* L);
     int picture(lua_State* L);
 
     void push_host();
@@ -127,10 +127,11 @@ class Worker {
     void complete_end(Json& event);
     std::uintmax_t output_size() const;
     ScriptResult called();
+    void push_failure(const ScriptResult& result);
     std::string whole_name(const std::string& file) const;
     fs::path test_folder() const;
     std::string shown_beside(const fs::path& path) const;
-    std::string compare(PictureCheck check);
+    std::string compare(const PictureCheck& check);
 
     Program& program_;
     TestJob job_;
@@ -204,14 +205,20 @@ int Worker::call(lua_State* L) {
         result.message = "it took longer than " + seconds_text(limit);
         result.code = "timeout";
     }
+    push_failure(result);
+    calls_ = std::move(result.calls);
+    return 1;
+}
+
+// As a table: { message =, file =, line =, code = }.
+void Worker::push_failure(const ScriptResult& result) {
+    lua_State* const L = script_.lua();
     lua_createtable(L, 0, 4);
     set_field(L, "message", result.message);
     if (!result.file.empty()) set_field(L, "file", whole_name(result.file));
     if (!result.code.empty()) set_field(L, "code", result.code);
     lua_pushinteger(L, result.line);
     lua_setfield(L, -2, "line");
-    calls_ = std::move(result.calls);
-    return 1;
 }
 
 // report(event)
@@ -255,13 +262,14 @@ int Worker::folder(lua_State* L) {
     return 1;
 }
 
-// cannot_draw()
-int Worker::cannot_draw(lua_State* L) {
+// no_picture(exists)
+int Worker::no_picture(lua_State* L) {
     const lua::State& state = script_.state();
     if (!program_.parts().compare_pictures) {
-        push(L, "this program draws no pictures");
+        push(L, "this program draws and compares no pictures");
         return 1;
     }
+    if (lua_toboolean(L, 1)) return 0;
     if (!state.has_failed || state.last_failure.code != ErrorCode::no_display) return 0;
     push(L, state.last_failure.message);
     return 1;
@@ -277,14 +285,13 @@ int Worker::picture(lua_State* L) {
     check.pixels = given.at("pixels");
     check.difference = check.picture;
     check.difference.replace_extension(".difference.png");
-    const std::string message = compare(std::move(check));
+    const std::string message = compare(check);
     if (message.empty()) return 0;
     push(L, message);
     return 1;
 }
 
-std::string Worker::compare(PictureCheck check) {
-    if (!program_.parts().compare_pictures) return "this program compares no pictures";
+std::string Worker::compare(const PictureCheck& check) {
     std::error_code error;
     const bool has_golden = fs::exists(check.golden, error);
     std::string message = "there is no golden picture " + shown_beside(check.golden) +
@@ -365,7 +372,7 @@ void Worker::push_host() {
     add_function<&Worker::call>("call");
     add_function<&Worker::report>("report");
     add_function<&Worker::folder>("folder");
-    add_function<&Worker::cannot_draw>("cannot_draw");
+    add_function<&Worker::no_picture>("no_picture");
     add_function<&Worker::picture>("picture");
 }
 
