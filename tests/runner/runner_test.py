@@ -169,6 +169,11 @@ class Endings(Folder):
         self.assertEqual([ok for _, ok, _ in points].count(False), 6)
         self.assertEqual(details["endings_test.lua: fails"]["at"], "endings_test.lua:6")
 
+    def test_tap_hides_no_name_behind_a_directive(self):
+        self.write("one_test.lua", "test('a # SKIP \\\\ b', function() end)")
+        lines = self.run_tests("--format", "tap", "one_test.lua", status=0).stdout.splitlines()
+        self.assertEqual(lines[1], r"ok 1 - one_test.lua: a \# SKIP \\ b")
+
     def test_a_report_goes_to_a_file_and_the_text_to_the_output(self):
         ended = self.run_tests("--format", "junit", "--output", "results.xml", ".", status=1)
         self.assertIn("2 passed, 6 failed", ended.stdout)
@@ -358,6 +363,18 @@ class Scripts(Folder):
         self.assertEqual(tests["drops"]["at"]["line"], 4)
         self.assertIn("nobody looked at: no/folder.obj", tests["drops"]["message"])
         self.assertIn("[file_write_failed]", tests["returns"]["message"])
+
+    def test_a_nil_is_not_blamed_on_the_failure_of_an_earlier_test(self):
+        self.write("one_test.lua", '''local lissom = require "lissom"
+            test("looks", function() expect.failure("file_not_found", lissom.load("none.obj")) end)
+            test("errs", function() return (nil).field end)
+            test("is blamed", function()
+                local mesh = lissom.load("none.obj")
+                return mesh:area()
+            end)''')
+        tests = self.results("one_test.lua", status=1)
+        self.assertNotIn("none.obj", tests["errs"]["message"])
+        self.assertIn("the nil may come from here: none.obj", tests["is blamed"]["message"])
 
     def test_messages_of_expectations(self):
         cases = [
