@@ -110,6 +110,10 @@ void Program::wait_at_prompt(bool waits) {
     Interrupt::wait_at_prompt(waits);
 }
 
+void Program::show_progress(std::string_view label, double fraction) {
+    if (own_->shows_progress) own_->bar.show(label, fraction);
+}
+
 void Program::clear_progress() {
     own_->bar.clear();
 }

@@ -106,6 +106,8 @@ class Program {
     void forget_interrupt();
     /// While a line is typed Ctrl-C only gives it up, however often it is pressed.
     static void wait_at_prompt(bool waits);
+    /// Shows on a terminal what part of the verb's own work is done, 0 to 1.
+    void show_progress(std::string_view label, double fraction);
     /// Takes the progress bar away; before anything is written.
     void clear_progress();
 

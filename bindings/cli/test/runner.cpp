@@ -284,6 +284,7 @@ class Runner {
             ChildProcess::wait(processes, 0.1);
             for (FileRun* run : active_) run->proceed();
             std::erase_if(active_, [](const FileRun* run) { return run->has_ended(); });
+            if (options_.progress) options_.progress(next_ - active_.size());
             hand_on();
         }
     }

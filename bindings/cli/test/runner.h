@@ -1,6 +1,7 @@
 /// Runs files of tests, each in a process of its own and several at a time.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -20,6 +21,8 @@ struct RunnerOptions {
     int jobs = 1, threads = 1;
     /// Asked several times a second; true ends all processes.
     std::function<bool()> stopped;
+    /// Told how many of the files have ended, as often.
+    std::function<void(std::size_t ended)> progress;
     /// Takes the results in the order of the files, each as soon as those before it are there.
     std::function<void(const FileResult&)> take;
 };

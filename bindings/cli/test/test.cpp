@@ -103,6 +103,11 @@ class TestRun {
     }
 
     int run(const std::vector<fs::path>& files) {
+        wanted_.runner.progress = [this, &files](std::size_t ended) {
+            const std::string label =
+                std::to_string(ended) + " of " + std::to_string(files.size()) + " files of tests";
+            program_.show_progress(label, static_cast<double>(ended) / files.size());
+        };
         // Ctrl-C ends the run, and not the program at once.
         program_.context();
         const auto start = std::chrono::steady_clock::now();
@@ -115,10 +120,13 @@ class TestRun {
     void take(const FileResult& result) {
         results_.push_back(result);
         counts_.add(result);
-        if (writes_text_) std::cout << file_text(result, wanted_.verbose) << std::flush;
+        if (!writes_text_) return;
+        program_.clear_progress();
+        std::cout << file_text(result, wanted_.verbose) << std::flush;
     }
 
     int finish(double seconds) {
+        program_.clear_progress();
         if (program_.interrupted()) return program_.fail("lissom test: stopped by Ctrl-C");
         if (counts_.tests() == 0) {
             return program_.fail("lissom test: no test is called '" + wanted_.runner.filter + "'");
