@@ -1,16 +1,18 @@
 /// The process that runs the tests of one file, and what it tells the one that started it.
 ///
-/// Each line is an object of JSON with "event":
+/// Each line is an object of JSON: "event", "output" (the size of the file of its output by then),
+/// and
 ///
-///     limit      seconds: something runs that may take so long
-///     begin      name, line; folder: where the test may write; output: size of the output until
-///     then left_out   text: why a picture was not compared updated    path: a golden picture that
-///     was written end        status: passed, failed or skipped; seconds, output, and a failure's
-///     message, file, line,
-///                code, kind, calls; folder where its files were kept
-///     test       name, line: one that is only listed
-///     file       status, message, ...: as end, for what came before the first test
-///     done       the file was run to its end
+/// - limit: "seconds", which something that begins now may take
+/// - begin: the "name", "line" and "folder" of the test that begins
+/// - left_out: "text", why a picture was not compared
+/// - updated: "path" of a golden picture that was written
+/// - end: "status" (passed, failed or skipped) and "seconds" of that test; of a failure "message",
+///   "file", "line", "code", "expectation" (whether one did not hold) and "calls"; "folder" where
+///   it keeps files
+/// - test: "name" and "line" of one that is only listed
+/// - file: as end, for what came before the first test
+/// - done: the file was run to its end
 #pragma once
 
 #include <filesystem>
