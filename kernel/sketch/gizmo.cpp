@@ -180,6 +180,21 @@ std::optional<GizmoPart> find_part(std::string_view name) {
     return static_cast<GizmoPart>(found - kPartNames.begin());
 }
 
+Vec3 role_color(GizmoRole role, bool highlighted) {
+    if (highlighted) return {1.0, 0.83, 0.25};
+    switch (role) {
+        case GizmoRole::x:
+            return {0.86, 0.24, 0.27};
+        case GizmoRole::y:
+            return {0.44, 0.70, 0.20};
+        case GizmoRole::z:
+            return {0.22, 0.47, 0.89};
+        case GizmoRole::view:
+            break;
+    }
+    return {0.78, 0.78, 0.78};
+}
+
 Gizmo::Gizmo(const GizmoOptions& options) : options_(options) {
     if (!options.origin.allFinite() || !options.local.allFinite()) {
         throw Error(ErrorCode::not_finite, "the gizmo's origin or axes are NaN or infinite");

@@ -50,6 +50,9 @@ std::optional<GizmoPart> find_part(std::string_view name);
 /// What a part belongs to, for its color: an axis, or the view.
 enum class GizmoRole { x, y, z, view };
 
+/// Color of a role in sRGB, each part 0 to 1; of what is under the cursor the same for all.
+Vec3 role_color(GizmoRole role, bool highlighted);
+
 /// A polyline to draw, in the world.
 struct GizmoLine {
     GizmoPart part;

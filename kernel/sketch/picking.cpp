@@ -22,6 +22,7 @@ constexpr double kOverlaySlack = 2.0;
 constexpr int kMostLookedAt = 10000;
 // Distances that differ by less are one: what lies behind one another is told by its depth.
 constexpr double kPixelStep = 1e-6;
+constexpr double kSameDistance = 1e-12;
 
 // A point, or the nearest point of a segment, within the radius.
 struct Candidate {
@@ -378,7 +379,12 @@ std::vector<PickHit> pick_faces(const PickScene& scene, const View& view, const 
         const Vec3 direction = object.to_local.linear * ray.direction;
         const double length = direction.norm();
         const auto keep = [&](const SurfacePoint& point) {
-            found.emplace_back(point.distance / length, face_hit(scene, view, i, point));
+            const double distance = point.distance / length;
+            // Two triangles of a face meet where the ray hits it: that is one hit.
+            const bool again = !found.empty() && found.back().second.object == i &&
+                               found.back().second.face == point.face &&
+                               distance <= found.back().first * (1.0 + kSameDistance);
+            if (!again) found.emplace_back(distance, face_hit(scene, view, i, point));
         };
         if (options.through) {
             for (const SurfacePoint& point : object.surface->pick_all(origin, direction)) {

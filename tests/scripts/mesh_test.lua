@@ -181,3 +181,33 @@ test("bounds print as numbers, and are a plain table otherwise", function()
     table.sort(keys)
     expect.equal(table.concat(keys, " "), "center diagonal max min")
 end)
+
+test("queries see the present shape, whatever changed it", function()
+    local asked = lissom.shapes.torus()
+    local function same_answers()
+        local fresh = asked:copy()
+        for i = 1, 20 do
+            local from = { 3 * math.sin(i), 2 * math.cos(3 * i), 3 * math.cos(i) }
+            local a, b = asked:nearest(from), fresh:nearest(from)
+            expect.equal(a.face, b.face)
+            expect.equal(a.distance, b.distance)
+            local towards = { -from[1], 0.3 - from[2], -from[3] }
+            a, b = asked:pick(from, towards), fresh:pick(from, towards)
+            expect.equal(a and a.face, b and b.face)
+            expect.equal(a and a.distance, b and b.distance)
+        end
+    end
+    same_answers()
+    asked:set_position(1, 2, 0, 0)
+    same_answers()
+    asked:transform{ rotate = { axis = { 1, 2, 3 }, angle = 50 }, scale = { 1, 2, 0.5 } }
+    same_answers()
+    local buffer = asked:positions()
+    for i = 1, #buffer do buffer[i] = buffer[i] + 0.1 * math.sin(97 * i) end
+    buffer:changed()
+    same_answers()
+    asked:triangulate()
+    same_answers()
+    asked:smooth{ iterations = 2 }
+    same_answers()
+end)

@@ -5,10 +5,8 @@ namespace lissom::lua {
 Library viewer_library() {
     Library library;
     library.name = "viewer";
-    library.summary = "Cameras and pictures.";
-    library.functions = camera_functions();
-    for (Function& function : render_functions()) library.functions.push_back(std::move(function));
-    library.types.push_back(camera_type());
+    library.summary = "Pictures.";
+    library.functions = render_functions();
     return library;
 }
 

@@ -110,6 +110,11 @@ std::span<const Vec3> Call::points(const char* path) const {
     return {static_cast<const Vec3*>(v.data), v.size};
 }
 
+std::span<const std::array<double, 2>> Call::pixels(const char* path) const {
+    const Value& v = value(path);
+    return {static_cast<const std::array<double, 2>*>(v.data), v.size};
+}
+
 std::span<const double> Call::numbers(const char* path) const {
     const Value& v = value(path);
     return {static_cast<const double*>(v.data), v.size};

@@ -17,6 +17,7 @@
 /// only trivially destructible values may be alive.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -95,6 +96,7 @@ class Call {
     std::span<const Index> ids(const char* path) const;
     IdLists id_lists(const char* path) const;
     std::span<const Vec3> points(const char* path) const;
+    std::span<const std::array<double, 2>> pixels(const char* path) const;
     std::span<const double> numbers(const char* path) const;
     std::span<const char* const> strings(const char* path) const;
     /// Stack index of a function or table.

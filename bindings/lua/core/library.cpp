@@ -34,6 +34,13 @@ Type whole_path_type() {
     return path;
 }
 
+Type whole_camera_type() {
+    Type camera = camera_type();
+    add(camera.methods, pick_methods_of_camera());
+    camera.methods.push_back(select_method_of_camera());
+    return camera;
+}
+
 }  // namespace
 
 Library kernel_library() {
@@ -53,19 +60,24 @@ Library kernel_library() {
     add(library.functions, strand_functions());
     add(library.functions, scene_functions());
     add(library.functions, polyline_functions());
+    add(library.functions, camera_functions());
+    add(library.functions, gizmo_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
     library.functions.push_back(failures_function());
-    library.types = {whole_mesh_type(),  region_type(),    whole_path_type(), buffer_type(),
-                     deformation_type(), handle_type(),    merging_type(),    provenance_type(),
-                     scalp_type(),       hairstyle_type(), curve_type(),      strands_type(),
-                     scene_type(),       polyline_type(),  parameters_type()};
+    library.types = {whole_mesh_type(),  region_type(),    whole_path_type(),   buffer_type(),
+                     deformation_type(), handle_type(),    merging_type(),      provenance_type(),
+                     scalp_type(),       hairstyle_type(), curve_type(),        strands_type(),
+                     scene_type(),       polyline_type(),  whole_camera_type(), gizmo_type(),
+                     parameters_type()};
     library.records = kernel_records();
     add(library.records, cut_records());
     add(library.records, merge_records());
     add(library.records, hairstyle_records());
     add(library.records, strand_records());
     add(library.records, scene_records());
+    add(library.records, pick_records());
+    add(library.records, gizmo_records());
     return library;
 }
 

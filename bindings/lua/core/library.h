@@ -56,6 +56,15 @@ std::vector<Record> scene_records();
 Type polyline_type();
 std::vector<Function> polyline_functions();
 
+Type camera_type();
+std::vector<Function> camera_functions();
+std::vector<Function> pick_methods_of_camera();
+Function select_method_of_camera();
+std::vector<Record> pick_records();
+Type gizmo_type();
+std::vector<Function> gizmo_functions();
+std::vector<Record> gizmo_records();
+
 Type parameters_type();
 std::vector<Function> parameter_functions();
 

@@ -127,6 +127,9 @@ Parameter id_lists(std::string name, std::string help) {
 Parameter points(std::string name, std::string help) {
     return make(std::move(name), Kind::points, std::move(help));
 }
+Parameter pixels(std::string name, std::string help) {
+    return make(std::move(name), Kind::pixels, std::move(help));
+}
 Parameter numbers(std::string name, std::string help) {
     return make(std::move(name), Kind::numbers, std::move(help));
 }

@@ -39,6 +39,8 @@ enum class Kind {
     id_lists,
     /// A list of vectors.
     points,
+    /// A list of {x, y}.
+    pixels,
     /// A list of finite numbers.
     numbers,
     /// A list of integers.
@@ -128,6 +130,7 @@ Parameter matrix3(std::string name, std::string help);
 Parameter ids(std::string name, std::string help);
 Parameter id_lists(std::string name, std::string help);
 Parameter points(std::string name, std::string help);
+Parameter pixels(std::string name, std::string help);
 Parameter numbers(std::string name, std::string help);
 Parameter integers(std::string name, std::string help);
 Parameter strings(std::string name, std::string help);

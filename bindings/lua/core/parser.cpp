@@ -161,6 +161,8 @@ std::string expectation(const Parameter& p) {
             return "list of lists of ids";
         case Kind::points:
             return "list of {x, y, z}";
+        case Kind::pixels:
+            return "list of {x, y}";
         case Kind::numbers:
             return "list of numbers";
         case Kind::integers:
@@ -421,6 +423,7 @@ void Parser::read(const Parameter& p, int index, Value& value, const Place& plac
             return read_matrix(p, index, value, place);
         case Kind::ids:
         case Kind::points:
+        case Kind::pixels:
         case Kind::numbers:
         case Kind::integers:
         case Kind::strings:
@@ -562,6 +565,17 @@ void Parser::read_matrix(const Parameter& p, int index, Value& value, const Plac
     value.data = entries;
 }
 
+void Parser::read_pair(const Parameter& p, int index, double* xy, const Place& place) {
+    if (lua_type(L_, index) != LUA_TTABLE || raw_length(L_, index) != 2) {
+        mismatch(p, index, place);
+    }
+    for (int k = 0; k < 2; ++k) {
+        lua_rawgeti(L_, index, k + 1);
+        xy[k] = read_coordinate(p, lua_gettop(L_), place);
+        lua_pop(L_, 1);
+    }
+}
+
 void Parser::read_list(const Parameter& p, int index, Value& value, const Place& place) {
     if (lua_type(L_, index) != LUA_TTABLE) mismatch(p, index, place);
     const std::size_t size = raw_length(L_, index);
@@ -577,6 +591,14 @@ void Parser::read_list(const Parameter& p, int index, Value& value, const Place&
                 read_vector(p, at, xyz + 3 * i, item);
             });
             value.data = xyz;
+            return;
+        }
+        case Kind::pixels: {
+            auto* pairs = call_.scratch<std::array<double, 2>>(size);
+            for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
+                read_pair(p, at, pairs[i].data(), item);
+            });
+            value.data = pairs;
             return;
         }
         case Kind::numbers: {
@@ -685,6 +707,7 @@ bool Parser::fits(const Parameter& p, int index) const {
         case Kind::strings:
             return type == LUA_TTABLE && first_item_type(index) == LUA_TSTRING;
         case Kind::points:
+        case Kind::pixels:
         case Kind::id_lists:
         case Kind::objects:
             return type == LUA_TTABLE && first_item_type(index) != LUA_TNUMBER;

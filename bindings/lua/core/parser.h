@@ -54,6 +54,7 @@ class Parser {
     const char* read_string(const Parameter& p, int index, std::size_t& size, const Place& place);
     void read_choice(const Parameter& p, int index, Value& value, const Place& place);
     void read_vector(const Parameter& p, int index, double* xyz, const Place& place);
+    void read_pair(const Parameter& p, int index, double* xy, const Place& place);
     void read_open_vector(const Parameter& p, int index, double* xyz, const Place& place);
     void read_factors(const Parameter& p, int index, Value& value, const Place& place);
     void read_axis(const Parameter& p, int index, Value& value, const Place& place);

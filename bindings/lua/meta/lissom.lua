@@ -325,6 +325,68 @@
 ---@field limit integer What `bytes` is kept below.
 ---@field dropped integer How many steps were forgotten because of it.
 
+---Something under a pixel. Of a point or a free line the fields of surfaces are nil.
+---@class lissom.PickHit
+---@field kind string point, polyline, vertex, boundary, edge or face.
+---@field object string? Its name in the scene, where one was given.
+---@field mesh lissom.Mesh? The mesh of a surface.
+---@field index integer Number of the point, vertex or face; of the loop in mesh:boundaries(); of the curve in its hairstyle.
+---@field position lissom.Vector The point in the world.
+---@field normal lissom.Vector? Unit normal in the world; at vertices and edges the mean of the faces around.
+---@field face integer? The face at the point.
+---@field triangle integer[]? Vertices of the triangle of that face that contains it.
+---@field bary number[]? Its barycentric coordinates in that triangle.
+---@field vertex integer? The nearest vertex of that triangle.
+---@field ends integer[]? The two vertices of an edge, or of a segment of a boundary.
+---@field segment integer? Of a line or boundary: it lies between this point and the next.
+---@field along number? How far along the edge or segment, 0 to 1.
+---@field depth number Along the view, in the unit of the world.
+---@field pixels number From the pixel that was asked about; 0 for faces.
+
+---What is selected of one surface.
+---@class lissom.Selected
+---@field object string? Its name in the scene, where one was given.
+---@field mesh lissom.Mesh The mesh.
+---@field region lissom.Region The selected vertices, or those of the selected faces.
+---@field faces integer[] The selected faces; empty where vertices were asked for.
+
+---What a drag means. mesh:transform and handle:set take it by its parts, handle:set_matrix as a matrix.
+---@class lissom.GizmoMotion
+---@field kind string move, rotate or scale.
+---@field part string The part that is held.
+---@field translation lissom.Vector? Of a move.
+---@field axis lissom.Vector? Of a turn; unit length.
+---@field angle number? Of a turn, in degrees; counts full turns.
+---@field factors lissom.Vector? Of scaling, along the gizmo's axes.
+---@field about lissom.Vector Where the gizmo stood: what turns and scaling are about.
+---@field matrix number[][] All of it as the rows of a 4 x 4 matrix of the world.
+---@field amounts number[] As set_amount takes it: a length, degrees or a factor, or two lengths in a plane.
+
+---What to draw.
+---@class lissom.GizmoShape
+---@field lines lissom.GizmoLine[] Polylines.
+---@field points lissom.GizmoPoint[] Disks.
+---@field part string? The part that is highlighted.
+
+---A polyline of a gizmo.
+---@class lissom.GizmoLine
+---@field part string What it belongs to.
+---@field role string x, y, z or view.
+---@field color number[] {red, green, blue} in sRGB, each 0 to 1.
+---@field highlighted boolean Held or under the pixel.
+---@field points lissom.Vector[] In the world.
+---@field closed boolean The last point is joined to the first.
+---@field width number Pixels.
+
+---A disk of a gizmo.
+---@class lissom.GizmoPoint
+---@field part string What it belongs to.
+---@field role string x, y, z or view.
+---@field color number[] {red, green, blue} in sRGB, each 0 to 1.
+---@field highlighted boolean Held or under the pixel.
+---@field position lissom.Vector In the world.
+---@field radius number Pixels.
+
 ---An oriented 2-manifold of polygons, with or without boundary. Vertices and faces count from 1.
 ---@class lissom.Mesh
 ---@operator len: integer
@@ -2009,6 +2071,235 @@ function Polyline:length() end
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Polyline:close() end
 
+---How a world is seen in a picture. It does not change. Pixels count from the top left corner of the picture.
+---@class lissom.Camera
+local Camera = {}
+
+---Where the camera stands.
+---@return number[] vector # {x, y, z}.
+function Camera:eye() end
+
+---The point in the middle of the picture.
+---@return number[] vector # {x, y, z}.
+function Camera:target() end
+
+---Unit vector to the right of the picture.
+---@return number[] vector # {x, y, z}.
+function Camera:right() end
+
+---Unit vector upwards in the picture, orthogonal to the view.
+---@return number[] vector # {x, y, z}.
+function Camera:up() end
+
+---Unit vector into the scene.
+---@return number[] vector # {x, y, z}.
+function Camera:forward() end
+
+---Vertical opening angle in degrees.
+---@return number? angle # nil for a camera without perspective.
+function Camera:fov() end
+
+---Height of the picture in world units, of a camera without perspective.
+---@return number? height # nil for a camera with perspective.
+function Camera:ortho() end
+
+---Where a point is seen: pixels from the top left, and its depth along the view. With perspective, x and y are NaN for a point that is not in front of the camera.
+---@param point lissom.Vector The point.
+---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@return number x # Pixels to the right.
+---@return number y # Pixels down.
+---@return number depth # Mesh units.
+---@overload fun(self: lissom.Camera, x: number, y: number, z: number, size?: integer|integer[]): number
+function Camera:project(point, size) end
+
+---The inverse of project.
+---@param pixel lissom.Vector {x, y, depth}.
+---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@return number[] point # The point, {x, y, z}.
+---@overload fun(self: lissom.Camera, x: number, y: number, z: number, size?: integer|integer[]): number[]
+function Camera:unproject(pixel, size) end
+
+---The ray of points that are seen at a pixel; mesh:pick takes it.
+---@param x number Pixels from the left.
+---@param y number Pixels from the top.
+---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@return number[] origin # Where the ray starts.
+---@return number[] direction # Where it goes; unit length.
+function Camera:ray(x, y, size) end
+
+---@class lissom.Camera.PickOptions
+---@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, and the curves of hairstyles. Hair itself is not looked at.
+---@field mesh? lissom.Mesh A mesh that stands where its positions say.
+---@field meshes? lissom.Mesh[] Several such meshes.
+---@field x number Pixels from the left edge of the picture.
+---@field y number Pixels from its top.
+---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@field points? lissom.Vector[] Points of the world, such as the middles of handles.
+---@field points_on_top? boolean They are drawn over everything, and no surface hides them. Default: true.
+---@field kinds? "point"|"polyline"|"vertex"|"boundary"|"edge"|"face"|string[] What to look for, in this order of preference whatever the order given: point, polyline, vertex, boundary, edge, face. Default: "face".
+---@field radius? number How far from the pixel all but faces may be seen. In pixels. Default: 8.
+---@field through? boolean Also what surfaces hide. Default: false.
+---@field back_faces? boolean Faces that are seen from behind count; if not, they neither are picked nor hide anything. Default: true.
+
+---What lies under a pixel: of the kinds looked for the first that has anything within the radius, and of that the nearest in pixels that no surface hides.
+---@param options lissom.Camera.PickOptions
+---@return lissom.PickHit? hit # nil where there is nothing.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Camera:pick(options) end
+
+---@class lissom.Camera.Pick_allOptions
+---@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, and the curves of hairstyles. Hair itself is not looked at.
+---@field mesh? lissom.Mesh A mesh that stands where its positions say.
+---@field meshes? lissom.Mesh[] Several such meshes.
+---@field x number Pixels from the left edge of the picture.
+---@field y number Pixels from its top.
+---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@field points? lissom.Vector[] Points of the world, such as the middles of handles.
+---@field points_on_top? boolean They are drawn over everything, and no surface hides them. Default: true.
+---@field kinds? "point"|"polyline"|"vertex"|"boundary"|"edge"|"face"|string[] What to look for, in this order of preference whatever the order given: point, polyline, vertex, boundary, edge, face. Default: "face".
+---@field radius? number How far from the pixel all but faces may be seen. In pixels. Default: 8.
+---@field through? boolean Also what surfaces hide. Default: false.
+---@field back_faces? boolean Faces that are seen from behind count; if not, they neither are picked nor hide anything. Default: true.
+---@field most? integer At most so many. Default: 1000.
+
+---All that lies under a pixel, in the order in which pick prefers it; with `through` all faces along the ray.
+---@param options lissom.Camera.Pick_allOptions
+---@return lissom.PickHit[] hits # A list.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Camera:pick_all(options) end
+
+---@class lissom.Camera.SelectOptions.Brush
+---@field stroke number[][] Where its middle was; one point is a dab.
+---@field radius? number Of the disk. In pixels. Default: 20.
+
+---@class lissom.Camera.SelectOptions
+---@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, and the curves of hairstyles. Hair itself is not looked at.
+---@field mesh? lissom.Mesh A mesh that stands where its positions say.
+---@field meshes? lissom.Mesh[] Several such meshes.
+---@field rectangle? number[][] Two opposite corners, {{x, y}, {x, y}}.
+---@field lasso? number[][] An outline, which is closed: what it goes around at least once.
+---@field brush? lissom.Camera.SelectOptions.Brush A disk that is moved along a stroke.
+---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@field what? "vertices"|"faces" Vertices that are seen inside; or faces of which the centroid of a triangle is, and under a brush also those that it touches. Default: "vertices".
+---@field through? boolean Also what surfaces hide. Default: false.
+---@field back_faces? boolean Faces that are seen from behind count; if not, neither they nor their vertices are selected, and they hide nothing. Default: true.
+
+---What is seen in a rectangle, inside a lasso or under a brush. Pixels may lie outside the picture.
+---@param options? lissom.Camera.SelectOptions
+---@return lissom.Selected[] selected # One for each surface, in order.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Camera:select(options) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Camera:close() end
+
+---Axes, planes and rings around a point, by which a hand moves, turns and scales. It draws nothing and moves nothing: it says what to draw, what is under a pixel, and what a drag means.
+---@class lissom.Gizmo
+local Gizmo = {}
+
+---@class lissom.Gizmo.HitOptions
+---@field reach? number How near is near enough. In pixels. Default: 7.
+
+---The part under a pixel. Axes that are seen end-on and planes from the side are not offered.
+---@param camera lissom.Camera What it is seen by.
+---@param size integer|integer[] {width, height} of the picture in pixels; one number for a square.
+---@param x number Pixels from the left.
+---@param y number Pixels from the top.
+---@param options? lissom.Gizmo.HitOptions
+---@return string? part # "move-x", "move-yz", "rotate-view", "scale-all", ...; nil for none.
+function Gizmo:hit(camera, size, x, y, options) end
+
+---Begins a drag: a part is held where the pixel is. The camera is that of the whole drag.
+---@param part "move-x"|"move-y"|"move-z"|"move-yz"|"move-zx"|"move-xy"|"move-view"|"rotate-x"|"rotate-y"|"rotate-z"|"rotate-view"|"scale-x"|"scale-y"|"scale-z"|"scale-all" The part, as hit names it.
+---@param camera lissom.Camera What it is seen by.
+---@param size integer|integer[] {width, height} of the picture in pixels; one number for a square.
+---@param x number Pixels from the left.
+---@param y number Pixels from the top.
+---@return lissom.Gizmo gizmo # The gizmo itself.
+function Gizmo:begin(part, camera, size, x, y) end
+
+---@class lissom.Gizmo.DragOptions
+---@field snap? boolean Whole steps only, counted from begin. Default: false.
+---@field precise? boolean A tenth as far, from here on. Default: false.
+
+---The pixel has moved. The part stays under it, but where it would run away: end-on, from the side, near the horizon it lags behind. A pixel that is back undoes all but full turns.
+---@param x number Pixels from the left.
+---@param y number Pixels from the top.
+---@param options? lissom.Gizmo.DragOptions
+---@return lissom.GizmoMotion motion # What has been done since begin.
+function Gizmo:drag(x, y, options) end
+
+---A typed number in place of the pixel, not snapped: a length along the axis, degrees, a factor; in a plane two lengths along its axes.
+---@param first number The number.
+---@param second? number The second, in a plane. Default: 0.
+---@return lissom.GizmoMotion motion # What has been done since begin.
+function Gizmo:set_amount(first, second) end
+
+---What has been done since begin; nil where no part is held.
+---@return lissom.GizmoMotion? motion # As drag returned it.
+function Gizmo:motion() end
+
+---The part that is held.
+---@return string? part # nil where none is.
+function Gizmo:part() end
+
+---Ends the drag. The gizmo stays where it was moved to.
+---@return lissom.GizmoMotion motion # What has been done since begin.
+function Gizmo:finish() end
+
+---Ends the drag, if there is one. The gizmo is where it was before.
+---@return lissom.Gizmo gizmo # The gizmo itself.
+function Gizmo:cancel() end
+
+---@class lissom.Gizmo.SetOptions.Steps
+---@field length? number Of moves. Default: 1, 2 or 5 times a power of ten that is seen as 10 pixels or more.
+---@field angle? number Of turns. In degrees. Default: 15.
+---@field factor? number Of scaling. Default: 0.1.
+
+---@class lissom.Gizmo.SetOptions
+---@field origin? lissom.Vector The point that it stands at, and that turns and scaling are about. Default: {0, 0, 0}.
+---@field mode? "move"|"rotate"|"scale"|"all" What its parts do. Default: all.
+---@field axes? "world"|"local"|"view" Along what its axes point: the world's, those of `local_axes`, or to the right, upwards and to the viewer. Default: world.
+---@field local_axes? number[][] Rows of a rotation; its columns are the object's axes.
+---@field size? number Length of an axis, the same at every distance. In pixels. Default: 90.
+---@field steps? lissom.Gizmo.SetOptions.Steps The steps of snapping.
+
+---Changes options; what is left out stays.
+---@param options? lissom.Gizmo.SetOptions
+---@return lissom.Gizmo gizmo # The gizmo itself.
+function Gizmo:set(options) end
+
+---Where it stands; during a drag where that has moved it to.
+---@return number[] point # {x, y, z}.
+function Gizmo:origin() end
+
+---Its three axes in a view, of unit length.
+---@param camera lissom.Camera What it is seen by.
+---@return number[] x # The first.
+---@return number[] y # The second.
+---@return number[] z # The third.
+function Gizmo:axes(camera) end
+
+---@class lissom.Gizmo.ShapeOptions
+---@field x? number The pixel, from the left.
+---@field y? number The pixel, from the top.
+
+---What to draw; the part that is held, or else under a pixel, is highlighted.
+---@param camera lissom.Camera What it is seen by.
+---@param size integer|integer[] {width, height} of the picture in pixels; one number for a square.
+---@param options? lissom.Gizmo.ShapeOptions
+---@return lissom.GizmoShape shape # Empty where it lies behind the camera.
+function Gizmo:shape(camera, size, options) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Gizmo:close() end
+
 ---Values of a script's parameters: `params.length`. Values that are set are checked as those of the command line.
 ---@class lissom.Params
 ---@field [string] any
@@ -2333,6 +2624,50 @@ function lissom.scene(options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function lissom.polyline(options) end
+
+---@class lissom.CameraOptions
+---@field eye lissom.Vector Where it stands.
+---@field target? lissom.Vector The point in the middle of the picture. Default: {0, 0, 0}.
+---@field up? "x"|"y"|"z"|lissom.Vector The direction that is up in the picture. Default: "y".
+---@field fov? number Vertical opening angle. In degrees. Default: 30.
+---@field ortho? number Height of the picture in world units; the camera then has no perspective.
+
+---A camera that stands at a point and looks at another.
+---@param options lissom.CameraOptions
+---@return lissom.Camera camera # The camera.
+function lissom.camera(options) end
+
+---@class lissom.FrameOptions
+---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from, of the world and not of what is shown: with y upwards the camera stands at +z for front, -z for back, +x for right, -x for left. Of a head that faces +z, as is usual, left shows its own right side. three-quarter stands between front and right, and above. Default: three-quarter.
+---@field up? "y"|"z" The axis that points up in the view. Default: y.
+---@field parallel? boolean Without perspective. Default: false.
+---@field margin? number Share of the picture left free on every side. Default: 0.06.
+---@field fov? number Vertical opening angle. In degrees. Default: 30.
+---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+
+---The camera of a standard view that shows all of a mesh, as large as the margin allows. Use it for several pictures that are to be compared.
+---@param mesh lissom.Mesh What to show.
+---@param options? lissom.FrameOptions
+---@return lissom.Camera camera # The camera.
+function lissom.frame(mesh, options) end
+
+---@class lissom.GizmoOptions.Steps
+---@field length? number Of moves. Default: 1, 2 or 5 times a power of ten that is seen as 10 pixels or more.
+---@field angle? number Of turns. In degrees. Default: 15.
+---@field factor? number Of scaling. Default: 0.1.
+
+---@class lissom.GizmoOptions
+---@field origin? lissom.Vector The point that it stands at, and that turns and scaling are about. Default: {0, 0, 0}.
+---@field mode? "move"|"rotate"|"scale"|"all" What its parts do. Default: all.
+---@field axes? "world"|"local"|"view" Along what its axes point: the world's, those of `local_axes`, or to the right, upwards and to the viewer. Default: world.
+---@field local_axes? number[][] Rows of a rotation; its columns are the object's axes.
+---@field size? number Length of an axis, the same at every distance. In pixels. Default: 90.
+---@field steps? lissom.GizmoOptions.Steps The steps of snapping.
+
+---A gizmo for moving, turning and scaling by hand.
+---@param options? lissom.GizmoOptions
+---@return lissom.Gizmo gizmo # The gizmo.
+function lissom.gizmo(options) end
 
 ---@class lissom.ParamsOptions.Declarations
 ---@field type "number"|"integer"|"boolean"|"string"|"choice"|"file"|"folder" What its values are. A folder is one to write to: it is made, where it is missing, when the parameters are declared or it is set.

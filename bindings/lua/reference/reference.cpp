@@ -430,6 +430,8 @@ std::string annotation_type(const Parameter& p) {
             return "integer[][]";
         case Kind::points:
             return "lissom.Vector[]";
+        case Kind::pixels:
+            return "number[][]";
         case Kind::numbers:
             return "number[]";
         case Kind::strings:

@@ -1,5 +1,6 @@
 // The objects of scripts as items of a scene.
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "bindings/lua/deform/deform_object.h"
@@ -23,6 +24,7 @@ class MeshObjectItem : public MeshItem, public ScriptItem {
         : MeshItem(std::shared_ptr<Mesh>(object, &object->mesh)), object_(std::move(object)) {}
 
     int push(Call& call) const override { return call.push_shared(object_); }
+    std::shared_ptr<MeshObject> surface() const override { return object_; }
 
   private:
     void restored() override {
@@ -46,6 +48,10 @@ class ContentItem : public Item, public ScriptItem {
     int push(Call& call) const override {
         object_->content = content_;
         return call.push_shared(object_);
+    }
+    std::shared_ptr<MeshObject> surface() const override {
+        if constexpr (std::is_same_v<Object, DeformObject>) return object_->mesh;
+        return nullptr;
     }
 
   private:

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bindings/lua/core/call.h"
+#include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/scene/scene.h"
 
 namespace lissom::lua {
@@ -28,6 +29,8 @@ class ScriptItem {
     virtual ~ScriptItem() = default;
     /// Pushes the object, the same userdata as long as a script holds it.
     virtual int push(Call& call) const = 0;
+    /// The mesh that it is, or that it deforms; null for others.
+    virtual std::shared_ptr<MeshObject> surface() const { return nullptr; }
 };
 
 /// The argument that an object of a scene is given by.

@@ -362,6 +362,15 @@ TEST_CASE("all that lies under the cursor, the nearest first and each thing once
     }
 }
 
+TEST_CASE("a polygon that the ray hits where its triangles meet is hit once") {
+    PickWorld world;
+    world.add(make_box({.segments = {1, 1, 1}}), {});
+    world.view = {Camera({.eye = Vec3(0, 0, 5), .ortho = 2.0}), {100, 100}};
+    const auto hits = pick_all(world.scene, world.view, Vec2(60, 40), {.through = true});
+    REQUIRE(hits.size() == 2);
+    CHECK(hits[0].face != hits[1].face);
+}
+
 TEST_CASE("of what is seen at one place the nearer is picked, also through the surface") {
     PickWorld world;
     world.add(make_box({.segments = {2, 2, 2}}), {});

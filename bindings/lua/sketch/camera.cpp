@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <string>
 
+#include "bindings/lua/core/library.h"
 #include "bindings/lua/mesh/mesh_object.h"
-#include "viewer/lua/camera_object.h"
-#include "viewer/lua/viewer_library.h"
+#include "bindings/lua/sketch/camera_object.h"
 
 namespace lissom::lua {
 namespace {
@@ -77,21 +77,17 @@ int ortho(Call& call) {
     return 1;
 }
 
-PictureSize picture_size(const Call& call) {
-    const SizeRequest size = SizeRequest::read(call, "size");
-    return {static_cast<double>(size.width), static_cast<double>(size.height)};
-}
-
 int project(Call& call) {
-    return call.push_coordinates(self(call).project(call.vector("point"), picture_size(call)));
+    return call.push_coordinates(
+        self(call).project(call.vector("point"), SizeRequest::picture(call)));
 }
 
 int unproject(Call& call) {
-    return call.push_vector(self(call).unproject(call.vector("pixel"), picture_size(call)));
+    return call.push_vector(self(call).unproject(call.vector("pixel"), SizeRequest::picture(call)));
 }
 
 int ray(Call& call) {
-    const Ray ray = self(call).ray(call.number("x"), call.number("y"), picture_size(call));
+    const Ray ray = self(call).ray(call.number("x"), call.number("y"), SizeRequest::picture(call));
     call.push_vector(ray.origin);
     call.push_vector(ray.direction);
     return 2;
@@ -201,6 +197,11 @@ SizeRequest SizeRequest::read(const Call& call, const char* path) {
     size.width = numbers[0];
     size.height = numbers[1];
     return size;
+}
+
+PictureSize SizeRequest::picture(const Call& call) {
+    const SizeRequest size = read(call, "size");
+    return {static_cast<double>(size.width), static_cast<double>(size.height)};
 }
 
 Parameter size_argument() {

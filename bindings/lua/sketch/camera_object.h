@@ -1,6 +1,8 @@
 /// The camera of a script.
 #pragma once
 
+#include <vector>
+
 #include "bindings/lua/core/call.h"
 #include "kernel/sketch/camera.h"
 
@@ -28,6 +30,13 @@ struct SizeRequest {
     int width = 1280, height = 960;
 
     static SizeRequest read(const Call& call, const char* path);
+    /// Of the option or argument "size", for the kernel.
+    static PictureSize picture(const Call& call);
 };
+
+/// Options of a standard view: view, up, parallel, margin.
+std::vector<Parameter> view_options();
+/// The option that SizeRequest reads.
+Parameter size_argument();
 
 }  // namespace lissom::lua

@@ -1,0 +1,104 @@
+#include "bindings/lua/sketch/pick_targets.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bindings/lua/scene/scene_object.h"
+#include "kernel/scene/hairstyle_item.h"
+#include "kernel/scene/polyline_item.h"
+
+namespace lissom::lua {
+namespace {
+
+// The curves of a hairstyle, one line each, in their order.
+PolylineSet curves_of(const Hairstyle& style) {
+    std::vector<Vec3> points;
+    std::vector<Index> offsets{0};
+    for (const CurveId id : style.curves()) {
+        for (const Vec3& p : style.course(id)) points.push_back(style.scalp().from_metres(p));
+        offsets.push_back(count_of(points));
+    }
+    return {std::move(points), std::move(offsets)};
+}
+
+PolylineSet line_of(const Polyline& line) {
+    const Index count = count_of(line.points);
+    return {line.points, {0, count}, line.closed};
+}
+
+}  // namespace
+
+void PickTargets::read(const Call& call) {
+    if (call.has("scene")) add_scene(call);
+    if (call.has("mesh")) add_mesh(call, call.object<MeshObject>("mesh").share());
+    const std::size_t count = call.has("meshes") ? call.object_count("meshes") : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        add_mesh(call, call.object_at<MeshObject>("meshes", i).share());
+    }
+}
+
+void PickTargets::add_scene(const Call& call) {
+    for (const auto& object : call.object<SceneObject>("scene")->scene.objects()) {
+        if (!object->look.visible) continue;
+        const Affine& place = object->look.transform;
+        const auto* const item = dynamic_cast<const ScriptItem*>(object->item.get());
+        if (auto mesh = item ? item->surface() : nullptr) {
+            add_mesh(call, std::move(mesh), object->name, place);
+        } else if (const auto* line = dynamic_cast<const PolylineItem*>(object->item.get())) {
+            add_lines(line_of(line->polyline()), object->name, place);
+        } else if (const auto* hair = dynamic_cast<const HairstyleItem*>(object->item.get())) {
+            add_lines(curves_of(hair->style()), object->name, place);
+        }
+    }
+}
+
+void PickTargets::add_mesh(const Call& call, std::shared_ptr<MeshObject> mesh, std::string name,
+                           const Affine& place) {
+    if (mesh->mesh.face_count() == 0) return;
+    // A deformation shows the mesh that it deforms, which may be an object of its own.
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        if (targets_[i].mesh == mesh && scene_.object(index_of(i)).to_world == place) return;
+    }
+    scene_.add(mesh->tree(call.context()), {.to_world = place});
+    targets_.push_back({std::move(name), std::move(mesh)});
+}
+
+void PickTargets::add_lines(PolylineSet lines, std::string name, const Affine& place) {
+    lines_.push_back(std::make_unique<PolylineSet>(std::move(lines)));
+    scene_.add(*lines_.back(), {.to_world = place});
+    targets_.push_back({std::move(name), nullptr});
+}
+
+void PickTargets::add_points(std::span<const Vec3> points, bool on_top) {
+    points_.push_back(std::make_unique<PointSet>(std::vector<Vec3>(points.begin(), points.end())));
+    scene_.add(*points_.back(), {.on_top = on_top});
+    targets_.push_back({});
+}
+
+void PickTargets::charge(const Call& call) const {
+    for (const Target& target : targets_) {
+        if (!target.mesh) continue;
+        const std::size_t before = target.mesh->charged_bytes;
+        target.mesh->charged_bytes = target.mesh->memory_bytes();
+        if (target.mesh->charged_bytes > before) {
+            call.charge_bytes(target.mesh->charged_bytes - before);
+        }
+    }
+}
+
+void PickTargets::push_fields(const Call& call, Index object) const {
+    const Target& target = targets_[at(object)];
+    if (!target.name.empty()) call.set_field("object", call.push(std::string_view(target.name)));
+    if (target.mesh) call.set_field("mesh", call.push_shared(target.mesh));
+}
+
+std::vector<Parameter> target_options() {
+    return {object("scene", "lissom.Scene",
+                   "Its visible objects, where they stand: meshes, deformations, free curves, and "
+                   "the curves of hairstyles. Hair itself is not looked at.")
+                .optional(),
+            object("mesh", "lissom.Mesh", "A mesh that stands where its positions say.").optional(),
+            objects("meshes", "lissom.Mesh", "Several such meshes.").optional()};
+}
+
+}  // namespace lissom::lua

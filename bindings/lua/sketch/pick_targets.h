@@ -1,0 +1,52 @@
+/// What scripts pick from: the objects of a scene, meshes, points.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bindings/lua/mesh/mesh_object.h"
+#include "kernel/sketch/pick_scene.h"
+
+namespace lissom::lua {
+
+/// Made of the options that target_options describes; held by the call.
+class PickTargets {
+  public:
+    /// Adds what the options scene=, mesh=, meshes= say; meshes without faces are left out. Inside
+    /// Call::attempt only.
+    void read(const Call& call);
+    /// Adds points of the world.
+    void add_points(std::span<const Vec3> points, bool on_top);
+    /// Tells the collector about trees that were built.
+    void charge(const Call& call) const;
+    /// Sets the fields `object`, the name in the scene, and `mesh` of the table on top of the
+    /// stack.
+    void push_fields(const Call& call, Index object) const;
+
+    const PickScene& scene() const { return scene_; }
+    const std::shared_ptr<MeshObject>& mesh(Index object) const {
+        return targets_[at(object)].mesh;
+    }
+
+  private:
+    struct Target {
+        std::string name;
+        std::shared_ptr<MeshObject> mesh;
+    };
+
+    void add_scene(const Call& call);
+    void add_mesh(const Call& call, std::shared_ptr<MeshObject> mesh, std::string name = {},
+                  const Affine& place = {});
+    void add_lines(PolylineSet lines, std::string name, const Affine& place);
+
+    PickScene scene_;
+    std::vector<Target> targets_;
+    std::vector<std::unique_ptr<PolylineSet>> lines_;
+    std::vector<std::unique_ptr<PointSet>> points_;
+};
+
+std::vector<Parameter> target_options();
+
+}  // namespace lissom::lua

@@ -1,0 +1,116 @@
+// lissom.Camera: what is seen in a part of a picture.
+#include <array>
+#include <utility>
+
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/sketch/camera_object.h"
+#include "bindings/lua/sketch/pick_targets.h"
+#include "kernel/sketch/screen_select.h"
+
+namespace lissom::lua {
+namespace {
+
+std::vector<Vec2> pixels_of(const Call& call, const char* path) {
+    std::vector<Vec2> result;
+    for (const auto& [x, y] : call.pixels(path)) result.emplace_back(x, y);
+    return result;
+}
+
+std::vector<Selected> selected(const Call& call, const PickTargets& targets, const View& view,
+                               const SelectOptions& options) {
+    if (call.has("rectangle")) {
+        const auto corners = pixels_of(call, "rectangle");
+        return select_rectangle(targets.scene(), view, corners[0], corners[1], options,
+                                call.context());
+    }
+    if (call.has("lasso")) {
+        return select_lasso(targets.scene(), view, pixels_of(call, "lasso"), options,
+                            call.context());
+    }
+    const auto stroke = pixels_of(call, "brush.stroke");
+    return select_brush(targets.scene(), view,
+                        {.stroke = stroke, .radius = call.number("brush.radius")}, options,
+                        call.context());
+}
+
+bool push_selected(Call& call, const PickTargets& targets, Selected& one) {
+    lua_createtable(call.lua(), 0, 4);
+    targets.push_fields(call, one.object);
+    call.set_field("faces", call.push_ids(one.faces));
+    const auto region = call.create<RegionObject>();
+    const bool done = call.attempt_quick([&] {
+        region.set(
+            std::make_shared<RegionObject>(targets.mesh(one.object), std::move(one.vertices)));
+    });
+    if (!done) return false;
+    call.charge(region);
+    call.set_field("region");
+    return true;
+}
+
+int select_in_picture(Call& call) {
+    const auto camera = call.self<CameraObject>();
+    const int shapes = call.has("rectangle") + call.has("lasso") + call.has("brush");
+    if (shapes != 1) call.reject("rectangle", "give one of rectangle, lasso and brush");
+    if (call.has("rectangle") && call.pixels("rectangle").size() != 2) {
+        call.reject("rectangle", "two opposite corners {{x, y}, {x, y}} expected");
+    }
+    const PictureSize size = SizeRequest::picture(call);
+    const SelectOptions options{.kind = call.choice<SelectKind>("what"),
+                                .through = call.boolean("through"),
+                                .back_faces = call.boolean("back_faces")};
+    auto& targets = call.hold<PickTargets>();
+    auto& found = call.hold<std::vector<Selected>>();
+    const bool done = call.attempt([&] {
+        targets.read(call);
+        found = selected(call, targets, {camera->camera, size}, options);
+    });
+    if (!done) return call.fail();
+    targets.charge(call);
+    lua_createtable(call.lua(), count_of(found), 0);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (!push_selected(call, targets, found[i])) return call.fail();
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+    return 1;
+}
+
+}  // namespace
+
+Function select_method_of_camera() {
+    std::vector<Parameter> fields = target_options();
+    const std::vector<Parameter> more{
+        pixels("rectangle", "Two opposite corners, {{x, y}, {x, y}}.").optional(),
+        pixels("lasso", "An outline, which is closed: what it goes around at least once.")
+            .optional(),
+        options("brush",
+                {pixels("stroke", "Where its middle was; one point is a dab."),
+                 number("radius", "Of the disk.").at_least(0).defaults(20.0).in("pixels")},
+                "A disk that is moved along a stroke.")
+            .optional(),
+        size_argument(),
+        choice("what", {"vertices", "faces"},
+               "Vertices that are seen inside; or faces of which the centroid of a triangle is, "
+               "and under a brush also those that it touches.")
+            .defaults("vertices"),
+        boolean("through", "Also what surfaces hide.").defaults(false),
+        boolean("back_faces",
+                "Faces that are seen from behind count; if not, neither they nor their vertices "
+                "are selected, and they hide nothing.")
+            .defaults(true)};
+    fields.insert(fields.end(), more.begin(), more.end());
+    return {.name = "select",
+            .body = select_in_picture,
+            .summary =
+                "What is seen in a rectangle, inside a lasso or under a brush. Pixels may "
+                "lie outside the picture.",
+            .options = std::move(fields),
+            .results = {{"lissom.Selected[]", "selected", "One for each surface, in order."}},
+            .errors = {ErrorCode::invalid_argument, ErrorCode::memory_limit, ErrorCode::cancelled},
+            .example = R"(local box = lissom.shapes.box()
+local camera = lissom.camera{ eye = { 0, 0, 5 } }
+local found = camera:select{ mesh = box, rectangle = { { 0, 0 }, { 1280, 480 } } }
+assert(#found[1].region == 2)               -- the upper front edge; what is behind it is hidden)"};
+}
+
+}  // namespace lissom::lua
