@@ -2,7 +2,7 @@
 # language level, include root and warnings.
 
 # Headers that show libraries or processors which users of the package need not have: not installed.
-set(LISSOM_PRIVATE_HEADERS "/io/gltf|/growth_lanes\\.h$|/lane_grower\\.h$")
+set(LISSOM_PRIVATE_HEADERS "/io/gltf|/scene/file/|/growth_lanes\\.h$|/lane_grower\\.h$")
 
 # lissom_target_defaults(TARGET): what every target of this project is compiled with.
 function(lissom_target_defaults target)

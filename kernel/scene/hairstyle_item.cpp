@@ -1,7 +1,10 @@
 #include "kernel/scene/hairstyle_item.h"
 
+#include <algorithm>
+
 #include "kernel/core/hasher.h"
 #include "kernel/io/style_file.h"
+#include "kernel/scene/mesh_item.h"
 
 namespace lissom {
 namespace {
@@ -47,6 +50,25 @@ std::uint64_t HairstyleContent::compute_hash() const {
         hasher.add(static_cast<double>(constraint.weight));
     }
     return hasher.value();
+}
+
+bool HairstyleItem::is_head_unchanged() const {
+    const auto* item = dynamic_cast<const MeshItem*>(head_.get());
+    if (!item || item->mesh().shared_topology() != style_->head().shared_topology()) return false;
+    const auto same = [&](const Vec3& metres, const Vec3& position) {
+        return metres == style_->scalp().to_metres(position);
+    };
+    const auto kept = style_->head().positions(), now = item->mesh().positions();
+    return std::equal(kept.begin(), kept.end(), now.begin(), now.end(), same);
+}
+
+Mesh HairstyleItem::head_as_it_was() const {
+    if (is_head_unchanged()) return dynamic_cast<const MeshItem&>(*head_).mesh();
+    Mesh head = style_->head();
+    for (Vec3& position : head.edit_positions()) {
+        position = style_->scalp().from_metres(position);
+    }
+    return head;
 }
 
 std::shared_ptr<const ItemContent> HairstyleItem::capture(

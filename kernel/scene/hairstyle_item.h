@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/mesh/mesh.h"
 #include "kernel/hair/hairstyle.h"
 #include "kernel/hair/scalp/scalp.h"
 #include "kernel/hair/style_inputs.h"
@@ -34,9 +35,18 @@ class HairstyleContent : public ItemContent {
 
 class HairstyleItem : public SceneItem {
   public:
-    explicit HairstyleItem(std::shared_ptr<Hairstyle> style) : style_(std::move(style)) {}
+    /// `head` is the item of the mesh that the style was made on, or null where that has gone.
+    explicit HairstyleItem(std::shared_ptr<Hairstyle> style,
+                           std::shared_ptr<SceneItem> head = nullptr)
+        : style_(std::move(style)), head_(std::move(head)) {}
 
     const Hairstyle& style() const { return *style_; }
+    const std::shared_ptr<SceneItem>& head() const { return head_; }
+    /// Whether the mesh has the shape that the style was made on.
+    bool is_head_unchanged() const;
+    /// The head that the style was made on: that mesh, or where it has changed the shape that the
+    /// style keeps.
+    Mesh head_as_it_was() const;
 
     ItemKind kind() const override { return ItemKind::hairstyle; }
     const void* identity() const override { return style_.get(); }
@@ -50,6 +60,7 @@ class HairstyleItem : public SceneItem {
     virtual void restored() {}
 
     std::shared_ptr<Hairstyle> style_;
+    std::shared_ptr<SceneItem> head_;
 };
 
 }  // namespace lissom

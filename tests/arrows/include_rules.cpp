@@ -37,7 +37,7 @@ const std::vector<Rule>& rules() {
         {"kernel/scene",
          {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform", "kernel/merge",
           "kernel/hair", "kernel/sketch", "kernel/io", "kernel/scene"},
-         {"Eigen"}},
+         {"Eigen", "JSON"}},
         {"kernel/io",
          {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform", "kernel/merge",
           "kernel/hair", "kernel/sketch", "kernel/io"},
@@ -179,7 +179,8 @@ std::vector<Include> includes_of(std::string_view source) {
 
 /// Headers of the kernel that are not installed, and so may show the libraries of their folder.
 bool is_private(std::string_view path) {
-    return path.starts_with("kernel/io/gltf/") || path == "kernel/hair/growth/growth_lanes.h";
+    return path.starts_with("kernel/io/gltf/") || path.starts_with("kernel/scene/file/") ||
+           path == "kernel/hair/growth/growth_lanes.h";
 }
 
 /// The room of `order` that the file at `path` lies in; nothing where it lies in none.

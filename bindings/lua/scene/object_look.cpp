@@ -57,7 +57,7 @@ Parameter color_option(const char* name, const char* help) {
                   help);
 }
 
-std::vector<Parameter> style_fields() {
+std::vector<Parameter> object_style_fields() {
     return {
         color_option("color", "Colour of the object, instead of that of its kind.").optional(),
         boolean("vertex_colors", "Draws the attribute \"color\" where a mesh has it.").optional(),
@@ -104,13 +104,13 @@ int push_style(const Call& call, const ObjectStyle& style) {
 }  // namespace
 
 std::vector<Parameter> look_fields() {
-    return {
-        affine("transform",
-               "Where it stands in the scene: rows of a 4 x 4 matrix. The object's own "
-               "coordinates stay.")
-            .optional(),
-        boolean("visible", "Whether it is drawn.").optional(),
-        options("style", style_fields(), "How it is drawn; what is left out stays.").optional()};
+    return {affine("transform",
+                   "Where it stands in the scene: rows of a 4 x 4 matrix. The object's own "
+                   "coordinates stay.")
+                .optional(),
+            boolean("visible", "Whether it is drawn.").optional(),
+            options("style", object_style_fields(), "How it is drawn; what is left out stays.")
+                .optional()};
 }
 
 ObjectLook changed_look(const Call& call, ObjectLook look) {

@@ -195,15 +195,15 @@ int move_in_history(Call& call, const Move& move) {
     return 1;
 }
 
-int undo(Call& call) {
+int undo_step(Call& call) {
     return move_in_history(call, [](Scene& scene) { return scene.undo(); });
 }
 
-int redo(Call& call) {
+int redo_step(Call& call) {
     return move_in_history(call, [](Scene& scene) { return scene.redo(); });
 }
 
-int history(Call& call) {
+int scene_history(Call& call) {
     const auto self = call.self<SceneObject>();
     auto& report = call.hold<HistoryReport>();
     if (!call.attempt_quick([&] { report = self->scene.history(); })) return call.fail();
@@ -252,7 +252,7 @@ const std::string kBarScene = R"(local scene = lissom.scene{}
 local bar = scene:add("bar", lissom.shapes.bar())
 )";
 
-const std::vector<Result> kSelf = {{"lissom.Scene", "scene", "The scene itself."}};
+const std::vector<Result> kSceneSelf = {{"lissom.Scene", "scene", "The scene itself."}};
 
 Parameter name_argument() {
     return string("name", "The name of the object.");
@@ -297,7 +297,7 @@ assert(not scene:get("ball")))"},
          .body = remove_object,
          .summary = "Takes an object out of the scene. The object itself lives on.",
          .arguments = {name_argument()},
-         .results = kSelf,
+         .results = kSceneSelf,
          .errors = {ErrorCode::out_of_range, ErrorCode::memory_limit},
          .example = kBarScene + R"(scene:remove("bar")
 assert(#scene == 0 and scene:undo() == "remove bar"))"},
@@ -305,7 +305,7 @@ assert(#scene == 0 and scene:undo() == "remove bar"))"},
          .body = rename_object,
          .summary = "Gives an object another name.",
          .arguments = {name_argument(), string("new_name", "A name that no other object has.")},
-         .results = kSelf,
+         .results = kSceneSelf,
          .errors = {ErrorCode::out_of_range, ErrorCode::invalid_argument, ErrorCode::memory_limit},
          .example = kBarScene + R"(scene:rename("bar", "beam")
 assert(scene:get("beam") == bar))"},
@@ -313,7 +313,7 @@ assert(scene:get("beam") == bar))"},
          .body = move_object,
          .summary = "Gives an object another place in the order.",
          .arguments = {name_argument(), id("place", "Its place; 1 is the first.")},
-         .results = kSelf,
+         .results = kSceneSelf,
          .errors = {ErrorCode::out_of_range, ErrorCode::memory_limit},
          .example = kBarScene + R"(scene:add("box", lissom.shapes.box())
 scene:move("box", 1)
@@ -323,7 +323,7 @@ assert(scene:names()[1] == "box"))"},
          .summary = "Changes where an object stands and how it is drawn; what is left out stays.",
          .arguments = {name_argument()},
          .options = look_fields(),
-         .results = kSelf,
+         .results = kSceneSelf,
          .errors = {ErrorCode::out_of_range, ErrorCode::invalid_argument,
                     ErrorCode::singular_transform, ErrorCode::memory_limit},
          .example =
@@ -357,7 +357,7 @@ assert(scene:hash() == before))"},
          .body = begin_step,
          .summary = "Opens a step, for instance when a drag begins; commit or rollback ends it.",
          .arguments = {string("name", "What undo calls it.")},
-         .results = kSelf,
+         .results = kSceneSelf,
          .errors = history_errors,
          .example = kBarScene + R"(scene:begin("drag")
 for i = 1, 10 do bar:transform{ translate = { 0.1, 0, 0 } } end
@@ -373,7 +373,7 @@ assert(not scene:commit()))"},
         {.name = "rollback",
          .body = roll_back_step,
          .summary = "Ends the step opened last and takes back what was done since.",
-         .results = kSelf,
+         .results = kSceneSelf,
          .errors = history_errors,
          .example = kBarScene + R"(local before = scene:hash()
 scene:begin("drag")
@@ -381,7 +381,7 @@ bar:transform{ scale = 2 }
 scene:rollback()
 assert(scene:hash() == before))"},
         {.name = "undo",
-         .body = undo,
+         .body = undo_step,
          .summary = "Takes back the last step: the contents go back into the objects themselves. "
                     "What was changed outside a step is a step called \"edited\".",
          .results = step_name,
@@ -390,14 +390,14 @@ assert(scene:hash() == before))"},
 assert(scene:undo() == "edited")
 assert(scene:redo() == "edited"))"},
         {.name = "redo",
-         .body = redo,
+         .body = redo_step,
          .summary = "Does the step again that was undone last. A new step forgets those that were "
                     "undone.",
          .results = step_name,
          .errors = history_errors,
          .example = kBarScene + "scene:undo()\nassert(scene:redo() == 'add bar')"},
         {.name = "history",
-         .body = history,
+         .body = scene_history,
          .summary = "The steps, and what they hold.",
          .results = {{"lissom.History", "history", "A table of its own."}},
          .example = kBarScene + R"(local history = scene:history()
@@ -405,7 +405,7 @@ assert(#history == 1 and history.place == 1 and history[1].name == "add bar"))"}
         {.name = "clear_history",
          .body = clear_history,
          .summary = "Forgets all steps; the scene stays as it is.",
-         .results = kSelf,
+         .results = kSceneSelf,
          .errors = history_errors,
          .example = kBarScene + "assert(not scene:clear_history():undo())"},
         {.name = "hash",
@@ -421,6 +421,15 @@ assert(other:hash() == scene:hash()))"}};
 
 }  // namespace
 
+Parameter history_option() {
+    return number("history",
+                  "Memory that its history may take beside one copy of the present content; the "
+                  "oldest steps are forgotten where it would be more.")
+        .in("bytes")
+        .between(0, 1e15)
+        .defaults(static_cast<double>(SceneOptions{}.history_bytes));
+}
+
 Type scene_type() {
     Type type{.name = "lissom.Scene",
               .summary = "Named objects in an order, with a history of what was done to them."};
@@ -428,19 +437,16 @@ Type scene_type() {
                       {"__tostring", scene_text, "tostring(scene)", "its size"}};
     type.methods = object_methods();
     for (Function& method : step_methods()) type.methods.push_back(std::move(method));
+    type.methods.push_back(scene_save_method());
     return type;
 }
 
 std::vector<Function> scene_functions() {
-    return {{.name = "scene",
+    return {load_scene_function(),
+            {.name = "scene",
              .body = make_scene,
              .summary = "Makes an empty scene.",
-             .options = {number("history",
-                                "Memory that its history may take beside one copy of the present "
-                                "content; the oldest steps are forgotten where it would be more.")
-                             .in("bytes")
-                             .between(0, 1e15)
-                             .defaults(static_cast<double>(SceneOptions{}.history_bytes))},
+             .options = {history_option()},
              .results = {{"lissom.Scene", "scene", "Give it objects by add."}},
              .errors = {ErrorCode::memory_limit},
              .example = kBarScene + R"(scene:step("bend", function()

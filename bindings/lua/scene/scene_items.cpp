@@ -103,8 +103,40 @@ std::shared_ptr<SceneItem> deformation_item(std::shared_ptr<void> object) {
 std::shared_ptr<SceneItem> hairstyle_item(std::shared_ptr<void> object) {
     auto style = std::static_pointer_cast<HairstyleObject>(std::move(object));
     (void)style->style();
-    return std::make_shared<ContentItem<HairstyleItem, HairstyleObject>>(std::move(style));
+    auto head = std::make_shared<MeshObjectItem>(style->head);
+    return std::make_shared<ContentItem<HairstyleItem, HairstyleObject>>(
+        std::move(style), std::shared_ptr<SceneItem>(std::move(head)));
 }
+
+class ScriptItemMaker : public ItemMaker {
+  public:
+    std::shared_ptr<SceneItem> make_mesh(Mesh mesh) override {
+        return std::make_shared<MeshObjectItem>(std::make_shared<MeshObject>(std::move(mesh)));
+    }
+    std::shared_ptr<SceneItem> make_strands(Strands strands) override {
+        return std::make_shared<StrandsObjectItem>(
+            std::make_shared<StrandsObject>(std::move(strands)));
+    }
+    std::shared_ptr<SceneItem> make_polyline(Polyline polyline) override {
+        return std::make_shared<PolylineObjectItem>(
+            std::make_shared<PolylineObject>(std::move(polyline)));
+    }
+    std::shared_ptr<SceneItem> make_deformation(Deformer deformer,
+                                                const std::shared_ptr<SceneItem>& mesh) override {
+        return deformation_item(
+            std::make_shared<DeformObject>(object_of(*mesh), std::move(deformer)));
+    }
+    std::shared_ptr<SceneItem> make_hairstyle(Hairstyle style,
+                                              const std::shared_ptr<SceneItem>& head) override {
+        return hairstyle_item(
+            std::make_shared<HairstyleObject>(object_of(*head), std::move(style)));
+    }
+
+  private:
+    static std::shared_ptr<MeshObject> object_of(const SceneItem& mesh) {
+        return dynamic_cast<const MeshObjectItem&>(mesh).surface();
+    }
+};
 
 struct ItemType {
     const char* name;
@@ -138,6 +170,10 @@ Parameter item_argument(std::string name, std::string help) {
         alternatives.push_back(object(type.argument, type.name, type.help));
     }
     return either(std::move(name), std::move(alternatives), std::move(help));
+}
+
+std::unique_ptr<ItemMaker> script_item_maker() {
+    return std::make_unique<ScriptItemMaker>();
 }
 
 ItemArgument ItemArgument::read(const Call& call, int index) {

@@ -7,6 +7,7 @@
 #include "bindings/lua/core/call.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/scene/scene.h"
+#include "kernel/scene/scene_file.h"
 
 namespace lissom::lua {
 
@@ -47,6 +48,15 @@ struct ItemArgument {
     /// Lets scene:get find the userdata of the argument again.
     void remember(const Call& call) const;
 };
+
+/// Makes objects of scripts for a scene that is loaded.
+std::unique_ptr<ItemMaker> script_item_maker();
+
+/// The option history= of what makes a scene.
+Parameter history_option();
+/// scene:save and lissom.load_scene.
+Function scene_save_method();
+Function load_scene_function();
 
 /// Options transform=, visible=, style={...} of an object in a scene.
 std::vector<Parameter> look_fields();

@@ -70,7 +70,8 @@ HeadFrame checked_frame(const Mesh& head, const ScalpOptions& options, const Con
 }  // namespace
 
 Scalp::Scalp(const Mesh& head, const ScalpOptions& options, const Context& context)
-    : frame_(checked_frame(head, options, context)),
+    : options_(options),
+      frame_(checked_frame(head, options, context)),
       scale_(frame_.width / kAverageWidth),
       unit_(options.unit.value_or(usual_unit(frame_.width).value_or(kAverageWidth / frame_.width))),
       hairline_(options.hairline),

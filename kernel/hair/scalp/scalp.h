@@ -58,6 +58,8 @@ class Scalp {
     /// memory_limit; cancelled.
     explicit Scalp(const Mesh& head, const ScalpOptions& options = {}, const Context& context = {});
 
+    /// What it was made with.
+    const ScalpOptions& options() const { return options_; }
     const HeadFrame& frame() const { return frame_; }
     /// Mesh units in one metre of the scalp's frame: the head's width over that of an average head
     /// (0.155 m). Styles made in metres fit every head.
@@ -118,6 +120,7 @@ class Scalp {
     void set_given_region(const Mesh& head, const Region& region, double softness);
     void guess_region(const Mesh& head);
 
+    ScalpOptions options_;
     HeadFrame frame_;
     double scale_ = 1.0, unit_ = 1.0;
     bool guessed_ = false, knows_unit_ = true;

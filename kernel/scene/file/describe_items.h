@@ -1,0 +1,261 @@
+/// How scene files name what they hold: one description of each record for writing and reading;
+/// private to kernel/scene.
+#pragma once
+
+#include <optional>
+#include <cstdint>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "kernel/scene/polyline.h"
+#include "kernel/mesh/report.h"
+#include "kernel/mesh/attributes.h"
+#include "kernel/hair/strands/strands.h"
+#include "kernel/deform/options.h"
+#include "kernel/deform/mesh_point.h"
+#include "kernel/deform/description.h"
+#include "kernel/core/index.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/error.h"
+#include "kernel/scene/file/item_records.h"
+#include "kernel/scene/file/scene_archive.h"
+#include "kernel/scene/scene_state.h"
+
+namespace lissom {
+
+// ---- Meshes
+
+template <typename Archive>
+void describe(Archive& a, Attribute& attribute) {
+    static constexpr const char* kDomains[] = {"vertex", "corner", "face"};
+    static constexpr const char* kTypes[] = {"float32", "float64", "int8",  "uint8",
+                                             "int16",   "uint16",  "int32", "uint32"};
+    a.text("name", attribute.name);
+    a.choice("domain", attribute.domain, kDomains);
+    a.integer("width", attribute.width);
+    a.choice("type", attribute.type, kTypes);
+    a.list("values", attribute.values);
+}
+
+template <typename Archive>
+void describe_finding(Archive& a, Finding& finding) {
+    std::vector<const char*> kinds, elements;
+    for (const FindingKind kind : all_finding_kinds()) kinds.push_back(finding_name(kind).data());
+    for (int kind = 0; kind <= static_cast<int>(ElementKind::strand); ++kind) {
+        elements.push_back(kind_name(static_cast<ElementKind>(kind)).data());
+    }
+    auto count = static_cast<double>(finding.count);
+    a.choice("kind", finding.kind, kinds);
+    a.choice("element", finding.element, elements);
+    a.flag("in_file", finding.in_file);
+    a.number("count", count);
+    finding.count = count >= 0.0 && count < 1e18 ? static_cast<std::size_t>(count) : 0;
+    a.text("message", finding.message);
+    a.list("ids", finding.ids);
+}
+
+template <typename Archive>
+void describe(Archive& a, MeshRecord& mesh) {
+    a.list("positions", mesh.positions);
+    a.list("offsets", mesh.offsets);
+    a.list("corners", mesh.corners);
+    a.objects("attributes", mesh.attributes, [](Archive& b, Attribute& x) { describe(b, x); });
+    a.objects("labels", mesh.labels, [](Archive& b, LabelRecord& record) {
+        b.text("kind", record.kind);
+        b.texts("names", record.labels.names);
+        b.list("of_face", record.labels.of_face);
+    });
+    a.objects("regions", mesh.regions, [](Archive& b, RegionRecord& region) {
+        b.text("name", region.name);
+        b.list("vertices", region.vertices);
+    });
+    a.texts("material_libraries", mesh.material_libraries);
+    a.objects("report", mesh.findings, [](Archive& b, Finding& x) { describe_finding(b, x); });
+}
+
+// ---- Strands
+
+template <typename Archive, typename Value>
+void describe_values(Archive& a, StrandValues<Value>& values) {
+    static constexpr const char* kDomains[] = {"all", "strand", "point"};
+    std::vector<Value> common{values.common};
+    a.choice("domain", values.domain, kDomains);
+    a.list("common", common);
+    a.list("values", values.values);
+    if (common.size() != 1)
+        throw Error(ErrorCode::file_syntax, "strands of the scene lack a value");
+    values.common = common.front();
+}
+
+template <typename Archive>
+void describe(Archive& a, StrandsRecord& strands) {
+    if (Archive::kReads) strands.offsets.clear();
+    a.list("points", strands.points);
+    a.list("offsets", strands.offsets);
+    a.object("widths", [&](Archive& b) {
+        describe_values(b, strands.widths);
+        b.list("profile", strands.widths.profile);
+    });
+    a.list("root_faces", strands.roots.faces);
+    a.list("root_weights", strands.roots.barycentrics);
+    a.list("root_uvs", strands.roots.uvs);
+    a.list("groups", strands.groups);
+    a.texts("group_names", strands.group_names);
+    a.list("ids", strands.ids);
+    a.optional("colors", strands.colors, [](Archive& b, auto& x) { describe_values(b, x); });
+    a.object("transparency", [&](Archive& b) { describe_values(b, strands.transparency); });
+    a.text("comment", strands.comment);
+}
+
+// ---- Deformations
+
+template <typename Archive>
+void describe(Archive& a, DeformOptions& options) {
+    static constexpr const char* kMethods[] = {
+        "implicit", "naive", "rotation_estimate", "similarity", "geodesic", "harmonic", "frames"};
+    static constexpr const char* kSecond[] = {"blend", "laplacian", "poisson"};
+    static constexpr const char* kSizes[] = {"keep", "scale"};
+    static constexpr const char* kWeights[] = {"cotangent", "uniform"};
+    a.choice("method", options.method, kMethods);
+    a.choice("second", options.second, kSecond);
+    a.choice("local_size", options.local_size, kSizes);
+    a.choice("weights", options.weights, kWeights);
+    a.integer("refine", options.refine);
+    a.integer("coherence", options.coherence);
+    a.number("coherence_weight", options.coherence_weight);
+    a.number("degenerate_threshold", options.degenerate_threshold);
+    a.flag("refine_borders", options.refine_borders);
+    a.number("displacement", options.displacement);
+    a.flag("scale_free", options.scale_free);
+    a.number("transition", options.transition);
+}
+
+template <typename Archive>
+void describe(Archive& a, MeshPoint& point) {
+    a.few("vertices", point.vertices);
+    a.few("weights", point.weights);
+}
+
+template <typename Archive>
+void describe(Archive& a, HandleDescription& handle) {
+    Index partner = handle.partner ? handle.partner->value : kNoIndex;
+    a.list("vertices", handle.vertices);
+    a.objects("points", handle.points, [](Archive& b, MeshPoint& x) { describe(b, x); });
+    a.flag("position", handle.options.position);
+    a.flag("gradient", handle.options.gradient);
+    a.number("weight", handle.options.weight);
+    a.number("falloff", handle.options.falloff);
+    a.integer("partner", partner);
+    handle.partner = partner == kNoIndex ? std::nullopt : std::optional(HandleId{partner});
+    describe_vector(a, "mirror_point", handle.mirror.point);
+    describe_vector(a, "mirror_normal", handle.mirror.normal);
+    a.number("mirror_tolerance", handle.mirror.tolerance);
+    describe_map(a, "transform", handle.pose.transform);
+    describe_map(a, "local_transform", handle.pose.local_transform);
+    describe_vector(a, "turn", handle.pose.turn);
+}
+
+template <typename Archive>
+void describe(Archive& a, PointConstraint& constraint) {
+    a.object("point", [&](Archive& b) { describe(b, constraint.point); });
+    a.optional("position", constraint.position,
+               [](Archive& b, Vec3& x) { describe_vector(b, "at", x); });
+    a.optional("gradient", constraint.gradient,
+               [](Archive& b, Mat3& x) { describe_matrix(b, "columns", x); });
+    a.number("weight", constraint.weight);
+}
+
+template <typename Archive>
+void describe(Archive& a, DeformRecord& record) {
+    a.integer("mesh", record.mesh);
+    a.list("region", record.region);
+    a.object("options", [&](Archive& b) { describe(b, record.options); });
+    a.objects("handles", record.description.handles,
+              [](Archive& b, std::optional<HandleDescription>& handle) {
+                  b.optional("handle", handle,
+                             [](Archive& c, HandleDescription& x) { describe(c, x); });
+              });
+    a.objects("constraints", record.description.constraints,
+              [](Archive& b, PointConstraint& x) { describe(b, x); });
+    a.list("stiffness", record.description.stiffness);
+    a.list("rest", record.rest);
+    a.list("shown", record.shown);
+    a.list("gradients", record.gradients);
+    a.list("turns_without_faces", record.turns_without_faces);
+    a.objects("directions", record.directions, [](Archive& b, Attribute& x) { describe(b, x); });
+}
+
+// ---- Hairstyles and curves
+
+template <typename Archive>
+void describe(Archive& a, ScalpRecord& scalp) {
+    const auto direction = [](Archive& b, Vec3& x) { describe_vector(b, "direction", x); };
+    a.optional("up", scalp.up, direction);
+    a.optional("front", scalp.front, direction);
+    a.number("unit", scalp.unit);
+    a.optional("region", scalp.region,
+               [](Archive& b, std::vector<Index>& x) { b.list("vertices", x); });
+    a.few("hairline", scalp.hairline);
+    a.number("softness", scalp.softness);
+}
+
+template <typename Archive>
+void describe(Archive& a, HairstyleRecord& record) {
+    std::vector<std::int64_t> scalp_edit{record.scalp_edit};
+    a.integer("head", record.head);
+    a.text("style", record.style);
+    a.list("tilts", record.tilts);
+    a.list("ids", record.ids);
+    a.list("edits", record.edits);
+    a.list("scalp_edit", scalp_edit);
+    if (!scalp_edit.empty()) record.scalp_edit = scalp_edit.front();
+    a.list("step_points", record.step_points);
+    a.list("step_tags", record.step_tags);
+    a.list("step_values", record.step_values);
+    a.list("step_weights", record.step_weights);
+    a.object("scalp", [&](Archive& b) { describe(b, record.scalp); });
+}
+
+template <typename Archive>
+void describe(Archive& a, Polyline& polyline) {
+    a.list("points", polyline.points);
+    a.flag("closed", polyline.closed);
+}
+
+// ---- Objects
+
+template <typename Archive>
+void describe(Archive& a, ObjectStyle& style) {
+    const auto color = [](Archive& b, Vec3& x) { describe_vector(b, "rgb", x); };
+    a.optional("color", style.color, color);
+    a.flag("vertex_colors", style.vertex_colors);
+    a.flag("flat", style.flat);
+    a.number("crease", style.crease);
+    a.flag("wire", style.wire);
+    a.optional("wire_color", style.wire_color, color);
+    a.number("wire_width", style.wire_width);
+    a.number("line_width", style.line_width);
+    a.flag("boundaries", style.boundaries);
+    a.text("region", style.region);
+    a.flag("handles", style.handles);
+    a.number("level", style.level);
+}
+
+/// An object of the file; it shows item `item`.
+struct ObjectRecord {
+    std::string name;
+    Index item = 0;
+    ObjectLook look;
+};
+
+template <typename Archive>
+void describe(Archive& a, ObjectRecord& object) {
+    a.text("name", object.name);
+    a.integer("item", object.item);
+    describe_map(a, "transform", object.look.transform);
+    a.flag("visible", object.look.visible);
+    a.object("style", [&](Archive& b) { describe(b, object.look.style); });
+}
+
+}  // namespace lissom

@@ -1,0 +1,313 @@
+#include "kernel/scene/scene_file.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <functional>
+#include <random>
+
+#include "kernel/hair/strands/strand_measures.h"
+#include "kernel/io/stream/file.h"
+#include "kernel/mesh/edit/subdivide.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/shapes/head.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "kernel/scene/deform_item.h"
+#include "kernel/scene/file/part_archive.h"
+#include "kernel/scene/hairstyle_item.h"
+#include "kernel/scene/mesh_item.h"
+#include "kernel/scene/polyline_item.h"
+#include "kernel/scene/strands_item.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using lissom::test::error_of;
+
+namespace {
+
+// A bent bar in a scene, with two handles, one of them soft and of points.
+struct BentScene {
+    std::shared_ptr<Mesh> bar = std::make_shared<Mesh>(make_bar());
+    std::shared_ptr<Deformer> edit;
+    Scene scene;
+
+    explicit BentScene(const DeformOptions& options = {}) {
+        edit = std::make_shared<Deformer>(*bar, Region::all(bar->shared_topology()), options);
+        edit->add_handle(*bar->find_region("bottom"));
+        edit->remove_handle(edit->add_handle(*bar->find_region("top")));
+        const HandleId top = edit->add_handle(*bar->find_region("top"), {.falloff = 0.1});
+        const auto point = face_point(bar->topology(), 30, std::vector{0.4, 0.3, 0.2, 0.1});
+        edit->add_handle(std::vector{point}, {.gradient = false, .weight = 3.0});
+        edit->constrain(
+            PointConstraint{face_point(bar->topology(), 60, std::vector{0.1, 0.2, 0.3, 0.4}),
+                            Vec3(0.5, 0.0, 0.0), std::nullopt, 10.0});
+        edit->set_stiffness(*bar->find_region("top"), 4.0);
+        edit->set_transform(top, rotation(Vec3::UnitZ(), 1.0, edit->handle_center(top)));
+        edit->solve();
+        edit->apply_to(*bar);
+        scene.add("bend", std::make_shared<DeformItem>(edit, std::make_shared<MeshItem>(bar)));
+    }
+};
+
+std::shared_ptr<Mesh> labelled_grid() {
+    auto mesh = std::make_shared<Mesh>(make_grid());
+    mesh->attributes().add({"heat", Domain::vertex, 1, ScalarType::uint16,
+                            std::vector<double>(at(mesh->vertex_count()), 0.5)});
+    FaceLabels groups;
+    groups.of_face.assign(at(mesh->face_count()), groups.add("half"));
+    groups.of_face[0] = kNoIndex;
+    mesh->attributes().labels()["group"] = groups;
+    mesh->set_region("corner", Region(mesh->shared_topology(), {0, 1}));
+    mesh->material_libraries() = {"a.mtl"};
+    Report report;
+    report.add({FindingKind::edges_nonmanifold, ElementKind::edge, true, 2, {1, 2, 3, 4}, "two"});
+    mesh->set_report(report);
+    return mesh;
+}
+
+Strands colored_strands() {
+    Strands strands({0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 1, 2, 0}, {0, 2, 5});
+    strands.set_groups({0, kNoIndex}, {"tail"});
+    strands.set_ids({7, 9});
+    strands.set_roots({{3, 4},
+                       {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 1, 0)},
+                       {Eigen::Vector2f(0.5f, 0.25f), Eigen::Vector2f(0, 1)}});
+    strands.set_colors({Eigen::Vector3f::Zero(),
+                        StrandDomain::strand,
+                        {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 0, 1)}});
+    strands.set_comment("two");
+    return strands;
+}
+
+// The scene again, through the bytes of a file.
+void reload(Scene& from, Scene& to) {
+    const EncodedScene encoded = encode_scene(*from.state());
+    CHECK(encoded.left_out.empty());
+    ItemMaker maker;
+    decode_scene(encoded.bytes, to, maker);
+}
+
+}  // namespace
+
+TEST_CASE("scene file: meshes, strands and curves come back to the bit, with their looks") {
+    Scene scene;
+    const auto grid = labelled_grid();
+    const ObjectId id = scene.add("grid", std::make_shared<MeshItem>(grid));
+    scene.add("again", scene.object(id).item, {.transform = translation(Vec3(0.1, 0.2, 0.3))});
+    scene.add("hair", std::make_shared<StrandsItem>(std::make_shared<Strands>(colored_strands())));
+    scene.add("line",
+              std::make_shared<PolylineItem>(std::make_shared<Polyline>(
+                  Polyline{{Vec3(0.1, 1e-300, -0.0), Vec3(1.0 / 3.0, 2, 3)}, true})),
+              {.visible = false, .style = {.color = Vec3(0.1, 0.2, 0.3), .line_width = 2.5}});
+    Scene loaded;
+    reload(scene, loaded);
+    CHECK(loaded.hash() == scene.hash());
+    CHECK(loaded.history().steps.empty());
+    CHECK(loaded.find("grid")->item == loaded.find("again")->item);
+    const auto& mesh = dynamic_cast<const MeshItem&>(*loaded.find("grid")->item).mesh();
+    CHECK(mesh.report() == grid->report());
+    CHECK(mesh.material_libraries() == grid->material_libraries());
+}
+
+TEST_CASE("scene file: a deformation goes on where it was") {
+    BentScene b;
+    Scene loaded;
+    reload(b.scene, loaded);
+    CHECK(loaded.hash() == b.scene.hash());
+    auto& item = dynamic_cast<DeformItem&>(*loaded.find("bend")->item);
+    auto& edit = const_cast<Deformer&>(item.deformer());
+    CHECK(edit.positions() == b.edit->positions());
+    CHECK(edit.handles() == b.edit->handles());
+    edit.solve();
+    b.edit->solve();
+    CHECK(edit.positions() == b.edit->positions());
+    edit.reset();
+    CHECK(edit.positions() == b.edit->rest_positions());
+}
+
+TEST_CASE("scene file: a new rest shape and a mesh with normals come back") {
+    auto mesh = std::make_shared<Mesh>(make_cactus());
+    Attribute normals{"normal", Domain::vertex, 3, ScalarType::float32, {}};
+    for (const Vec3& n : vertex_normals(*mesh)) {
+        normals.values.insert(normals.values.end(), n.begin(), n.end());
+    }
+    mesh->attributes().add(normals);
+    auto edit = std::make_shared<Deformer>(*mesh, Region::all(mesh->shared_topology()));
+    edit->add_handle(*mesh->find_region("base"));
+    const HandleId tip = edit->add_handle(*mesh->find_region("tip"));
+    for (int turn = 0; turn < 2; ++turn) {
+        edit->set_transform(tip, rotation(Vec3::UnitZ(), 0.5, edit->handle_center(tip)));
+        edit->solve();
+        edit->apply_to(*mesh);
+        if (turn == 0) edit->rebase();
+    }
+    Scene scene, loaded;
+    scene.add("bend", std::make_shared<DeformItem>(edit, std::make_shared<MeshItem>(mesh)));
+    reload(scene, loaded);
+    CHECK(loaded.hash() == scene.hash());
+    const auto& item = dynamic_cast<const DeformItem&>(*loaded.find("bend")->item);
+    auto& again = const_cast<Deformer&>(item.deformer());
+    const auto part = item.parts().front();
+    Mesh one = *mesh, other = dynamic_cast<const MeshItem&>(*part).mesh();
+    edit->reset();
+    edit->apply_to(one);
+    again.reset();
+    again.apply_to(other);
+    CHECK(hash(one) == hash(other));
+}
+
+TEST_CASE("scene file: a hairstyle grows the same hair again") {
+    const auto head = std::make_shared<Mesh>(make_head());
+    const auto head_item = std::make_shared<MeshItem>(head);
+    HairstyleOptions options;
+    options.resolution = 4000;
+    const auto style =
+        std::make_shared<Hairstyle>(*head, std::make_shared<const Scalp>(*head), options);
+    DividingCurve parting{{{0.0, 0.14, 0.05}, {0.0, 0.15, 0.0}}};
+    parting.options.left = {0.1, 0.7};
+    style->remove(style->add({.shape = StreamCurve{.points = {{0.1, 0.1, 0}, {0.12, 0, 0}}}}));
+    style->add({.shape = parting});
+    style->add(
+        {.shape = StreamCurve{.points = {{0.05, 0.12, 0.05}, {0.1, 0.05, 0.0}}}, .name = "side"});
+    const HairOptions hair{.roots = {.count = 40}};
+    const auto grown = [&](Scene& scene) {
+        const auto& item = dynamic_cast<const HairstyleItem&>(*scene.find("style")->item);
+        return hash(const_cast<Hairstyle&>(item.style()).grow(hair));
+    };
+    Scene scene, loaded;
+    scene.add("style", std::make_shared<HairstyleItem>(style, head_item));
+    SUBCASE("whose head is an object") {
+        scene.add("head", head_item);
+    }
+    SUBCASE("whose head is none") {}
+    reload(scene, loaded);
+    CHECK(loaded.hash() == scene.hash());
+    CHECK(grown(loaded) == grown(scene));
+}
+
+TEST_CASE("scene file: what has no place in a file is told") {
+    BentScene b;
+    b.bar->replace_by(subdivide(*b.bar, {}));
+    const EncodedScene encoded = encode_scene(*b.scene.state());
+    CHECK(encoded.left_out.size() == 1);
+    Scene loaded;
+    ItemMaker maker;
+    decode_scene(encoded.bytes, loaded, maker);
+    CHECK(loaded.objects().empty());
+}
+
+TEST_CASE("scene file: a file that is cut short or damaged is refused, and the scene stays empty") {
+    BentScene b;
+    Scene small;
+    small.add("line", std::make_shared<PolylineItem>(
+                          std::make_shared<Polyline>(Polyline{{Vec3::Zero(), Vec3::Ones()}})));
+    b.scene.add("hair",
+                std::make_shared<StrandsItem>(std::make_shared<Strands>(colored_strands())));
+    const std::string whole = encode_scene(*small.state()).bytes;
+    ItemMaker maker;
+    const auto code_of = [&](const std::string& bytes) {
+        Scene scene;
+        const Error error = error_of([&] { decode_scene(bytes, scene, maker); });
+        CHECK(scene.objects().empty());
+        CHECK(scene.depth() == 0);
+        return error.code();
+    };
+    // The two empty records at the end say that nothing is missing: one is enough.
+    for (std::size_t size = 0; size + 1024 < whole.size(); size += 37) {
+        CHECK(code_of(whole.substr(0, size)) == ErrorCode::file_truncated);
+    }
+    CHECK(code_of(std::string(4096, 'x')) == ErrorCode::file_syntax);
+    CHECK(code_of(std::string(4096, '\0')) == ErrorCode::file_truncated);
+
+    // Random bytes never do worse than an error.
+    const std::string rich = encode_scene(*b.scene.state()).bytes;
+    std::mt19937 random(7);
+    for (int trial = 0; trial < 300; ++trial) {
+        std::string bytes = rich;
+        const std::size_t manifest = bytes.rfind("\"format\"");
+        for (int change = 0; change < 3; ++change) {
+            const std::size_t begin = trial % 2 ? manifest : 0;
+            bytes[begin + random() % (bytes.size() - begin)] = char(random());
+        }
+        Scene scene;
+        try {
+            decode_scene(bytes, scene, maker);
+        } catch (const Error&) {
+            CHECK(scene.objects().empty());
+        }
+    }
+}
+
+TEST_CASE("scene file: values that do not fit each other are refused") {
+    Scene scene;
+    scene.add("grid", std::make_shared<MeshItem>(labelled_grid()));
+    const std::string bytes = encode_scene(*scene.state()).bytes;
+    // The archive with one part replaced.
+    const auto with_part = [&](const std::string& name, const std::string& content) {
+        const PartReader parts(bytes);
+        PartWriter next;
+        for (const std::string part :
+             {"items/0/positions", "items/0/offsets", "items/0/corners",
+              "items/0/attributes/0/values", "items/0/labels/0/of_face",
+              "items/0/regions/0/vertices", "items/0/report/0/ids", "scene.json"}) {
+            next.add(part, part == name ? content : std::string(parts.find(part)));
+        }
+        return std::move(next).finish();
+    };
+    const auto refused = [&](const std::string& name, const std::string& content) {
+        Scene loaded;
+        ItemMaker maker;
+        (void)error_of([&] { decode_scene(with_part(name, content), loaded, maker); });
+        CHECK(loaded.objects().empty());
+    };
+    const std::string manifest(PartReader(bytes).find("scene.json"));
+    const auto with_text = [&](const std::string& before, const std::string& after) {
+        std::string text = manifest;
+        REQUIRE(text.find(before) != std::string::npos);
+        return text.replace(text.find(before), before.size(), after);
+    };
+    refused("items/0/positions", "");
+    refused("items/0/positions", std::string(25, '\0'));
+    refused("items/0/offsets", std::string(404, '\x7f'));
+    refused("items/0/corners", std::string(1600, '\x7f'));
+    refused("items/0/attributes/0/values", std::string(8, '\0'));
+    refused("items/0/labels/0/of_face", std::string(400, '\x01'));
+    refused("items/0/regions/0/vertices", std::string(4, '\x7f'));
+    refused("scene.json", with_text("\"width\": 1", "\"width\": 2000000000"));
+    refused("scene.json", with_text("\"width\": 1", "\"width\": -1"));
+    refused("scene.json", with_text("\"item\": 0", "\"item\": 1"));
+    refused("scene.json", with_text("\"item\": 0", "\"item\": -1"));
+    refused("scene.json", with_text("\"item\": 0", "\"item\": \"../../etc/passwd\""));
+    refused("scene.json", with_text("\"name\": \"grid\"", "\"name\": \"\""));
+    refused("scene.json", std::string(100000, '['));
+    Scene loaded;
+    ItemMaker maker;
+    const std::string newer =
+        with_part("scene.json", with_text("\"version\": 1", "\"version\": 2"));
+    CHECK(error_of([&] { decode_scene(newer, loaded, maker); }).code() == ErrorCode::unsupported);
+}
+
+TEST_CASE("scene file: saving replaces a file whole or not at all") {
+    const auto folder = std::filesystem::temp_directory_path() / "lissom_scene_file_test";
+    std::filesystem::create_directories(folder);
+    const auto path = folder / "a.lissom";
+    BentScene b;
+    save_scene(b.scene, path);
+    const std::uint64_t saved = b.scene.hash();
+    b.scene.remove(b.scene.objects().front()->id);
+    const Context cancelled;
+    cancelled.cancel();
+    CHECK(error_of([&] { save_scene(b.scene, path, cancelled); }).code() == ErrorCode::cancelled);
+    Scene loaded;
+    ItemMaker maker;
+    load_scene(path, loaded, maker);
+    CHECK(loaded.hash() == saved);
+    CHECK(error_of([&] { load_scene(path, loaded, maker); }).code() == ErrorCode::invalid_argument);
+    CHECK(error_of([&] { save_scene(b.scene, folder / "no" / "a.lissom"); }).code() ==
+          ErrorCode::file_write_failed);
+    Scene other;
+    CHECK(error_of([&] { load_scene(folder / "b.lissom", other, maker); }).code() ==
+          ErrorCode::file_not_found);
+    std::filesystem::remove_all(folder);
+}
