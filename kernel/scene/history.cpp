@@ -1,5 +1,6 @@
 #include "kernel/scene/history.h"
 
+#include <cstddef>
 #include <utility>
 
 namespace lissom {
@@ -18,17 +19,23 @@ std::size_t removed_bytes(const SceneState& state, const SceneState& next) {
 }  // namespace
 
 std::size_t History::bytes() const {
-    std::size_t bytes = store_.bytes() - bytes_of(*present());
+    return bytes_beside(bytes_of(*present()));
+}
+
+std::size_t History::bytes_beside(std::size_t present) const {
+    std::size_t bytes = store_.bytes() - present;
     for (const Step& step : steps_) bytes += step.removed;
     return bytes;
 }
 
 void History::push(std::string name, std::shared_ptr<const SceneState> next, std::size_t captured) {
+    // Nothing may fail once steps have changed: what could be done again goes last.
+    const std::size_t present_bytes = bytes_of(*next);
     Step step{std::move(name), captured, removed_bytes(*present(), *next), std::move(next)};
-    while (steps_.size() > place_) steps_.pop_back();
-    steps_.push_back(std::move(step));
+    steps_.insert(steps_.begin() + static_cast<std::ptrdiff_t>(place_), std::move(step));
     ++place_;
-    while (place_ > 0 && bytes() > limit_) drop_oldest();
+    while (steps_.size() > place_) steps_.pop_back();
+    while (place_ > 0 && bytes_beside(present_bytes) > limit_) drop_oldest();
 }
 
 void History::drop_oldest() {

@@ -57,6 +57,7 @@ class History {
     const std::shared_ptr<const SceneState>& state(std::size_t i) const {
         return i == 0 ? first_ : steps_[i - 1].state;
     }
+    std::size_t bytes_beside(std::size_t present) const;
     void drop_oldest();
 
     const ContentStore& store_;

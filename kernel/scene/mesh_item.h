@@ -66,6 +66,7 @@ class MeshItem : public SceneItem {
     explicit MeshItem(std::shared_ptr<Mesh> mesh) : mesh_(std::move(mesh)) {}
 
     const Mesh& mesh() const { return *mesh_; }
+    std::shared_ptr<const Mesh> shared_mesh() const { return mesh_; }
 
     ItemKind kind() const override { return ItemKind::mesh; }
     const void* identity() const override { return mesh_.get(); }

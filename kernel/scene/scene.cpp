@@ -49,8 +49,10 @@ ObjectList::iterator Scene::place_of(ObjectId id) {
 
 void Scene::require_free_name(std::string_view name) const {
     require(!name.empty(), "an object of a scene needs a name");
-    require(!find(name), "the scene has an object '" + std::string(name) +
-                             "' already; take another name, or remove that one before");
+    if (!find(name)) return;
+    throw Error(ErrorCode::invalid_argument,
+                "the scene has an object '" + std::string(name) +
+                    "' already; take another name, or remove that one before");
 }
 
 ObjectId Scene::add(std::string name, std::shared_ptr<SceneItem> item, ObjectLook look) {
@@ -85,10 +87,11 @@ void Scene::rename(ObjectId id, std::string name) {
 
 void Scene::reorder(ObjectId id, Index place) {
     const auto from = place_of(id);
-    require(place >= 0 && place < count_of(objects_),
-            "place " + std::to_string(place) + " is not one of the " +
-                std::to_string(objects_.size()) + " objects of the scene",
-            ErrorCode::out_of_range);
+    if (place < 0 || place >= count_of(objects_)) {
+        throw Error(ErrorCode::out_of_range,
+                    "place " + std::to_string(place) + " is not one of the " +
+                        std::to_string(objects_.size()) + " objects of the scene");
+    }
     const auto to = objects_.begin() + place;
     change("move", (*from)->name, [&] {
         if (to <= from) std::rotate(to, from, from + 1);

@@ -46,6 +46,7 @@ class StrandsItem : public SceneItem {
     explicit StrandsItem(std::shared_ptr<Strands> strands) : strands_(std::move(strands)) {}
 
     const Strands& strands() const { return *strands_; }
+    std::shared_ptr<const Strands> shared_strands() const { return strands_; }
 
     ItemKind kind() const override { return ItemKind::strands; }
     const void* identity() const override { return strands_.get(); }

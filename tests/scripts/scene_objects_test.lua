@@ -143,3 +143,64 @@ test("free curves", function()
     expect.truthy(rawequal(scene:get("line"), line))
     expect.equal(tostring(line), "lissom.Polyline: 2 points")
 end)
+
+test("a scene is saved and loaded to the bit, and goes on", function()
+    drag()
+    local head = lissom.shapes.head{}
+    scene:add("head", head, { visible = false, style = { color = "#aa8866" } })
+    local style = scene:add("style", lissom.hairstyle(head, { resolution = 4000 }))
+    local root = style:at{ azimuth = 10, elevation = 60, lift = 0.01 }
+    local tip = style:at{ azimuth = 75, elevation = 35, lift = 0.01 }
+    style:stream{ points = { root, tip } }
+    scene:add("hair", style:grow{ count = 50 })
+    scene:add("line", lissom.polyline{ points = { { 0, 0, 0 }, { 1, 0.1, 0 } }, closed = true })
+
+    local path = os.tmpname()
+    local saved, left_out = scene:save(path)
+    expect.truthy(rawequal(saved, scene))
+    expect.equal(#left_out, 0)
+    local again = assert(lissom.load_scene(path))
+    os.remove(path)
+    expect.equal(again:hash(), scene:hash())
+    expect.equal(table.concat(again:names(), " "), "bend head style hair line")
+    expect.equal(again:undo(), nil)
+
+    local other = again:get("bend")
+    expect.equal(other:mesh():hash(), bar:hash())
+    expect.truthy(rawequal(again:get("bend"), other))
+    for _, one in ipairs{ edit, other } do
+        one:handles()[2]:rotate{ axis = "z", angle = 10 }
+        assert(one:solve())
+    end
+    expect.equal(other:mesh():hash(), bar:hash())
+    expect.equal(again:undo(), "edited")
+    expect.equal(again:get("style"):grow{ count = 50 }:hash(), style:grow{ count = 50 }:hash())
+    expect.equal(again:info("head").visible, false)
+end)
+
+test("a file that is no scene is refused", function()
+    local path = os.tmpname()
+    expect.failure("file_empty", lissom.load_scene(path))
+    local file = assert(io.open(path, "wb"))
+    file:write(("no scene "):rep(200))
+    file:close()
+    expect.failure("file_syntax", lissom.load_scene(path))
+    os.remove(path)
+    expect.failure("file_not_found", lissom.load_scene(path))
+    expect.failure("file_write_failed", scene:save(path .. "/no/scene.lissom"))
+end)
+
+test("a scene that is closed in a step, or loses an object while it is asked for, does no harm", function()
+    scene:step("close", function()
+        bar:flip()
+        scene:close()
+    end)
+    expect.error(function() scene:hash() end, "Scene")
+    local other = lissom.scene{}
+    expect.error(function()
+        other:step("close", function()
+            other:close()
+            error("closed")
+        end)
+    end, "closed")
+end)

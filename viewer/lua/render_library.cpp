@@ -10,9 +10,11 @@
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/path_object.h"
+#include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "kernel/hair/strands/strand_place.h"
 #include "kernel/io/stream/file.h"
+#include "viewer/draw/scene_drawing.h"
 #include "viewer/draw/style_marks.h"
 #include "viewer/lua/paint.h"
 #include "viewer/lua/png_file.h"
@@ -88,6 +90,18 @@ void add_meshes(const Call& call, Picture& picture) {
     for (std::size_t i = 0; i < call.object_count("meshes"); ++i) {
         picture.meshes.push_back({mesh_of(call.object_at<MeshObject>("meshes", i).share()), style});
     }
+}
+
+void add_scene(const Call& call, Picture& picture) {
+    if (!call.has("scene")) return;
+    SceneDrawing drawing = drawing_of(call.object<SceneObject>("scene")->scene.objects());
+    picture.meshes = std::move(drawing.meshes);
+    for (DrawnStrands& strands : drawing.strands) {
+        picture.strands.push_back({std::move(strands), std::nullopt});
+    }
+    picture.marks.lines = std::move(drawing.lines);
+    require(!picture.meshes.empty() || !picture.strands.empty() || !picture.marks.lines.empty(),
+            "the scene shows nothing; add objects, or make some visible", ErrorCode::mesh_empty);
 }
 
 // ---- Strands
@@ -319,6 +333,7 @@ Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& si
         for (const char* caption : call.strings("captions")) picture.captions.emplace_back(caption);
     }
     picture.options = read_options(call, size);
+    add_scene(call, picture);
     add_meshes(call, picture);
     color_meshes(call, picture);
     move_meshes(call, picture);
@@ -333,14 +348,31 @@ Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& si
     return picture;
 }
 
+// Objects of a scene have looks of their own.
+void check_scene_options(const Call& call) {
+    for (const char* option : {"mesh", "meshes", "offsets", "strands", "hair", "style", "color",
+                               "region", "handles", "scalars", "crease", "wire_width"}) {
+        if (call.has(option)) {
+            call.reject(option, "the objects of a scene say it themselves: use scene:set");
+        }
+    }
+    const bool plain = call.boolean("vertex_colors") && !call.boolean("wire") &&
+                       !call.boolean("boundaries") &&
+                       call.choice<Shading>("shading") == Shading::smooth;
+    if (!plain || call.integer("columns") > 0) {
+        call.reject("scene", "its objects say themselves how they look: use scene:set");
+    }
+}
+
 // Options that exclude each other, or would do nothing without another.
 void check_options(const Call& call) {
+    if (call.has("scene")) check_scene_options(call);
     if (call.has("mesh") && call.has("meshes")) {
         call.reject("mesh", "give either 'mesh', one, or 'meshes', a list");
     }
     const bool has_mesh = call.has("mesh") || call.has("meshes");
-    if (!has_mesh && !call.has("strands") && !call.has("style")) {
-        call.reject("mesh", "give 'mesh', one, 'meshes', a list, 'strands' or 'style'");
+    if (!has_mesh && !call.has("strands") && !call.has("style") && !call.has("scene")) {
+        call.reject("mesh", "give 'mesh', one, 'meshes', a list, 'strands', 'style' or 'scene'");
     }
     if (!has_mesh && call.integer("columns") > 0) {
         call.reject("columns", "it needs 'mesh' or 'meshes'");
@@ -476,6 +508,9 @@ std::vector<Parameter> content_options() {
         object("mesh", "lissom.Mesh", "The mesh to draw; may be left out where strands are drawn.")
             .optional(),
         objects("meshes", "lissom.Mesh", "Several meshes to draw, instead of `mesh`.").optional(),
+        object("scene", "lissom.Scene",
+               "A scene to draw instead: its visible objects where they stand, by their styles.")
+            .optional(),
         points("offsets", "Moves each mesh by a vector, in the picture only.").optional(),
         integer("columns",
                 "0: all meshes in one space. Else each in a cell of its own, this many a row, "

@@ -36,6 +36,7 @@ local lissom = {}
 ---@class lissom.RenderOptions
 ---@field mesh? lissom.Mesh The mesh to draw; may be left out where strands are drawn.
 ---@field meshes? lissom.Mesh[] Several meshes to draw, instead of `mesh`.
+---@field scene? lissom.Scene A scene to draw instead: its visible objects where they stand, by their styles.
 ---@field offsets? lissom.Vector[] Moves each mesh by a vector, in the picture only.
 ---@field columns? integer 0: all meshes in one space. Else each in a cell of its own, this many a row, all seen by the same camera. Default: 0.
 ---@field fit? "all"|"each" In cells, a view frames all meshes at one scale, or each by itself. Default: all.

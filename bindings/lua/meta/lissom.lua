@@ -2024,6 +2024,12 @@ function Scene:clear_history() end
 ---@return lissom.Elements? elements # The elements concerned.
 function Scene:hash() end
 
+---Writes the scene into one file: objects with their looks, regions, handles and curves, to the bit, but not its history. The file is an uncompressed tar archive.
+---@param path string The file, usually with the extension .lissom.
+---@return lissom.Scene scene # The scene itself; nil, message, code where the file could not be written.
+---@return string[] left_out # What had no place in the file, a sentence each: materials and skeletons of meshes.
+function Scene:save(path) end
+
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Scene:close() end
 
@@ -2601,6 +2607,18 @@ function lissom.load_strands(path, options) end
 ---@param options lissom.StrandsOptions
 ---@return lissom.Strands strands # The new strands.
 function lissom.strands(options) end
+
+---@class lissom.Load_sceneOptions
+---@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten where it would be more. In bytes. Default: 536870912.
+
+---Reads a scene that scene:save has written.
+---@param path string The file.
+---@param options? lissom.Load_sceneOptions
+---@return lissom.Scene scene # A scene with the same hash; nil, message, code where there is none.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.load_scene(path, options) end
 
 ---@class lissom.SceneOptions
 ---@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten where it would be more. In bytes. Default: 536870912.

@@ -1,6 +1,7 @@
 // lissom.scene: Scene.
 #include <cstdint>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -57,12 +58,15 @@ int add_object(Call& call) {
     return call.push_argument(object.index);
 }
 
+// The item is held, for what is collected while it is pushed may remove it.
 int get_object(Call& call) {
     const auto self = call.self<SceneObject>();
     const char* name = call.string("name");
+    auto& held = call.hold<std::shared_ptr<SceneItem>>();
     const ScriptItem* item = nullptr;
     const bool found = call.attempt_quick([&] {
-        item = dynamic_cast<const ScriptItem*>(object_called(self->scene, name).item.get());
+        held = object_called(self->scene, name).item;
+        item = dynamic_cast<const ScriptItem*>(held.get());
         require(item, "this object belongs to the host", ErrorCode::unsupported);
     });
     return found ? item->push(call) : call.answer_failure();
@@ -167,20 +171,26 @@ bool end_run(Call& call, Scene& scene, std::size_t depth, bool failed) {
     });
 }
 
+// The scene is held, for the function may close it.
 int run_step(Call& call) {
     const auto self = call.self<SceneObject>();
     lua_State* L = call.lua();
     const char* name = call.string("name");
-    const std::size_t depth = self->scene.depth(), outer = self->step_depth;
-    if (!call.attempt_quick([&] { self->scene.begin(name); })) return call.fail();
-    self->step_depth = depth + 1;
+    auto& held = call.hold<std::shared_ptr<SceneObject>>();
+    const bool began = call.attempt_quick([&] {
+        held = self.share();
+        held->scene.begin(name);
+    });
+    if (!began) return call.fail();
+    const std::size_t depth = held->scene.depth() - 1, outer = held->step_depth;
+    held->step_depth = depth + 1;
     const int top = lua_gettop(L);
     lua_pushvalue(L, call.stack_index("action"));
     const int status = lua_pcall(L, 0, LUA_MULTRET, 0);
-    self->step_depth = outer;
-    if (!end_run(call, self->scene, depth, status != 0)) return call.fail();
+    held->step_depth = outer;
+    if (!end_run(call, held->scene, depth, status != 0)) return call.fail();
     if (status != 0) return lua_error(L);
-    call.charge(self);
+    if (self.get()) call.charge(self);
     return lua_gettop(L) - top;
 }
 

@@ -18,7 +18,6 @@
 #include "kernel/hair/scalp/scalp.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/mesh/mesh.h"
-#include "kernel/scene/polyline.h"
 
 namespace lissom {
 

@@ -1,0 +1,24 @@
+/// What the visible objects of a scene look like: meshes, strands and lines of a picture.
+#pragma once
+
+#include <vector>
+
+#include "kernel/scene/scene_state.h"
+#include "viewer/draw/drawing.h"
+
+namespace lissom {
+
+struct SceneDrawing {
+    std::vector<DrawnMesh> meshes = {};
+    std::vector<DrawnStrands> strands = {};
+    /// Curves of hairstyles, and free curves.
+    std::vector<DrawnLine> lines = {};
+};
+
+/// Draws each visible object where it stands, by its style. A deformation is its mesh with region
+/// and handles, also where the mesh is an object itself; hair takes its unit from the mesh that it
+/// is rooted on. Meshes without faces are left out. Shares meshes and strands with the scene, which
+/// must not change while they are drawn. Errors: those of style_lines.
+SceneDrawing drawing_of(const ObjectList& objects);
+
+}  // namespace lissom
