@@ -17,7 +17,7 @@ namespace lissom {
 /// How an object is drawn; what its kind has no use for is left alone. Colours are sRGB, each part
 /// 0 to 1.
 struct ObjectStyle {
-    /// Absent: that of its kind, and of a mesh's own vertex colours.
+    /// Absent: that of its kind, or of a mesh's vertices.
     std::optional<Vec3> color = std::nullopt;
     /// Draw the colours of the attribute "color" where a mesh has it.
     bool vertex_colors = true;
