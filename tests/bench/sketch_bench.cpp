@@ -1,6 +1,7 @@
 /// Speed of picking: a search tree that is refitted against one that is built again, and picks, on
 /// the armadillo and on 16 times its faces.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -47,19 +48,26 @@ Cursors cursors_over(const Mesh& mesh) {
     return cursors;
 }
 
-/// Seconds of a pick: their median and the longest.
+/// Times of the picks that hit; of three tries the fastest, so that what else the machine does is
+/// left out.
 void run_picks(Report& report, const std::string& what, const PickScene& scene,
                const Cursors& cursors, PickKind kind) {
     std::vector<double> times;
-    int hits = 0;
     for (const Vec2& cursor : cursors.places) {
-        times.push_back(seconds(
-            [&] { hits += pick(scene, cursors.view, cursor, {.kinds = {kind}}).has_value(); }));
+        bool hit = false;
+        double least = 1.0;
+        for (int i = 0; i < 3; ++i) {
+            least =
+                std::min(least, seconds([&] {
+                             hit = pick(scene, cursors.view, cursor, {.kinds = {kind}}).has_value();
+                         }));
+        }
+        if (hit) times.push_back(least);
     }
-    const std::string name =
-        what + ", " + std::to_string(hits) + " hits of " + std::to_string(cursors.places.size());
-    report.add({"pick: " + name, 1e6 * quantile(times, 0.5), "us"});
-    report.add({"pick: " + what + ", the slowest", 1e6 * quantile(times, 0.9999), "us"});
+    report.add({"pick: " + what + ", of " + std::to_string(times.size()),
+                1e6 * quantile(times, 0.5), "us"});
+    report.add({"pick: " + what + ", 95 in 100 within", 1e6 * quantile(times, 0.95), "us"});
+    report.add({"pick: " + what + ", the slowest", 1e6 * quantile(times, 0.9999), "us", 1000.0});
 }
 
 void run_mesh(Report& report, const Mesh& mesh, int repeats) {
