@@ -1,6 +1,7 @@
 #include "kernel/sketch/picking.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,6 +21,8 @@ namespace {
 // Pixels' length that points and lines may lie behind a surface: they are drawn that much nearer.
 constexpr double kOverlaySlack = 2.0;
 constexpr int kMostLookedAt = 10000;
+// From so many on it is worth to know what hides them.
+constexpr int kManyHidden = 16;
 // Distances that differ by less are one: what lies behind one another is told by its depth.
 constexpr double kPixelStep = 1e-6;
 constexpr double kSameDistance = 1e-12;
@@ -30,6 +33,36 @@ struct Candidate {
     Index object = kNoIndex, index = kNoIndex, segment = kNoIndex;
     double along = 0.0;
     Vec3 local = Vec3::Zero();
+};
+
+// A triangle that has hidden something, in the world: where much is hidden, it mostly hides the
+// next thing too.
+class Curtain {
+  public:
+    Curtain(const View& view, const std::array<Vec3, 3>& corners)
+        : camera_(view.camera), corner_(corners[0]) {
+        frame_ << corners[1] - corners[0], corners[2] - corners[0], Vec3::Zero();
+    }
+
+    // Whether it surely hides a point of the world, and more than `slack` in front of it.
+    bool hides(const Vec3& point, double slack) const {
+        const double depth = camera_.to_camera(point).z();
+        const Vec3 way =
+            camera_.is_ortho() ? Vec3(-depth * camera_.forward()) : Vec3(camera_.eye() - point);
+        Mat3 system = frame_;
+        system.col(2) = -way;
+        const Vec3 x = system.inverse() * (point - corner_);
+        const double inside = std::min({x.x(), x.y(), 1.0 - x.x() - x.y()});
+        return inside > kSurely && x.z() < 1.0 - kSurely && x.z() > kSurely &&
+               x.z() * way.norm() > slack;
+    }
+
+  private:
+    static constexpr double kSurely = 1e-3;
+
+    const Camera& camera_;
+    Vec3 corner_;
+    Mat3 frame_;
 };
 
 // The nearest things of one kind, one after the other: boxes and what is in them wait in one queue
@@ -65,7 +98,8 @@ class NearestSearch {
     std::optional<Candidate> nearest_on(Index object, const Vec3& a, const Vec3& b) const;
     void offer(const Candidate& candidate);
 
-    bool is_picked(const Candidate& candidate) const;
+    bool is_picked(const Candidate& candidate);
+    bool is_hidden(const Candidate& candidate);
     bool faces_eye(const Candidate& candidate) const;
     std::pair<Index, Index> edge_of(const Candidate& candidate) const;
     PickHit hit_of(const Candidate& candidate) const;
@@ -86,7 +120,11 @@ class NearestSearch {
     std::set<std::pair<Index, Index>> returned_;
     std::tuple<Index, Index, Index> last_{kNoIndex, kNoIndex, kNoIndex};
     int hidden_ = 0;
+    std::optional<Curtain> curtain_;
 };
+
+std::vector<PickHit> pick_faces(const PickScene& scene, const View& view, const Vec2& cursor,
+                                const PickOptions& options);
 
 NearestSearch::NearestSearch(const PickScene& scene, const View& view, const Vec2& cursor,
                              const PickOptions& options, PickKind kind)
@@ -244,12 +282,29 @@ std::optional<PickHit> NearestSearch::next() {
     return std::nullopt;
 }
 
-bool NearestSearch::is_picked(const Candidate& candidate) const {
+bool NearestSearch::is_picked(const Candidate& candidate) {
     const PickScene::Object& object = scene_.object(candidate.object);
     if (object.surface && !options_.back_faces && !faces_eye(candidate)) return false;
-    if (options_.through || object.on_top) return true;
+    return options_.through || object.on_top || !is_hidden(candidate);
+}
+
+bool NearestSearch::is_hidden(const Candidate& candidate) {
+    const PickScene::Object& object = scene_.object(candidate.object);
     const double slack = object.surface ? 0.0 : kOverlaySlack * view_.pixel_length(candidate.depth);
-    return !visibility_.is_hidden(candidate.object, candidate.local, slack);
+    const Vec3 world = object.to_world(candidate.local);
+    if (curtain_ && curtain_->hides(world, slack)) return true;
+    if (!visibility_.is_hidden(candidate.object, candidate.local, slack)) return false;
+    if (hidden_ < kManyHidden) return true;
+    const auto first = pick_faces(scene_, view_, view_.project(world).head<2>(),
+                                  {.back_faces = options_.back_faces});
+    if (first.empty()) return true;
+    std::array<Vec3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const PickScene::Object& from = scene_.object(first[0].object);
+        corners[k] = from.to_world(from.surface->positions()[at(first[0].triangle[k])]);
+    }
+    curtain_.emplace(view_, corners);
+    return true;
 }
 
 // The vertices of an edge, or of a segment of a boundary.

@@ -362,6 +362,29 @@ TEST_CASE("all that lies under the cursor, the nearest first and each thing once
     }
 }
 
+TEST_CASE("very many things behind a wall do not hide a corner of it") {
+    PickWorld world;
+    const Affine far = translation(Vec3(0, 0, -20)) * scaling(Vec3::Constant(0.05), Vec3::Zero());
+    world.add(make_sphere({.segments = 24}), far);
+    world.add(make_sphere({.segments = 24}), translation(Vec3(0, 0.1, 0)) * far);
+    world.add(make_grid({.size = {2, 2}, .segments = {2, 2}}),
+              rotation(Vec3::UnitX(), kPi / 2, Vec3(0.04, 0.03, 0)));
+    for (const bool ortho : {false, true}) {
+        CameraOptions camera{.eye = Vec3(0, 0, 5), .up = Vec3(0.1, 1, 0)};
+        if (ortho) camera.ortho = 2.5;
+        world.view = {Camera(camera), {300, 300}};
+        for (const auto kind : {PickKind::vertex, PickKind::edge}) {
+            const auto hit =
+                pick(world.scene, world.view, Vec2(150, 150), {.kinds = {kind}, .radius = 40.0});
+            REQUIRE(hit);
+            CHECK(hit->object == 2);
+            const auto all = pick_all(world.scene, world.view, Vec2(150, 150),
+                                      {.kinds = {kind}, .radius = 40.0}, 100000);
+            for (const PickHit& one : all) CHECK(one.object == 2);
+        }
+    }
+}
+
 TEST_CASE("a polygon that the ray hits where its triangles meet is hit once") {
     PickWorld world;
     world.add(make_box({.segments = {1, 1, 1}}), {});
