@@ -257,9 +257,9 @@ GizmoShape Gizmo::shape(const View& view) const {
 std::optional<GizmoPart> Gizmo::hit(const View& view, const Vec2& cursor, double reach) const {
     const GizmoShape shown = shape(view);
     // What the cursor is on comes first, then distance and depth.
-    enum { kOnPoint, kOnLine, kInPlane, kNearLine, kNothing };
+    enum { on_point, on_line, in_plane, near_line, nothing };
     using Rank = std::tuple<int, double, double>;
-    Rank best{kNothing, 0.0, 0.0};
+    Rank best{nothing, 0.0, 0.0};
     std::optional<GizmoPart> found;
     const auto offer = [&](GizmoPart part, const Rank& rank) {
         if (rank < best) std::tie(best, found) = std::tuple(rank, part);
@@ -267,13 +267,13 @@ std::optional<GizmoPart> Gizmo::hit(const View& view, const Vec2& cursor, double
     for (const GizmoPoint& point : shown.points) {
         const Distance d = distance_to(point, view, cursor);
         if (d.pixels <= std::max(reach, point.radius))
-            offer(point.part, {kOnPoint, d.pixels, d.depth});
+            offer(point.part, {on_point, d.pixels, d.depth});
     }
     for (const GizmoLine& line : shown.lines) {
         const Distance d = distance_to(line, view, cursor);
         const bool inside = d.inside && is_plane(line.part);
         if (!inside && !(d.pixels <= reach)) continue;
-        const int rank = inside ? kInPlane : d.pixels <= 0.4 * reach ? kOnLine : kNearLine;
+        const int rank = inside ? in_plane : d.pixels <= 0.4 * reach ? on_line : near_line;
         offer(line.part, {rank, inside ? 0.0 : d.pixels, d.depth});
     }
     return found;

@@ -445,8 +445,8 @@ assert(math.abs(motion.angle - 90) < 1e-9 and motion.axis[3] == 1))"}};
 std::vector<Record> gizmo_records() {
     return {
         {"lissom.GizmoMotion",
-         "What a drag means. mesh:transform and handle:set take it by its parts, "
-         "handle:set_matrix as a matrix.",
+         "What a drag means. `matrix` is all of it, as handle:set_matrix takes it; mesh:transform "
+         "takes its parts where the axes are the world's.",
          {{"string", "kind", "move, rotate or scale."},
           {"string", "part", "The part that is held."},
           {"lissom.Vector?", "translation", "Of a move."},
