@@ -350,7 +350,7 @@
 ---@field region lissom.Region The selected vertices, or those of the selected faces.
 ---@field faces integer[] The selected faces; empty where vertices were asked for.
 
----What a drag means. mesh:transform and handle:set take it by its parts, handle:set_matrix as a matrix.
+---What a drag means. `matrix` is all of it, as handle:set_matrix takes it; mesh:transform takes its parts where the axes are the world's.
 ---@class lissom.GizmoMotion
 ---@field kind string move, rotate or scale.
 ---@field part string The part that is held.
