@@ -208,7 +208,7 @@ std::size_t memory_bytes(const Holds& holds) {
     for (const auto& handle : holds.handles) {
         if (!handle) continue;
         bytes += sizeof *handle + 2 * bytes_in(handle->local);
-        for (const SparseRow& row : handle->points) bytes += sizeof row + 2 * bytes_in(row);
+        for (const SparseRow& row : handle->points) bytes += sizeof(SparseRow) + 2 * bytes_in(row);
     }
     for (const auto& target : holds.targets) bytes += sizeof *target + 2 * bytes_in(target->row);
     return bytes;

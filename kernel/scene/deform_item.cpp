@@ -129,8 +129,7 @@ std::shared_ptr<const ItemContent> DeformItem::capture(
 
 void DeformItem::restore(const ItemContent& content, const ItemContent*) {
     const auto& wanted = dynamic_cast<const DeformContent&>(content);
-    DeformSetup setup = wanted.setup();
-    deformer_->restore(std::move(setup));
+    deformer_->restore(wanted.setup());
     deformer_->show(wanted.shown());
     restored();
 }

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/mesh/mesh.h"
 #include "kernel/hair/hairstyle.h"
 #include "kernel/hair/scalp/scalp.h"
 #include "kernel/hair/style_inputs.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/scene/content_store.h"
 #include "kernel/scene/scene_item.h"
 

@@ -17,7 +17,7 @@ std::size_t size_in_bytes(const std::map<std::string, FaceLabels, std::less<>>& 
     std::size_t bytes = 0;
     for (const auto& [kind, of_kind] : labels) {
         bytes += kind.size() + bytes_in(of_kind.of_face);
-        for (const std::string& name : of_kind.names) bytes += sizeof name + name.size();
+        for (const std::string& name : of_kind.names) bytes += sizeof(std::string) + name.size();
     }
     return bytes;
 }

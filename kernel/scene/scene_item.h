@@ -23,6 +23,8 @@ std::string_view kind_name(ItemKind kind);
 /// changes.
 class ItemContent {
   public:
+    ItemContent(const ItemContent&) = delete;
+    ItemContent& operator=(const ItemContent&) = delete;
     virtual ~ItemContent();
     /// The same on every run and platform; equal contents have equal hashes. Computed when first
     /// asked for.
@@ -32,8 +34,6 @@ class ItemContent {
 
   protected:
     ItemContent() = default;
-    ItemContent(const ItemContent&) = delete;
-    ItemContent& operator=(const ItemContent&) = delete;
     virtual std::uint64_t compute_hash() const = 0;
 
   private:
@@ -43,6 +43,8 @@ class ItemContent {
 
 class SceneItem {
   public:
+    SceneItem(const SceneItem&) = delete;
+    SceneItem& operator=(const SceneItem&) = delete;
     virtual ~SceneItem();
     virtual ItemKind kind() const = 0;
     /// The live thing: two items of one thing are captured once.
@@ -62,8 +64,6 @@ class SceneItem {
 
   protected:
     SceneItem() = default;
-    SceneItem(const SceneItem&) = delete;
-    SceneItem& operator=(const SceneItem&) = delete;
 };
 
 }  // namespace lissom

@@ -20,7 +20,6 @@
 #include "kernel/core/error.h"
 #include "kernel/scene/file/item_records.h"
 #include "kernel/scene/file/scene_archive.h"
-#include "kernel/scene/polyline.h"
 #include "kernel/scene/scene_state.h"
 
 namespace lissom {
