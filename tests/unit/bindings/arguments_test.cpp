@@ -120,7 +120,8 @@ TEST_CASE("no function crashes on arguments of any type") {
             CAPTURE(value);
             const std::string v = value;
             for (const std::string& arguments :
-                 {v, v + ", " + v, v + ", " + v + ", " + v + ", " + v, "1, " + v, "'text', " + v}) {
+                 {v, v + ", " + v, v + ", " + v + ", " + v + ", " + v, "1, " + v,
+                  "'no folder/text', " + v}) {
                 CHECK(lua.run("fresh() " + call_of(*entry, arguments)) == "");
             }
             for (const Entry::Slot& slot : entry->slots) {

@@ -96,7 +96,8 @@ TEST_CASE("deform item: handles, constraints, stiffness and a new rest shape are
     change([&] { b.edit->rebase(); });
     change([&] { b.turn(10.0); });
     change([&] { b.edit->reset(); });
-    while (b.scene.history().place > 1) b.scene.undo();
+    for (std::size_t steps = b.scene.history().place; steps > 1; --steps) b.scene.undo();
+    CHECK(b.scene.history().place == 1);
     CHECK(b.edit->handles().size() == 2);
     b.turn(30.0);
     CHECK(b.scene.undo() == Scene::kEdited);
