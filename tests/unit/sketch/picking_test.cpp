@@ -96,16 +96,22 @@ std::optional<Nearest> first_edge(const PickWorld& world, const Vec2& cursor,
         for (Index e = 0; e < topology.edge_count(); ++e) {
             const Index a = topology.edge(e).first, b = topology.edge(e).second;
             if (boundaries && !(topology.is_boundary(a) && topology.is_boundary(b))) continue;
-            const auto [pixels, p] =
+            const auto nearest =
                 nearest_on_edge(world.view, cursor, world.world(object, a), world.world(object, b));
+            const double pixels = nearest.first;
+            const Vec3 p = nearest.second;
             if (!(pixels <= options.radius) || pixels >= best.pixels) continue;
             const bool hidden = !options.through && world.is_hidden(p, [&](const auto& facet) {
                 const auto has = [&](Index v) {
                     return std::find(facet.triangle.begin(), facet.triangle.end(), v) !=
                            facet.triangle.end();
                 };
-                // At its ends all faces around touch the edge.
-                return facet.object != object || !(has(a) || has(b));
+                // At its ends all faces around touch the edge, between them the two beside it.
+                const Vec3 start = world.world(object, a), end = world.world(object, b);
+                const double close = 1e-6 * (end - start).norm();
+                const bool at_start = (p - start).norm() < close, at_end = (p - end).norm() < close;
+                const bool own = (has(a) && has(b)) || (has(a) && at_start) || (has(b) && at_end);
+                return facet.object != object || !own;
             });
             if (!hidden) best = {object, e, pixels};
         }
