@@ -27,24 +27,32 @@ function(lissom_target_defaults target)
     endif()
 endfunction()
 
-# lissom_unity(TARGET): compiles the sources of a room (a folder) together, at most eight at a time, so that
-# their headers are read once. Names in anonymous namespaces are therefore unique within a room. Sources
-# with options of their own, and those marked SKIP_UNITY_BUILD_INCLUSION, are compiled alone.
+# lissom_unity(TARGET): compiles sources together, so that their headers are read once: those of a room (a
+# folder), at most eight at a time, so that a change is soon compiled; or, with LISSOM_UNITY=LARGE, those of all
+# rooms of a library, so that a build from nothing takes half the time. Names in anonymous namespaces are
+# therefore unique within a library, and within a room of tests. Sources with options of their own, and those
+# marked SKIP_UNITY_BUILD_INCLUSION, are compiled alone.
 function(lissom_unity target)
     if(NOT LISSOM_UNITY)
         return()
     endif()
     get_target_property(sources ${target} SOURCES)
+    get_target_property(type ${target} TYPE)
     set(rooms "")
     foreach(source ${sources})
-        get_filename_component(room ${source} DIRECTORY)
-        string(REPLACE "${PROJECT_SOURCE_DIR}/" "" room "room_${room}")
-        string(MAKE_C_IDENTIFIER "${room}" room)
+        set(room "library")
+        set(most 24)
+        if(NOT LISSOM_UNITY STREQUAL "LARGE" OR NOT type STREQUAL "STATIC_LIBRARY")
+            get_filename_component(room ${source} DIRECTORY)
+            string(REPLACE "${PROJECT_SOURCE_DIR}/" "" room "room_${room}")
+            string(MAKE_C_IDENTIFIER "${room}" room)
+            set(most 8)
+        endif()
         if(NOT room IN_LIST rooms)
             list(APPEND rooms ${room})
             set(count_${room} 0)
         endif()
-        math(EXPR part "${count_${room}} / 8")
+        math(EXPR part "${count_${room}} / ${most}")
         math(EXPR count_${room} "${count_${room}} + 1")
         set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${room}_${part})
     endforeach()
@@ -52,6 +60,10 @@ function(lissom_unity target)
     # A type of one source may hold names of its anonymous namespace: no other source sees it.
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+    endif()
+    # Nor does a local name hide one of another source.
+    if(LISSOM_UNITY STREQUAL "LARGE" AND NOT MSVC)
+        target_compile_options(${target} PRIVATE -Wno-shadow)
     endif()
 endfunction()
 

@@ -31,10 +31,6 @@ gl::Texture make_colormap() {
     return texture;
 }
 
-Vec3 linear(const Color& color) {
-    return {srgb_to_linear(color.r), srgb_to_linear(color.g), srgb_to_linear(color.b)};
-}
-
 // Parts that cover a picture, none larger than `size`.
 std::vector<Tile> split(int width, int height, int size) {
     std::vector<Tile> tiles;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 
 #include "kernel/core/index.h"
@@ -12,6 +13,8 @@ namespace lissom {
 inline constexpr double kPi = 3.14159265358979323846;
 /// One degree in radians.
 inline constexpr double kDegree = kPi / 180.0;
+/// No number: not given, or not known.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
@@ -52,6 +55,11 @@ struct Affine {
     bool is_identity() const { return linear == Mat3::Identity() && translation == Vec3::Zero(); }
     bool is_finite() const { return linear.allFinite() && translation.allFinite(); }
 };
+
+/// Whether `x` can be a length: finite and not negative.
+inline bool is_length(double x) {
+    return x >= 0.0 && std::isfinite(x);
+}
 
 /// Translation by `offset`.
 Affine translation(const Vec3& offset);

@@ -1,18 +1,14 @@
 #include "kernel/deform/preparation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <utility>
 
+#include "kernel/core/clock.h"
 #include "kernel/deform/holds/boundary_refinement.h"
 
 namespace lissom {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 void require_area(const Patch& patch) {
     const Elements& vertices = patch.zero_area_vertices;
@@ -131,7 +127,7 @@ void count_costs(Preparation& next, const ImplicitMethod& method) {
 void prepare_implicit(Preparation& next, Progress& progress, const Context& context) {
     ImplicitMethod& method = next.method.emplace<ImplicitMethod>();
     progress.step(0.2);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     assemble(next, method, context);
     next.costs.assemble_seconds = seconds_since(start);
 
@@ -147,7 +143,7 @@ void prepare_implicit(Preparation& next, Progress& progress, const Context& cont
     if (!method.second->free_vertices().empty()) method.second->finish(context);
 
     progress.step(0.15);
-    const auto basis_start = std::chrono::steady_clock::now();
+    const auto basis_start = Clock::now();
     number_frame(next, method);
     if (!method.frame_row.empty()) {
         method.solution = std::make_unique<LinearSolution>(next.problem(), context);

@@ -9,10 +9,6 @@ namespace {
 
 constexpr Index kGrain = 256;
 
-Vec3 point_of(const StrandView& strand, Index i) {
-    return strand.col(i).cast<double>();
-}
-
 // Whether the strand goes through the surface that the normals of the line sweep.
 bool crosses(const StrandView& strand, const DividingLine& line, double reach) {
     DividingPlace before = line.place(point_of(strand, 0));

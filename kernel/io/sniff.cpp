@@ -5,14 +5,10 @@
 
 #include "kernel/io/stl/stl.h"
 #include "kernel/io/stream/text_reader.h"
+#include "kernel/io/stream/words.h"
 
 namespace lissom {
 namespace {
-
-template <std::size_t Count>
-bool is_one_of(std::string_view word, const std::array<std::string_view, Count>& words) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 bool is_off_keyword(std::string_view word) {
     constexpr std::array<std::string_view, 10> kKeywords{

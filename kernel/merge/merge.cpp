@@ -92,7 +92,7 @@ MergeReport report_of(const MergePreparation& preparation, const Matching& match
 MergeResult Merge::solve(const Context& context) try {
     const MergePreparation& preparation = state_->preparation;
     Progress progress(context, "merge");
-    const auto start = MergeClock::now();
+    const auto start = Clock::now();
     const Matching matching = match_boundaries(preparation, state_->keys, context);
     progress.step(0.5);
     const Moved moved = deform_source(preparation, matching, context);

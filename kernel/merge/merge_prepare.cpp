@@ -386,7 +386,7 @@ MergePreparation prepare_merge(const Mesh& source, std::span<const Mesh* const> 
                                std::span<const Join> joins, const MergeOptions& options,
                                const Context& context) {
     Progress progress(context, "merge: prepare");
-    const auto start = MergeClock::now();
+    const auto start = Clock::now();
     require_options(options, joins.size(), targets.size());
     require_distinct(source, targets);
     for (const Region& feature : options.fixed) {

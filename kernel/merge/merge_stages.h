@@ -4,7 +4,6 @@
 ///     match_boundaries -> Matching, deform_source -> Moved, sew_sides -> MergedSides, report_of
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -13,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/core/clock.h"
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
@@ -36,12 +36,6 @@
 #include "kernel/mesh/topology.h"
 
 namespace lissom {
-
-using MergeClock = std::chrono::steady_clock;
-
-inline double seconds_since(MergeClock::time_point start) {
-    return std::chrono::duration<double>(MergeClock::now() - start).count();
-}
 
 /// How the options are carried out: what the thesis does otherwise.
 struct MergeMethod {

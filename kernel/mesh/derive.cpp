@@ -1,4 +1,5 @@
 #include "kernel/mesh/derive.h"
+#include "kernel/core/geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@
 
 namespace lissom {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Numbers that count or name something have no meaning between their values.
 bool is_discrete(const Attribute& attribute) {

@@ -6,13 +6,13 @@
 #include "kernel/mesh/directed_edges.h"
 
 namespace lissom {
-namespace {
 
-[[noreturn]] void refuse(ErrorCode code, Elements elements, const std::string& what,
-                         const std::string& remedy) {
+void refuse(ErrorCode code, Elements elements, const std::string& what, const std::string& remedy) {
     const std::string names = describe(elements);
     throw Error(code, what + " " + names + "; " + remedy, std::move(elements));
 }
+
+namespace {
 
 void check_each_face(Index vertex_count, const FaceList& faces) {
     Elements bad_index{ElementKind::face, 0, {}};

@@ -137,6 +137,35 @@ root=$project dev lissom inspect cup.obj
 expect "a program that is up to date is run" test "$status" = 0
 expect "and the build tool says nothing" test "$(cat "$sandbox/output")" = "program inspect cup.obj"
 
+# A fresh clone gets the program by the preset `quick`, a changed one by `release`.
+stub cmake <<'STUB'
+mkdir -p "$SANDBOX/project/build/$2"
+touch "$SANDBOX/project/build/$2/build.ninja"
+STUB
+stub ninja <<'STUB'
+case " $* " in
+*" -n "*) if [ -e "$2/viewer/lissom" ] && [ ! -e "$SANDBOX/changed" ]; then echo "ninja: no work to do."; fi ;;
+*)
+    mkdir -p "$2/viewer"
+    printf '#!/bin/bash\necho "built in ${0%%/viewer/*}"\n' >"$2/viewer/lissom"
+    chmod +x "$2/viewer/lissom"
+    ;;
+esac
+STUB
+built_in() { grep -q "built in $project/build/$1\$" "$sandbox/output"; }
+rm -rf "$project/build"
+mkdir "$project/build"
+root=$project dev lissom
+expect "the first program is that of the quick preset" built_in quick
+root=$project dev lissom
+expect "and stays so" built_in quick
+touch "$sandbox/changed"
+root=$project dev lissom
+expect "changed sources are built by the release preset" built_in release
+rm "$sandbox/changed"
+root=$project dev lissom
+expect "which is taken from then on" built_in release
+
 dev frobnicate
 expect "an unknown command is a usage error" test "$status" = 2
 dev setup frobnicate

@@ -84,6 +84,10 @@ double linear_to_srgb(double value) {
     return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
 }
 
+Vec3 linear(const Color& color) {
+    return {srgb_to_linear(color.r), srgb_to_linear(color.g), srgb_to_linear(color.b)};
+}
+
 double lightness(const Color& color) {
     const double luminance = 0.2126 * srgb_to_linear(color.r) + 0.7152 * srgb_to_linear(color.g) +
                              0.0722 * srgb_to_linear(color.b);

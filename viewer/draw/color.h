@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "kernel/core/geometry.h"
+
 namespace lissom {
 
 struct Color {
@@ -25,6 +27,8 @@ std::string_view color_names();
 /// One sRGB part to its linear value and back.
 double srgb_to_linear(double value);
 double linear_to_srgb(double value);
+/// The linear parts of a colour: red, green, blue.
+Vec3 linear(const Color& color);
 
 /// Perceived lightness, 0 (black) to 1 (white).
 double lightness(const Color& color);

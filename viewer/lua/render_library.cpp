@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "bindings/lua/core/file_path.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/buffer.h"
@@ -42,11 +43,6 @@ RendererSlot& renderer_slot(const Call& call) {
 }
 
 // ---- The script's options. All of these run inside `attempt`.
-
-std::filesystem::path file_path(const char* text) {
-    const std::string bytes(text);
-    return std::filesystem::path(std::u8string(bytes.begin(), bytes.end()));
-}
 
 void require_count(std::size_t given, std::size_t meshes, const char* what) {
     if (given == meshes) return;

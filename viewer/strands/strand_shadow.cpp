@@ -16,7 +16,7 @@ using Eigen::Vector3f;
 
 // Metres between grid points, and how far the grid reaches beyond the hair.
 constexpr float kStep = 0.0035f;
-constexpr float kMargin = 0.14f;
+constexpr float kShadowMargin = 0.14f;
 constexpr double kMostPoints = 2.5e6;
 // Segments that are splatted; of more, every so many strands stand for all.
 constexpr double kMostSegments = 3e6;
@@ -67,7 +67,7 @@ ViewGrid fit(std::span<const ViewStrands> strands, std::span<const ViewTriangle>
     for (const ViewTriangle& triangle : triangles) {
         for (const Vector3f& p : triangle) everything.extend(p);
     }
-    const float scale = largest_scale(strands), room = kMargin * scale;
+    const float scale = largest_scale(strands), room = kShadowMargin * scale;
     ViewGrid grid;
     grid.step = kStep * scale;
     const Vector3f low = (hair.low.array() - room).max(everything.low.array() - 2 * grid.step);

@@ -74,11 +74,6 @@ ViewStrands in_view(const DrawnStrands& drawn, const Affine& to_view) {
     return result;
 }
 
-Eigen::Array3f linear(const Color& color) {
-    return Eigen::Array3d(srgb_to_linear(color.r), srgb_to_linear(color.g), srgb_to_linear(color.b))
-        .cast<float>();
-}
-
 }  // namespace
 
 Index drawn_count(const StrandStyle& style, Index size) {
@@ -113,9 +108,9 @@ std::vector<ViewTriangle> view_triangles(const Snapshot& snapshot, const Mat4& v
 }
 
 Eigen::Array3f strand_color(const ViewStrands& drawn, Index strand, Index point) {
-    if (drawn.style->color) return linear(*drawn.style->color);
+    if (drawn.style->color) return linear(*drawn.style->color).cast<float>().array();
     if (const auto* colors = drawn.strands->colors()) return colors->at(strand, point).array();
-    static const Eigen::Array3f usual = linear(kHairColor);
+    static const Eigen::Array3f usual = linear(kHairColor).cast<float>().array();
     return usual;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/deform/deform_object.h"
 #include "kernel/io/basis_file.h"
@@ -13,11 +14,6 @@
 
 namespace lissom::lua {
 namespace {
-
-std::filesystem::path file_path(const char* text) {
-    const std::string bytes(text);
-    return std::filesystem::path(std::u8string(bytes.begin(), bytes.end()));
-}
 
 // A handle is called as the named region of the mesh that has its vertices.
 std::string region_name(const Mesh& mesh, const Region& handle) {

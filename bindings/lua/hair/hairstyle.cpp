@@ -412,7 +412,7 @@ int style_text(Call& call) {
 const std::vector<ErrorCode> kAddErrors = {ErrorCode::not_finite, ErrorCode::invalid_argument,
                                            ErrorCode::out_of_range, ErrorCode::handle_removed,
                                            ErrorCode::memory_limit};
-const std::vector<ErrorCode> kSolveErrors = {ErrorCode::not_positive_definite,
+const std::vector<ErrorCode> kFieldErrors = {ErrorCode::not_positive_definite,
                                              ErrorCode::memory_limit, ErrorCode::handle_removed,
                                              ErrorCode::cancelled};
 const std::vector<Result> kSelfStyle = {{"lissom.Hairstyle", "style", "The hairstyle itself."}};
@@ -461,7 +461,7 @@ std::vector<Function> field_methods() {
          .summary = "Brings the field up to date with the curves. `grow` and `field` do so by "
                     "themselves.",
          .results = kSelfStyle,
-         .errors = kSolveErrors,
+         .errors = kFieldErrors,
          .example = kStyle + "style:solve()"},
         {.name = "field",
          .body = style_field,
@@ -469,7 +469,7 @@ std::vector<Function> field_methods() {
          .arguments = {vector("point", "Three numbers or {x, y, z}.").in("mesh units")},
          .results = {{"number[]", "direction", "{x, y, z}; of length 1 near curves."},
                      {"number", "distance", "To the head, in mesh units; negative inside of it."}},
-         .errors = kSolveErrors,
+         .errors = kFieldErrors,
          .example = kStyle + "local v, d = style:field(curve:course()[2])\nassert(d > 0)"},
         {.name = "avoid_scalp",
          .body = avoid_scalp,
@@ -487,7 +487,7 @@ std::vector<Function> field_methods() {
                          .above(0)
                          .optional("a grid step")},
          .results = kSelfStyle,
-         .errors = kSolveErrors,
+         .errors = kFieldErrors,
          .example = kStyle + "style:avoid_scalp()"},
         {.name = "forget_scalp",
          .body = forget_scalp,

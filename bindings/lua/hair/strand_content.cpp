@@ -114,7 +114,7 @@ std::function<double(const Vec3&)> distance_to_head(const Hairstyle& style) {
     };
 }
 
-int stats(Call& call) {
+int strand_stats(Call& call) {
     const double sharp = call.number("sharp_turn") * kDegree;
     const bool on_head = call.has("style"), has_depth = call.has("depth");
     StrandStatistics found;
@@ -202,7 +202,7 @@ std::vector<Function> strand_content_methods() {
          .results = {{"string", "hash", "16 hexadecimal digits."}},
          .example = kTwoStrands + "assert(hair:hash() == hair:copy():hash())"},
         {.name = "stats",
-         .body = stats,
+         .body = strand_stats,
          .summary = "Counts, lengths and turns, and how many strands are damaged.",
          .options =
              {number("sharp_turn", "A turn between two segments above this is sharp.")

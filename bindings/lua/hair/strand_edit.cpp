@@ -14,7 +14,7 @@ namespace {
 
 // Asks the script's function about every strand; runs before any C++ object is alive, so that an
 // error in it simply passes through.
-std::span<const Index> ask_function(Call& call) {
+std::span<const Index> ask_about_strands(Call& call) {
     lua_State* L = call.lua();
     const auto self = call.self<StrandsObject>();
     const Index count = self->strands.size();
@@ -60,7 +60,7 @@ Strands select_near(const Call& call, const Strands& strands) {
 
 int select_strands(Call& call) {
     std::span<const Index> list;
-    if (call.has("where")) list = ask_function(call);
+    if (call.has("where")) list = ask_about_strands(call);
     if (call.has("strands")) list = call.ids("strands");
     if (call.has("group")) return select_named(call);
     return new_strands(call, [&] {

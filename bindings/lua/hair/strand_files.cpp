@@ -1,6 +1,8 @@
 // lissom.Strands: files.
 #include <filesystem>
 
+#include "bindings/lua/core/file_path.h"
+#include "bindings/lua/core/up_option.h"
 #include "bindings/lua/hair/strands_methods.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/io/strand_file.h"
@@ -8,18 +10,7 @@
 namespace lissom::lua {
 namespace {
 
-std::filesystem::path file_path(const char* text) {
-    const std::string bytes(text);
-    return std::filesystem::path(std::u8string(bytes.begin(), bytes.end()));
-}
-
-// The choices of `up`, in this order; absent: none.
-UpAxis up_axis(const Call& call) {
-    if (!call.has("up")) return UpAxis::none;
-    return call.integer("up") == 0 ? UpAxis::y : UpAxis::z;
-}
-
-int load(Call& call) {
+int load_hair(Call& call) {
     const char* path = call.string("path");
     StrandLoadOptions options;
     options.up = up_axis(call);
@@ -61,7 +52,7 @@ RibScene rib_scene(const Call& call) {
     return scene;
 }
 
-int save(Call& call) {
+int save_hair(Call& call) {
     const auto strands = call.self<StrandsObject>();
     const char* path = call.string("path");
     auto& report = call.hold<StrandReport>();
@@ -90,7 +81,7 @@ Parameter up_option(const std::string& help, const std::string& usual) {
 Function strands_save_method() {
     return {
         .name = "save",
-        .body = save,
+        .body = save_hair,
         .summary =
             "Writes the strands to a .hair, .data, .usda, .rib, .glb, .gltf or .obj file, "
             "whole or not at all. They are checked before, and changed where they would "
@@ -139,7 +130,7 @@ os.remove(path))"};
 Function load_strands_function() {
     return {
         .name = "load_strands",
-        .body = load,
+        .body = load_hair,
         .summary = "Reads hair from a .hair, .data (HairSalon) or .usda (BasisCurves) file.",
         .arguments = {string("path", "The file; its extension names the format.")},
         .options = {up_option("The file's up axis; z is turned to y, which is up here.",

@@ -1,24 +1,15 @@
 // lissom.load and mesh:save.
 #include <filesystem>
 
+#include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/library.h"
+#include "bindings/lua/core/up_option.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/weld_option.h"
 #include "kernel/io/mesh_file.h"
 
 namespace lissom::lua {
 namespace {
-
-// The choices of `up`, in this order; absent: as it is.
-UpAxis up_axis(const Call& call) {
-    if (!call.has("up")) return UpAxis::none;
-    return call.integer("up") == 0 ? UpAxis::y : UpAxis::z;
-}
-
-std::filesystem::path file_path(const char* text) {
-    const std::string bytes(text);
-    return std::filesystem::path(std::u8string(bytes.begin(), bytes.end()));
-}
 
 int load(Call& call) {
     const char* path = call.string("path");

@@ -1,11 +1,11 @@
 #include "kernel/deform/boundary/boundary_deformer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "kernel/core/clock.h"
 #include "kernel/deform/holds/constraints.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/rotation/polar.h"
@@ -28,12 +28,6 @@ constexpr double kSameScale = 1e-12;
 // Weights of the harmonic interpolation are at least this, so that it never leaves the range of
 // what it interpolates.
 constexpr double kLeastWeight = 1e-3;
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 DeformOptions deform_options(const BoundaryDeformOptions& options) {
     DeformOptions result;

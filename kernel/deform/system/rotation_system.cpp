@@ -31,7 +31,7 @@ constexpr double kInnerShare = 0.08;
 constexpr double kFadeRadii = 0.06;
 
 // Weight of squared lengths of a tie of weight 1 beside the edges.
-constexpr double kPositionUnit = 1.0;
+constexpr double kTieUnit = 1.0;
 
 // Whether the rings of the first system, with virtual vertices, are those of the second.
 bool is_real(const Patch& patch) {
@@ -94,7 +94,7 @@ RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>
         std::fill(coefficient_.begin(), coefficient_.end(), 1.0);
     }
     const bool lengths = options.second != SecondSystem::laplacian;
-    tie_unit_ = lengths ? kPositionUnit : work.position_unit();
+    tie_unit_ = lengths ? kTieUnit : work.position_unit();
 
     laplacian_.assign(rest.size(), Vec4::Zero());
     edge_sum_.assign(rest.size(), Vec4::Zero());

@@ -70,7 +70,7 @@ void require_dividing(const DividingOptions& o, const Rule& rule) {
 using Cell = std::array<Index, 3>;
 
 // Outward normal of the surface of equal distance at a grid point, or zero.
-Vec3 outward(const DistanceGrid& distances, const Cell& at) {
+Vec3 surface_normal(const DistanceGrid& distances, const Cell& at) {
     Vec3 gradient = Vec3::Zero();
     for (int axis = 0; axis < 3; ++axis) {
         Cell low = at, high = at;
@@ -111,7 +111,7 @@ class Divider {
         const bool above = u < rule_.wall_width && v > 0.0 && v < g + rule_.wall_height;
         if (!along && !(above && options_.separation > 0.0)) return std::nullopt;
 
-        Vec3 normal = outward(distances_, cell);
+        Vec3 normal = surface_normal(distances_, cell);
         if (normal.dot(place.normal) < 0.5) normal = place.normal;
         const double tilt = tilt_at(place);
         const Vec3 level = flow(place, tilt, normal);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
 #include "kernel/hair/curve/constraint_kind.h"
 #include "kernel/hair/curve/curve.h"
 #include "kernel/hair/curve/curve_foot.h"
@@ -30,10 +31,6 @@ constexpr double kShortest = 1e-6;         // parts of a spine shorter than this
 // The shape of a tail without profiles: it has swollen at this share of its length, and narrows
 // from that one on to this share of its radius.
 constexpr double kSwollen = 0.45, kNarrowing = 0.55, kNarrowed = 0.45;
-
-bool is_length(double x) {
-    return x >= 0.0 && std::isfinite(x);
-}
 
 void require_ponytail(const PonytailOptions& o) {
     require(!o.radius || (*o.radius > 0.0 && std::isfinite(*o.radius)),

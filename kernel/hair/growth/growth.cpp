@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
 #include "kernel/hair/curve/length_text.h"
 #include "kernel/hair/growth/growth_loops.h"
 #include "kernel/hair/growth/growth_roots.h"
@@ -32,11 +33,7 @@ constexpr double kLeastMove = 1e-3, kLeastRoundings = 8.0;
 constexpr double kLongestInDiagonals = 2.0;
 
 // More room for points than the strands so far let expect.
-constexpr double kSlack = 1.02;
-
-bool is_length(double x) {
-    return x >= 0.0 && std::isfinite(x);
-}
+constexpr double kPointRoom = 1.02;
 
 bool is_share(double x) {
     return x >= 0.0 && x <= 1.0;
@@ -287,7 +284,7 @@ void StrandCollector::number_points(Index first, Index last) {
 void StrandCollector::make_room(Index done) {
     const auto needed = 3 * at(offsets_[done]);
     if (needed <= points_.size()) return;
-    const double all = kSlack * needed * count_ / done;
+    const double all = kPointRoom * needed * count_ / done;
     const std::size_t size = done == count_ ? needed : static_cast<std::size_t>(all);
     charge_ = {};
     charge_ = context_.charge(size * sizeof(float), "strands");

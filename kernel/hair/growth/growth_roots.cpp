@@ -9,7 +9,7 @@
 namespace lissom {
 namespace {
 
-constexpr Index kGrain = 4096;
+constexpr Index kRootGrain = 4096;
 // Cells of the order of growth along each side of the box around the roots.
 constexpr int kCellBits = 10;
 
@@ -108,7 +108,7 @@ void GrowthRoots::set_seed(std::uint64_t seed, const Context& context) {
     if (seed_ == seed) return;
     seed_.reset();
     chances_.resize(numbers_.size());
-    context.parallel_for(0, size(), kGrain, [&](Index begin, Index end) {
+    context.parallel_for(0, size(), kRootGrain, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             const auto random = [&](std::uint64_t stream) {
                 return signed_random(mixed(seed, number(i), stream));
@@ -127,7 +127,7 @@ void GrowthRoots::set_length_map(const std::vector<double>& map, const Context& 
     factors_.clear();
     if (map.empty()) return;
     std::vector<float> factors(numbers_.size());
-    context.parallel_for(0, size(), kGrain, [&](Index begin, Index end) {
+    context.parallel_for(0, size(), kRootGrain, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             double factor = 0.0;
             for (int k = 0; k < 3; ++k) {

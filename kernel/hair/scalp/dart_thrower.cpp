@@ -20,7 +20,7 @@ constexpr double kLeastDensity = 0.1;
 constexpr Index kLeastShare = 64;
 constexpr double kShrink = 0.98;
 constexpr Index kFewestDarts = 256, kMostDarts = 1 << 18;
-constexpr Index kNone = -1;
+constexpr Index kNoDart = -1;
 
 // The roots so far in cells as wide as the largest dart. Cells share the slots of a hash table;
 // roots of other cells in a slot only cost a test. Neighbours along x are neighbours in the table.
@@ -31,7 +31,7 @@ class PointTable {
         capacity_ = std::max<std::size_t>(64, 4 * roots.size());
         std::size_t size = 64;
         while (size < 2 * capacity_) size *= 2;
-        heads_.assign(size, kNone);
+        heads_.assign(size, kNoDart);
         next_.clear();
         points_.clear();
         for (const Root& root : roots) add(root.position);
@@ -87,7 +87,7 @@ class PointTable {
     }
 
     bool meets(const Cell& cell, const Vec3& p, double radius) const {
-        for (Index i = heads_[slot(cell)]; i != kNone; i = next_[i]) {
+        for (Index i = heads_[slot(cell)]; i != kNoDart; i = next_[i]) {
             if ((points_[i] - p).squaredNorm() < radius * radius) return true;
         }
         return false;
@@ -125,7 +125,7 @@ class DartThrower {
         find_triangles(darts);
         find_room(by_triangle(darts));
         for (Index i = 0; i < darts && missing() > 0; ++i) {
-            if (triangle_[i] != kNone) place(i);
+            if (triangle_[i] != kNoDart) place(i);
         }
         if (count_of(roots_) - known < darts / kLeastShare) shrink_ *= kShrink;
         thrown_ += darts;
@@ -137,7 +137,7 @@ class DartThrower {
         return radius_ / std::sqrt(std::max(density, kLeastDensity));
     }
 
-    // The triangle that each dart falls on, or kNone where it is lost to a lower density.
+    // The triangle that each dart falls on, or kNoDart where it is lost to a lower density.
     void find_triangles(Index darts) {
         triangle_.resize(darts);
         context_.parallel_for(0, darts, 2048, [&](Index from, Index to) {
@@ -145,7 +145,7 @@ class DartThrower {
                 CountedRandom random = random_of(i);
                 const RootSurface::Dart dart = surface_.random_dart(random);
                 const bool lost = random.uniform() >= surface_.density(dart);
-                triangle_[i] = lost ? kNone : dart.triangle;
+                triangle_[i] = lost ? kNoDart : dart.triangle;
             }
         });
     }
@@ -155,12 +155,12 @@ class DartThrower {
     std::vector<Index> by_triangle(Index darts) const {
         std::vector<Index> begin(at(surface_.triangle_count()) + 1, 0);
         for (Index i = 0; i < darts; ++i) {
-            if (triangle_[i] != kNone) ++begin[triangle_[i] + 1];
+            if (triangle_[i] != kNoDart) ++begin[triangle_[i] + 1];
         }
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
         std::vector<Index> order(begin.back());
         for (Index i = 0; i < darts; ++i) {
-            if (triangle_[i] != kNone) order[begin[triangle_[i]]++] = i;
+            if (triangle_[i] != kNoDart) order[begin[triangle_[i]]++] = i;
         }
         return order;
     }
@@ -173,7 +173,7 @@ class DartThrower {
                 const RootSurface::Dart dart = surface_.random_dart(random);
                 const double radius = radius_at(surface_.density(dart));
                 if (table_.any_within(surface_.position(dart), radius)) {
-                    triangle_[order[i]] = kNone;
+                    triangle_[order[i]] = kNoDart;
                 }
             }
         });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
 #include "kernel/hair/strands/strand_guides.h"
 #include "kernel/hair/strands/strand_measures.h"
 #include "kernel/hair/strands/strand_operators.h"
@@ -16,10 +17,6 @@ namespace lissom {
 namespace {
 
 constexpr std::uint64_t kStrengthStream = 1, kOffsetStream = 2, kTipStream = 3;
-
-bool is_length(double x) {
-    return x >= 0.0 && std::isfinite(x);
-}
 
 void require_clump(const ClumpOptions& options) {
     require(options.clumps >= 1, "clump needs at least one guide");

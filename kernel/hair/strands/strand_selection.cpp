@@ -11,10 +11,6 @@ namespace {
 
 constexpr Index kSelectionGrain = 256;
 
-Vec3 point_of(const StrandView& strand, Index i) {
-    return strand.col(i).cast<double>();
-}
-
 // A curve to which distances of segments are asked for.
 class Tube {
   public:

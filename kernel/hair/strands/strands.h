@@ -64,6 +64,11 @@ struct StrandRoots {
 
 /// The points of one strand, a column each, without a copy.
 using StrandView = Eigen::Map<const Eigen::Matrix3Xf>;
+
+/// Point `i` of a strand.
+inline Vec3 point_of(const StrandView& strand, Index i) {
+    return strand.col(i).cast<double>();
+}
 using StrandEdit = Eigen::Map<Eigen::Matrix3Xf>;
 
 /// Hair. Every strand has at least one point, its root; a strand of one point has no hair. Strands

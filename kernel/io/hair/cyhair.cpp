@@ -11,15 +11,15 @@
 namespace lissom {
 namespace {
 
-constexpr std::string_view kMagic = "HAIR";
-constexpr std::size_t kHeaderBytes = 128, kTextBytes = 88;
+constexpr std::string_view kHairMagic = "HAIR";
+constexpr std::size_t kHairHeaderBytes = 128, kTextBytes = 88;
 constexpr Index kMostSegments = 65535;
 
 // Bits that say which arrays follow.
 using ArrayBit = std::uint32_t;
 constexpr ArrayBit kSegments = 1, kPoints = 2, kThickness = 4, kTransparency = 8, kColors = 16;
 
-struct Header {
+struct HairHeader {
     std::uint32_t strands = 0, points = 0, arrays = 0, segments = 0;
     float thickness = 0.0f, transparency = 0.0f;
     std::array<float, 3> color{};
@@ -28,16 +28,16 @@ struct Header {
     bool has(ArrayBit bit) const { return (arrays & bit) != 0; }
 };
 
-Header read_header(ByteSource& source) {
-    source.tally = {"bytes of the header", source.size(), kHeaderBytes};
+HairHeader read_header(ByteSource& source) {
+    source.tally = {"bytes of the header", source.size(), kHairHeaderBytes};
     std::array<char, 4> magic{};
     source.require(magic.size());
     source.read(std::span<char>(magic));
-    if (std::string_view(magic.data(), magic.size()) != kMagic) {
+    if (std::string_view(magic.data(), magic.size()) != kHairMagic) {
         refuse(ErrorCode::file_syntax, "this is not a .hair file: it does not begin with HAIR");
     }
-    source.require(kHeaderBytes - magic.size());
-    Header header;
+    source.require(kHairHeaderBytes - magic.size());
+    HairHeader header;
     for (auto* field : {&header.strands, &header.points, &header.arrays, &header.segments}) {
         *field = source.read<std::uint32_t>();
     }
@@ -49,7 +49,7 @@ Header read_header(ByteSource& source) {
 }
 
 // Checks that the file has room for all it announces, before anything is made that large.
-void require_room(const Header& header, const ByteSource& source) {
+void require_room(const HairHeader& header, const ByteSource& source) {
     checked_count(header.points, source.size(), "points", {});
     checked_count(header.strands, source.size(), "strands", {});
     if (!header.has(kPoints)) {
@@ -67,7 +67,7 @@ void require_room(const Header& header, const ByteSource& source) {
     }
 }
 
-std::vector<Index> read_offsets(const Header& header, ByteSource& source) {
+std::vector<Index> read_offsets(const HairHeader& header, ByteSource& source) {
     if (!header.has(kSegments) &&
         std::uint64_t{header.strands} * (std::uint64_t{header.segments} + 1) != header.points) {
         refuse(ErrorCode::file_syntax, std::to_string(header.strands) + " strands of " +
@@ -97,7 +97,7 @@ std::vector<Index> read_offsets(const Header& header, ByteSource& source) {
     return offsets;
 }
 
-std::vector<float> read_values(const Header& header, std::size_t width, ByteSource& source,
+std::vector<float> read_values(const HairHeader& header, std::size_t width, ByteSource& source,
                                const std::vector<Index>& offsets) {
     std::vector<float> values(width * header.points);
     source.read(std::span(values));
@@ -105,7 +105,7 @@ std::vector<float> read_values(const Header& header, std::size_t width, ByteSour
     return values;
 }
 
-void require_header_values(const Header& header) {
+void require_header_values(const HairHeader& header) {
     for (const float x : {header.thickness, header.transparency, header.color[0], header.color[1],
                           header.color[2]}) {
         if (x - x == 0.0f) continue;
@@ -113,7 +113,7 @@ void require_header_values(const Header& header) {
     }
 }
 
-void set_values(const Header& header, ByteSource& source, Strands& strands) {
+void set_values(const HairHeader& header, ByteSource& source, Strands& strands) {
     const std::vector<Index> offsets(strands.offsets().begin(), strands.offsets().end());
     StrandWidths widths;
     widths.common = header.thickness;
@@ -142,7 +142,7 @@ void set_values(const Header& header, ByteSource& source, Strands& strands) {
     strands.set_colors(std::move(colors));
 }
 
-void set_comment(const Header& header, Strands& strands) {
+void set_comment(const HairHeader& header, Strands& strands) {
     std::string text(header.text.data(), header.text.size());
     text.erase(text.find_last_not_of('\0') + 1);
     strands.set_comment(std::move(text));
@@ -184,7 +184,7 @@ std::uint32_t arrays_for(const Strands& strands, Index segments) {
 
 void append_header(const Strands& strands, std::uint32_t arrays, Index segments,
                    std::string& bytes) {
-    bytes += kMagic;
+    bytes += kHairMagic;
     append_little_endian(bytes, static_cast<std::uint32_t>(strands.size()));
     append_little_endian(bytes, static_cast<std::uint32_t>(strands.point_count()));
     append_little_endian(bytes, arrays);
@@ -210,7 +210,7 @@ void append_thickness(const Strands& strands, std::string& bytes) {
 }  // namespace
 
 Strands read_cyhair(ByteSource& source, const Context& context) {
-    const Header header = read_header(source);
+    const HairHeader header = read_header(source);
     require_room(header, source);
     require_header_values(header);
     source.tally = {"strands", 0, header.strands};
@@ -234,7 +234,7 @@ void write_cyhair(const Strands& strands, std::string& bytes) {
     const std::uint32_t arrays = arrays_for(strands, segments);
     const auto has = [&](ArrayBit bit) { return (arrays & bit) != 0; };
     const std::size_t points = strands.point_count();
-    bytes.reserve(kHeaderBytes + 2 * at(strands.size()) +
+    bytes.reserve(kHairHeaderBytes + 2 * at(strands.size()) +
                   points * (12 + (has(kThickness) ? 4 : 0) + (has(kTransparency) ? 4 : 0) +
                             (has(kColors) ? 12 : 0)));
     append_header(strands, arrays, segments, bytes);

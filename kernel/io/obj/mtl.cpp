@@ -22,7 +22,7 @@ struct Material {
     std::string diffuse_map, emissive_map, normal_map;
 };
 
-std::optional<double> number_in(std::string_view word) {
+std::optional<double> finite_number(std::string_view word) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     const bool good = error == std::errc() && end == word.data() + word.size();
@@ -54,14 +54,14 @@ class LibraryReader {
         if (keyword == "Tr" && read_share(m.opacity)) m.opacity = 1.0 - m.opacity;
         if (keyword == "Pm") read_share(m.metalness);
         if (keyword == "Pr") m.roughness = share();
-        if (keyword == "Ns") m.shininess = number_in(text_.word());
+        if (keyword == "Ns") m.shininess = finite_number(text_.word());
         if (keyword == "map_Kd") m.diffuse_map = file_name();
         if (keyword == "map_Ke") m.emissive_map = file_name();
         if (keyword == "norm") m.normal_map = file_name();
     }
 
     std::optional<double> share() {
-        const std::optional<double> value = number_in(text_.word());
+        const std::optional<double> value = finite_number(text_.word());
         return value ? std::optional(std::clamp(*value, 0.0, 1.0)) : std::nullopt;
     }
 
@@ -91,7 +91,7 @@ class LibraryReader {
                 take_word(rest);
                 continue;
             }
-            while (number_in(rest.substr(0, rest.find_first_of(" \t")))) take_word(rest);
+            while (finite_number(rest.substr(0, rest.find_first_of(" \t")))) take_word(rest);
         }
         std::string name(rest);
         std::replace(name.begin(), name.end(), '\\', '/');

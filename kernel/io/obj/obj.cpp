@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "kernel/core/geometry.h"
 #include "kernel/io/record/color_reader.h"
 #include "kernel/io/record/index_check.h"
 #include "kernel/io/record/label_reader.h"
@@ -18,8 +19,6 @@
 
 namespace lissom {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Numbered values that corners refer to: texture coordinates or normals.
 class CornerValues {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "kernel/core/geometry.h"
 #include "kernel/io/ply/header.h"
 #include "kernel/io/ply/layout.h"
 #include "kernel/io/record/finite_values.h"
@@ -20,8 +21,6 @@
 
 namespace lissom {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Numbers of a PLY file's text or binary data, one after the other.
 class TextSource {

@@ -5,14 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "kernel/core/geometry.h"
 #include "kernel/io/record/mesh_data.h"
 
 namespace lissom {
-namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 void ColorReader::set(std::size_t element, std::span<const double> values) {
     values_.resize(4 * element, kNone);

@@ -19,7 +19,7 @@
 namespace lissom {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 80;
+constexpr std::size_t kStlHeaderBytes = 80;
 constexpr std::size_t kTriangleBytes = 50;
 
 using Corners = std::array<Vec3, 3>;
@@ -127,7 +127,7 @@ MeshData read_binary(std::string_view bytes, const Context& context) {
     Ticker ticker(progress);
     ByteReader data(bytes, Endianness::little);
     data.tally.elements = "triangles";
-    data.skip(kHeaderBytes);
+    data.skip(kStlHeaderBytes);
     const std::size_t count =
         checked_count(data.read<std::uint32_t>(), bytes.size(), "triangles", {});
     data.tally.announced = count;
@@ -149,7 +149,7 @@ MeshData read_binary(std::string_view bytes, const Context& context) {
 // Text has no zero bytes; in binary data the number of triangles has one, unless there are
 // millions.
 bool is_text(std::string_view bytes) {
-    const std::string_view beginning = bytes.substr(0, kHeaderBytes + 4);
+    const std::string_view beginning = bytes.substr(0, kStlHeaderBytes + 4);
     return !is_binary_stl(bytes) && beginning.find('\0') == std::string_view::npos;
 }
 
@@ -213,9 +213,9 @@ void write_binary(const Mesh& mesh, const Triangulation& triangulation, std::str
     Progress progress(context, "write STL");
     Ticker ticker(progress);
     const std::size_t count = triangulation.triangles.size();
-    bytes.reserve(kHeaderBytes + 4 + kTriangleBytes * count);
+    bytes.reserve(kStlHeaderBytes + 4 + kTriangleBytes * count);
     bytes += "Written by Lissom";
-    bytes.resize(kHeaderBytes, ' ');
+    bytes.resize(kStlHeaderBytes, ' ');
     const auto written_count =
         with_byte_order(static_cast<std::uint32_t>(count), Endianness::little);
     char raw[sizeof(written_count)];
@@ -284,10 +284,10 @@ void write_text(const Mesh& mesh, const Triangulation& triangulation, const Face
 }  // namespace
 
 bool is_binary_stl(std::string_view bytes) {
-    if (bytes.size() < kHeaderBytes + 4) return false;
+    if (bytes.size() < kStlHeaderBytes + 4) return false;
     const auto count =
-        ByteReader(bytes.substr(kHeaderBytes), Endianness::little).read<std::uint32_t>();
-    return bytes.size() == kHeaderBytes + 4 + kTriangleBytes * count;
+        ByteReader(bytes.substr(kStlHeaderBytes), Endianness::little).read<std::uint32_t>();
+    return bytes.size() == kStlHeaderBytes + 4 + kTriangleBytes * count;
 }
 
 MeshData read_stl(std::string_view bytes, const Context& context) {

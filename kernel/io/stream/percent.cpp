@@ -3,7 +3,7 @@
 namespace lissom {
 namespace {
 
-constexpr std::string_view kDigits = "0123456789ABCDEF";
+constexpr std::string_view kHexDigits = "0123456789ABCDEF";
 
 bool is_plain(char c, bool keeps_utf8) {
     const auto byte = static_cast<unsigned char>(c);
@@ -11,18 +11,17 @@ bool is_plain(char c, bool keeps_utf8) {
     return byte > 0x20 && byte < 0x7f && c != '%' && c != '\\' && c != '#' && c != '"';
 }
 
-// -1 for what is no digit.
-int digit_value(char c) {
+}  // namespace
+
+int hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'A' && c <= 'F') return c - 'A' + 10;
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-}  // namespace
-
 std::string percent_encoded_byte(char byte) {
     const auto value = static_cast<unsigned char>(byte);
-    return {'%', kDigits[value / 16], kDigits[value % 16]};
+    return {'%', kHexDigits[value / 16], kHexDigits[value % 16]};
 }
 
 std::string percent_encoded(std::string_view name, bool keeps_utf8) {
@@ -40,8 +39,8 @@ std::string percent_encoded(std::string_view name, bool keeps_utf8) {
 std::string percent_decoded(std::string_view text) {
     std::string name;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        const int high = text[i] == '%' && i + 2 < text.size() ? digit_value(text[i + 1]) : -1;
-        const int low = high >= 0 ? digit_value(text[i + 2]) : -1;
+        const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+        const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
         if (low < 0) {
             name += text[i];
         } else {

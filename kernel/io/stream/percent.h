@@ -11,6 +11,9 @@ namespace lissom {
 /// beyond ASCII as %HH.
 std::string percent_encoded(std::string_view name, bool keeps_utf8 = false);
 
+/// The value of a hexadecimal digit, or -1.
+int hex_digit(char c);
+
 /// One byte as %HH.
 std::string percent_encoded_byte(char byte);
 

@@ -38,13 +38,13 @@ std::vector<T> whole_numbers(const CurvesPrim& prim, const std::vector<double>& 
     return result;
 }
 
-struct Counts {
+struct CurveCounts {
     std::size_t strands, points;
 };
 
 // The domain of values, once their number fits it.
 StrandDomain domain_of(const CurvesPrim& prim, const CurveValues& values, std::size_t width,
-                       const Counts& counts, const char* what) {
+                       const CurveCounts& counts, const char* what) {
     const CurveInterpolation kind = values.interpolation;
     const StrandDomain domain = kind == CurveInterpolation::constant  ? StrandDomain::all
                                 : kind == CurveInterpolation::uniform ? StrandDomain::strand
@@ -59,7 +59,7 @@ StrandDomain domain_of(const CurvesPrim& prim, const CurveValues& values, std::s
 
 // Numbers, one a value, in their domain.
 template <typename Values>
-void take_values(const CurvesPrim& prim, const CurveValues& from, const Counts& counts,
+void take_values(const CurvesPrim& prim, const CurveValues& from, const CurveCounts& counts,
                  const char* what, Values& to) {
     to.domain = domain_of(prim, from, 1, counts, what);
     if (to.domain == StrandDomain::all) {
@@ -82,7 +82,7 @@ bool are_widths(const Strands& strands, const std::vector<float>& numbers) {
     return true;
 }
 
-void set_widths(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
+void set_widths(const CurvesPrim& prim, const CurveCounts& counts, Strands& strands) {
     if (!prim.widths.found) return;
     if (prim.base_widths.found && !prim.width_profile.empty()) {
         StrandWidths widths;
@@ -96,7 +96,7 @@ void set_widths(const CurvesPrim& prim, const Counts& counts, Strands& strands) 
     strands.set_widths(std::move(widths));
 }
 
-void set_transparency(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
+void set_transparency(const CurvesPrim& prim, const CurveCounts& counts, Strands& strands) {
     if (!prim.opacities.found) return;
     StrandValues<float> values{0.0f};
     CurveValues transparencies = prim.opacities;
@@ -112,7 +112,7 @@ void set_transparency(const CurvesPrim& prim, const Counts& counts, Strands& str
     strands.set_transparency(std::move(values));
 }
 
-void set_colors(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
+void set_colors(const CurvesPrim& prim, const CurveCounts& counts, Strands& strands) {
     if (!prim.colors.found) return;
     StrandValues<Eigen::Vector3f> colors{Eigen::Vector3f::Zero()};
     colors.domain = domain_of(prim, prim.colors, 3, counts, "displayColor");
@@ -126,7 +126,7 @@ void set_colors(const CurvesPrim& prim, const Counts& counts, Strands& strands) 
     strands.set_colors(std::move(colors));
 }
 
-void set_roots(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
+void set_roots(const CurvesPrim& prim, const CurveCounts& counts, Strands& strands) {
     StrandRoots roots;
     if (prim.uvs.found) {
         const StrandDomain domain = domain_of(prim, prim.uvs, 2, counts, "st");
@@ -149,7 +149,7 @@ void set_roots(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
     strands.set_roots(std::move(roots));
 }
 
-void set_groups(const CurvesPrim& prim, const Counts& counts, Strands& strands) {
+void set_groups(const CurvesPrim& prim, const CurveCounts& counts, Strands& strands) {
     std::vector<Index> groups =
         whole_numbers<Index>(prim, prim.groups, counts.strands, kNoIndex, "group:indices");
     for (const Index group : groups) {
@@ -194,7 +194,7 @@ Strands strands_of(CurvesPrim prim) {
     }
     std::vector<Index> offsets = {0};
     for (const Index count : curve_counts(prim)) offsets.push_back(offsets.back() + count);
-    const Counts counts{offsets.size() - 1, prim.points.size() / 3};
+    const CurveCounts counts{offsets.size() - 1, prim.points.size() / 3};
     Strands strands(std::move(prim.points), std::move(offsets));
     set_widths(prim, counts, strands);
     set_colors(prim, counts, strands);

@@ -1,4 +1,5 @@
 #include "kernel/io/usda/text.h"
+#include "kernel/io/stream/percent.h"
 
 #include <charconv>
 #include <cmath>
@@ -27,12 +28,6 @@ char closing(std::string_view open) {
 
 bool closes(std::string_view token) {
     return token == ")" || token == "]" || token == "}";
-}
-
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
 // The character that stands behind a backslash at `at`, which moves over it.

@@ -16,7 +16,7 @@ namespace {
 
 // Ways along edges are longer than geodesics, by up to the square root of 2 on a grid; the chart's
 // rim, where its coordinates are least certain, lies beyond the band.
-constexpr double kReach = 1.5;
+constexpr double kChartReach = 1.5;
 
 // Cotangents count as at least this in the harmonic extension, whose values then stay within those
 // on the seam.
@@ -154,7 +154,7 @@ std::vector<double> loop_fractions(std::span<const Vec3> points) {
 BandChart make_band_chart(const Sewn& sewn, std::span<const Index> seam, SeamSide side,
                           double width, const Context& context) {
     const Mesh& mesh = sewn.mesh;
-    const SideFaces part = faces_beside(sewn, seam, side, kReach * width, context);
+    const SideFaces part = faces_beside(sewn, seam, side, kChartReach * width, context);
     // Attributes stay behind.
     const Mesh shape({mesh.positions().begin(), mesh.positions().end()}, mesh.shared_topology());
     const MeshPart band = extract_faces(shape, part.faces, context);

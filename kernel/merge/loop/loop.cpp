@@ -16,7 +16,7 @@ namespace {
 // Smoothing under which arc length is measured, in loop lengths.
 constexpr double kLengthSigma = 0.03;
 // A Gaussian ends at this many sigmas.
-constexpr double kReach = 3.0;
+constexpr double kTubeReach = 3.0;
 // Ignore interior vertices nearer to the boundary than this many fan radii, when the turn of its
 // normal is extrapolated; and clamp that turn to so many radians.
 constexpr double kLeastReach = 1.5;
@@ -132,7 +132,7 @@ void Loop::find_moments() {
 // Gaussian along the true arc length; a vertex counts as much as half the edges at it.
 std::vector<Vec3> Loop::smoothed(std::span<const Vec3> values, double sigma) const {
     // A little more, so that rounding does not decide about vertices just there.
-    const double reach = (kReach * sigma + 1e-9) * length_;
+    const double reach = (kTubeReach * sigma + 1e-9) * length_;
     std::vector<Vec3> result;
     const auto mass = [&](Index k) { return 0.5 * (edge(k) + edge((k + size() - 1) % size())); };
     for (Index k = 0; k < size(); ++k) {

@@ -27,7 +27,7 @@ constexpr int kFits = 8;
 constexpr double kMirrored = 0.06;
 // No other plane may be nearly as good, by a factor and by a part of the size: a round part has
 // many. Planes at a smaller angle than this are one.
-constexpr double kOtherPlane = 25.0 * kPi / 180.0, kClearlyBetter = 1.4, kClearlyLess = 0.02;
+constexpr double kOtherPlane = 25.0 * kPi / 180.0, kClearlyFlatter = 1.4, kClearlyLess = 0.02;
 
 struct Plane {
     Vec3 point = Vec3::Zero(), normal = Vec3::UnitX();
@@ -196,7 +196,7 @@ PartShape part_shape(const Mesh& mesh, const Loop& loop, const Context& context)
         if (angle_between_planes(other.plane.normal, best.plane.normal) < kOtherPlane) continue;
         shape.next_asymmetry = std::min(shape.next_asymmetry, other.asymmetry);
     }
-    const double others = std::max(kClearlyBetter * best.asymmetry, best.asymmetry + kClearlyLess);
+    const double others = std::max(kClearlyFlatter * best.asymmetry, best.asymmetry + kClearlyLess);
     if (best.asymmetry < kMirrored && shape.next_asymmetry > others) {
         shape.mirror = best.plane.normal;
     }

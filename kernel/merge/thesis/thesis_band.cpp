@@ -21,8 +21,8 @@ namespace lissom {
 namespace {
 
 // Cotangents count as at least this, so that no triangle of the square turns over.
-constexpr double kLeastWeight = 0.05;
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kLeastCotangent = 0.05;
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 using Edge = std::pair<Index, Index>;
 
@@ -32,7 +32,7 @@ using Edge = std::pair<Index, Index>;
                                                  " " + what);
 }
 
-double wrapped(double turn) {
+double fraction_of(double turn) {
     return turn - std::floor(turn);
 }
 
@@ -161,7 +161,7 @@ void Square::close_outlines() {
 
 // The shortest path from a vertex of the loop to the far end that leaves the loop at once.
 std::vector<Index> Square::path_from(Index first) const {
-    std::vector<double> way(region_.vertex_count(), kFar);
+    std::vector<double> way(region_.vertex_count(), kUnreached);
     std::vector<Index> before(way.size(), kNoIndex);
     std::vector<char> barred(way.size(), 0), end(way.size(), 0);
     for (const Index v : loop_) barred[v] = 1;
@@ -230,7 +230,7 @@ void Square::mark_left() {
 void Square::fix_sides() {
     const double origin = given_.fraction[start_];
     for (std::size_t k = 0; k < loop_.size(); ++k) {
-        fixed_[loop_[k]] = {wrapped(given_.fraction[k] - origin), 0.0};
+        fixed_[loop_[k]] = {fraction_of(given_.fraction[k] - origin), 0.0};
     }
     // Outlines have the region on their left, so that the far end of a target runs against the
     // seam.
@@ -274,7 +274,7 @@ std::vector<Vec2> Square::solve(const Context& context) const {
         if (row[v] == kNoIndex) continue;
         for (Index e = rings.begin[v]; e < rings.begin[v + 1]; ++e) {
             const Index w = rings.neighbor[e];
-            const double weight = std::max(kLeastWeight, geometry.cotangent[e]);
+            const double weight = std::max(kLeastCotangent, geometry.cotangent[e]);
             entries.push_back({row[v], row[v], weight});
             if (row[w] != kNoIndex) {
                 entries.push_back({row[v], row[w], -weight});
@@ -347,7 +347,7 @@ ThesisBand make_thesis_band(const Mesh& mesh, const BandLoop& loop, double width
     band.chart.triangles.assign(square.triangles().begin(), square.triangles().end());
     const double origin = loop.fraction[square.start()];
     for (std::size_t i = 0; i < at.size(); ++i) {
-        band.chart.angle.push_back(wrapped(origin + at[i].x()));
+        band.chart.angle.push_back(fraction_of(origin + at[i].x()));
         band.chart.distance.push_back(width * at[i].y());
         band.path.push_back(path[region.vertex_map[i]]);
     }

@@ -48,8 +48,8 @@ KnownMask knowledge_of(const TransitionMesh& side, const WorkingPatch& work) {
 }
 
 // One mesh with its operators.
-struct Side {
-    Side(const TransitionMesh& from, const DeformOptions& options)
+struct ThesisSide {
+    ThesisSide(const TransitionMesh& from, const DeformOptions& options)
         : given(from),
           work(build_patch(*from.mesh, Region::all(from.mesh->shared_topology()), 0), options),
           known(knowledge_of(from, work)),
@@ -68,7 +68,7 @@ struct Side {
 // The quadratic form of both meshes over their stacked vertices, those of the source last.
 class Assembler {
   public:
-    Assembler(const Side& target, const Side& source)
+    Assembler(const ThesisSide& target, const ThesisSide& source)
         : sides_{&target, &source},
           offset_{0, target.size()},
           size_(target.size() + source.size()),
@@ -113,7 +113,7 @@ class Assembler {
 
     // M_i of stacked positions.
     Mat3 gradient(std::size_t side, Index i, const Columns& x) const {
-        const Side& s = *sides_[side];
+        const ThesisSide& s = *sides_[side];
         if (s.known.gradient[i]) return s.given.gradient[s.work.patch.mesh_vertex[i]];
         if (!s.stencils.defined[i]) return Mat3::Identity();
         Mat3 m = x.row(offset_[side] + i).transpose() * s.stencils.self[i].transpose();
@@ -133,7 +133,7 @@ class Assembler {
 
     // L and M, and delta where Eq 2.6 has a term.
     void add_rows(std::size_t number, Entries& laplacian, std::array<Entries, 3>& gradient) {
-        const Side& side = *sides_[number];
+        const ThesisSide& side = *sides_[number];
         const Rings& rings = side.work.rings;
         for (Index i = 0; i < rings.size(); ++i) {
             const Index row = offset_[number] + i;
@@ -167,7 +167,7 @@ class Assembler {
 
     // The pairs SF of Eq 2.7: two rings, each pair from both its ends.
     void add_pairs(std::size_t number, Entries& coherence) const {
-        const Side& side = *sides_[number];
+        const ThesisSide& side = *sides_[number];
         const Rings& rings = side.work.rings;
         std::vector<Index> near;
         for (Index i = 0; i < rings.size(); ++i) {
@@ -205,7 +205,7 @@ class Assembler {
         return made(entries, row);
     }
 
-    std::array<const Side*, 2> sides_;
+    std::array<const ThesisSide*, 2> sides_;
     std::array<Index, 2> offset_;
     Index size_;
     Columns delta_;
@@ -255,7 +255,7 @@ void minimise(const Matrix& matrix, const Columns& linear, const std::vector<Ind
 }
 
 // Displaced vertices come back by v = M (v - v') + v' (section 2.4.3).
-TransitionShape shape_of(const Side& side, std::size_t number, const Assembler& assembler,
+TransitionShape shape_of(const ThesisSide& side, std::size_t number, const Assembler& assembler,
                          const Columns& x, const Vec3& origin) {
     TransitionShape shape{side.given.position,
                           std::vector<Mat3>(side.given.position.size(), Mat3::Identity())};
@@ -283,7 +283,7 @@ ThesisTransition thesis_transition(const TransitionMesh& target, const Transitio
     Progress progress(context, "transition");
     progress.step(0.5);
     const DeformOptions options = DeformOptions::thesis();
-    const std::array<Side, 2> sides{Side(target, options), Side(source, options)};
+    const std::array<ThesisSide, 2> sides{ThesisSide(target, options), ThesisSide(source, options)};
     const Assembler assembler(sides[0], sides[1]);
     Matrix matrix;
     Columns linear;

@@ -1,4 +1,5 @@
 #include "kernel/mesh/cut/surface_curve.h"
+#include "kernel/core/geometry.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,8 +8,6 @@
 
 namespace lissom {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Samples of a curve: two an edge, within these.
 constexpr Index kFewestSamples = 128, kMostSamples = 8192;

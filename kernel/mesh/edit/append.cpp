@@ -1,4 +1,5 @@
 #include "kernel/mesh/edit/append.h"
+#include "kernel/core/geometry.h"
 #include "kernel/mesh/label_adder.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 
 namespace lissom {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void require_room(std::int64_t count, std::int64_t more, const char* what) {
     if (count + more <= std::numeric_limits<Index>::max()) return;

@@ -3,12 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/core/geometry.h"
 #include "kernel/mesh/measure/measures.h"
 
 namespace lissom {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void require_same_faces(const Mesh& mesh, const Mesh& rest) {
     const FaceList &a = mesh.topology().faces(), &b = rest.topology().faces();

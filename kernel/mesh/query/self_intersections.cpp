@@ -13,7 +13,7 @@ namespace lissom {
 namespace {
 
 constexpr Index kPairLeafSize = 4;
-constexpr Index kGrain = 1024;
+constexpr Index kIntersectionGrain = 1024;
 
 bool overlap(const Box& a, const Box& b) {
     return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
@@ -131,12 +131,14 @@ class Search {
         if (first.size() > second.size()) std::swap(first, second);
         const PairTree tree(boxes_, std::move(first));
         const auto count = count_of(second);
-        std::vector<std::vector<FacePair>> found((count + kGrain - 1) / kGrain);
-        context.parallel_for(0, count, kGrain, [&](Index begin, Index end) {
+        std::vector<std::vector<FacePair>> found((count + kIntersectionGrain - 1) /
+                                                 kIntersectionGrain);
+        context.parallel_for(0, count, kIntersectionGrain, [&](Index begin, Index end) {
             context.checkpoint();
             for (Index i = begin; i < end; ++i) {
-                tree.visit(boxes_[second[i]],
-                           [&](Index other) { test(second[i], other, found[begin / kGrain]); });
+                tree.visit(boxes_[second[i]], [&](Index other) {
+                    test(second[i], other, found[begin / kIntersectionGrain]);
+                });
             }
         });
         std::vector<FacePair> pairs;

@@ -12,7 +12,7 @@ namespace {
 
 // What rounding may do to distances, as a fraction of them; far above it, far below what is
 // visible.
-constexpr double kRounding = 1e-13;
+constexpr double kBoxRounding = 1e-13;
 // Points that are as near as this fraction of a surface's size are at one place.
 constexpr double kSamePlace = 1e-9;
 
@@ -43,7 +43,7 @@ Candidate nearest_on_triangle(const std::array<Vec3, 3>& corners, const Vec3& p)
     const Vec3 ab = corners[1] - corners[0], ac = corners[2] - corners[0], ap = p - corners[0];
     const Vec3 normal = ab.cross(ac);
     const double square = normal.squaredNorm();
-    if (square > kRounding * kRounding * ab.squaredNorm() * ac.squaredNorm()) {
+    if (square > kBoxRounding * kBoxRounding * ab.squaredNorm() * ac.squaredNorm()) {
         const double b = ap.cross(ac).dot(normal) / square, c = ab.cross(ap).dot(normal) / square;
         if (b >= 0.0 && c >= 0.0 && b + c <= 1.0) {
             const Vec3 foot = corners[0] + b * ab + c * ac;
@@ -93,7 +93,7 @@ struct SpatialTree::Line {
         axis[1] = (axis[2] + 2) % 3;
         shear_x = direction[axis[0]] / direction[axis[2]];
         shear_y = direction[axis[1]] / direction[axis[2]];
-        padding = kRounding * (box.diagonal() + (box.center() - origin).norm());
+        padding = kBoxRounding * (box.diagonal() + (box.center() - origin).norm());
     }
 
     // Where the ray enters the box, or infinity where it misses it.
@@ -110,7 +110,7 @@ struct SpatialTree::Line {
             in = std::max(in, std::min(a, b));
             out = std::min(out, std::max(a, b));
         }
-        return in <= out * (1.0 + kRounding) ? in * (1.0 - kRounding)
+        return in <= out * (1.0 + kBoxRounding) ? in * (1.0 - kBoxRounding)
                                              : std::numeric_limits<double>::infinity();
     }
 
@@ -170,7 +170,7 @@ std::optional<SpatialTree::Hit> SpatialTree::nearest_triangle(const Vec3& point,
     stack[size++] = {squared_distance(bounds(), point), 0};
     while (size > 0) {
         const auto [lower_bound, at] = stack[--size];
-        if (lower_bound > best_square * (1.0 + kRounding)) continue;
+        if (lower_bound > best_square * (1.0 + kBoxRounding)) continue;
         const BoxTree::Node& node = boxes_.node(at);
         for (const Index t : boxes_.items(node)) {
             const auto [a, b, c] = triangles_[t];

@@ -11,7 +11,7 @@ namespace lissom {
 namespace {
 
 // The elements of the file from which those of the mesh take their values.
-struct Sources {
+struct SoupSources {
     std::span<const Index> file_corners;
     const CornerFaces& work;
     const FanVertices& fans;
@@ -19,8 +19,8 @@ struct Sources {
     std::span<const Index> fan_of_corner;
     bool corners_unchanged;
 
-    Sources(std::span<const Index> corners, const CornerFaces& faces, const FanVertices& vertices,
-            const Topology& topology)
+    SoupSources(std::span<const Index> corners, const CornerFaces& faces,
+                const FanVertices& vertices, const Topology& topology)
         : file_corners(corners),
           work(faces),
           fans(vertices),
@@ -63,7 +63,7 @@ Attribute taken(const Attribute& old, Domain domain, const std::vector<Index>& s
     return result;
 }
 
-bool differs_at_a_vertex(const Attribute& old, const Sources& sources) {
+bool differs_at_a_vertex(const Attribute& old, const SoupSources& sources) {
     for (std::size_t c = 0; c < sources.corner_count(); ++c) {
         const Index here = sources.vertex_at(c);
         const Index first = sources.fans.source[sources.fan_of_corner[c]];
@@ -72,7 +72,7 @@ bool differs_at_a_vertex(const Attribute& old, const Sources& sources) {
     return false;
 }
 
-Attribute carried(Attribute&& old, const Sources& sources) {
+Attribute carried(Attribute&& old, const SoupSources& sources) {
     if (old.domain == Domain::face) {
         if (sources.faces_unchanged(old.size())) return std::move(old);
         return taken(old, Domain::face, sources.work.face_source);
@@ -88,7 +88,7 @@ Attribute carried(Attribute&& old, const Sources& sources) {
     return taken(old, Domain::corner, sources.vertices_at_corners());
 }
 
-void carry_labels(AttributeSet&& old, const Sources& sources, AttributeSet& result) {
+void carry_labels(AttributeSet&& old, const SoupSources& sources, AttributeSet& result) {
     for (auto& [kind, labels] : old.labels()) {
         FaceLabels& kept = result.labels()[kind];
         if (sources.faces_unchanged(labels.of_face.size())) {
@@ -102,7 +102,7 @@ void carry_labels(AttributeSet&& old, const Sources& sources, AttributeSet& resu
 }
 
 std::vector<Index> carried_region(const std::vector<Index>& vertices, std::size_t file_vertices,
-                                  const Sources& sources) {
+                                  const SoupSources& sources) {
     std::vector<char> inside(file_vertices, 0);
     for (const Index v : vertices) inside[v] = 1;
     std::vector<Index> kept;
@@ -155,7 +155,7 @@ Mesh carry_soup(Soup soup, std::span<const Index> file_corners, CornerFaces work
     work.faces = {};
     work.face_of_corner = {};
     auto topology = Topology::create_paired(count_of(fans.source), std::move(faces), twin, context);
-    const Sources sources(file_corners, work, fans, *topology);
+    const SoupSources sources(file_corners, work, fans, *topology);
     Mesh mesh(carried_positions(soup, fans), std::move(topology), context);
     for (Attribute& attribute : soup.attributes.all()) {
         context.checkpoint();

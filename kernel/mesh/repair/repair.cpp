@@ -16,12 +16,6 @@
 namespace lissom {
 namespace {
 
-[[noreturn]] void refuse(ErrorCode code, Elements elements, const std::string& what,
-                         const std::string& remedy) {
-    const std::string names = describe(elements);
-    throw Error(code, what + " " + names + "; " + remedy, std::move(elements));
-}
-
 void require_indices(const Soup& soup) {
     const auto count = count_of(soup.positions);
     Elements bad{ElementKind::face, 0, {}};

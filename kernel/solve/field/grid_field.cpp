@@ -60,7 +60,7 @@ std::size_t standing_bytes(const GridSize& size, const GridFieldOptions& options
     return bytes;
 }
 
-double greatest(std::span<const Vec3> vectors) {
+double greatest_component(std::span<const Vec3> vectors) {
     double most = 0.0;
     for (const Vec3& v : vectors) most = std::max(most, v.cwiseAbs().maxCoeff());
     return most;
@@ -158,7 +158,7 @@ void GridField::State::solve_dual(std::span<const MergedConstraint> merged,
         sink.constant = result.constant;
         green->apply_at(next.point, result.multiplier, workspace.first.get(),
                         workspace.second.get(), sink, context);
-        correct_boundary({laplacian, *green, *dual, options.tolerance * greatest(known)},
+        correct_boundary({laplacian, *green, *dual, options.tolerance * greatest_component(known)},
                          result.multiplier, field.get(), workspace, context);
         stored = std::move(field);
     }

@@ -13,8 +13,8 @@ namespace {
 constexpr Index kBlock = kPanelColumns, kBlockGrain = 4;
 
 // What a thread writes to.
-struct Scratch {
-    explicit Scratch(Index n)
+struct TransformScratch {
+    explicit TransformScratch(Index n)
         : packed(std::make_unique_for_overwrite<double[]>(kPackedSize)),
           halves(std::make_unique_for_overwrite<double[]>(at(n + 1) * kBlock)) {}
     std::unique_ptr<double[]> packed, halves;
@@ -25,7 +25,7 @@ template <typename Body>
 void for_each_block(Index columns, Index n, const Context& context, const Body& body) {
     const Index blocks = (columns + kBlock - 1) / kBlock;
     context.parallel_for(0, blocks, kBlockGrain, [&](Index begin, Index end) {
-        Scratch scratch(n);
+        TransformScratch scratch(n);
         for (Index b = begin; b < end; ++b) {
             const Index first = b * kBlock;
             for (int c = 0; c < kComponents; ++c) {
@@ -124,61 +124,63 @@ void CosineTransform::forward_step(const Axis& axis, const double* from, double*
                                    const Context& context) const {
     const DenseKernels kernels = dense_kernels(best_processor());
     const Index total = size_.count(), stride = total / axis.n;
-    for_each_block(stride, axis.n, context, [&](int c, Index first, Index columns, Scratch& s) {
-        const std::size_t shift = at(c) * total;
-        double *sums = s.halves.get(), *differences = sums + axis.even * columns;
-        fold(from + shift + first, stride, axis.n, columns, sums, differences);
-        DenseProduct product;
-        product.packed = s.packed.get();
-        product.columns = columns;
-        product.b_stride = columns;
-        product.c_stride = axis.n;
-        product.c = to + shift + std::ptrdiff_t{first} * axis.n;
-        product.a = axis.forward_even.data();
-        product.b = sums;
-        product.rows = product.depth = axis.even;
-        product.stride = axis.even;
-        kernels.multiply(product);
-        if (axis.odd == 0) return;
-        product.c += axis.even;
-        product.a = axis.forward_odd.data();
-        product.b = differences;
-        product.rows = product.depth = axis.odd;
-        product.stride = axis.odd;
-        kernels.multiply(product);
-    });
+    for_each_block(stride, axis.n, context,
+                   [&](int c, Index first, Index columns, TransformScratch& s) {
+                       const std::size_t shift = at(c) * total;
+                       double *sums = s.halves.get(), *differences = sums + axis.even * columns;
+                       fold(from + shift + first, stride, axis.n, columns, sums, differences);
+                       DenseProduct product;
+                       product.packed = s.packed.get();
+                       product.columns = columns;
+                       product.b_stride = columns;
+                       product.c_stride = axis.n;
+                       product.c = to + shift + std::ptrdiff_t{first} * axis.n;
+                       product.a = axis.forward_even.data();
+                       product.b = sums;
+                       product.rows = product.depth = axis.even;
+                       product.stride = axis.even;
+                       kernels.multiply(product);
+                       if (axis.odd == 0) return;
+                       product.c += axis.even;
+                       product.a = axis.forward_odd.data();
+                       product.b = differences;
+                       product.rows = product.depth = axis.odd;
+                       product.stride = axis.odd;
+                       kernels.multiply(product);
+                   });
 }
 
 void CosineTransform::inverse_step(const Axis& axis, const double* from, const FieldSink& sink,
                                    const Context& context) const {
     const DenseKernels kernels = dense_kernels(best_processor());
     const Index total = size_.count(), stride = total / axis.n;
-    for_each_block(stride, axis.n, context, [&](int c, Index first, Index columns, Scratch& s) {
-        const double* block = from + at(c) * total + first;
-        double *even = s.halves.get(), *odd = even + axis.even * columns;
-        DenseProduct product;
-        product.packed = s.packed.get();
-        product.columns = columns;
-        product.b_stride = stride;
-        product.a = axis.inverse_even.data();
-        product.b = block;
-        product.c = even;
-        product.rows = product.depth = axis.even;
-        product.stride = product.c_stride = axis.even;
-        kernels.multiply(product);
-        if (axis.odd > 0) {
-            product.a = axis.inverse_odd.data();
-            product.b = block + std::ptrdiff_t{axis.even} * stride;
-            product.c = odd;
-            product.rows = product.depth = axis.odd;
-            product.stride = product.c_stride = axis.odd;
-            kernels.multiply(product);
-        }
-        for (Index i = 0; i < columns; ++i) {
-            write_column(sink, c, total, at(first + i) * axis.n, even + i * axis.even,
-                         odd + i * axis.odd, axis.n);
-        }
-    });
+    for_each_block(stride, axis.n, context,
+                   [&](int c, Index first, Index columns, TransformScratch& s) {
+                       const double* block = from + at(c) * total + first;
+                       double *even = s.halves.get(), *odd = even + axis.even * columns;
+                       DenseProduct product;
+                       product.packed = s.packed.get();
+                       product.columns = columns;
+                       product.b_stride = stride;
+                       product.a = axis.inverse_even.data();
+                       product.b = block;
+                       product.c = even;
+                       product.rows = product.depth = axis.even;
+                       product.stride = product.c_stride = axis.even;
+                       kernels.multiply(product);
+                       if (axis.odd > 0) {
+                           product.a = axis.inverse_odd.data();
+                           product.b = block + std::ptrdiff_t{axis.even} * stride;
+                           product.c = odd;
+                           product.rows = product.depth = axis.odd;
+                           product.stride = product.c_stride = axis.odd;
+                           kernels.multiply(product);
+                       }
+                       for (Index i = 0; i < columns; ++i) {
+                           write_column(sink, c, total, at(first + i) * axis.n,
+                                        even + i * axis.even, odd + i * axis.odd, axis.n);
+                       }
+                   });
 }
 
 void CosineTransform::forward(double* from, double* to, const Context& context) const {

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <mutex>
 #include <utility>
 
+#include "kernel/core/clock.h"
 #include "kernel/solve/sparse/sparse_system.h"
 #include "kernel/solve/sparse/sparse_system_check.h"
 #include "kernel/solve/sparse/supernodal_factor.h"
@@ -11,12 +11,6 @@
 
 namespace lissom {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Least pivot relative to its diagonal entry, and the row it belongs to.
 std::pair<double, Index> least_pivot(const Supernodes& nodes, const double* value,

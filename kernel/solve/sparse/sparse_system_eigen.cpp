@@ -1,20 +1,15 @@
 #include <Eigen/SparseCholesky>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "kernel/core/clock.h"
 #include "kernel/solve/sparse/sparse_system.h"
 #include "kernel/solve/sparse/sparse_system_check.h"
 
 namespace lissom {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 Eigen::Map<const Matrix> view_of(const SymmetricMatrix& matrix) {
     return {matrix.size(),       matrix.size(),     static_cast<Eigen::Index>(matrix.nonzeros()),

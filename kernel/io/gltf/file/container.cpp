@@ -9,11 +9,11 @@
 namespace lissom {
 namespace {
 
-constexpr std::string_view kMagic = "glTF";
-constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
+constexpr std::string_view kGltfMagic = "glTF";
+constexpr std::size_t kGltfHeaderBytes = 12, kChunkHeaderBytes = 8;
 constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-constexpr int kMaximumDepth = 64;
+constexpr int kDeepestJson = 64;
 
 [[noreturn]] void refuse_short(std::size_t announced, std::size_t found) {
     refuse(ErrorCode::file_truncated, "the GLB file announces " + std::to_string(announced) +
@@ -41,21 +41,21 @@ void take_chunk(std::uint32_t type, std::string_view data, bool is_first, GltfCo
 }
 
 GltfContainer open_glb(std::string_view bytes) {
-    if (bytes.size() < kHeaderBytes) refuse_short(kHeaderBytes, bytes.size());
-    ByteReader header(bytes.substr(kMagic.size()), Endianness::little);
+    if (bytes.size() < kGltfHeaderBytes) refuse_short(kGltfHeaderBytes, bytes.size());
+    ByteReader header(bytes.substr(kGltfMagic.size()), Endianness::little);
     require_version(header.read<std::uint32_t>());
     const std::size_t length = header.read<std::uint32_t>();
     if (length > bytes.size()) refuse_short(length, bytes.size());
-    if (length < kHeaderBytes + kChunkHeaderBytes) {
+    if (length < kGltfHeaderBytes + kChunkHeaderBytes) {
         refuse(ErrorCode::file_syntax, "the GLB file has no chunk of JSON");
     }
     GltfContainer result;
-    for (std::size_t at = kHeaderBytes; at < length;) {
+    for (std::size_t at = kGltfHeaderBytes; at < length;) {
         if (length - at < kChunkHeaderBytes) refuse_short(at + kChunkHeaderBytes, length);
         ByteReader chunk(bytes.substr(at, kChunkHeaderBytes), Endianness::little);
         const std::size_t size = chunk.read<std::uint32_t>();
         const auto type = chunk.read<std::uint32_t>();
-        const bool is_first = at == kHeaderBytes;
+        const bool is_first = at == kGltfHeaderBytes;
         at += kChunkHeaderBytes;
         if (size > length - at) refuse_short(at + size, length);
         take_chunk(type, bytes.substr(at, size), is_first, result);
@@ -78,7 +78,7 @@ void append_chunk(std::string& bytes, std::uint32_t type, const std::string& dat
 }  // namespace
 
 GltfContainer open_gltf_container(std::string_view bytes) {
-    if (bytes.starts_with(kMagic)) return open_glb(bytes);
+    if (bytes.starts_with(kGltfMagic)) return open_glb(bytes);
     return {bytes, std::nullopt};
 }
 
@@ -93,9 +93,9 @@ void require_shallow(std::string_view json) {
         } else if (c == '"') {
             in_string = true;
         } else if (c == '{' || c == '[') {
-            if (++depth <= kMaximumDepth) continue;
+            if (++depth <= kDeepestJson) continue;
             refuse(ErrorCode::file_syntax,
-                   "the JSON is nested deeper than " + std::to_string(kMaximumDepth) + " levels");
+                   "the JSON is nested deeper than " + std::to_string(kDeepestJson) + " levels");
         } else if (c == '}' || c == ']') {
             --depth;
         }
@@ -103,13 +103,13 @@ void require_shallow(std::string_view json) {
 }
 
 std::string make_glb(const std::string& json, const std::string& binary) {
-    std::size_t length = kHeaderBytes + kChunkHeaderBytes + padded(json.size());
+    std::size_t length = kGltfHeaderBytes + kChunkHeaderBytes + padded(json.size());
     if (!binary.empty()) length += kChunkHeaderBytes + padded(binary.size());
     if (length > std::numeric_limits<std::uint32_t>::max()) {
         refuse(ErrorCode::file_too_large,
                "a GLB file cannot be larger than 4 GiB; save the mesh in parts");
     }
-    std::string bytes(kMagic);
+    std::string bytes(kGltfMagic);
     bytes.reserve(length);
     append_u32(bytes, kVersion);
     append_u32(bytes, length);

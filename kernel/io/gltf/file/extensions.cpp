@@ -5,6 +5,7 @@
 #include <set>
 
 #include "kernel/io/stream/read_error.h"
+#include "kernel/io/stream/words.h"
 
 namespace lissom {
 namespace {
@@ -17,11 +18,6 @@ constexpr std::array<std::string_view, 9> kSupported{
 // Extensions of primitives that hold beside another surface.
 constexpr std::array<std::string_view, 2> kKeptOnPrimitives{"KHR_materials_variants",
                                                             "KHR_xmp_json_ld"};
-
-template <std::size_t Count>
-bool is_one_of(std::string_view name, const std::array<std::string_view, Count>& list) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-}
 
 bool is_supported(std::string_view name) {
     return name.starts_with("KHR_materials_") || is_one_of(name, kSupported);

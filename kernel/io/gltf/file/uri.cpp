@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/percent.h"
 #include "kernel/io/stream/read_error.h"
 
 namespace lissom {
@@ -13,38 +14,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kDigits =
+constexpr std::string_view kBase64Digits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 // Images have no announced size; none in use is near this one.
 constexpr std::size_t kLargestImage = std::size_t{512} << 20;
 
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
-std::string percent_decoded(std::string_view text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool is_escape = text[i] == '%' && i + 2 < text.size() &&
-                               hex_digit(text[i + 1]) >= 0 && hex_digit(text[i + 2]) >= 0;
-        if (!is_escape) {
-            result += text[i];
-            continue;
-        }
-        result += static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2]));
-        i += 2;
-    }
-    return result;
-}
-
 std::array<int, 256> digit_values() {
     std::array<int, 256> values;
     values.fill(-1);
-    for (std::size_t i = 0; i < kDigits.size(); ++i) {
-        values[static_cast<unsigned char>(kDigits[i])] = index_of(i);
+    for (std::size_t i = 0; i < kBase64Digits.size(); ++i) {
+        values[static_cast<unsigned char>(kBase64Digits[i])] = index_of(i);
     }
     return values;
 }
@@ -135,7 +114,7 @@ std::string make_data_uri(std::string_view bytes) {
             bits = bits << 8 | (there ? static_cast<unsigned char>(bytes[i + k]) : 0u);
         }
         for (std::size_t k = 0; k < 4; ++k) {
-            uri += i + k > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * k) & 63];
+            uri += i + k > bytes.size() ? '=' : kBase64Digits[bits >> (18 - 6 * k) & 63];
         }
     }
     return uri;

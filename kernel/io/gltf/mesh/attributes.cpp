@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/core/geometry.h"
 #include "kernel/io/stream/read_error.h"
 
 namespace lissom {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Index expected_width(GltfSemantic semantic) {
     switch (semantic) {

@@ -1,0 +1,15 @@
+/// The option `up` of what reads and writes files: the choices "y" and "z", in this order.
+#pragma once
+
+#include "bindings/lua/core/call.h"
+#include "kernel/io/record/options.h"
+
+namespace lissom::lua {
+
+/// The value of the option; none where it was not given.
+inline UpAxis up_axis(const Call& call) {
+    if (!call.has("up")) return UpAxis::none;
+    return call.integer("up") == 0 ? UpAxis::y : UpAxis::z;
+}
+
+}  // namespace lissom::lua
