@@ -146,7 +146,57 @@ Camera camera_for(const Picture& picture, const Snapshot& framed, double aspect)
     return frame_points(picture.view, framed_points(framed), framing);
 }
 
+// Distance between the middles of meshes that stand side by side, in their largest extent.
+constexpr double kSpread = 1.25;
+
+// Where the cell of a mesh is when all are in one space.
+std::vector<Vec3> spread(const Picture& picture) {
+    double extent = 0.0;
+    for (const DrawnMesh& drawn : picture.meshes) {
+        Box box;
+        for (const Vec3& p : drawn.mesh->positions()) box.extend(drawn.transform(p));
+        if (!box.empty()) extent = std::max(extent, (box.max - box.min).maxCoeff());
+    }
+    const Vec3 down = picture.framing.up == ViewUp::y ? Vec3(-Vec3::UnitY()) : Vec3(-Vec3::UnitZ());
+    std::vector<Vec3> places;
+    for (int i = 0; i < count_of(picture.meshes); ++i) {
+        const int row = i / picture.columns, column = i % picture.columns;
+        places.push_back(kSpread * extent * (column * Vec3::UnitX() + row * down));
+    }
+    return places;
+}
+
+void move(PictureStrands& strands, const std::vector<Vec3>& places) {
+    if (!strands.mesh) return;
+    strands.drawn.transform = translation(places[*strands.mesh]) * strands.drawn.transform;
+}
+
 }  // namespace
+
+Snapshot snapshot_of(const Picture& picture) {
+    Picture placed = picture;
+    if (picture.columns > 0) {
+        const std::vector<Vec3> places = spread(picture);
+        for (std::size_t i = 0; i < placed.meshes.size(); ++i) {
+            placed.meshes[i].transform = translation(places[i]) * placed.meshes[i].transform;
+        }
+        for (PictureStrands& strands : placed.strands) move(strands, places);
+    }
+    for (std::size_t i = 0; i < placed.meshes.size(); ++i) placed.meshes[i].object = i + 1;
+    return whole(placed, range_of(picture, range_of_values(picture.meshes)));
+}
+
+Camera camera_of(const Picture& picture, const Snapshot& snapshot, double aspect) {
+    return camera_for(picture, snapshot, aspect);
+}
+
+Picture frozen(Picture picture) {
+    for (DrawnMesh& drawn : picture.meshes) drawn.mesh = std::make_shared<const Mesh>(*drawn.mesh);
+    for (PictureStrands& strands : picture.strands) {
+        strands.drawn.strands = std::make_shared<const Strands>(*strands.drawn.strands);
+    }
+    return picture;
+}
 
 Image draw_picture(Renderer& renderer, const Picture& picture, const Context& context) {
     require_faces(picture.meshes);

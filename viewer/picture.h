@@ -48,6 +48,17 @@ struct Picture {
     RenderOptions options = {};
 };
 
+/// All of `picture` in one space, its scale of colours included: with columns, the meshes stand
+/// side by side. Errors: invalid_argument where the range is empty.
+Snapshot snapshot_of(const Picture& picture);
+
+/// The camera of `picture`, or the standard view that frames all of its snapshot in a picture whose
+/// width is `aspect` times its height. Errors: as frame_points.
+Camera camera_of(const Picture& picture, const Snapshot& snapshot, double aspect);
+
+/// `picture` with copies of its meshes and strands: it stays as it is whatever becomes of those.
+Picture frozen(Picture picture);
+
 /// Draws `picture`. Errors: those of Renderer::render and frame_points; mesh_empty for a mesh
 /// without faces; invalid_argument where the range is empty, or the size leaves no room for cells
 /// or legend.

@@ -68,7 +68,9 @@ ContextOptions Program::context_options() {
         clear_progress();
         std::cerr << (level == LogLevel::warning ? "warning: " : "") << message << std::endl;
     };
-    if (own_->shows_progress) {
+    if (progress_listener) {
+        options.progress = progress_listener;
+    } else if (own_->shows_progress) {
         options.progress = [this](std::string_view label, double fraction) {
             own_->bar.show(label, fraction);
         };

@@ -88,6 +88,8 @@ class Program {
     /// Sees each message of the log first, where it is set; false keeps the message from the
     /// standard error.
     std::function<bool(LogLevel, std::string_view)> log_filter;
+    /// Sees progress instead of the terminal, where it is set.
+    std::function<void(std::string_view label, double fraction)> progress_listener;
     /// Threads of the kernel's loops; 0 for as many as there are cores.
     int threads = 0;
 

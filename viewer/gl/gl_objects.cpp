@@ -179,6 +179,14 @@ void Framebuffer::resolve_to(const Framebuffer& target) const {
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+void Framebuffer::copy_to_window(int x, int y, Extent rectangle) const {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, name_.id());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, extent_.width, extent_.height, x, y + rectangle.height,
+                      x + rectangle.width, y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
 Program::Program(std::string_view name, const char* common, const char* vertex,
                  const char* fragment) {
     const Shader vertex_shader = compile(name, GL_VERTEX_SHADER, common, vertex);

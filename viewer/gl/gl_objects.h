@@ -81,6 +81,9 @@ class Framebuffer {
     void bind() const;
     /// Copies colours to `target`, averaging samples.
     void resolve_to(const Framebuffer& target) const;
+    /// Copies colours, whose rows count from the top, to a rectangle of the window of the current
+    /// context: (x, y) is its lower left pixel, y from the bottom. Without samples.
+    void copy_to_window(int x, int y, Extent rectangle) const;
 
   private:
     void attach_depth(int samples);

@@ -42,6 +42,17 @@ RendererSlot& renderer_slot(const Call& call) {
     return *reinterpret_cast<RendererSlot*>(held);
 }
 
+// ---- Who sees pictures beside their files
+
+const char kListenerKey = 0;
+
+const PictureListener* picture_listener(lua_State* L) {
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kListenerKey);
+    const auto* listener = static_cast<const PictureListener*>(lua_touserdata(L, -1));
+    lua_pop(L, 1);
+    return listener;
+}
+
 // ---- The script's options. All of these run inside `attempt`.
 
 void require_count(std::size_t given, std::size_t meshes, const char* what) {
@@ -421,6 +432,7 @@ int render(Call& call) {
         require_picture_path(file_path(file));
         require_folder_of(file_path(file));
         const Picture picture = compose(call, view, size);
+        if (const PictureListener* listener = picture_listener(call.lua())) (*listener)(picture);
         if (!renderer) renderer = std::make_unique<Renderer>();
         const Image image = draw_picture(*renderer, picture, call.context());
         save_picture(image, file_path(file), call.context());
@@ -614,6 +626,11 @@ std::vector<Parameter> picture_options() {
 }
 
 }  // namespace
+
+void set_picture_listener(lua_State* L, const PictureListener* listener) {
+    lua_pushlightuserdata(L, const_cast<PictureListener*>(listener));
+    raw_set_pointer(L, LUA_REGISTRYINDEX, &kListenerKey);
+}
 
 std::vector<Function> render_functions() {
     std::vector<Parameter> options = content_options();

@@ -2,11 +2,19 @@
 /// the kernel's own functions (bindings/lua/core/registry.h).
 #pragma once
 
+#include <functional>
+#include "bindings/lua/core/compat.h"
 #include "bindings/lua/core/registry.h"
+#include "viewer/picture.h"
 
 namespace lissom::lua {
 
 Library viewer_library();
+
+/// Sees what lissom.render is asked to draw, before it is drawn; on the thread of the script.
+using PictureListener = std::function<void(const Picture&)>;
+/// `listener` sees the pictures of `L` from now on, and must outlive it; null: nobody does.
+void set_picture_listener(lua_State* L, const PictureListener* listener);
 
 /// Its parts; private to viewer.
 std::vector<Function> render_functions();

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <mutex>
 
 namespace lissom::cli {
 namespace {
@@ -10,6 +11,14 @@ namespace {
 std::atomic<const Context*> listening_context{nullptr};
 std::atomic<lua_State*> running_thread{nullptr};
 volatile std::sig_atomic_t pressed_flag = 0, prompt_flag = 0;
+// Keeps what `press` stops alive until it has: a handler of signals needs no lock where the work
+// runs on the thread that it interrupts.
+std::mutex pressing;
+
+void set_running(lua_State* L) {
+    const std::lock_guard lock(pressing);
+    running_thread.store(L);
+}
 
 // Stays armed until the host's call returns: pcall cannot swallow it for good.
 void stop_script(lua_State* L, lua_Debug*) {
@@ -20,7 +29,13 @@ void arm(lua_State* L) {
     lua_sethook(L, stop_script, LUA_MASKCALL | LUA_MASKRET | LUA_MASKLINE | LUA_MASKCOUNT, 1);
 }
 
-// Only lock-free stores, and lua_sethook, which Lua's own interpreter calls here too.
+// Only lock-free stores, and lua_sethook, which Lua's own interpreter calls in a handler too.
+void stop_work() {
+    pressed_flag = 1;
+    if (const Context* context = listening_context.load()) context->cancel();
+    if (lua_State* L = running_thread.load()) arm(L);
+}
+
 extern "C" void on_interrupt(int signal) {
     if (pressed_flag && !prompt_flag) {
         std::signal(signal, SIG_DFL);
@@ -28,18 +43,16 @@ extern "C" void on_interrupt(int signal) {
         return;
     }
     std::signal(signal, on_interrupt);
-    pressed_flag = 1;
-    if (const Context* context = listening_context.load()) context->cancel();
-    if (lua_State* L = running_thread.load()) arm(L);
+    stop_work();
 }
 
 // Calls the function at upvalue 1 with the arguments on the stack while `thread` runs.
 int call_in_thread(lua_State* L, lua_State* thread) {
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_insert(L, 1);
-    running_thread.store(thread);
+    set_running(thread);
     const int status = lua_pcall(L, lua_gettop(L) - 1, LUA_MULTRET, 0);
-    running_thread.store(L);
+    set_running(L);
     if (pressed_flag) arm(L);
     return status == LUA_OK ? lua_gettop(L) : lua_error(L);
 }
@@ -76,6 +89,7 @@ void replace(lua_State* L, const char* name, lua_CFunction watched) {
 }  // namespace
 
 Interrupt::Interrupt(const Context& context) : context_(context) {
+    const std::lock_guard lock(pressing);
     pressed_flag = 0;
     listening_context.store(&context_);
     std::signal(SIGINT, on_interrupt);
@@ -83,8 +97,9 @@ Interrupt::Interrupt(const Context& context) : context_(context) {
 
 Interrupt::~Interrupt() {
     std::signal(SIGINT, SIG_DFL);
+    const std::lock_guard lock(pressing);
     listening_context.store(nullptr);
-    forget();
+    running_thread.store(nullptr);
 }
 
 void Interrupt::watch(lua_State* L) {
@@ -92,11 +107,16 @@ void Interrupt::watch(lua_State* L) {
     replace(L, "resume", watched_resume);
     replace(L, "wrap", watched_wrap);
     lua_pop(L, 1);
-    running_thread.store(L);
+    set_running(L);
+}
+
+void Interrupt::press() {
+    const std::lock_guard lock(pressing);
+    stop_work();
 }
 
 void Interrupt::forget() {
-    running_thread.store(nullptr);
+    set_running(nullptr);
 }
 
 void Interrupt::wait_at_prompt(bool waits) {

@@ -1,0 +1,95 @@
+#include "viewer/window/display.h"
+
+#include <algorithm>
+
+namespace lissom::window {
+namespace {
+
+constexpr Color kDarkBackground{0.17, 0.18, 0.20};
+constexpr Color kLightBackground{0.93, 0.935, 0.94};
+// Points of a strand that is drawn as a line.
+constexpr Index kLinePoints = 12;
+
+bool is_hidden(const DisplaySettings& settings, std::size_t mesh) {
+    return mesh < settings.hidden.size() && settings.hidden[mesh];
+}
+
+void apply(const DisplaySettings& settings, MeshStyle& style) {
+    if (settings.wire) style.wire = true;
+    if (settings.flat) style.shading = Shading::flat;
+    if (settings.boundaries) style.boundaries = true;
+}
+
+// Those of a picture that are shown, in one space.
+Picture visible(const Picture& picture, const DisplaySettings& settings) {
+    const Snapshot placed = snapshot_of(picture);
+    Picture result = picture;
+    result.meshes.clear();
+    result.strands.clear();
+    result.columns = 0;
+    result.captions.clear();
+    result.legend = false;
+    for (std::size_t i = 0; i < placed.meshes.size(); ++i) {
+        if (is_hidden(settings, i)) continue;
+        result.meshes.push_back(placed.meshes[i]);
+        apply(settings, result.meshes.back().style);
+    }
+    for (std::size_t i = 0; i < placed.strands.size(); ++i) {
+        const auto mesh = picture.strands[i].mesh;
+        if (mesh && is_hidden(settings, *mesh)) continue;
+        result.strands.push_back({placed.strands[i], std::nullopt});
+    }
+    if (range_of_values(result.meshes)) result.range = placed.range;
+    return result;
+}
+
+DrawnLine line_of(const DrawnStrands& drawn, Index s, const Color& color) {
+    const StrandView strand = drawn.strands->strand(s);
+    const auto last = static_cast<Index>(strand.cols()) - 1;
+    DrawnLine line{{}, false, color, 1.5};
+    const Index count = std::min(kLinePoints, last + 1);
+    for (Index i = 0; i < count; ++i) {
+        const Index at = count > 1 ? i * last / (count - 1) : 0;
+        line.points.push_back(drawn.transform(point_of(strand, at) / drawn.style.unit));
+    }
+    return line;
+}
+
+}  // namespace
+
+Color background_of(const DisplaySettings& settings) {
+    return settings.dark ? kDarkBackground : kLightBackground;
+}
+
+Picture displayed(const Picture& picture, const DisplaySettings& settings, const Camera& camera,
+                  int width, int height) {
+    Picture result = visible(picture, settings);
+    result.camera = camera;
+    result.options = {};
+    result.options.width = width;
+    result.options.height = height;
+    result.options.background = background_of(settings);
+    return result;
+}
+
+Snapshot quick_snapshot(const Picture& picture, const DisplaySettings& settings, Index most) {
+    Snapshot snapshot = snapshot_of(visible(picture, settings));
+    Index all = 0;
+    for (const DrawnStrands& drawn : snapshot.strands) all += drawn.strands->size();
+    auto lines = std::make_shared<Overlay>();
+    for (const DrawnStrands& drawn : snapshot.strands) {
+        const Index count = drawn.strands->size();
+        const double share = std::min(1.0, 1.0 * most / std::max(all, Index{1}));
+        const auto wanted = static_cast<Index>(share * count);
+        const Color color = drawn.style.color.value_or(kHairColor);
+        // Strands come in an order in which the first of them are spread evenly.
+        for (Index s = 0; s < wanted; ++s) {
+            if (drawn.strands->point_count(s) > 1) lines->lines.push_back(line_of(drawn, s, color));
+        }
+    }
+    snapshot.strands.clear();
+    snapshot.overlays.push_back(std::move(lines));
+    return snapshot;
+}
+
+}  // namespace lissom::window

@@ -1,0 +1,35 @@
+/// How a window shows what it shows, beside what a script has asked for.
+#pragma once
+
+#include <vector>
+
+#include "viewer/picture.h"
+
+namespace lissom::window {
+
+struct DisplaySettings {
+    bool dark = true;
+    bool wire = false;
+    bool flat = false;
+    bool boundaries = false;
+    /// Occlusion and all samples once nothing moves.
+    bool sharp = true;
+    /// One for each mesh of the picture; those behind the end are visible.
+    std::vector<bool> hidden;
+
+    bool operator==(const DisplaySettings&) const = default;
+};
+
+/// Behind the meshes.
+Color background_of(const DisplaySettings& settings);
+
+/// `picture` as the window shows it: without what is hidden, cells, captions and legend, all in one
+/// space, in a picture of `width` x `height` pixels that `camera` sees.
+Picture displayed(const Picture& picture, const DisplaySettings& settings, const Camera& camera,
+                  int width, int height);
+
+/// What is drawn while something moves: the same without strands, of which `most` stand for all as
+/// lines.
+Snapshot quick_snapshot(const Picture& picture, const DisplaySettings& settings, Index most);
+
+}  // namespace lissom::window

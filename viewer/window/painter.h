@@ -1,0 +1,52 @@
+/// Painter: draws finished pictures on a thread of its own, with all samples, shadows and strands:
+/// those of lissom.render, to the pixel. The window shows them once nothing moves.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "kernel/core/context.h"
+#include "viewer/picture.h"
+#include "viewer/window/worker.h"
+
+namespace lissom::window {
+
+class Painter {
+  public:
+    /// `done` is called on the painter's thread when a picture is finished, or has failed.
+    Painter(int threads, std::function<void()> done);
+    ~Painter();
+
+    /// Gives up what is being drawn and draws `picture` instead; `number` is the caller's.
+    void draw(std::shared_ptr<const Picture> picture, std::uint64_t number);
+    /// Gives up what is being drawn.
+    void stop();
+    bool busy() const { return worker_.busy(); }
+
+    struct Result {
+        std::uint64_t number = 0;
+        Image image;
+        /// Why there is no image; empty where there is one.
+        std::string error;
+    };
+    /// What was finished since the last call.
+    std::optional<Result> take();
+
+  private:
+    void paint(const Picture& picture, std::uint64_t number, const Context& context);
+
+    std::function<void()> done_;
+    int threads_;
+    std::mutex mutex_;
+    std::optional<Result> result_;
+    /// Of the picture that was asked for last.
+    std::optional<Context> context_;
+    std::unique_ptr<Renderer> renderer_;
+    // Last: it ends before what its jobs use.
+    Worker worker_;
+};
+
+}  // namespace lissom::window

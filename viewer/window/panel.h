@@ -1,0 +1,76 @@
+/// Panel: the controls beside the picture: what is shown and how, the parameters of the script, and
+/// the console. Drawn by Dear ImGui into the window of the current context.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings/lua/core/script_parameters.h"
+#include "kernel/sketch/camera.h"
+#include "viewer/gl/gl_objects.h"
+#include "viewer/window/display.h"
+#include "viewer/window/input.h"
+#include "viewer/window/screen.h"
+#include "viewer/window/session.h"
+
+namespace lissom::window {
+
+/// What the panel shows; its own state is only how it is unfolded.
+struct PanelContent {
+    std::vector<std::string> objects;
+    std::vector<lua::ScriptParameter> parameters;
+    std::vector<ConsoleLine> lines;
+    bool has_script = false;
+    bool busy = false;
+    std::string stage;
+    double fraction = 0.0;
+    bool is_ortho = false;
+    /// Of the last frame, without waiting.
+    double milliseconds = 0.0;
+    std::string driver;
+};
+
+/// What a person has asked for in one frame.
+struct PanelAnswers {
+    bool frame_all = false, toggle_ortho = false, screenshot = false, run_again = false,
+         cancel = false, clear_console = false;
+    std::optional<StandardView> view = std::nullopt;
+    /// A parameter has another value.
+    bool parameters_changed = false;
+    /// A line of Lua to evaluate.
+    std::optional<std::string> line = std::nullopt;
+};
+
+class Panel {
+  public:
+    /// Needs a current context, also to end. `scale`: pixels in a unit of length.
+    explicit Panel(double scale);
+    ~Panel();
+    Panel(const Panel&) = delete;
+    Panel& operator=(const Panel&) = delete;
+
+    /// Takes input for the next frames, in its order.
+    void feed(const Input& input);
+    /// Whether input is left that one frame more must take: a press and a release are never taken
+    /// at once.
+    bool owes_frame() const;
+    /// Whether the mouse, or what is typed, belongs to the panel.
+    bool wants_mouse() const;
+    bool wants_keys() const;
+
+    /// What the panel leaves free of a window.
+    Canvas canvas(gl::Extent window) const;
+
+    /// Draws a frame over what is in the window. Changes `settings` and the values of
+    /// `content.parameters` where a person does.
+    PanelAnswers draw(PanelContent& content, DisplaySettings& settings, gl::Extent window,
+                      double seconds);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lissom::window

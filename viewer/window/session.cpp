@@ -1,0 +1,356 @@
+#include "viewer/window/session.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bindings/cli/repl/display.h"
+#include "bindings/cli/repl/session_text.h"
+#include "bindings/cli/terminal/interrupt.h"
+#include "bindings/lua/core/failure.h"
+#include "kernel/io/mesh_file.h"
+#include "viewer/lua/shown_values.h"
+#include "viewer/lua/viewer_library.h"
+
+namespace lissom::window {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Lines that are kept for a window that does not take them.
+constexpr std::size_t kMostLines = 10000;
+
+std::vector<DrawnMesh> load_meshes(const std::vector<std::string>& paths, const Context& context) {
+    std::vector<DrawnMesh> meshes;
+    for (const std::string& path : paths) {
+        meshes.push_back({std::make_shared<const Mesh>(load_mesh(path, {}, context))});
+    }
+    return meshes;
+}
+
+Box bounds_of(const Snapshot& snapshot) {
+    Box box;
+    const auto extend = [&](const Vec3& p) {
+        if (p.allFinite()) box.extend(p);
+    };
+    for_each_point(snapshot, extend);
+    for (const DrawnStrands& drawn : snapshot.strands) {
+        const std::span<const float> points = drawn.strands->points();
+        for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
+            const Vec3 p(points[i], points[i + 1], points[i + 2]);
+            extend(drawn.transform(p / drawn.style.unit));
+        }
+    }
+    return box;
+}
+
+// Adds the files of the modules that the state has loaded to the list at upvalue 1. Runs inside
+// lua_pcall: a script may have put anything in the place of `package`.
+int list_module_files(lua_State* L) {
+    auto* files = static_cast<std::vector<fs::path>*>(lua_touserdata(L, lua_upvalueindex(1)));
+    lua_getglobal(L, "package");
+    lua_getfield(L, 1, "loaded");
+    lua_pushnil(L);
+    while (lua_next(L, 2)) {
+        lua_settop(L, 3);
+        if (lua_type(L, 3) != LUA_TSTRING) continue;
+        lua_getfield(L, 1, "searchpath");
+        lua_pushvalue(L, 3);
+        lua_getfield(L, 1, "path");
+        lua_call(L, 2, 1);
+        lua::Failure failure;
+        const char* found = lua_tostring(L, 4);
+        failure.guard([&] {
+            if (found) files->emplace_back(found);
+        });
+        lua_settop(L, 3);
+    }
+    return 0;
+}
+
+// The variable `lissom`, for lines of the console, where the script has none. Runs inside
+// lua_pcall.
+int provide_library(lua_State* L) {
+    lua_getglobal(L, "lissom");
+    if (!lua_isnil(L, -1)) return 0;
+    lua_getglobal(L, "require");
+    lua_pushliteral(L, "lissom");
+    lua_call(L, 1, 1);
+    lua_setglobal(L, "lissom");
+    return 0;
+}
+
+}  // namespace
+
+bool is_script(const std::string& word) {
+    return fs::path(word).extension() == ".lua";
+}
+
+Session::Session(cli::Program& program, std::function<void()> wake)
+    : program_(program), wake_(std::move(wake)) {
+    program_.log_filter = [this](LogLevel level, std::string_view text) {
+        if (level == LogLevel::warning || program_.debug) {
+            tell(level == LogLevel::warning ? LineKind::warning : LineKind::message,
+                 std::string(text));
+        }
+        return false;
+    };
+    program_.progress_listener = [this](std::string_view label, double fraction) {
+        const std::lock_guard lock(mutex_);
+        stage_ = label;
+        fraction_ = fraction;
+    };
+    listener_ = [this](const Picture& picture) {
+        ++pictures_;
+        show(frozen(picture));
+    };
+}
+
+Session::~Session() {
+    finish(1.0);
+    // The Lua state ends on the thread that it lived on.
+    worker_.post_only([this] { script_.reset(); });
+    worker_.wait_idle(1.0);
+}
+
+// ---- The window's thread
+
+void Session::open(const std::vector<std::string>& words) {
+    {
+        const std::lock_guard lock(mutex_);
+        words_ = words;
+        parameters_ = std::vector<lua::ScriptParameter>();
+    }
+    cancel();
+    worker_.post_only([this, words] { run(words); });
+}
+
+void Session::run_again(const std::vector<std::string>& words) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (words_.empty()) return;
+        if (is_script(words_.front())) {
+            words_.resize(1);
+            words_.insert(words_.end(), words.begin(), words.end());
+        }
+    }
+    cancel();
+    worker_.post_only([this] {
+        std::unique_lock lock(mutex_);
+        const std::vector<std::string> now = words_;
+        lock.unlock();
+        run(now);
+    });
+}
+
+void Session::evaluate(const std::string& line) {
+    tell(LineKind::input, line);
+    worker_.post([this, line] { evaluate_line(line); });
+}
+
+void Session::cancel() {
+    if (busy()) cli::Interrupt::press();
+}
+
+std::pair<std::string, double> Session::progress() const {
+    const std::lock_guard lock(mutex_);
+    return {stage_, fraction_};
+}
+
+std::string Session::name() const {
+    const std::lock_guard lock(mutex_);
+    return words_.empty() ? "" : words_.front();
+}
+
+bool Session::has_script() const {
+    const std::string word = name();
+    return !word.empty() && is_script(word);
+}
+
+std::optional<Shown> Session::take_shown() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(shown_, std::nullopt);
+}
+
+std::vector<ConsoleLine> Session::take_lines() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(lines_, {});
+}
+
+std::optional<std::vector<lua::ScriptParameter>> Session::take_parameters() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(parameters_, std::nullopt);
+}
+
+std::vector<fs::path> Session::files() const {
+    const std::lock_guard lock(mutex_);
+    return files_;
+}
+
+bool Session::finish(double seconds) {
+    if (!busy()) return true;
+    cli::Interrupt::press();
+    return worker_.wait_idle(seconds);
+}
+
+// ---- The worker's thread
+
+void Session::run(const std::vector<std::string>& words) {
+    program_.forget_interrupt();
+    if (is_script(words.front())) {
+        run_script(words);
+    } else {
+        load_files(words);
+    }
+    wake_();
+}
+
+// A state of its own, whose prints and pictures come here.
+void Session::open_script(const lua::ScriptArguments& arguments) {
+    script_.reset();
+    script_ = std::make_unique<cli::Script>(program_, arguments);
+    lua_State* L = script_->lua();
+    lua_pushlightuserdata(L, this);
+    lua_pushcclosure(L, print, 1);
+    lua_setglobal(L, "print");
+    lua::set_picture_listener(L, &listener_);
+    pictures_ = 0;
+}
+
+void Session::run_script(const std::vector<std::string>& words) {
+    open_script({words[0], {words.begin() + 1, words.end()}});
+    lua_State* L = script_->lua();
+    const cli::ScriptResult result = script_->run_file(words[0]);
+    publish_parameters();
+    find_files();
+    if (result.status != cli::kSuccess) {
+        tell(LineKind::error, result.message);
+    } else {
+        Picture returned = lua::picture_of_values(L, 1, lua_gettop(L));
+        const bool returns = !returned.meshes.empty() || !returned.strands.empty();
+        if (returns) show(frozen(std::move(returned)));
+        if (!returns && pictures_ == 0) {
+            tell(LineKind::warning, words[0] +
+                                        " shows nothing: let it draw with lissom.render, or return "
+                                        "what is to be seen, a mesh, strands or a table of them");
+        }
+    }
+    lua_settop(L, 0);
+}
+
+void Session::load_files(const std::vector<std::string>& paths) {
+    {
+        const std::lock_guard lock(mutex_);
+        files_.assign(paths.begin(), paths.end());
+    }
+    try {
+        Picture picture;
+        picture.meshes = load_meshes(paths, program_.context());
+        for (const DrawnMesh& drawn : picture.meshes) {
+            if (drawn.mesh->face_count() > 0) continue;
+            throw Error(ErrorCode::mesh_empty, "a mesh without faces cannot be drawn");
+        }
+        std::vector<std::string> names;
+        for (const std::string& path : paths) names.push_back(fs::path(path).filename().string());
+        show(std::move(picture), std::move(names));
+    } catch (const Error& error) {
+        tell(LineKind::error,
+             lua::lua_message(error) + " [" + std::string(code_name(error.code())) + "]");
+    } catch (const std::bad_alloc&) {
+        tell(LineKind::error, "there is no memory for these files");
+    }
+}
+
+void Session::evaluate_line(const std::string& line) {
+    program_.forget_interrupt();
+    if (!script_) open_script({});
+    lua_State* L = script_->lua();
+    lua_settop(L, 0);
+    lua_pushcfunction(L, provide_library);
+    if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+    const std::string expression = "return " + line;
+    const std::string statement = cli::with_session_variables(line);
+    const auto load = [&](const std::string& text) {
+        return luaL_loadbufferx(L, text.data(), text.size(), "=console", "t") == LUA_OK;
+    };
+    bool loaded = load(expression);
+    if (!loaded) {
+        lua_settop(L, 0);
+        loaded = load(statement);
+    }
+    if (!loaded) {
+        tell(LineKind::error, lua_tostring(L, -1));
+    } else {
+        const cli::ScriptResult result = script_->call_function();
+        if (result.status != cli::kSuccess) {
+            tell(LineKind::error, result.message);
+        } else {
+            for (int i = 1; i <= lua_gettop(L); ++i) tell(LineKind::result, cli::display(L, i));
+            Picture values = lua::picture_of_values(L, 1, lua_gettop(L));
+            if (!values.meshes.empty() || !values.strands.empty()) show(frozen(std::move(values)));
+        }
+    }
+    lua_settop(L, 0);
+    wake_();
+}
+
+void Session::show(Picture picture, std::vector<std::string> names) {
+    Shown next;
+    next.names = std::move(names);
+    try {
+        next.snapshot = snapshot_of(picture);
+        next.bounds = bounds_of(next.snapshot);
+    } catch (const Error& error) {
+        return tell(LineKind::error, error.message());
+    }
+    next.picture = std::make_shared<const Picture>(std::move(picture));
+    {
+        const std::lock_guard lock(mutex_);
+        next.number = ++number_;
+        shown_ = std::move(next);
+    }
+    wake_();
+}
+
+void Session::tell(LineKind kind, const std::string& text) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (lines_.size() < kMostLines) lines_.push_back({kind, text});
+    }
+    wake_();
+}
+
+void Session::publish_parameters() {
+    const auto& declared = script_->state().parameters;
+    const std::lock_guard lock(mutex_);
+    if (declared) parameters_ = declared->list;
+}
+
+void Session::find_files() {
+    std::vector<fs::path> files;
+    lua_State* L = script_->lua();
+    lua_pushlightuserdata(L, &files);
+    lua_pushcclosure(L, list_module_files, 1);
+    if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+    const std::lock_guard lock(mutex_);
+    files.emplace_back(words_.front());
+    files_ = std::move(files);
+}
+
+// print, with the session as upvalue 1.
+int Session::print(lua_State* L) {
+    auto* session = static_cast<Session*>(lua_touserdata(L, lua_upvalueindex(1)));
+    const int count = lua_gettop(L);
+    for (int i = 1; i <= count; ++i) luaL_tolstring(L, i, nullptr);
+    lua::Failure failure;
+    failure.guard([&] {
+        std::string text;
+        for (int i = 1; i <= count; ++i) {
+            text += (i > 1 ? "\t" : "");
+            text += lua_tostring(L, count + i);
+        }
+        session->tell(LineKind::message, text);
+    });
+    return 0;
+}
+
+}  // namespace lissom::window

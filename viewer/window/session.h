@@ -1,0 +1,119 @@
+/// Session: what a window looks at, a script or files, worked on by a thread of its own. The window
+/// reads what is finished and never waits.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings/cli/script.h"
+#include "bindings/lua/core/script_parameters.h"
+#include "viewer/picture.h"
+#include "viewer/window/worker.h"
+
+namespace lissom::window {
+
+enum class LineKind { message, result, input, warning, error };
+
+/// A line of the console.
+struct ConsoleLine {
+    LineKind kind = LineKind::message;
+    std::string text;
+};
+
+/// Something finished to look at.
+struct Shown {
+    std::shared_ptr<const Picture> picture;
+    /// Of the meshes, where they have any.
+    std::vector<std::string> names;
+    Snapshot snapshot;
+    Box bounds;
+    /// Grows with every one.
+    std::uint64_t number = 0;
+};
+
+class Session {
+  public:
+    /// `wake` is called on the session's thread when there is something new.
+    Session(cli::Program& program, std::function<void()> wake);
+    /// Stops what runs; waits a second for it at most (see `abandon`).
+    ~Session();
+
+    // ---- For the window's thread. All of it returns at once.
+
+    /// Opens mesh files, or runs a script with the words that follow it on its command line.
+    /// What was open before stays in sight until there is something to show.
+    void open(const std::vector<std::string>& words);
+    /// Runs the script again, or reads the files again, with `words` as the command line of the
+    /// script. What runs is given up.
+    void run_again(const std::vector<std::string>& words);
+    /// Evaluates a line of Lua in the state of the script; values that can be seen are shown.
+    void evaluate(const std::string& line);
+    /// Stops what runs.
+    void cancel();
+
+    bool busy() const { return worker_.busy(); }
+    /// What the running operation does, and the fraction done.
+    std::pair<std::string, double> progress() const;
+    /// The script, or the first file.
+    std::string name() const;
+    /// Whether a script is open.
+    bool has_script() const;
+
+    /// What was finished since the last call.
+    std::optional<Shown> take_shown();
+    /// Lines of the console since the last call.
+    std::vector<ConsoleLine> take_lines();
+    /// The parameters that the script has declared, since the last call.
+    std::optional<std::vector<lua::ScriptParameter>> take_parameters();
+    /// What was read for what is shown: the script, what it requires, or the files.
+    std::vector<std::filesystem::path> files() const;
+
+    /// Stops what runs and waits `seconds` for it; false where it goes on: the process must then
+    /// end without ending this object.
+    bool finish(double seconds);
+
+  private:
+    void run(const std::vector<std::string>& words);
+    void open_script(const lua::ScriptArguments& arguments);
+    void run_script(const std::vector<std::string>& words);
+    void load_files(const std::vector<std::string>& paths);
+    void evaluate_line(const std::string& line);
+    void show(Picture picture, std::vector<std::string> names = {});
+    void tell(LineKind kind, const std::string& text);
+    void publish_parameters();
+    void find_files();
+    static int print(lua_State* L);
+
+    cli::Program& program_;
+    std::function<void()> wake_;
+
+    // Shared, under the mutex.
+    mutable std::mutex mutex_;
+    std::vector<std::string> words_;
+    std::optional<Shown> shown_;
+    std::vector<ConsoleLine> lines_;
+    std::optional<std::vector<lua::ScriptParameter>> parameters_;
+    std::vector<std::filesystem::path> files_;
+    std::string stage_;
+    double fraction_ = 0.0;
+    std::uint64_t number_ = 0;
+
+    // The worker's own.
+    std::function<void(const Picture&)> listener_;
+    std::unique_ptr<cli::Script> script_;
+    std::size_t pictures_ = 0;
+    Worker worker_;
+};
+
+/// Whether a word of the command line names a script.
+bool is_script(const std::string& word);
+
+}  // namespace lissom::window

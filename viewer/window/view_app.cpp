@@ -1,0 +1,442 @@
+#include "viewer/window/view_app.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "kernel/core/clock.h"
+#include "kernel/core/error.h"
+#include "kernel/io/stream/file.h"
+#include "kernel/sketch/navigation.h"
+#include "viewer/lua/png_file.h"
+#include "viewer/window/display.h"
+#include "viewer/window/file_watch.h"
+#include "viewer/window/glfw_window.h"
+#include "viewer/window/painter.h"
+#include "viewer/window/panel.h"
+#include "viewer/window/screen.h"
+#include "viewer/window/session.h"
+
+namespace lissom::window {
+namespace {
+
+// Strands that stand for all while something moves.
+constexpr Index kQuickStrands = 800;
+// Seconds without a change after which a finished picture is drawn.
+constexpr double kRest = 0.15;
+// Seconds that a parameter stays as it is before the script runs again.
+constexpr double kParameterRest = 0.08;
+// A frame that takes longer is drawn at half the size from then on.
+constexpr double kSlowFrame = 0.05;
+// Of a line of the wheel.
+constexpr double kZoomStep = 1.15;
+
+constexpr const char* kHelp =
+    "Drag turns, with shift moves, the wheel comes nearer. 1 to 7: sides, F: all, O: perspective, "
+    "W: wire, B: boundaries, Esc: stop, F5: run again, F12: picture. Files can be dropped here.";
+
+std::string text_of(const lua::ParameterValue& value) {
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+    if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.17g", std::get<double>(value));
+    return buffer;
+}
+
+// The command line that gives the script these values; what has its default is left to the script,
+// whose next version may have another.
+std::vector<std::string> words_of(const std::vector<lua::ScriptParameter>& parameters) {
+    std::vector<std::string> words;
+    for (const lua::ScriptParameter& p : parameters) {
+        if (p.value && p.value != p.default_value)
+            words.push_back("--" + p.name + "=" + text_of(*p.value));
+    }
+    return words;
+}
+
+std::string mesh_label(const DrawnMesh& drawn, const std::string& name) {
+    return name + "  (" + std::to_string(drawn.mesh->face_count()) + " faces)";
+}
+
+class ViewApp {
+  public:
+    ViewApp(cli::Program& program, const ViewOptions& options)
+        : options_(options),
+          window_("lissom", {options.width, options.height}),
+          panel_(window_.scale()),
+          session_(program, [] { GlfwWindow::wake(); }),
+          painter_(threads_of(program), [] { GlfwWindow::wake(); }) {
+        content_.driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+        content_.lines.push_back({LineKind::message, kHelp});
+        if (!options.words.empty()) open(options.words);
+    }
+
+    int run();
+
+  private:
+    static int threads_of(const cli::Program& program) {
+        if (program.threads > 0) return program.threads;
+        return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    }
+
+    void open(const std::vector<std::string>& words);
+    double wait_time() const;
+    void take_inputs();
+    void take(const Input& input);
+    void navigate(const Input& input);
+    void press_key(const Input& input);
+    void take_results();
+    void show(Shown shown);
+    void take_parameters(std::vector<lua::ScriptParameter> declared);
+    void watch_files();
+    void answer(const PanelAnswers& answers);
+    void run_with_parameters();
+    void save_picture();
+    void frame();
+    void draw_scene();
+    void ask_for_sharp();
+    void tell(const std::string& text) const {
+        if (options_.tells) std::cout << text << std::endl;
+    }
+    View view() const {
+        const Canvas canvas = panel_.canvas(window_.size());
+        return {camera_, {1.0 * canvas.width, 1.0 * canvas.height}};
+    }
+    void moved() {
+        ++change_;
+        last_change_ = Clock::now();
+        frames_owed_ = 2;
+    }
+    void set_camera(const Camera& camera) {
+        camera_ = camera;
+        moved();
+    }
+    void frame_all() {
+        if (shown_ && !shown_->bounds.empty()) set_camera(framed(view(), shown_->bounds));
+    }
+    void look_from(StandardView side);
+
+    ViewOptions options_;
+    GlfwWindow window_;
+    Panel panel_;
+    Screen screen_;
+    Session session_;
+    Painter painter_;
+    FileWatch watch_;
+    PanelContent content_;
+    DisplaySettings settings_;
+    std::optional<Shown> shown_;
+    Camera camera_;
+    bool camera_is_placed_ = false;
+
+    // Of the drag that goes on: which button, and where the cursor was last.
+    std::optional<MouseButton> dragged_;
+    Vec2 cursor_ = Vec2::Zero();
+
+    // Number of the last change of what is seen, and of the change that a finished picture shows.
+    std::uint64_t change_ = 1, asked_ = 0, sharp_ = 0, drawn_ = 0, uploaded_ = 0;
+    DisplaySettings uploaded_settings_;
+    Canvas drawn_canvas_;
+    Clock::time_point last_change_ = Clock::now(), last_frame_ = Clock::now();
+    std::optional<Clock::time_point> parameters_changed_;
+    int frames_owed_ = 2;
+    int coarseness_ = 1;
+    bool wants_picture_ = false;
+    bool was_at_rest_ = false;
+};
+
+void ViewApp::open(const std::vector<std::string>& words) {
+    session_.open(words);
+    content_.has_script = is_script(words.front());
+    camera_is_placed_ = false;
+    window_.set_title(std::filesystem::path(words.front()).filename().string() + " - lissom");
+}
+
+int ViewApp::run() {
+    while (!window_.close_requested()) {
+        window_.wait(wait_time());
+        take_inputs();
+        take_results();
+        watch_files();
+        run_with_parameters();
+        if (frames_owed_ > 0 || panel_.owes_frame() || session_.busy()) frame();
+        ask_for_sharp();
+    }
+    painter_.stop();
+    if (!session_.finish(1.0)) {
+        std::cerr << "lissom: the script did not stop when the window was closed" << std::endl;
+        std::_Exit(cli::kFailure);
+    }
+    return cli::kSuccess;
+}
+
+double ViewApp::wait_time() const {
+    if (frames_owed_ > 0 || panel_.owes_frame()) return 0.0;
+    if (session_.busy()) return 0.1;
+    if (sharp_ != change_ && settings_.sharp && shown_) return 0.03;
+    return parameters_changed_ ? 0.02 : 0.25;
+}
+
+// ---- Input
+
+void ViewApp::take_inputs() {
+    for (const Input& input : window_.inputs().take()) {
+        frames_owed_ = 2;
+        take(input);
+    }
+}
+
+void ViewApp::take(const Input& input) {
+    const bool is_key = input.kind == Input::Kind::key_down || input.kind == Input::Kind::key_up ||
+                        input.kind == Input::Kind::text;
+    if (input.kind == Input::Kind::drop) return open(input.files);
+    // A drag that began in the picture stays there; the panel sees every move and every release.
+    const bool for_panel = is_key ? panel_.wants_keys() : panel_.wants_mouse() && !dragged_;
+    const bool is_position = input.kind == Input::Kind::move || input.kind == Input::Kind::release;
+    if (for_panel || is_position || is_key || input.kind == Input::Kind::press) panel_.feed(input);
+    const Canvas canvas = panel_.canvas(window_.size());
+    const bool inside = input.at.x() >= canvas.x && input.at.y() < canvas.y + canvas.height;
+    if (is_key) {
+        if (!for_panel && input.kind == Input::Kind::key_down) press_key(input);
+    } else if (inside || dragged_) {
+        Input own = input;
+        own.at -= Vec2(canvas.x, canvas.y);
+        navigate(own);
+    }
+}
+
+void ViewApp::navigate(const Input& input) {
+    switch (input.kind) {
+        case Input::Kind::press:
+            dragged_ = input.modifiers.shift ? MouseButton::middle : input.button;
+            break;
+        case Input::Kind::release:
+            dragged_.reset();
+            break;
+        case Input::Kind::move: {
+            const Vec2 drag = input.at - cursor_;
+            if (dragged_ && drag != Vec2::Zero()) {
+                const bool turns = *dragged_ == MouseButton::left;
+                set_camera(turns ? orbited(view(), drag) : panned(view(), drag));
+            }
+            break;
+        }
+        case Input::Kind::scroll: {
+            const double size =
+                shown_ && !shown_->bounds.empty() ? std::max(shown_->bounds.diagonal(), 1e-9) : 1.0;
+            set_camera(zoomed(view(), input.at, std::pow(kZoomStep, input.scroll.y()), size));
+            break;
+        }
+        default:
+            break;
+    }
+    cursor_ = input.at;
+}
+
+void ViewApp::look_from(StandardView side) {
+    if (!shown_ || shown_->bounds.empty()) return;
+    FramingOptions framing = shown_->picture->framing;
+    framing.aspect = view().size.aspect();
+    framing.ortho = camera_.is_ortho();
+    set_camera(frame_box(side, shown_->bounds, framing));
+}
+
+void ViewApp::press_key(const Input& input) {
+    if (input.key == Key::escape) return session_.cancel();
+    if (input.key == Key::f12) wants_picture_ = true;
+    if (input.key == Key::f5) answer({.run_again = true});
+    if (input.key != Key::character || input.modifiers.ctrl || input.modifiers.alt) return;
+    constexpr std::array kSides{
+        StandardView::front, StandardView::back,   StandardView::left,         StandardView::right,
+        StandardView::top,   StandardView::bottom, StandardView::three_quarter};
+    const char32_t letter = input.character;
+    if (letter >= U'1' && letter <= U'7') look_from(kSides[letter - U'1']);
+    if (letter == U'F') frame_all();
+    if (letter == U'O') answer({.toggle_ortho = true});
+    if (letter == U'W') settings_.wire = !settings_.wire;
+    if (letter == U'B') settings_.boundaries = !settings_.boundaries;
+}
+
+// ---- What the session has made
+
+void ViewApp::take_results() {
+    for (ConsoleLine& line : session_.take_lines()) {
+        tell((line.kind == LineKind::error ? "error " : "line ") + line.text);
+        content_.lines.push_back(std::move(line));
+        frames_owed_ = 2;
+    }
+    if (auto declared = session_.take_parameters()) take_parameters(std::move(*declared));
+    if (auto shown = session_.take_shown()) show(std::move(*shown));
+    if (auto result = painter_.take(); result && result->number == change_) {
+        sharp_ = change_;
+        if (result->error.empty()) screen_.take(result->image);
+        if (!result->error.empty()) {
+            content_.lines.push_back({LineKind::error, result->error});
+            settings_.sharp = false;
+        }
+        drawn_ = change_;
+        frames_owed_ = 2;
+        if (std::exchange(wants_picture_, false)) save_picture();
+    }
+    const auto [stage, fraction] = session_.progress();
+    content_.busy = session_.busy();
+    content_.stage = stage;
+    content_.fraction = fraction;
+}
+
+void ViewApp::show(Shown shown) {
+    shown_ = std::move(shown);
+    content_.objects.clear();
+    for (std::size_t i = 0; i < shown_->picture->meshes.size(); ++i) {
+        content_.objects.push_back(mesh_label(
+            shown_->picture->meshes[i],
+            i < shown_->names.size() ? shown_->names[i] : "mesh " + std::to_string(i + 1)));
+    }
+    if (!camera_is_placed_) {
+        const View now = view();
+        const Picture& picture = *shown_->picture;
+        set_camera(picture.camera && !picture.camera->is_ortho()
+                       ? *picture.camera
+                       : camera_of(picture, shown_->snapshot, now.size.aspect()));
+        camera_is_placed_ = true;
+    }
+    moved();
+    watch_.set(session_.files());
+    tell("shown " + std::to_string(shown_->number));
+}
+
+// Values that a person has set stay where the script still declares them.
+void ViewApp::take_parameters(std::vector<lua::ScriptParameter> declared) {
+    content_.parameters = std::move(declared);
+    frames_owed_ = 2;
+}
+
+void ViewApp::watch_files() {
+    if (!session_.busy()) watch_.set(session_.files());
+    if (!watch_.changed(Clock::now())) return;
+    tell("changed");
+    session_.run_again(words_of(content_.parameters));
+}
+
+void ViewApp::run_with_parameters() {
+    if (!parameters_changed_ || seconds_since(*parameters_changed_) < kParameterRest) return;
+    parameters_changed_.reset();
+    session_.run_again(words_of(content_.parameters));
+}
+
+void ViewApp::answer(const PanelAnswers& answers) {
+    if (answers.view) look_from(*answers.view);
+    if (answers.frame_all) frame_all();
+    if (answers.toggle_ortho) {
+        set_camera(camera_.is_ortho() ? with_perspective(camera_) : without_perspective(camera_));
+    }
+    if (answers.screenshot) wants_picture_ = true;
+    if (answers.run_again) session_.run_again(words_of(content_.parameters));
+    if (answers.cancel) session_.cancel();
+    if (answers.parameters_changed) parameters_changed_ = Clock::now();
+    if (answers.line) session_.evaluate(*answers.line);
+    if (answers.screenshot || wants_picture_) moved();
+}
+
+void ViewApp::save_picture() {
+    const Canvas canvas = panel_.canvas(window_.size());
+    int number = 1;
+    std::string path;
+    std::error_code error;
+    do {
+        path = "lissom-" + std::to_string(number++) + ".png";
+    } while (std::filesystem::exists(path, error));
+    try {
+        Renderer renderer;
+        const Picture picture =
+            displayed(*shown_->picture, settings_, camera_, canvas.width, canvas.height);
+        lissom::save_picture(draw_picture(renderer, picture), path, {});
+        content_.lines.push_back({LineKind::result, "saved " + path});
+        tell("picture " + path);
+    } catch (const Error& failure) {
+        content_.lines.push_back({LineKind::error, failure.message()});
+    }
+}
+
+// ---- Drawing
+
+void ViewApp::draw_scene() {
+    const Canvas canvas = panel_.canvas(window_.size());
+    const bool stale = drawn_ != change_ || !(canvas == drawn_canvas_);
+    if (shown_ && (uploaded_ != shown_->number || !(uploaded_settings_ == settings_))) {
+        screen_.update(quick_snapshot(*shown_->picture, settings_, kQuickStrands));
+        uploaded_ = shown_->number;
+        uploaded_settings_ = settings_;
+    }
+    if (stale) {
+        if (!(canvas == drawn_canvas_)) ++change_;
+        screen_.draw(camera_, canvas, background_of(settings_), coarseness_);
+        drawn_ = change_;
+        drawn_canvas_ = canvas;
+    }
+    screen_.show(canvas, window_.size().height);
+}
+
+void ViewApp::frame() {
+    if (frames_owed_ > 0) --frames_owed_;
+    const gl::Extent size = window_.size();
+    if (size.width == 0 || size.height == 0) return;
+    const auto start = Clock::now();
+    const std::uint64_t before = drawn_;
+    try {
+        draw_scene();
+    } catch (const Error& error) {
+        content_.lines.push_back({LineKind::error, error.message()});
+        shown_.reset();
+    }
+    content_.is_ortho = camera_.is_ortho();
+    const DisplaySettings old = settings_;
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, size.width, size.height);
+    const PanelAnswers answers = panel_.draw(content_, settings_, size, seconds_since(last_frame_));
+    last_frame_ = Clock::now();
+    window_.show();
+    glFinish();
+    if (drawn_ != before) {
+        content_.milliseconds = 1e3 * seconds_since(start);
+        coarseness_ = content_.milliseconds > 1e3 * kSlowFrame ? 2 : coarseness_;
+    }
+    if (!(old == settings_)) moved();
+    answer(answers);
+}
+
+// Draws a finished picture once nothing moves.
+void ViewApp::ask_for_sharp() {
+    const bool at_rest = seconds_since(last_change_) > kRest && !dragged_ && frames_owed_ == 0;
+    if (!at_rest) {
+        if (asked_ != change_) painter_.stop();
+        was_at_rest_ = false;
+        return;
+    }
+    const bool wanted = shown_ && (settings_.sharp || wants_picture_);
+    if (wanted && asked_ != change_) {
+        const Canvas canvas = panel_.canvas(window_.size());
+        painter_.draw(std::make_shared<const Picture>(displayed(
+                          *shown_->picture, settings_, camera_, canvas.width, canvas.height)),
+                      change_);
+        asked_ = change_;
+    }
+    const bool done = (!wanted || sharp_ == change_) && !session_.busy();
+    if (done && !was_at_rest_) tell("at rest");
+    was_at_rest_ = done;
+}
+
+}  // namespace
+
+int run_view(cli::Program& program, const ViewOptions& options) {
+    ViewApp app(program, options);
+    return app.run();
+}
+
+}  // namespace lissom::window

@@ -1,0 +1,24 @@
+/// ViewApp: the window of `lissom view`: a camera moved by hand, the panel, and what a session has
+/// to show. This thread owns OpenGL and never waits for a script or the kernel.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bindings/cli/program.h"
+
+namespace lissom::window {
+
+struct ViewOptions {
+    /// Mesh files, or a script and the words of its command line.
+    std::vector<std::string> words;
+    int width = 1280, height = 800;
+    /// Writes a line to the standard output for each thing that the window has done, for tests:
+    /// "shown 1", "at rest", "picture x.png".
+    bool tells = false;
+};
+
+/// Opens the window and returns when it is closed. Errors: no_display.
+int run_view(cli::Program& program, const ViewOptions& options);
+
+}  // namespace lissom::window

@@ -1,0 +1,53 @@
+#include "viewer/window/view_verb.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "kernel/core/index.h"
+#include "viewer/window/session.h"
+#include "viewer/window/view_app.h"
+
+namespace lissom::cli {
+namespace {
+
+std::string check_size(const std::string& text) {
+    int width = 0, height = 0, used = 0;
+    const bool read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2;
+    const bool good = read && used == count_of(text) && width > 0 && height > 0;
+    return good ? "" : "a size is written as 1280x800";
+}
+
+}  // namespace
+
+int view(Program& program, const std::vector<std::string>& words) {
+    // Words behind a script are the script's.
+    std::vector<std::string> own;
+    window::ViewOptions options;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        own.push_back(words[i]);
+        if (!window::is_script(words[i])) continue;
+        options.words.assign(words.begin() + index_of(i) + 1, words.end());
+        break;
+    }
+    CLI::App app(
+        "Shows meshes, or what a script draws or returns, in a window. Words after a script are "
+        "the "
+        "script's; its parameters become sliders, and it runs again when its file changes.",
+        "lissom view");
+    std::vector<std::string> files;
+    std::string size = "1280x800";
+    app.add_option("FILE", files, "Mesh files, or one script");
+    app.add_option("--size", size, "Width and height of the window (default: 1280x800)")
+        ->check(check_size);
+    app.add_flag("--tell", options.tells, "Write what the window does, for tests");
+    int status = kSuccess;
+    if (!program.parse(app, own, status)) return status;
+    std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height);
+    if (files.size() > 1 && window::is_script(files.back())) {
+        return program.fail("lissom view: give either meshes or one script", kUsage);
+    }
+    options.words.insert(options.words.begin(), files.begin(), files.end());
+    return window::run_view(program, options);
+}
+
+}  // namespace lissom::cli

@@ -1,0 +1,46 @@
+/// Worker: one thread that does one job after the other, away from the thread that asked for them.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace lissom::window {
+
+class Worker {
+  public:
+    using Job = std::function<void()>;
+
+    Worker();
+    /// Drops what waits and joins; whoever wants the running job to end soon cancels it before.
+    ~Worker();
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
+    /// Does `job` after all others. It must not throw.
+    void post(Job job);
+    /// The same instead of all others that wait.
+    void post_only(Job job);
+    /// Whether a job runs or waits.
+    bool busy() const { return open_ > 0; }
+    /// Waits until nothing runs, `seconds` at most; whether that is so.
+    bool wait_idle(double seconds);
+    /// Leaves the thread to itself: its running job may never end. Nothing that the job uses may
+    /// end before the process.
+    void abandon();
+
+  private:
+    void run();
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<Job> jobs_;
+    std::atomic<int> open_{0};
+    bool ended_ = false;
+    std::thread thread_;
+};
+
+}  // namespace lissom::window
