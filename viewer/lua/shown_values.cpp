@@ -8,7 +8,9 @@
 #include "bindings/lua/core/state.h"
 #include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
+#include "bindings/lua/scene/scene_object.h"
 #include "kernel/hair/strands/strand_place.h"
+#include "viewer/draw/scene_drawing.h"
 
 namespace lissom::lua {
 namespace {
@@ -28,10 +30,14 @@ class ValueReader {
         auto* holder = static_cast<Holder*>(lua_touserdata(L_, index));
         if (type->name == MeshObject::kTypeName) add_mesh(Ref<MeshObject>(holder));
         if (type->name == StrandsObject::kTypeName) add_strands(Ref<StrandsObject>(holder));
+        if (type->name == SceneObject::kTypeName) add_scene(Ref<SceneObject>(holder));
     }
 
     Picture picture() && {
         for (PictureStrands& strands : picture_.strands) place(strands);
+        for (DrawnStrands& strands : placed_) {
+            picture_.strands.push_back({std::move(strands), std::nullopt});
+        }
         return std::move(picture_);
     }
 
@@ -58,6 +64,14 @@ class ValueReader {
         picture_.strands.push_back({{{owner, &owner->strands}, {}, {}}, std::nullopt});
     }
 
+    void add_scene(const Ref<SceneObject>& object) {
+        if (!object.get()) return;
+        SceneDrawing drawing = drawing_of(object->scene.objects());
+        for (DrawnMesh& mesh : drawing.meshes) picture_.meshes.push_back(std::move(mesh));
+        for (DrawnStrands& strands : drawing.strands) placed_.push_back(std::move(strands));
+        for (DrawnLine& line : drawing.lines) picture_.marks.lines.push_back(std::move(line));
+    }
+
     void place(PictureStrands& strands) const {
         if (picture_.meshes.empty()) return;
         strands.mesh = 0;
@@ -68,6 +82,8 @@ class ValueReader {
     lua_State* L_;
     std::set<const void*> seen_;
     Picture picture_;
+    // Strands that are in their place already.
+    std::vector<DrawnStrands> placed_;
 };
 
 }  // namespace

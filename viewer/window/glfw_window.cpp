@@ -221,10 +221,6 @@ bool GlfwWindow::close_requested() const {
     return glfwWindowShouldClose(state_->window) != 0;
 }
 
-void GlfwWindow::stay_open() {
-    glfwSetWindowShouldClose(state_->window, GLFW_FALSE);
-}
-
 void GlfwWindow::set_title(const std::string& title) {
     glfwSetWindowTitle(state_->window, title.c_str());
 }
@@ -233,7 +229,7 @@ void GlfwWindow::set_clipboard(const std::string& text) {
     glfwSetClipboardString(state_->window, text.c_str());
 }
 
-std::string GlfwWindow::clipboard() const {
+const char* GlfwWindow::clipboard() const {
     const char* text = glfwGetClipboardString(state_->window);
     return text ? text : "";
 }

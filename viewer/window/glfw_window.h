@@ -31,11 +31,10 @@ class GlfwWindow {
     /// Pixels in a unit of length of the panel: 1, or 2 on a screen of high density.
     double scale() const;
     bool close_requested() const;
-    /// Takes the request to close back.
-    void stay_open();
     void set_title(const std::string& title);
     void set_clipboard(const std::string& text);
-    std::string clipboard() const;
+    /// Stays until the clipboard changes.
+    const char* clipboard() const;
     /// Shows what was drawn.
     void show();
 

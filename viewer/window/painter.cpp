@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "viewer/lua/png_file.h"
 
 namespace lissom::window {
 
@@ -11,16 +12,20 @@ Painter::Painter(int threads, std::function<void()> done)
 
 Painter::~Painter() {
     stop();
+    // The context of the renderer ends on the thread that it was made on.
+    worker_.post_only([this] { renderer_.reset(); });
+    worker_.wait_idle(10.0);
 }
 
-void Painter::draw(std::shared_ptr<const Picture> picture, std::uint64_t number) {
+void Painter::draw(std::shared_ptr<const Picture> picture, std::uint64_t number, std::string path) {
     stop();
     ContextOptions options;
     options.threads = threads_;
     context_.emplace(options);
-    worker_.post_only([this, picture = std::move(picture), number, context = *context_] {
-        paint(*picture, number, context);
-    });
+    worker_.post_only(
+        [this, picture = std::move(picture), number, path = std::move(path), context = *context_] {
+            paint(*picture, {number, {}, path, {}}, context);
+        });
 }
 
 void Painter::stop() {
@@ -32,12 +37,11 @@ std::optional<Painter::Result> Painter::take() {
     return std::exchange(result_, std::nullopt);
 }
 
-void Painter::paint(const Picture& picture, std::uint64_t number, const Context& context) {
-    Result result;
-    result.number = number;
+void Painter::paint(const Picture& picture, Result result, const Context& context) {
     try {
         if (!renderer_) renderer_ = std::make_unique<Renderer>();
         result.image = draw_picture(*renderer_, picture, context);
+        if (!result.path.empty()) save_picture(result.image, result.path, context);
     } catch (const Error& error) {
         if (error.code() == ErrorCode::cancelled) return;
         result.error = error.message();

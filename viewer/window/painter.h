@@ -20,8 +20,9 @@ class Painter {
     Painter(int threads, std::function<void()> done);
     ~Painter();
 
-    /// Gives up what is being drawn and draws `picture` instead; `number` is the caller's.
-    void draw(std::shared_ptr<const Picture> picture, std::uint64_t number);
+    /// Gives up what is being drawn and draws `picture` instead, and writes it to `path`, a .png
+    /// file, where that is not empty; `number` is the caller's.
+    void draw(std::shared_ptr<const Picture> picture, std::uint64_t number, std::string path = {});
     /// Gives up what is being drawn.
     void stop();
     bool busy() const { return worker_.busy(); }
@@ -29,6 +30,8 @@ class Painter {
     struct Result {
         std::uint64_t number = 0;
         Image image;
+        /// The file that it was written to.
+        std::string path;
         /// Why there is no image; empty where there is one.
         std::string error;
     };
@@ -36,7 +39,7 @@ class Painter {
     std::optional<Result> take();
 
   private:
-    void paint(const Picture& picture, std::uint64_t number, const Context& context);
+    void paint(const Picture& picture, Result result, const Context& context);
 
     std::function<void()> done_;
     int threads_;

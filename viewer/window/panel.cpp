@@ -245,8 +245,9 @@ struct Panel::State {
     std::deque<Input> inputs;
     bool is_dark = true;
     std::string line;
-    std::vector<std::string> typed;
-    std::size_t typed_at = 0;
+    // Lines that were entered, and which of them the arrows have come to.
+    std::vector<std::string> entered;
+    std::size_t recalled = 0;
     std::size_t lines_drawn = 0;
     bool draws_again = false;
 
@@ -263,14 +264,22 @@ struct Panel::State {
               gl::Extent window);
     void console(const PanelContent& content, PanelAnswers& answers, gl::Extent window);
     void prompt(PanelAnswers& answers);
+    static int recall(ImGuiInputTextCallbackData* data);
 };
 
-Panel::Panel(double scale) : state_(std::make_unique<State>(scale)) {
+Panel::Panel(GlfwWindow& window) : state_(std::make_unique<State>(window.scale())) {
+    const double scale = state_->scale;
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key;
+    io.ClipboardUserData = &window;
+    io.SetClipboardTextFn = [](void* from, const char* text) {
+        static_cast<GlfwWindow*>(from)->set_clipboard(text);
+    };
+    // ImGui reads the text before it asks again.
+    io.GetClipboardTextFn = [](void* from) { return static_cast<GlfwWindow*>(from)->clipboard(); };
     load_font(scale);
     set_sizes(scale);
     set_colors(true);
@@ -408,14 +417,29 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
     ImGui::End();
 }
 
+// The arrows recall what was entered before.
+int Panel::State::recall(ImGuiInputTextCallbackData* data) {
+    auto& state = *static_cast<State*>(data->UserData);
+    const std::size_t count = state.entered.size();
+    if (data->EventKey == ImGuiKey_UpArrow && state.recalled > 0) --state.recalled;
+    if (data->EventKey == ImGuiKey_DownArrow && state.recalled < count) ++state.recalled;
+    const std::string text = state.recalled < count ? state.entered[state.recalled] : "";
+    data->DeleteChars(0, data->BufTextLen);
+    data->InsertChars(0, text.c_str());
+    return 0;
+}
+
 void Panel::State::prompt(PanelAnswers& answers) {
     std::array<char, kLongestText> text{};
     line.copy(text.data(), text.size() - 1);
     ImGui::SetNextItemWidth(-1.0f);
-    const bool entered = ImGui::InputTextWithHint("##prompt", "Lua", text.data(), text.size(),
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool ended = ImGui::InputTextWithHint(
+        "##prompt", "Lua", text.data(), text.size(),
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory, recall, this);
     line = text.data();
-    if (!entered || line.empty()) return;
+    if (!ended || line.empty()) return;
+    entered.push_back(line);
+    recalled = entered.size();
     answers.line = std::exchange(line, {});
     ImGui::SetKeyboardFocusHere(-1);
 }

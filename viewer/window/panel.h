@@ -11,6 +11,7 @@
 #include "kernel/sketch/camera.h"
 #include "viewer/gl/gl_objects.h"
 #include "viewer/window/display.h"
+#include "viewer/window/glfw_window.h"
 #include "viewer/window/input.h"
 #include "viewer/window/screen.h"
 #include "viewer/window/session.h"
@@ -22,7 +23,6 @@ struct PanelContent {
     std::vector<std::string> objects;
     std::vector<lua::ScriptParameter> parameters;
     std::vector<ConsoleLine> lines;
-    bool has_script = false;
     bool busy = false;
     std::string stage;
     double fraction = 0.0;
@@ -35,7 +35,7 @@ struct PanelContent {
 /// What a person has asked for in one frame.
 struct PanelAnswers {
     bool frame_all = false, toggle_ortho = false, screenshot = false, run_again = false,
-         cancel = false, clear_console = false;
+         cancel = false;
     std::optional<StandardView> view = std::nullopt;
     /// A parameter has another value.
     bool parameters_changed = false;
@@ -45,8 +45,8 @@ struct PanelAnswers {
 
 class Panel {
   public:
-    /// Needs a current context, also to end. `scale`: pixels in a unit of length.
-    explicit Panel(double scale);
+    /// A panel in `window`, whose context is current, also when the panel ends.
+    explicit Panel(GlfwWindow& window);
     ~Panel();
     Panel(const Panel&) = delete;
     Panel& operator=(const Panel&) = delete;

@@ -156,16 +156,6 @@ std::pair<std::string, double> Session::progress() const {
     return {stage_, fraction_};
 }
 
-std::string Session::name() const {
-    const std::lock_guard lock(mutex_);
-    return words_.empty() ? "" : words_.front();
-}
-
-bool Session::has_script() const {
-    const std::string word = name();
-    return !word.empty() && is_script(word);
-}
-
 std::optional<Shown> Session::take_shown() {
     const std::lock_guard lock(mutex_);
     return std::exchange(shown_, std::nullopt);
@@ -225,16 +215,30 @@ void Session::run_script(const std::vector<std::string>& words) {
     if (result.status != cli::kSuccess) {
         tell(LineKind::error, result.message);
     } else {
-        Picture returned = lua::picture_of_values(L, 1, lua_gettop(L));
-        const bool returns = !returned.meshes.empty() || !returned.strands.empty();
-        if (returns) show(frozen(std::move(returned)));
+        const bool returns = show_values();
         if (!returns && pictures_ == 0) {
-            tell(LineKind::warning, words[0] +
-                                        " shows nothing: let it draw with lissom.render, or return "
-                                        "what is to be seen, a mesh, strands or a table of them");
+            tell(LineKind::warning,
+                 words[0] +
+                     " shows nothing: let it draw with lissom.render, or return "
+                     "what is to be seen: a mesh, strands, a scene, or a table of them");
         }
     }
     lua_settop(L, 0);
+}
+
+// Shows what is on the stack; false where that is nothing to be seen.
+bool Session::show_values() {
+    lua_State* L = script_->lua();
+    try {
+        Picture picture = lua::picture_of_values(L, 1, lua_gettop(L));
+        if (lua::is_empty(picture)) return false;
+        show(frozen(std::move(picture)));
+    } catch (const Error& error) {
+        tell(LineKind::error, error.message());
+    } catch (const std::bad_alloc&) {
+        tell(LineKind::error, "there is no memory to show this");
+    }
+    return true;
 }
 
 void Session::load_files(const std::vector<std::string>& paths) {
@@ -285,8 +289,7 @@ void Session::evaluate_line(const std::string& line) {
             tell(LineKind::error, result.message);
         } else {
             for (int i = 1; i <= lua_gettop(L); ++i) tell(LineKind::result, cli::display(L, i));
-            Picture values = lua::picture_of_values(L, 1, lua_gettop(L));
-            if (!values.meshes.empty() || !values.strands.empty()) show(frozen(std::move(values)));
+            show_values();
         }
     }
     lua_settop(L, 0);

@@ -43,7 +43,7 @@ class Session {
   public:
     /// `wake` is called on the session's thread when there is something new.
     Session(cli::Program& program, std::function<void()> wake);
-    /// Stops what runs; waits a second for it at most (see `abandon`).
+    /// Stops what runs; waits a second for it at most.
     ~Session();
 
     // ---- For the window's thread. All of it returns at once.
@@ -62,11 +62,6 @@ class Session {
     bool busy() const { return worker_.busy(); }
     /// What the running operation does, and the fraction done.
     std::pair<std::string, double> progress() const;
-    /// The script, or the first file.
-    std::string name() const;
-    /// Whether a script is open.
-    bool has_script() const;
-
     /// What was finished since the last call.
     std::optional<Shown> take_shown();
     /// Lines of the console since the last call.
@@ -84,6 +79,7 @@ class Session {
     void run(const std::vector<std::string>& words);
     void open_script(const lua::ScriptArguments& arguments);
     void run_script(const std::vector<std::string>& words);
+    bool show_values();
     void load_files(const std::vector<std::string>& paths);
     void evaluate_line(const std::string& line);
     void show(Picture picture, std::vector<std::string> names = {});

@@ -12,9 +12,7 @@
 
 #include "kernel/core/clock.h"
 #include "kernel/core/error.h"
-#include "kernel/io/stream/file.h"
 #include "kernel/sketch/navigation.h"
-#include "viewer/lua/png_file.h"
 #include "viewer/window/display.h"
 #include "viewer/window/file_watch.h"
 #include "viewer/window/glfw_window.h"
@@ -39,7 +37,8 @@ constexpr double kZoomStep = 1.15;
 
 constexpr const char* kHelp =
     "Drag turns, with shift moves, the wheel comes nearer. 1 to 7: sides, F: all, O: perspective, "
-    "W: wire, B: boundaries, Esc: stop, F5: run again, F12: picture. Files can be dropped here.";
+    "W: wire, B: boundaries, Esc: stop, F5: run again, F12: picture, Ctrl-Q: end. "
+    "Files can be dropped here.";
 
 std::string text_of(const lua::ParameterValue& value) {
     if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
@@ -60,6 +59,15 @@ std::vector<std::string> words_of(const std::vector<lua::ScriptParameter>& param
     return words;
 }
 
+// A file beside those that are there.
+std::string new_picture_path() {
+    std::error_code error;
+    for (int number = 1;; ++number) {
+        std::string path = "lissom-" + std::to_string(number) + ".png";
+        if (!std::filesystem::exists(path, error)) return path;
+    }
+}
+
 std::string mesh_label(const DrawnMesh& drawn, const std::string& name) {
     return name + "  (" + std::to_string(drawn.mesh->face_count()) + " faces)";
 }
@@ -69,7 +77,7 @@ class ViewApp {
     ViewApp(cli::Program& program, const ViewOptions& options)
         : options_(options),
           window_("lissom", {options.width, options.height}),
-          panel_(window_.scale()),
+          panel_(window_),
           session_(program, [] { GlfwWindow::wake(); }),
           painter_(threads_of(program), [] { GlfwWindow::wake(); }) {
         content_.driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -97,7 +105,6 @@ class ViewApp {
     void watch_files();
     void answer(const PanelAnswers& answers);
     void run_with_parameters();
-    void save_picture();
     void frame();
     void draw_scene();
     void ask_for_sharp();
@@ -148,18 +155,18 @@ class ViewApp {
     int frames_owed_ = 2;
     int coarseness_ = 1;
     bool wants_picture_ = false;
+    bool closes_ = false;
     bool was_at_rest_ = false;
 };
 
 void ViewApp::open(const std::vector<std::string>& words) {
     session_.open(words);
-    content_.has_script = is_script(words.front());
     camera_is_placed_ = false;
     window_.set_title(std::filesystem::path(words.front()).filename().string() + " - lissom");
 }
 
 int ViewApp::run() {
-    while (!window_.close_requested()) {
+    while (!window_.close_requested() && !closes_) {
         window_.wait(wait_time());
         take_inputs();
         take_results();
@@ -251,7 +258,11 @@ void ViewApp::press_key(const Input& input) {
     if (input.key == Key::escape) return session_.cancel();
     if (input.key == Key::f12) wants_picture_ = true;
     if (input.key == Key::f5) answer({.run_again = true});
-    if (input.key != Key::character || input.modifiers.ctrl || input.modifiers.alt) return;
+    if (input.key != Key::character || input.modifiers.alt) return;
+    if (input.modifiers.ctrl) {
+        closes_ = closes_ || input.character == U'Q';
+        return;
+    }
     constexpr std::array kSides{
         StandardView::front, StandardView::back,   StandardView::left,         StandardView::right,
         StandardView::top,   StandardView::bottom, StandardView::three_quarter};
@@ -280,9 +291,12 @@ void ViewApp::take_results() {
             content_.lines.push_back({LineKind::error, result->error});
             settings_.sharp = false;
         }
+        if (result->error.empty() && !result->path.empty()) {
+            content_.lines.push_back({LineKind::result, "saved " + result->path});
+            tell("picture " + result->path);
+        }
         drawn_ = change_;
         frames_owed_ = 2;
-        if (std::exchange(wants_picture_, false)) save_picture();
     }
     const auto [stage, fraction] = session_.progress();
     content_.busy = session_.busy();
@@ -341,27 +355,6 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.cancel) session_.cancel();
     if (answers.parameters_changed) parameters_changed_ = Clock::now();
     if (answers.line) session_.evaluate(*answers.line);
-    if (answers.screenshot || wants_picture_) moved();
-}
-
-void ViewApp::save_picture() {
-    const Canvas canvas = panel_.canvas(window_.size());
-    int number = 1;
-    std::string path;
-    std::error_code error;
-    do {
-        path = "lissom-" + std::to_string(number++) + ".png";
-    } while (std::filesystem::exists(path, error));
-    try {
-        Renderer renderer;
-        const Picture picture =
-            displayed(*shown_->picture, settings_, camera_, canvas.width, canvas.height);
-        lissom::save_picture(draw_picture(renderer, picture), path, {});
-        content_.lines.push_back({LineKind::result, "saved " + path});
-        tell("picture " + path);
-    } catch (const Error& failure) {
-        content_.lines.push_back({LineKind::error, failure.message()});
-    }
 }
 
 // ---- Drawing
@@ -420,12 +413,13 @@ void ViewApp::ask_for_sharp() {
         return;
     }
     const bool wanted = shown_ && (settings_.sharp || wants_picture_);
-    if (wanted && asked_ != change_) {
+    if (wanted && (asked_ != change_ || wants_picture_)) {
         const Canvas canvas = panel_.canvas(window_.size());
         painter_.draw(std::make_shared<const Picture>(displayed(
                           *shown_->picture, settings_, camera_, canvas.width, canvas.height)),
-                      change_);
+                      change_, std::exchange(wants_picture_, false) ? new_picture_path() : "");
         asked_ = change_;
+        sharp_ = 0;
     }
     const bool done = (!wanted || sharp_ == change_) && !session_.busy();
     if (done && !was_at_rest_) tell("at rest");

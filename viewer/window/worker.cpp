@@ -46,10 +46,6 @@ bool Worker::wait_idle(double seconds) {
                              [this] { return open_ == 0; });
 }
 
-void Worker::abandon() {
-    thread_.detach();
-}
-
 void Worker::run() {
     std::unique_lock lock(mutex_);
     while (true) {

@@ -28,9 +28,6 @@ class Worker {
     bool busy() const { return open_ > 0; }
     /// Waits until nothing runs, `seconds` at most; whether that is so.
     bool wait_idle(double seconds);
-    /// Leaves the thread to itself: its running job may never end. Nothing that the job uses may
-    /// end before the process.
-    void abandon();
 
   private:
     void run();

@@ -1,0 +1,88 @@
+#include "viewer/window/display.h"
+
+#include <doctest/doctest.h>
+
+#include "kernel/mesh/shapes/shapes.h"
+
+using namespace lissom;
+using namespace lissom::window;
+
+namespace {
+
+Picture two_boxes() {
+    Picture picture;
+    const auto box = std::make_shared<const Mesh>(make_box());
+    picture.meshes = {{box}, {box}};
+    picture.meshes[1].transform = translation({3.0, 0.0, 0.0});
+    return picture;
+}
+
+Strands hair(Index count) {
+    std::vector<float> points;
+    std::vector<Index> offsets{0};
+    for (Index s = 0; s < count; ++s) {
+        for (int i = 0; i < 3; ++i) {
+            points.insert(points.end(), {static_cast<float>(s), static_cast<float>(i), 0.0f});
+        }
+        offsets.push_back(3 * (s + 1));
+    }
+    return {std::move(points), std::move(offsets)};
+}
+
+}  // namespace
+
+TEST_CASE("display: settings come on top of what the script has asked for") {
+    Picture picture = two_boxes();
+    picture.meshes[0].style.wire = true;
+    DisplaySettings settings;
+    Picture plain = displayed(picture, settings, Camera(), 100, 80);
+    CHECK(plain.meshes[0].style.wire);
+    CHECK_FALSE(plain.meshes[1].style.wire);
+    CHECK(plain.options.width == 100);
+    CHECK(plain.options.background == background_of(settings));
+    settings.wire = settings.flat = settings.boundaries = true;
+    plain = displayed(picture, settings, Camera(), 100, 80);
+    CHECK(plain.meshes[1].style.wire);
+    CHECK(plain.meshes[1].style.shading == Shading::flat);
+    CHECK(plain.meshes[1].style.boundaries);
+}
+
+TEST_CASE("display: hidden meshes are left out, and what grows on them") {
+    Picture picture = two_boxes();
+    const auto strands = std::make_shared<const Strands>(hair(3));
+    picture.strands = {{{strands, {}, {}}, 1}};
+    DisplaySettings settings;
+    settings.hidden = {false, true};
+    const Picture plain = displayed(picture, settings, Camera(), 100, 80);
+    REQUIRE(plain.meshes.size() == 1);
+    CHECK(plain.meshes[0].transform == Affine());
+    CHECK(plain.strands.empty());
+}
+
+TEST_CASE("display: meshes in cells stand side by side") {
+    Picture picture = two_boxes();
+    picture.meshes[1].transform = {};
+    picture.columns = 2;
+    const Snapshot snapshot = snapshot_of(picture);
+    Box first, second;
+    for (const Vec3& p : snapshot.meshes[0].mesh->positions()) {
+        first.extend(snapshot.meshes[0].transform(p));
+        second.extend(snapshot.meshes[1].transform(p));
+    }
+    CHECK(first.max.x() < second.min.x());
+}
+
+TEST_CASE("display: while something moves a few strands stand for all") {
+    Picture picture;
+    const auto many = std::make_shared<const Strands>(hair(1000));
+    const auto few = std::make_shared<const Strands>(hair(10));
+    picture.strands = {{{many, {}, {}}, std::nullopt}, {{few, {}, {}}, std::nullopt}};
+    const Snapshot snapshot = quick_snapshot(picture, {}, 101);
+    CHECK(snapshot.strands.empty());
+    REQUIRE(!snapshot.overlays.empty());
+    const auto& lines = snapshot.overlays.back()->lines;
+    CHECK(lines.size() <= 101);
+    CHECK(lines.size() >= 99);
+    CHECK(lines[0].points.front() == Vec3(0.0, 0.0, 0.0));
+    CHECK(lines[0].points.back() == Vec3(0.0, 2.0, 0.0));
+}

@@ -1,0 +1,227 @@
+#include "viewer/window/session.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "bindings/lua/core/registry.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/viewer/picture_folder.h"
+#include "viewer/lua/viewer_library.h"
+
+using namespace lissom;
+using namespace lissom::window;
+using test::ProgramFolder;
+
+namespace {
+
+cli::ProgramParts viewer_parts() {
+    cli::ProgramParts parts = cli::kernel_parts();
+    parts.libraries.push_back(lua::viewer_library);
+    return parts;
+}
+
+struct Host {
+    cli::ProgramParts parts = viewer_parts();
+    cli::Program program{parts};
+    ProgramFolder folder;
+    std::atomic<int> wakes{0};
+    std::vector<ConsoleLine> lines;
+    Session session{program, [this] { ++wakes; }};
+
+    // Milliseconds until nothing runs.
+    double wait(double seconds = 60.0) {
+        const auto start = std::chrono::steady_clock::now();
+        const auto spent = [&] {
+            return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        };
+        while (session.busy() && spent() < seconds) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        CHECK_FALSE(session.busy());
+        for (ConsoleLine& line : session.take_lines()) lines.push_back(std::move(line));
+        return 1e3 * spent();
+    }
+    void run(const std::string& text, std::vector<std::string> words = {}) {
+        words.insert(words.begin(), folder.write("script.lua", text));
+        session.open(words);
+        wait();
+    }
+    bool says(LineKind kind, const std::string& part) const {
+        for (const ConsoleLine& line : lines) {
+            if (line.kind == kind && line.text.find(part) != std::string::npos) return true;
+        }
+        return false;
+    }
+    // Lets the script come as far as its first print.
+    void wait_for_line() {
+        while (lines.empty()) {
+            lines = session.take_lines();
+            std::this_thread::yield();
+        }
+    }
+};
+
+constexpr const char* kBar = "local lissom = require 'lissom'\n";
+
+}  // namespace
+
+TEST_CASE("session: what a script returns is shown, tables and scenes too") {
+    Host host;
+    host.run(std::string(kBar) + "return lissom.shapes.box{}");
+    auto shown = host.session.take_shown();
+    REQUIRE(shown);
+    CHECK(shown->picture->meshes.size() == 1);
+    CHECK_FALSE(shown->bounds.empty());
+    CHECK(host.wakes > 0);
+    host.run(std::string(kBar) +
+             "local box = lissom.shapes.box{}\n"
+             "return { box, again = box, { deeper = lissom.shapes.torus{} } }");
+    shown = host.session.take_shown();
+    REQUIRE(shown);
+    CHECK(shown->picture->meshes.size() == 2);
+    host.run(std::string(kBar) +
+             "local scene = lissom.scene{}\n"
+             "scene:add('box', lissom.shapes.box{}, { transform = { translate = {5, 0, 0} } })\n"
+             "return scene");
+    shown = host.session.take_shown();
+    REQUIRE(shown);
+    REQUIRE(shown->picture->meshes.size() == 1);
+    CHECK(shown->bounds.center().x() == doctest::Approx(5.0));
+    CHECK(host.lines.empty());
+}
+
+TEST_CASE("session: what is shown stays as it was whatever the script does then") {
+    Host host;
+    host.run(std::string(kBar) + "box = lissom.shapes.box{}\nreturn box");
+    const auto shown = host.session.take_shown();
+    REQUIRE(shown);
+    const Vec3 before = shown->picture->meshes[0].mesh->position(0);
+    host.session.evaluate("box:transform{ translate = {9, 9, 9} }");
+    host.wait();
+    CHECK(shown->picture->meshes[0].mesh->position(0) == before);
+    const auto moved = host.session.take_shown();
+    REQUIRE(moved);
+    CHECK(moved->number > shown->number);
+    CHECK(moved->picture->meshes[0].mesh->position(0).x() == doctest::Approx(before.x() + 9.0));
+}
+
+TEST_CASE("session: parameters come with the script, and its command line sets them") {
+    Host host;
+    host.run(std::string(kBar) +
+                 "local p = lissom.params{ size = { type = 'number', default = 1, min = 0.1, "
+                 "max = 9 } }\nprint('size', p.size)\nreturn lissom.shapes.box{}",
+             {"--size=3"});
+    const auto parameters = host.session.take_parameters();
+    REQUIRE(parameters);
+    REQUIRE(parameters->size() == 1);
+    CHECK(std::get<double>(*parameters->front().value) == 3.0);
+    CHECK(host.says(LineKind::message, "size\t3"));
+    host.session.run_again({"--size=4"});
+    host.wait();
+    CHECK(host.says(LineKind::message, "size\t4"));
+}
+
+TEST_CASE("session: an error tells file and line, and what was shown is not taken away") {
+    Host host;
+    host.run(std::string(kBar) + "return lissom.shapes.box{}");
+    REQUIRE(host.session.take_shown());
+    host.run("local x = nil\nx()");
+    CHECK(host.says(LineKind::error, "script.lua:2:"));
+    CHECK_FALSE(host.session.take_shown());
+    host.run("this is no Lua");
+    CHECK(host.says(LineKind::error, "script.lua:1:"));
+    host.run("print 'nothing to see'");
+    CHECK(host.says(LineKind::warning, "shows nothing"));
+    host.session.open({host.folder.path("missing.obj")});
+    host.wait();
+    CHECK(host.says(LineKind::error, "[file_not_found]"));
+    host.session.open({host.folder.write("broken.ply", "ply\nnonsense")});
+    host.wait();
+    CHECK(host.says(LineKind::error, "broken.ply"));
+}
+
+TEST_CASE("session: a script that has broken its globals ends well") {
+    Host host;
+    host.run(
+        "package = nil; require = nil; setmetatable(_G, { __index = function() error('no') end })");
+    host.session.evaluate("1 + 1");
+    host.wait();
+    CHECK(host.says(LineKind::result, "2"));
+}
+
+TEST_CASE("session: nothing that a script does holds it up for long") {
+    for (const char* text :
+         {"print 'on'\nwhile true do end",
+          "print 'on'\nwhile true do pcall(function() while true do end end) end",
+          "print 'on'\nlocal c = coroutine.wrap(function() while true do end end)\nc()",
+          "local lissom = require 'lissom'\nprint 'on'\nlocal m = "
+          "lissom.shapes.torus{}:subdivide(4)\n"
+          "while true do m:smooth{ iterations = 1000 } end"}) {
+        CAPTURE(text);
+        Host host;
+        host.session.open({host.folder.write("script.lua", text)});
+        host.wait_for_line();
+        CHECK(host.session.busy());
+        host.session.cancel();
+        CHECK(host.wait() < 5000.0);
+        // It works again at once.
+        host.session.evaluate("6 * 7");
+        host.wait();
+        CHECK(host.says(LineKind::result, "42"));
+    }
+}
+
+TEST_CASE("session: a new run gives up the old one, and the last of many is done") {
+    Host host;
+    host.session.open({host.folder.write("script.lua", "print 'on'\nwhile true do end")});
+    host.wait_for_line();
+    host.folder.write("script.lua", "print('word', ...)");
+    for (int i = 0; i < 50; ++i) host.session.run_again({std::to_string(i)});
+    host.wait();
+    CHECK(host.says(LineKind::message, "word"));
+    std::size_t runs = 0;
+    for (const ConsoleLine& line : host.lines) runs += line.text.starts_with("word") ? 1 : 0;
+    CHECK(runs < 50);
+}
+
+TEST_CASE("session: the console has the library, and keeps its variables") {
+    Host host;
+    host.session.evaluate("local t = lissom.shapes.torus{}");
+    host.session.evaluate("#t > 10");
+    host.wait();
+    CHECK(host.says(LineKind::result, "true"));
+    host.session.evaluate("t");
+    host.wait();
+    CHECK(host.session.take_shown());
+    host.session.evaluate("t:nothing()");
+    host.wait();
+    CHECK(host.says(LineKind::error, "nothing"));
+}
+
+TEST_CASE("session: what a script requires is read for it") {
+    Host host;
+    host.folder.write("part.lua", "return 5");
+    host.run("print(require 'part')");
+    bool found = false;
+    for (const auto& file : host.session.files()) found = found || file.filename() == "part.lua";
+    CHECK(found);
+}
+
+TEST_CASE("session: what a script draws is shown, but for a picture that cannot be written") {
+    Host host;
+    const std::string boxes =
+        "lissom.render{ meshes = { lissom.shapes.box{}, lissom.shapes.torus{} }, "
+        "columns = 2, size = { 64, 48 }, file = ";
+    host.run(std::string(kBar) + boxes + "'/nowhere/a.png' }");
+    CHECK_FALSE(host.session.take_shown());
+    if (!test::can_draw()) return;
+    host.run(std::string(kBar) + boxes + "'" + host.folder.path("a.png") + "' }");
+    const auto shown = host.session.take_shown();
+    REQUIRE(shown);
+    CHECK(shown->picture->meshes.size() == 2);
+    CHECK_FALSE(host.says(LineKind::warning, "shows nothing"));
+}
