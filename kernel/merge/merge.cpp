@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/core/clock.h"
 #include "kernel/core/memory_error.h"
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/provenance.h"

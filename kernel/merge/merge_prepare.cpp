@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/core/clock.h"
 #include "kernel/merge/loop/loop_values.h"
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/provenance.h"

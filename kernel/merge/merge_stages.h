@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "kernel/core/clock.h"
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"

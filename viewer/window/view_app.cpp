@@ -210,6 +210,8 @@ void ViewApp::take(const Input& input) {
     const Canvas canvas = panel_.canvas(window_.size());
     const bool inside = input.at.x() >= canvas.x && input.at.y() < canvas.y + canvas.height;
     if (is_key) {
+        const bool stops = input.key == Key::escape && input.kind == Input::Kind::key_down;
+        if (stops && session_.busy()) return session_.cancel();
         if (!for_panel && input.kind == Input::Kind::key_down) press_key(input);
     } else if (inside || dragged_) {
         Input own = input;
@@ -255,7 +257,6 @@ void ViewApp::look_from(StandardView side) {
 }
 
 void ViewApp::press_key(const Input& input) {
-    if (input.key == Key::escape) return session_.cancel();
     if (input.key == Key::f12) wants_picture_ = true;
     if (input.key == Key::f5) answer({.run_again = true});
     if (input.key != Key::character || input.modifiers.alt) return;

@@ -99,7 +99,6 @@ Interrupt::~Interrupt() {
     std::signal(SIGINT, SIG_DFL);
     const std::lock_guard lock(pressing);
     listening_context.store(nullptr);
-    running_thread.store(nullptr);
 }
 
 void Interrupt::watch(lua_State* L) {

@@ -111,7 +111,7 @@ struct SpatialTree::Line {
             out = std::min(out, std::max(a, b));
         }
         return in <= out * (1.0 + kBoxRounding) ? in * (1.0 - kBoxRounding)
-                                             : std::numeric_limits<double>::infinity();
+                                                : std::numeric_limits<double>::infinity();
     }
 
     // A point in the sheared frame, where the ray is the z axis.

@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "kernel/mesh/report.h"
-#include "kernel/mesh/attributes.h"
-#include "kernel/hair/style_inputs.h"
-#include "kernel/deform/deformer.h"
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
+#include "kernel/deform/deformer.h"
 #include "kernel/deform/description.h"
 #include "kernel/deform/options.h"
 #include "kernel/hair/hairstyle.h"
 #include "kernel/hair/scalp/scalp.h"
 #include "kernel/hair/strands/strands.h"
+#include "kernel/hair/style_inputs.h"
+#include "kernel/mesh/attributes.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/report.h"
 
 namespace lissom {
 

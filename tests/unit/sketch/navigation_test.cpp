@@ -9,13 +9,13 @@ using namespace lissom;
 
 namespace {
 
-const PictureSize kSize{1280, 960};
+const PictureSize kWindow{1280, 960};
 
-View view_of(const CameraOptions& options) {
-    return {Camera(options), kSize};
+View window_view(const CameraOptions& options) {
+    return {Camera(options), kWindow};
 }
 
-struct RandomViews {
+struct RandomCameras {
     std::mt19937 generator{7};
     std::uniform_real_distribution<double> uniform{-1.0, 1.0};
 
@@ -27,7 +27,7 @@ struct RandomViews {
         options.target = far * vector();
         options.eye = options.target + far * (vector() + Vec3(0.0, 0.2, 2.5));
         if (uniform(generator) > 0.0) options.ortho = far * (1.5 + uniform(generator));
-        return view_of(options);
+        return window_view(options);
     }
 
     Vec2 pixel() {
@@ -35,25 +35,25 @@ struct RandomViews {
     }
 };
 
-double depth_of(const Camera& camera) {
+double target_depth(const Camera& camera) {
     return (camera.target() - camera.eye()).norm();
 }
 
 }  // namespace
 
 TEST_CASE("navigation: an orbit keeps the target, the distance and a level horizon") {
-    RandomViews random;
+    RandomCameras random;
     for (int i = 0; i < 200; ++i) {
         const View view = random.next();
         const Camera turned = orbited(view, random.pixel());
         CHECK((turned.target() - view.camera.target()).norm() == 0.0);
-        CHECK(depth_of(turned) == doctest::Approx(depth_of(view.camera)));
+        CHECK(target_depth(turned) == doctest::Approx(target_depth(view.camera)));
         CHECK(std::abs(turned.right().dot(Vec3::UnitY())) < 1e-9);
     }
 }
 
 TEST_CASE("navigation: an orbit follows the cursor and goes no further than straight up and down") {
-    const View view = view_of({});
+    const View view = window_view({});
     // To the right: the camera goes to the left of what it looks at.
     CHECK(orbited(view, {100.0, 0.0}).eye().x() < -0.1);
     // Down: the camera rises.
@@ -64,76 +64,76 @@ TEST_CASE("navigation: an orbit follows the cursor and goes no further than stra
     const Camera under = orbited(view, {0.0, -5000.0});
     CHECK(under.eye().y() == doctest::Approx(-5.0));
     // From the pole back: as if it had not been there.
-    CHECK(orbited({over, kSize}, {0.0, -480.0}).eye().z() == doctest::Approx(5.0));
+    CHECK(orbited({over, kWindow}, {0.0, -480.0}).eye().z() == doctest::Approx(5.0));
     // A whole turn.
-    const Camera round = orbited(view, {2.0 * kSize.height, 0.0});
+    const Camera round = orbited(view, {2.0 * kWindow.height, 0.0});
     CHECK((round.eye() - view.camera.eye()).norm() < 1e-9);
 }
 
 TEST_CASE("navigation: a drag in parts ends where the drag as a whole does") {
-    RandomViews random;
+    RandomCameras random;
     for (int i = 0; i < 50; ++i) {
         const View view = random.next();
         View at = view;
         for (int step = 0; step < 10; ++step) at.camera = orbited(at, {12.0, 3.0});
         const Camera whole = orbited(view, {120.0, 30.0});
-        CHECK((at.camera.eye() - whole.eye()).norm() < 1e-9 * depth_of(whole));
+        CHECK((at.camera.eye() - whole.eye()).norm() < 1e-9 * target_depth(whole));
         for (int step = 0; step < 10; ++step) at.camera = panned(at, {12.0, 3.0});
-        const Camera moved = panned({whole, kSize}, {120.0, 30.0});
+        const Camera moved = panned({whole, kWindow}, {120.0, 30.0});
         CHECK((at.camera.eye() - moved.eye()).norm() < 1e-9 * (1.0 + moved.eye().norm()));
     }
 }
 
 TEST_CASE("navigation: a pan moves what lies at the target's depth with the cursor") {
-    RandomViews random;
+    RandomCameras random;
     for (int i = 0; i < 200; ++i) {
         const View view = random.next();
         const Vec2 from = random.pixel(), to = random.pixel();
         const Vec3 point =
-            view.camera.unproject({from.x(), from.y(), depth_of(view.camera)}, kSize);
-        const Vec3 seen = panned(view, to - from).project(point, kSize);
+            view.camera.unproject({from.x(), from.y(), target_depth(view.camera)}, kWindow);
+        const Vec3 seen = panned(view, to - from).project(point, kWindow);
         CHECK((seen.head<2>() - to).norm() < 1e-6);
     }
 }
 
 TEST_CASE("navigation: a zoom keeps what is under the cursor and can be taken back") {
-    RandomViews random;
+    RandomCameras random;
     for (int i = 0; i < 200; ++i) {
         const View view = random.next();
         const Vec2 cursor = random.pixel();
-        const double size = depth_of(view.camera);
+        const double size = target_depth(view.camera);
         const Vec3 point =
-            view.camera.unproject({cursor.x(), cursor.y(), depth_of(view.camera)}, kSize);
+            view.camera.unproject({cursor.x(), cursor.y(), target_depth(view.camera)}, kWindow);
         const Camera nearer = zoomed(view, cursor, 1.7, size);
-        const Vec3 seen = nearer.project(point, kSize);
+        const Vec3 seen = nearer.project(point, kWindow);
         CHECK((seen.head<2>() - cursor).norm() < 1e-6);
-        const Camera back = zoomed({nearer, kSize}, cursor, 1.0 / 1.7, size);
+        const Camera back = zoomed({nearer, kWindow}, cursor, 1.0 / 1.7, size);
         CHECK((back.eye() - view.camera.eye()).norm() < 1e-9 * (size + back.eye().norm()));
     }
-    View view = view_of({});
+    View view = window_view({});
     for (int i = 0; i < 1000; ++i) view.camera = zoomed(view, {0.0, 0.0}, 2.0, 1.0);
-    CHECK(depth_of(view.camera) == doctest::Approx(1e-6));
+    CHECK(target_depth(view.camera) == doctest::Approx(1e-6));
     for (int i = 0; i < 1000; ++i) view.camera = zoomed(view, {0.0, 0.0}, 0.5, 1.0);
-    CHECK(depth_of(view.camera) == doctest::Approx(1e6));
+    CHECK(target_depth(view.camera) == doctest::Approx(1e6));
 }
 
 TEST_CASE("navigation: with and without perspective a camera shows as much at the target") {
-    RandomViews random;
+    RandomCameras random;
     for (int i = 0; i < 50; ++i) {
         const View view = random.next();
-        const double height = view.camera.half_height(depth_of(view.camera));
+        const double height = view.camera.half_height(target_depth(view.camera));
         const Camera flat = without_perspective(view.camera);
         CHECK(flat.is_ortho());
         CHECK(flat.half_height(1.0) == doctest::Approx(height));
         const Camera deep = with_perspective(flat, 0.7);
         CHECK_FALSE(deep.is_ortho());
-        CHECK(deep.half_height(depth_of(deep)) == doctest::Approx(height));
+        CHECK(deep.half_height(target_depth(deep)) == doctest::Approx(height));
         CHECK((deep.forward() - view.camera.forward()).norm() < 1e-9);
     }
 }
 
 TEST_CASE("navigation: a framed box lies in the picture and is not small") {
-    RandomViews random;
+    RandomCameras random;
     for (int i = 0; i < 200; ++i) {
         View view = random.next();
         if (i % 3 == 0) view.size = {400, 900};
@@ -157,12 +157,12 @@ TEST_CASE("navigation: a framed box lies in the picture and is not small") {
         CHECK(widest > 0.1);
         CHECK((camera.forward() - view.camera.forward()).norm() < 1e-9);
     }
-    CHECK(test::error_of([&] { framed(view_of({}), Box()); }).code() ==
+    CHECK(test::error_of([&] { framed(window_view({}), Box()); }).code() ==
           ErrorCode::invalid_argument);
 }
 
 TEST_CASE("navigation: what is not a number is refused") {
-    const View view = view_of({});
+    const View view = window_view({});
     const Vec2 nan(std::nan(""), 0.0);
     CHECK(test::error_of([&] { orbited(view, nan); }).code() == ErrorCode::not_finite);
     CHECK(test::error_of([&] { panned(view, nan); }).code() == ErrorCode::not_finite);

@@ -42,7 +42,9 @@ struct Host {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         CHECK_FALSE(session.busy());
-        for (ConsoleLine& line : session.take_lines()) lines.push_back(std::move(line));
+        for (ConsoleLine& line : session.take_lines()) {
+            lines.push_back(std::move(line));
+        }
         return 1e3 * spent();
     }
     void run(const std::string& text, std::vector<std::string> words = {}) {
@@ -85,7 +87,8 @@ TEST_CASE("session: what a script returns is shown, tables and scenes too") {
     CHECK(shown->picture->meshes.size() == 2);
     host.run(std::string(kBar) +
              "local scene = lissom.scene{}\n"
-             "scene:add('box', lissom.shapes.box{}, { transform = { translate = {5, 0, 0} } })\n"
+             "scene:add('box', lissom.shapes.box{}, { transform = "
+             "{ {1, 0, 0, 5}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1} } })\n"
              "return scene");
     shown = host.session.take_shown();
     REQUIRE(shown);
@@ -163,6 +166,9 @@ TEST_CASE("session: nothing that a script does holds it up for long") {
           "while true do m:smooth{ iterations = 1000 } end"}) {
         CAPTURE(text);
         Host host;
+        // The second script of a session is stopped as the first one is.
+        host.run("return 1");
+        host.lines.clear();
         host.session.open({host.folder.write("script.lua", text)});
         host.wait_for_line();
         CHECK(host.session.busy());
