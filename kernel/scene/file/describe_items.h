@@ -2,24 +2,24 @@
 /// private to kernel/scene.
 #pragma once
 
-#include <optional>
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "kernel/scene/polyline.h"
-#include "kernel/mesh/report.h"
-#include "kernel/mesh/attributes.h"
-#include "kernel/hair/strands/strands.h"
-#include "kernel/deform/options.h"
-#include "kernel/deform/mesh_point.h"
-#include "kernel/deform/description.h"
-#include "kernel/core/index.h"
-#include "kernel/core/geometry.h"
 #include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/description.h"
+#include "kernel/deform/mesh_point.h"
+#include "kernel/deform/options.h"
+#include "kernel/hair/strands/strands.h"
+#include "kernel/mesh/attributes.h"
+#include "kernel/mesh/report.h"
 #include "kernel/scene/file/item_records.h"
 #include "kernel/scene/file/scene_archive.h"
+#include "kernel/scene/polyline.h"
 #include "kernel/scene/scene_state.h"
 
 namespace lissom {

@@ -3,16 +3,16 @@
 /// kernel/scene.
 #pragma once
 
-#include <string_view>
-#include <cstddef>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
