@@ -29,7 +29,7 @@ endfunction()
 
 # lissom_unity(TARGET): compiles sources together, so that their headers are read once: those of a room (a
 # folder), at most eight at a time, so that a change is soon compiled; or, with LISSOM_UNITY=LARGE, those of all
-# rooms of a library, so that a build from nothing takes half the time. Names in anonymous namespaces are
+# rooms of a static library, so that a build from nothing takes half the time. Names in anonymous namespaces are
 # therefore unique within a library, and within a room of tests. Sources with options of their own, and those
 # marked SKIP_UNITY_BUILD_INCLUSION, are compiled alone.
 function(lissom_unity target)

@@ -232,6 +232,8 @@ void draw_objects(const std::vector<std::string>& objects, std::vector<bool>& hi
         ImGui::PushID(static_cast<int>(i));
         bool visible = !hidden[i];
         if (ImGui::Checkbox(objects[i].c_str(), &visible)) hidden[i] = !visible;
+        // A long name reaches beyond the panel.
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", objects[i].c_str());
         ImGui::PopID();
     }
 }

@@ -213,7 +213,7 @@ void ViewApp::take(const Input& input) {
         const bool stops = input.key == Key::escape && input.kind == Input::Kind::key_down;
         if (stops && session_.busy()) return session_.cancel();
         if (!for_panel && input.kind == Input::Kind::key_down) press_key(input);
-    } else if (inside || dragged_) {
+    } else if ((inside && !for_panel) || dragged_) {
         Input own = input;
         own.at -= Vec2(canvas.x, canvas.y);
         navigate(own);
