@@ -60,7 +60,7 @@ SceneTools::SceneTools()
       colormap(make_colormap()),
       no_vertices(gl::make_vertex_array()) {}
 
-Target::Target(gl::Extent extent, const RenderOptions& options) {
+DrawTarget::DrawTarget(gl::Extent extent, const RenderOptions& options) {
     const gl::Extent fine{extent.width * options.supersample, extent.height * options.supersample};
     const int count = options.samples > 1 ? options.samples : 0;
     samples = gl::Framebuffer::multisampled(fine, GL_RGBA16F, count);
@@ -91,13 +91,13 @@ Image SceneDrawer::picture(Progress& progress) const {
     Image image(options_.width, options_.height);
     const std::vector<Tile> tiles =
         split(options_.width, options_.height, kTileSize / options_.supersample);
-    std::unique_ptr<Target> target;
+    std::unique_ptr<DrawTarget> target;
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const Tile& tile = tiles[i];
         const gl::Extent extent{tile.width, tile.height};
         if (!target || !(target->output.extent() == extent)) {
             target.reset();
-            target = std::make_unique<Target>(extent, options_);
+            target = std::make_unique<DrawTarget>(extent, options_);
         }
         draw(tile, *target);
         image.paste(read_pixels(target->output), tile.x, options_.height - tile.y - tile.height);
@@ -106,7 +106,7 @@ Image SceneDrawer::picture(Progress& progress) const {
     return image;
 }
 
-void SceneDrawer::draw(const Tile& tile, const Target& target) const {
+void SceneDrawer::draw(const Tile& tile, const DrawTarget& target) const {
     target.samples.bind();
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glEnable(GL_DEPTH_TEST);
@@ -177,7 +177,7 @@ void SceneDrawer::use_for_marks(const gl::Program& program, const Tile& tile) co
     program.set("u_scale", static_cast<float>(scale));
 }
 
-void SceneDrawer::draw_output(const Target& target) const {
+void SceneDrawer::draw_output(const DrawTarget& target) const {
     const gl::Program& program = tools_.output;
     target.output.bind();
     glDisable(GL_DEPTH_TEST);

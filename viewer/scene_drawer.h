@@ -24,11 +24,11 @@ struct SceneTools {
 
 /// Framebuffers that a part of a picture passes through; the finished pixels are in `output`, rows
 /// from the top.
-struct Target {
+struct DrawTarget {
     gl::Framebuffer samples, picture, output;
 
     /// `extent` in pixels of the picture. Errors: memory_limit.
-    Target(gl::Extent extent, const RenderOptions& options);
+    DrawTarget(gl::Extent extent, const RenderOptions& options);
 };
 
 /// Draws the meshes and overlays of a scene as one camera sees them.
@@ -39,7 +39,7 @@ class SceneDrawer {
                 const SceneView& view, const RenderOptions& options);
 
     /// A part of the picture, whose size is that of `target`.
-    void draw(const Tile& tile, const Target& target) const;
+    void draw(const Tile& tile, const DrawTarget& target) const;
     /// All of it; large pictures are drawn in parts. Errors: memory_limit; cancelled.
     Image picture(Progress& progress) const;
 
@@ -48,7 +48,7 @@ class SceneDrawer {
     void draw_surfaces(const Tile& tile) const;
     void draw_marks(const Tile& tile) const;
     void use_for_marks(const gl::Program& program, const Tile& tile) const;
-    void draw_output(const Target& target) const;
+    void draw_output(const DrawTarget& target) const;
     Mat4 projection(const Tile& tile) const;
 
     const SceneTools& tools_;

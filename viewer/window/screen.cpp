@@ -17,7 +17,7 @@ void Screen::draw(const Camera& camera, const Canvas& canvas, const Color& backg
     const gl::Extent extent{options.width, options.height};
     if (!target_ || !(target_->output.extent() == extent)) {
         shown_ = nullptr;
-        target_ = std::make_unique<Target>(extent, options);
+        target_ = std::make_unique<DrawTarget>(extent, options);
     }
     const double aspect = 1.0 * options.width / options.height;
     const SceneView view = see(scene_, camera, aspect);

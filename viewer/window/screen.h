@@ -36,7 +36,7 @@ class Screen {
     SceneTools tools_;
     GpuScene scene_;
     GpuHairShade no_hair_;
-    std::unique_ptr<Target> target_;
+    std::unique_ptr<DrawTarget> target_;
     gl::Framebuffer finished_;
     const gl::Framebuffer* shown_ = nullptr;
 };
