@@ -86,7 +86,7 @@ const std::vector<Names>& room_orders() {
          "kernel/io/gltf", "kernel/io/obj", "kernel/io/off", "kernel/io/ply", "kernel/io/stl",
          "kernel/io/usda", "kernel/io/hair", "kernel/io"},
         {"bindings/lua/core", "bindings/lua/mesh", "bindings/lua/deform", "bindings/lua/merge",
-         "bindings/lua/hair", "bindings/lua/scene", "bindings/lua/sketch",
+         "bindings/lua/hair", "bindings/lua/scene", "bindings/lua/sketch", "bindings/lua/tools",
          "bindings/lua/reference"},
         {"bindings/cli/terminal", "bindings/cli/process", "bindings/cli/test/picture_check",
          "bindings/cli", "bindings/cli/test"},

@@ -26,6 +26,11 @@ int push_kind(lua_State* L, ElementKind kind) {
     return 1;
 }
 
+// Whether a place is in the library's own Lua text: then it says nothing to a script.
+bool is_own_text(const char* place) {
+    return std::strncmp(place, kOwnLuaText, std::strlen(kOwnLuaText)) == 0;
+}
+
 }  // namespace
 
 void push_place(lua_State* L) {
@@ -34,6 +39,9 @@ void push_place(lua_State* L) {
     for (int level = 1; level < kDeepest && lua_tostring(L, -1)[0] == '\0'; ++level) {
         lua_pop(L, 1);
         luaL_where(L, level);
+        if (!is_own_text(lua_tostring(L, -1))) continue;
+        lua_pop(L, 1);
+        lua_pushliteral(L, "");
     }
 }
 

@@ -248,6 +248,9 @@ class Call {
     Value values_[Entry::kMaximumSlots];
 };
 
+/// Places in the Lua text that is part of this library begin so; scripts are never told them.
+inline constexpr const char kOwnLuaText[] = "lissom tools:";
+
 /// Pushes "file:line: " of the innermost Lua function, or "" where there is none near: the script's
 /// place even after a tail call or inside a metamethod.
 void push_place(lua_State* L);

@@ -62,6 +62,7 @@ Library kernel_library() {
     add(library.functions, polyline_functions());
     add(library.functions, camera_functions());
     add(library.functions, gizmo_functions());
+    add(library.functions, tool_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
     library.functions.push_back(failures_function());
@@ -78,6 +79,7 @@ Library kernel_library() {
     add(library.records, scene_records());
     add(library.records, pick_records());
     add(library.records, gizmo_records());
+    add(library.records, tool_records());
     return library;
 }
 

@@ -65,6 +65,9 @@ Type gizmo_type();
 std::vector<Function> gizmo_functions();
 std::vector<Record> gizmo_records();
 
+std::vector<Function> tool_functions();
+std::vector<Record> tool_records();
+
 Type parameters_type();
 std::vector<Function> parameter_functions();
 

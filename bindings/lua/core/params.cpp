@@ -136,7 +136,8 @@ void take_arguments(State& state, ParameterSet& set, std::vector<std::string>& r
 
 int declare(Call& call) {
     State& state = call.state();
-    if (state.parameters && !state.host.arguments.script.empty()) {
+    const bool of_script = call.boolean("command_line");
+    if (of_script && state.parameters && !state.host.arguments.script.empty()) {
         call.raise("the script's parameters are declared already: once, in one table");
     }
     const int table = call.stack_index("declarations");
@@ -156,8 +157,9 @@ int declare(Call& call) {
         auto set = std::make_shared<ParameterSet>();
         set->list = std::move(list);
         set->sort();
-        state.parameters = set;
         result.set(set);
+        if (!of_script) return set->require_values();
+        state.parameters = set;
         try {
             take_arguments(state, *set, rest, drops_rest);
         } catch (const ParameterError& error) {
@@ -338,6 +340,10 @@ std::vector<Function> parameter_functions() {
                  "`lissom run` they come from flags (--name value), and --help lists them.",
              .arguments = {option_map("declarations", declaration_fields(),
                                       "For each name what the parameter is.")},
+             .options = {boolean("command_line",
+                                 "They are the script's. If not, they have their defaults, and may "
+                                 "be declared as often as wanted: what tools do.")
+                             .defaults(true)},
              .results = {{"lissom.Params", "params", "Their values."},
                          {"string[]", "rest", "The words of the command line that are no flags."}},
              .errors = {ErrorCode::invalid_argument},

@@ -387,6 +387,83 @@
 ---@field position lissom.Vector In the world.
 ---@field radius number Pixels.
 
+---Calls tools with what a hand does.
+---@class lissom.ToolHost
+---@field scene lissom.Scene What the tools work on.
+---@field camera lissom.Camera What it is seen by.
+---@field size integer[] {width, height} of the picture in pixels.
+---@field tool table? The present tool.
+---@field use fun(self: any, tool: table?, word: string?): lissom.ToolHost Another tool, or none; `word` is what a recording calls it, where that is not its name.
+---@field look fun(self: any, camera: lissom.Camera, size: integer[]?): lissom.ToolHost Another camera and size of the picture.
+---@field press fun(self: any, event: lissom.MouseEvent): lissom.ToolHost A button went down: a step of the scene begins.
+---@field move fun(self: any, event: lissom.MouseEvent): lissom.ToolHost The cursor moved: a drag while a button is down.
+---@field release fun(self: any, event: lissom.MouseEvent): lissom.ToolHost The button came up: the step ends.
+---@field click fun(self: any, event: lissom.MouseEvent): lissom.ToolHost Press and release.
+---@field key fun(self: any, event: table): lissom.ToolHost {key=, shift=, ctrl=, alt=}: "enter", "escape", "a", ...
+---@field type fun(self: any, text: string): lissom.ToolHost A key for each character.
+---@field set fun(self: any, values: table): lissom.ToolHost Sets parameters of the tool.
+---@field cancel fun(self: any): lissom.ToolHost Escape: takes the present gesture back; the tool forgets what it began.
+---@field undo fun(self: any): string? The scene's undo, which a running gesture only cancels; the name of the step.
+---@field redo fun(self: any): string? The scene's redo.
+---@field draw fun(self: any): lissom.ToolMarks What the tool shows over the picture.
+---@field prompt fun(self: any): string? What the person is asked, or the tool's help.
+---@field record fun(self: any, open: string[]?): lissom.ToolHost Begins a recording, before a tool is used; `open` names the files of the scene.
+---@field recording fun(self: any): string The text of the recording: a script that does all again.
+---@field recover fun(self: any): lissom.ToolHost Takes back what a tool left that was stopped from outside, for instance by a limit of instructions.
+
+---What a mouse did.
+---@class lissom.MouseEvent
+---@field x number Pixels from the left edge of the picture.
+---@field y number Pixels from its top.
+---@field button string? left (default), right or middle; of a press.
+---@field shift boolean? Whether this key is down.
+---@field ctrl boolean? Likewise.
+---@field alt boolean? Likewise.
+
+---What a tool is called with.
+---@class lissom.ToolEvent
+---@field x number? Pixels from the left edge of the picture.
+---@field y number? Pixels from its top.
+---@field start number[]? Where the button went down, {x, y}.
+---@field button string? left, right or middle.
+---@field key string? The key, of key.
+---@field parameter string? The parameter that was set, of changed.
+---@field shift boolean Whether this key is down.
+---@field ctrl boolean Likewise.
+---@field alt boolean Likewise.
+---@field camera lissom.Camera What the scene is seen by.
+---@field scene lissom.Scene The scene.
+---@field size integer[] {width, height} of the picture in pixels.
+---@field ray fun(self: any): any Origin and direction, as camera:ray.
+---@field hit fun(self: any): lissom.PickHit? The surface under the cursor.
+---@field pick fun(self: any, options: table?): lissom.PickHit? camera:pick of the scene at the cursor.
+---@field select fun(self: any, options: table): lissom.Selected[] camera:select of the scene.
+
+---What a tool draws on, over the picture. Colours are "#rrggbb"; each method returns the view.
+---@class lissom.ToolView
+---@field camera lissom.Camera What the scene is seen by.
+---@field scene lissom.Scene The scene.
+---@field size integer[] {width, height} of the picture in pixels.
+---@field cursor number[]? Where the cursor is.
+---@field points fun(self: any, options: table) {points=, color=, radius= in pixels}
+---@field line fun(self: any, options: table) {points=, color=, width= in pixels, closed=}
+---@field curve fun(self: any, options: table) The same.
+---@field label fun(self: any, options: table) {at=, text=, color=}
+---@field handle fun(self: any, options: table) {at=, color=, radius=}: a ball to take hold of.
+---@field gizmo fun(self: any, gizmo: lissom.Gizmo) The gizmo as it is seen now.
+---@field region fun(self: any, options: table) {mesh=, region=, color=}: colours it.
+---@field outline fun(self: any, options: table) {pixels=, color=, width=, closed=}: a line in the picture, of {x, y}.
+---@field circle fun(self: any, options: table) {at={x, y}, radius=, color=}: in pixels of the picture.
+
+---What a tool shows, as the tables it was drawn with.
+---@class lissom.ToolMarks
+---@field points table[] Balls.
+---@field lines table[] Lines in the world.
+---@field labels table[] Text at points.
+---@field outlines table[] Lines in the picture.
+---@field circles table[] Circles in the picture.
+---@field regions table[] Coloured vertices.
+
 ---An oriented 2-manifold of polygons, with or without boundary. Vertices and faces count from 1.
 ---@class lissom.Mesh
 ---@operator len: integer
@@ -1992,6 +2069,10 @@ function Scene:commit() end
 ---@return lissom.Elements? elements # The elements concerned.
 function Scene:rollback() end
 
+---Number of steps that are open.
+---@return integer depth # 0 outside steps.
+function Scene:depth() end
+
 ---Takes back the last step: the contents go back into the objects themselves. What was changed outside a step is a step called "edited".
 ---@return string|nil name # The name of the step; nil where there is none.
 ---@return string? message # What is wrong, where the first result is nil.
@@ -2325,6 +2406,8 @@ function Params:close() end
 local lissom = {}
 
 lissom.shapes = {}
+
+lissom.pick = {}
 
 ---@class lissom.LoadOptions
 ---@field weld? "seams"|"all"|boolean Which vertices at the same place become one. "seams": those that join open edges at the same place and of opposite direction, so that surfaces that only touch, as closed lips do, stay apart; "all": all of them; false: none. Default: "all" for .stl, "seams" for others.
@@ -2687,6 +2770,114 @@ function lissom.frame(mesh, options) end
 ---@return lissom.Gizmo gizmo # The gizmo.
 function lissom.gizmo(options) end
 
+---Makes a tool: functions that are called with what a hand does. press, drag and release, or run, a coroutine that asks by lissom.pick; move, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. The table's other keys are the tool's own.
+---@param tool table name, help, params (as for lissom.params) and functions.
+---@return table tool # The same table; `tool.params` are the values now.
+function lissom.tool(tool) end
+
+---Reads a tool from its file, each time a new one.
+---@param name string A file that ends with .lua, or the name of one that ships: "select", "deform", ... (tools/NAME.lua on package.path).
+---@return table tool # What the file returns.
+function lissom.load_tool(name) end
+
+---@class lissom.Tool_hostOptions
+---@field scene lissom.Scene What the tools work on.
+---@field camera lissom.Camera What it is seen by.
+---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@field tool? table The first tool. Default: none.
+
+---Runs tools without a window: what a hand would do is called. Errors of a tool go on once the scene is as before.
+---@param options lissom.Tool_hostOptions
+---@return lissom.ToolHost host # Call its methods.
+function lissom.tool_host(options) end
+
+---@class lissom.ReplayOptions
+---@field scene? lissom.Scene The scene to work on; else the files that the recording names are opened.
+---@field tools? table Tools by which those of the same names are replaced: a list. Default: none.
+
+---Does again what was recorded, and compares the hash of the scene before it, after each step and at the end. A recording is a script that calls this.
+---@param recording string|table What was recorded.
+---@param options? lissom.ReplayOptions
+---@return lissom.Scene scene # The scene as it is then.
+function lissom.replay(recording, options) end
+
+---@class lissom.PointOptions
+---@field prompt string What the person is asked, in a line.
+---@field optional? boolean The Enter key answers too, with nil. Default: false.
+---@field object? string Only on the object of the scene with this name. Default: any.
+
+---Asks for a point of a surface and waits for a click there, inside the run function of a tool.
+---@param options lissom.PointOptions
+---@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+function lissom.pick.point(options) end
+
+---@class lissom.VertexOptions
+---@field prompt string What the person is asked, in a line.
+---@field optional? boolean The Enter key answers too, with nil. Default: false.
+---@field object? string Only on the object of the scene with this name. Default: any.
+
+---Asks for a vertex and waits for a click there, inside the run function of a tool.
+---@param options lissom.VertexOptions
+---@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+function lissom.pick.vertex(options) end
+
+---@class lissom.FaceOptions
+---@field prompt string What the person is asked, in a line.
+---@field optional? boolean The Enter key answers too, with nil. Default: false.
+---@field object? string Only on the object of the scene with this name. Default: any.
+
+---Asks for a face and waits for a click there, inside the run function of a tool.
+---@param options lissom.FaceOptions
+---@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+function lissom.pick.face(options) end
+
+---@class lissom.EdgeOptions
+---@field prompt string What the person is asked, in a line.
+---@field optional? boolean The Enter key answers too, with nil. Default: false.
+---@field object? string Only on the object of the scene with this name. Default: any.
+
+---Asks for an edge and waits for a click there, inside the run function of a tool.
+---@param options lissom.EdgeOptions
+---@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+function lissom.pick.edge(options) end
+
+---@class lissom.BoundaryOptions
+---@field prompt string What the person is asked, in a line.
+---@field optional? boolean The Enter key answers too, with nil. Default: false.
+---@field object? string Only on the object of the scene with this name. Default: any.
+
+---Asks for an open boundary and waits for a click there, inside the run function of a tool.
+---@param options lissom.BoundaryOptions
+---@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+function lissom.pick.boundary(options) end
+
+---@class lissom.ObjectOptions
+---@field prompt string What the person is asked, in a line.
+---@field optional? boolean The Enter key answers too, with nil. Default: false.
+---@field object? string Only on the object of the scene with this name. Default: any.
+
+---Asks for an object and waits for a click there, inside the run function of a tool.
+---@param options lissom.ObjectOptions
+---@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+function lissom.pick.object(options) end
+
+---@class lissom.NumberOptions
+---@field prompt string What the person is asked, in a line.
+---@field default? number What Enter alone means. Default: none.
+
+---Asks for a number, which is typed and ended by Enter.
+---@param options lissom.NumberOptions
+---@return number number # What was typed.
+function lissom.pick.number(options) end
+
+---@class lissom.ConfirmOptions
+---@field prompt string What the person is asked, in a line.
+
+---Waits for the Enter key.
+---@param options lissom.ConfirmOptions
+---@return boolean done # true
+function lissom.pick.confirm(options) end
+
 ---@class lissom.ParamsOptions.Declarations
 ---@field type "number"|"integer"|"boolean"|"string"|"choice"|"file"|"folder" What its values are. A folder is one to write to: it is made, where it is missing, when the parameters are declared or it is set.
 ---@field default? boolean|number|string Its value where none is given; without one it must be given. Default: required.
@@ -2698,11 +2889,15 @@ function lissom.gizmo(options) end
 ---@field group? string Heading that it stands under. Default: none.
 ---@field help? string A line that says what it does. Default: none.
 
+---@class lissom.ParamsOptions
+---@field command_line? boolean They are the script's. If not, they have their defaults, and may be declared as often as wanted: what tools do. Default: true.
+
 ---Declares the parameters of the script, once, and returns their values. Under `lissom run` they come from flags (--name value), and --help lists them.
 ---@param declarations table<string, lissom.ParamsOptions.Declarations> For each name what the parameter is.
+---@param options? lissom.ParamsOptions
 ---@return lissom.Params params # Their values.
 ---@return string[] rest # The words of the command line that are no flags.
-function lissom.params(declarations) end
+function lissom.params(declarations, options) end
 
 ---@class lissom.ListenOptions
 ---@field progress? fun(label: string, fraction: number): boolean? Called during an operation with what is done and the fraction done, 0 to 1. Where it returns false the operation is cancelled. Default: none.

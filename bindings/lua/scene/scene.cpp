@@ -194,6 +194,10 @@ int run_step(Call& call) {
     return lua_gettop(L) - top;
 }
 
+int step_depth(Call& call) {
+    return call.push_count(call.self<SceneObject>()->scene.depth());
+}
+
 // The name of the step that `move` undid or did again, or nil.
 template <typename Move>
 int move_in_history(Call& call, const Move& move) {
@@ -390,6 +394,13 @@ scene:begin("drag")
 bar:transform{ scale = 2 }
 scene:rollback()
 assert(scene:hash() == before))"},
+        {.name = "depth",
+         .body = step_depth,
+         .summary = "Number of steps that are open.",
+         .results = {{"integer", "depth", "0 outside steps."}},
+         .example = kBarScene + R"(scene:begin("drag")
+assert(scene:depth() == 1)
+scene:rollback())"},
         {.name = "undo",
          .body = undo_step,
          .summary = "Takes back the last step: the contents go back into the objects themselves. "

@@ -1,0 +1,411 @@
+-- The host of tools: calls a tool's functions with what a hand does, each in a step of the scene. What is
+-- returned is what the binding calls; its reference is in tools.cpp.
+local lissom = ...
+
+local Tool, Event, View, Host = { __name = "lissom.Tool" }, {}, {}, { __name = "lissom.ToolHost" }
+Tool.__tostring = function(tool) return "lissom.Tool: " .. rawget(tool, "name") end
+Event.__index, View.__index, Host.__index = Event, View, Host
+Host.__tostring = function(host) return "lissom.ToolHost: " .. (host.tool and host.tool.name or "no tool") end
+
+local function set_of(names)
+    local set = {}
+    for _, name in ipairs(names) do set[name] = true end
+    return set
+end
+
+local function misuse(text, ...) error(string.format(text, ...), 3) end
+
+-- ---- Tools
+
+local callbacks = { "activate", "press", "drag", "release", "move", "key", "changed", "draw", "cancel",
+    "deactivate", "run" }
+local is_callback = set_of(callbacks)
+
+-- Whether one letter left out of one of two words gives the other.
+local function lacks_a_letter(long, short)
+    if #long ~= #short + 1 then return false end
+    for i = 1, #long do
+        if long:sub(1, i - 1) .. long:sub(i + 1) == short then return true end
+    end
+    return false
+end
+
+local function check_callback(key, value)
+    if is_callback[key] and type(value) ~= "function" then
+        error("a tool's '" .. key .. "' is a function, not a " .. type(value), 0)
+    end
+    if is_callback[key] or type(value) ~= "function" or type(key) ~= "string" then return end
+    for _, name in ipairs(callbacks) do
+        if lacks_a_letter(name, key) or lacks_a_letter(key, name) then
+            error("the host never calls '" .. key .. "'; did you mean '" .. name ..
+                "'? A function of the tool's own needs a name less like it", 0)
+        end
+    end
+end
+
+local function make_tool(tool)
+    if type(tool.name) ~= "string" or tool.name == "" then error("a tool needs a name, a string", 0) end
+    if tool.help ~= nil and type(tool.help) ~= "string" then error("the help of a tool is a string", 0) end
+    for key, value in pairs(tool) do check_callback(key, value) end
+    if tool.run and (tool.press or tool.drag or tool.release) then
+        error("a tool that asks (run) has no press, drag or release", 0)
+    end
+    tool.params = lissom.params(tool.params or {}, { command_line = false })
+    tool.state = tool.state or {}
+    return setmetatable(tool, Tool)
+end
+
+local function is_tool(value) return type(value) == "table" and getmetatable(value) == Tool end
+
+-- ---- Events
+
+local function filled(event, options)
+    local all = { scene = event.scene, size = event.size }
+    for key, value in pairs(options or {}) do all[key] = value end
+    if all.mesh or all.meshes then all.scene = nil end
+    return all
+end
+
+function Event:ray() return self.camera:ray(self.x, self.y, self.size) end
+
+function Event:pick(options)
+    local all = filled(self, options)
+    all.x, all.y = self.x, self.y
+    return self.camera:pick(all)
+end
+
+function Event:hit() return self:pick() end
+
+function Event:select(options) return self.camera:select(filled(self, options)) end
+
+local event_fields = {
+    mouse = set_of{ "x", "y", "button", "shift", "ctrl", "alt" },
+    key = set_of{ "key", "shift", "ctrl", "alt" },
+}
+local buttons = set_of{ "left", "right", "middle" }
+
+local function check_event(what, fields)
+    local known = event_fields[what]
+    for key in pairs(fields) do
+        if not known[key] then misuse("an event of the %s has no '%s'", what, tostring(key)) end
+    end
+    if what == "key" then
+        if type(fields.key) ~= "string" then misuse("a key is a string, for instance \"enter\"") end
+        return
+    end
+    for _, axis in ipairs{ "x", "y" } do
+        local value = fields[axis]
+        if type(value) ~= "number" or value ~= value or math.abs(value) > 1e9 then
+            misuse("an event needs %s, a number of pixels", axis)
+        end
+    end
+    if fields.button and not buttons[fields.button] then misuse("a button is left, right or middle") end
+end
+
+function Host:event(kind, fields)
+    local held = self.held or {}
+    local event = { kind = kind, camera = self.camera, scene = self.scene, size = self.size,
+        x = self.x, y = self.y, start = held.start, button = held.button,
+        shift = false, ctrl = false, alt = false }
+    for key, value in pairs(fields or {}) do event[key] = value end
+    return setmetatable(event, Event)
+end
+
+-- ---- Steps. A gesture, from press to release, is one; whatever else a tool does is one of its own.
+
+function Host:begin()
+    self.depth = self.scene:depth()
+    self.scene:begin(self.tool.name)
+end
+
+function Host:take_back()
+    local depth = self.depth
+    self.depth, self.held = nil, nil
+    while depth and self.scene:depth() > depth do self.scene:rollback() end
+end
+
+-- The message goes on after the scene is as it was before the step.
+function Host:fail(message)
+    local held = self.held ~= nil
+    self:take_back()
+    self:forget_failed(held)
+    self.thread, self.request, self.hover = nil, nil, nil
+    local cancel = self.tool and self.tool.cancel
+    if cancel then pcall(cancel, self.tool, self:event("cancel")) end
+    self.working = false
+    error(message, 0)
+end
+
+function Host:call(name, event)
+    local callback = self.tool and self.tool[name]
+    if not callback then return end
+    self.working = true
+    local done, message = pcall(callback, self.tool, event)
+    if not done then self:fail(message) end
+    self.working = false
+end
+
+function Host:commit()
+    if self.scene:depth() ~= self.depth + 1 then
+        self:fail("the tool '" .. self.tool.name .. "' began or ended a step; its host does that")
+    end
+    self.depth = nil
+    return self.scene:commit()
+end
+
+function Host:step(name, event)
+    if not (self.tool and self.tool[name]) then return end
+    if self.depth then return self:call(name, event) end
+    self:begin()
+    self:call(name, event)
+    self:mark(self:commit())
+end
+
+-- What a broken-off call left: a script that was stopped from outside leaves its step open.
+function Host:recover()
+    if not self.working then return self end
+    self.working = false
+    self:take_back()
+    self.thread, self.request, self.hover = nil, nil, nil
+    return self
+end
+
+function Host:ready()
+    if self.working then error("a function of the tool runs, or was stopped; see recover", 3) end
+end
+
+-- ---- Prompts of tools that run as coroutines
+
+local pick_kinds = { point = "face", object = "face", face = "face", vertex = "vertex", edge = "edge",
+    boundary = "boundary" }
+
+-- What the cursor would answer, or nil.
+function Host:candidate(event)
+    local request = self.request
+    local kind = request and pick_kinds[request.kind]
+    if not kind then return nil end
+    local hit = event:pick{ kinds = { kind }, radius = request.radius }
+    if not hit or (request.object and hit.object ~= request.object) then return nil end
+    if request.kind == "boundary" then hit.boundary = hit.mesh:boundaries()[hit.index] end
+    return hit
+end
+
+function Host:resume(...)
+    local opened = not self.depth
+    if opened then self:begin() end
+    self.working = true
+    self.request, self.hover, self.typed = nil, nil, ""
+    local done, request = coroutine.resume(self.thread, ...)
+    if not done then self:fail(request) end
+    local waits = coroutine.status(self.thread) == "suspended"
+    if waits and not (type(request) == "table" and request.kind) then
+        self:fail("the run of a tool waits for nothing but the answers of lissom.pick")
+    end
+    self.working = false
+    if opened then self:mark(self:commit()) end
+    if waits then
+        self.request, self.asked = request, true
+    else
+        self.thread = nil
+    end
+end
+
+-- A run that has ended begins again where it has asked for anything.
+function Host:start_run()
+    if not (self.tool and self.tool.run) or self.thread then return end
+    self.asked = false
+    self.thread = coroutine.create(self.tool.run)
+    self:resume(self.tool, self:event("run"))
+end
+
+function Host:answer(value)
+    self:resume(value)
+    if not self.thread and self.asked then self:start_run() end
+end
+
+local function typed_number(text, default)
+    if text == "" then return default end
+    return tonumber(text)
+end
+
+function Host:prompt_key(event)
+    local request = self.request
+    if event.key == "enter" then
+        if request.kind == "confirm" then return self:answer(true) end
+        if request.kind == "number" then
+            local value = typed_number(self.typed, request.default)
+            if value then return self:answer(value) end
+            self.typed = ""
+        end
+        if request.optional then return self:answer(nil) end
+    elseif request.kind == "number" then
+        if event.key == "backspace" then self.typed = self.typed:sub(1, -2) end
+        if event.key:match("^[%d.eE+-]$") then self.typed = self.typed .. event.key end
+    end
+end
+
+-- ---- What a hand does
+
+-- `word` is what a recording calls the tool, where that is not its name.
+function Host:use(tool, word)
+    self:ready()
+    if tool ~= nil and not is_tool(tool) then error("a tool is what lissom.tool returns", 2) end
+    self:cancel_quietly()
+    if self.tool and not tool then self:note{ "tool" } end
+    self:step("deactivate", self:event("deactivate"))
+    self.tool = tool
+    self.hover = nil
+    if tool then
+        self:note{ "tool", word or tool.name }
+        for _, p in ipairs(tool.params:schema()) do
+            if p.value ~= p.default then self:note{ "set", { [p.name] = p.value } } end
+        end
+    end
+    self:step("activate", self:event("activate"))
+    self:start_run()
+    return self
+end
+
+-- A camera made of the numbers of another, which is what a recording makes of them.
+local function camera_numbers(camera)
+    return { eye = camera:eye(), target = camera:target(), up = camera:up(),
+        fov = camera:fov(), ortho = camera:ortho() }
+end
+
+function Host:look(camera, size)
+    self:ready()
+    local numbers = camera_numbers(camera)
+    self.camera = lissom.camera(numbers)
+    self.size = size and { size[1], size[2] } or self.size
+    numbers.size = self.size
+    self:note{ "look", numbers }
+    return self
+end
+
+local function mouse_note(kind, event)
+    return { kind, event.x, event.y, button = event.button ~= "left" and event.button or nil,
+        shift = event.shift or nil, ctrl = event.ctrl or nil, alt = event.alt or nil }
+end
+
+function Host:place(fields)
+    check_event("mouse", fields)
+    self.x, self.y = fields.x, fields.y
+end
+
+function Host:press(fields)
+    self:ready()
+    self:place(fields)
+    if self.held then error("a button is down already; release it first", 2) end
+    if not self.tool then return self end
+    local button = fields.button or "left"
+    local event = self:event("press", fields)
+    event.button, event.start = button, { fields.x, fields.y }
+    self:note(mouse_note("press", event))
+    self:begin()
+    self.held = { button = button, start = event.start }
+    self:call("press", event)
+    return self
+end
+
+function Host:move(fields)
+    self:ready()
+    self:place(fields)
+    if not self.tool then return self end
+    local event = self:event(self.held and "drag" or "move", fields)
+    if self.held then
+        self:note(mouse_note("move", event))
+        self:call("drag", event)
+    elseif self.tool.move then
+        self:note(mouse_note("move", event))
+        self:step("move", event)
+    else
+        self.hover = self:candidate(event)
+    end
+    return self
+end
+
+function Host:release(fields)
+    self:ready()
+    self:place(fields)
+    if not self.held then return self end
+    local event = self:event("release", fields)
+    self:note(mouse_note("release", event))
+    if self.tool.run then
+        local hit = self:candidate(event)
+        if hit then self:answer(hit) end
+    else
+        self:call("release", event)
+    end
+    self.held = nil
+    self:mark(self:commit())
+    return self
+end
+
+function Host:click(fields) return self:press(fields):release(fields) end
+
+function Host:key(fields)
+    self:ready()
+    check_event("key", fields)
+    if fields.key == "escape" then return self:cancel() end
+    if not self.tool then return self end
+    local shift, ctrl, alt = fields.shift or nil, fields.ctrl or nil, fields.alt or nil
+    self:note{ "key", fields.key, shift = shift, ctrl = ctrl, alt = alt }
+    local event = self:event("key", fields)
+    if self.request then self:prompt_key(event) else self:step("key", event) end
+    return self
+end
+
+function Host:type(text)
+    for character in tostring(text):gmatch(".") do self:key{ key = character } end
+    return self
+end
+
+function Host:set(values)
+    self:ready()
+    if not self.tool then error("there is no tool whose parameters could be set", 2) end
+    local names = {}
+    for name in pairs(values) do table.insert(names, name) end
+    table.sort(names)
+    for _, name in ipairs(names) do
+        self.tool.params[name] = values[name]
+        self:note{ "set", { [name] = values[name] } }
+        local event = self:event("changed")
+        event.parameter = name
+        self:step("changed", event)
+    end
+    return self
+end
+
+function Host:cancel_quietly()
+    local held = self.held
+    self:take_back()
+    self.thread, self.request, self.hover = nil, nil, nil
+    return held ~= nil
+end
+
+-- Escape: the gesture that goes on is taken back; the tool forgets what it began.
+function Host:cancel()
+    self:ready()
+    if not self.tool then return self end
+    self:note{ "cancel" }
+    self:cancel_quietly()
+    self:step("cancel", self:event("cancel"))
+    self:start_run()
+    return self
+end
+
+function Host:travel(verb)
+    self:ready()
+    if self.held then return self:cancel() and nil end
+    local waits = self.thread ~= nil
+    self:cancel_quietly()
+    self:note{ verb }
+    local name = self.scene[verb](self.scene)
+    self:mark(name ~= nil)
+    if waits then self:start_run() end
+    return name
+end
+
+function Host:undo() return self:travel("undo") end
+function Host:redo() return self:travel("redo") end
+

@@ -1,0 +1,221 @@
+-- ---- Recordings: what a hand did, as a script that does it again.
+
+-- Adds an event to the recording, if one is made.
+function Host:note(event)
+    if not self.log then return end
+    local last = self.log[#self.log]
+    local replaces = last and last[1] == event[1] and not last.hash and not self.held
+    if replaces and (event[1] == "look" or event[1] == "move") then table.remove(self.log) end
+    table.insert(self.log, event)
+end
+
+-- A recording does not repeat what failed: of that only the tool's cancel was seen.
+function Host:forget_failed(held)
+    if not self.log then return end
+    while held and #self.log > 0 and self.log[#self.log][1] ~= "press" do table.remove(self.log) end
+    if #self.log > 0 then self.log[#self.log] = { "cancel" } end
+end
+
+-- The hash that the scene has after the event noted last, where that changed it.
+function Host:mark(changed)
+    if self.log and changed and #self.log > 0 then self.log[#self.log].hash = self.scene:hash() end
+end
+
+-- Begins a recording; `open` names the files of the scene, where it is as they were opened.
+function Host:record(open)
+    self:ready()
+    if self.tool then error("record before a tool is used: its state is not in a recording", 2) end
+    self.opened = { open = open and #open > 0 and open or nil, hash = self.scene:hash() }
+    self.log = {}
+    local numbers = camera_numbers(self.camera)
+    numbers.size = self.size
+    self:note{ "look", numbers }
+    return self
+end
+
+-- The shortest text that reads as the same number.
+local function number_text(value)
+    if value % 1 == 0 and math.abs(value) < 2 ^ 53 then return string.format("%d", value) end
+    for digits = 15, 17 do
+        local text = string.format("%." .. digits .. "g", value)
+        if tonumber(text) == value then return text end
+    end
+    return tostring(value)
+end
+
+local function text_of(value)
+    if type(value) == "string" then return string.format("%q", value) end
+    if type(value) == "number" then
+        return number_text(value)
+    end
+    if type(value) ~= "table" then return tostring(value) end
+    local parts, keys = {}, {}
+    for _, item in ipairs(value) do table.insert(parts, text_of(item)) end
+    for key in pairs(value) do
+        if type(key) == "string" then table.insert(keys, key) end
+    end
+    table.sort(keys)
+    for _, key in ipairs(keys) do table.insert(parts, key .. " = " .. text_of(value[key])) end
+    return "{ " .. table.concat(parts, ", ") .. " }"
+end
+
+function Host:recording()
+    if not self.log then error("nothing is recorded; see record", 2) end
+    local lines = { "-- What was done with tools; lissom run does it again." }
+    table.insert(lines, 'return require("lissom").replay{')
+    table.insert(lines, "    version = 1,")
+    if self.opened.open then table.insert(lines, "    open = " .. text_of(self.opened.open) .. ",") end
+    table.insert(lines, '    before = "' .. self.opened.hash .. '",')
+    table.insert(lines, "    events = {")
+    for _, event in ipairs(self.log) do table.insert(lines, "        " .. text_of(event) .. ",") end
+    table.insert(lines, "    },")
+    table.insert(lines, '    after = "' .. self.scene:hash() .. '",')
+    table.insert(lines, "}\n")
+    return table.concat(lines, "\n")
+end
+
+-- ---- Opening
+
+local function stem(path) return (path:gsub("^.*[/\\]", ""):gsub("%.[^.]*$", "")) end
+
+local function free_name(scene, name)
+    local free, number = name, 1
+    local taken = set_of(scene:names())
+    while taken[free] do
+        number = number + 1
+        free = name .. " " .. number
+    end
+    return free
+end
+
+local function loaded_or_error(value, message)
+    if value == nil then error(message, 0) end
+    return value
+end
+
+-- The scene of mesh files, or of one .lissom file; options are those of lissom.load.
+local function open_scene(paths, options)
+    local is_scene = #paths == 1 and paths[1]:match("%.lissom$")
+    if is_scene then return loaded_or_error(lissom.load_scene(paths[1])) end
+    local scene = lissom.scene{}
+    for _, path in ipairs(paths) do
+        scene:add(free_name(scene, stem(path)), loaded_or_error(lissom.load(path, options)))
+    end
+    scene:clear_history()
+    return scene
+end
+
+-- The tool that a word names: a file, or one of those that ship; a new table each time.
+local function load_tool(word)
+    local path = word
+    if not word:match("%.lua$") then
+        path = package.searchpath("tools." .. word, package.path)
+        if not path then error("there is no tool '" .. word .. "'", 0) end
+    end
+    local chunk, message = loadfile(path, "t")
+    if not chunk then error(message, 0) end
+    local tool = chunk()
+    if not is_tool(tool) then
+        error(path .. " does not return a tool; end it with return lissom.tool{...}", 0)
+    end
+    return tool
+end
+
+-- ---- Replaying
+
+local function tool_for(word, given)
+    for _, tool in ipairs(given or {}) do
+        if tool.name == word then
+            for _, p in ipairs(tool.params:schema()) do tool.params[p.name] = p.default end
+            return tool
+        end
+    end
+    return load_tool(word)
+end
+
+local player = {
+    look = function(host, event)
+        local n = event[2]
+        local camera = { eye = n.eye, target = n.target, up = n.up, fov = n.fov, ortho = n.ortho }
+        host:look(lissom.camera(camera), n.size)
+    end,
+    tool = function(host, event, tools)
+        local tool = event[2] and tool_for(event[2], tools)
+        host:use(tool, event[2])
+    end,
+    set = function(host, event) host:set(event[2]) end,
+    key = function(host, event)
+        host:key{ key = event[2], shift = event.shift, ctrl = event.ctrl, alt = event.alt }
+    end,
+    cancel = function(host) host:cancel() end,
+    undo = function(host) host:undo() end,
+    redo = function(host) host:redo() end,
+}
+for _, kind in ipairs{ "press", "move", "release" } do
+    player[kind] = function(host, event)
+        host[kind](host, { x = event[2], y = event[3], button = kind == "press" and event.button or nil,
+            shift = event.shift, ctrl = event.ctrl, alt = event.alt })
+    end
+end
+
+-- The table that a file of a recording gives to lissom.replay; the file is run for nothing else.
+local function recording_of(path)
+    local recorded
+    local catcher = { replay = function(t) recorded = t end }
+    local chunk, message
+    local sandbox = { require = function() return catcher end }
+    if setfenv then
+        chunk, message = loadfile(path)
+        if chunk then setfenv(chunk, sandbox) end
+    else
+        chunk, message = loadfile(path, "t", sandbox)
+    end
+    if not chunk then error(message, 0) end
+    chunk()
+    if type(recorded) ~= "table" then error(path .. " is no recording", 0) end
+    return recorded
+end
+
+local function same_or_error(scene, wanted, what)
+    if wanted and scene:hash() ~= wanted then
+        error(string.format("the recording differs %s: the scene has the hash %s, recorded was %s", what,
+            scene:hash(), wanted), 0)
+    end
+end
+
+local function new_host(scene, camera, size)
+    size = type(size) == "number" and { size, size } or size or { 1280, 960 }
+    return setmetatable({ scene = scene, camera = camera, size = size, typed = "" }, Host)
+end
+
+local function replay(recorded, options)
+    if type(recorded) == "string" then recorded = recording_of(recorded) end
+    if recorded.version ~= 1 then
+        error("this program reads recordings of version 1; this one has " .. tostring(recorded.version), 0)
+    end
+    if type(recorded.events) ~= "table" then error("a recording has a list of events", 0) end
+    local scene = options.scene
+    if not scene then
+        if not recorded.open then error("the recording names no files: give it a scene (scene=)", 0) end
+        scene = open_scene(recorded.open)
+    end
+    same_or_error(scene, recorded.before, "before its first event: it was made with another scene or mesh")
+    local host = new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
+    for i, event in ipairs(recorded.events) do
+        local play = type(event) == "table" and player[event[1]]
+        if not play then error("event " .. i .. " of the recording is of no known kind", 0) end
+        play(host, event, options.tools)
+        same_or_error(scene, event.hash, "at event " .. i .. ", " .. event[1])
+    end
+    host:use(nil)
+    same_or_error(scene, recorded.after, "at its end")
+    return scene
+end
+
+local function make_host(options)
+    local host = new_host(options.scene, lissom.camera(camera_numbers(options.camera)), options.size)
+    if options.tool then host:use(options.tool) end
+    return host
+end
+
+return { tool = make_tool, host = make_host, replay = replay, open = open_scene, load_tool = load_tool }

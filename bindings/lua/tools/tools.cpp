@@ -1,0 +1,415 @@
+// lissom.tool, lissom.tool_host, lissom.replay and the prompts of lissom.pick.
+#include "bindings/lua/tools/tools.h"
+
+#include <array>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/sketch/camera_object.h"
+#include "bindings/lua/tools/tool_text.h"
+
+namespace lissom::lua {
+namespace {
+
+constexpr const char* kChunk = "=lissom tools";
+
+// Key of Lua's registry: its address. The functions of the text.
+const char kToolFunctions = 0;
+
+struct Piece {
+    int next = 0;
+};
+
+const char* read_piece(lua_State*, void* state, std::size_t* size) {
+    auto* piece = static_cast<Piece*>(state);
+    const char* text = kToolText[piece->next];
+    if (!text) return nullptr;
+    ++piece->next;
+    *size = std::strlen(text);
+    return text;
+}
+
+// Runs the text and keeps what it returns.
+void load_tool_functions(lua_State* L) {
+    Piece piece;
+#if LUA_VERSION_NUM >= 502
+    const int status = lua_load(L, read_piece, &piece, kChunk, "t");
+#else
+    const int status = lua_load(L, read_piece, &piece, kChunk);
+#endif
+    if (status != 0) lua_error(L);
+    open(L, find_state(L)->host);
+    lua_call(L, 1, 1);
+    lua_pushvalue(L, -1);
+    raw_set_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
+}
+
+// Whether the message on top of the stack begins with the script's place.
+bool has_place(lua_State* L) {
+    push_place(L);
+    const char* place = lua_tostring(L, -1);
+    const bool has = *place && std::strncmp(lua_tostring(L, -2), place, std::strlen(place)) == 0;
+    lua_pop(L, 1);
+    return has;
+}
+
+// What is on top of the stack is an error of the text: it is the script's, whose place stands
+// before it.
+[[noreturn]] void raise_here(const Call& call) {
+    lua_State* L = call.lua();
+    if (lua_type(L, -1) != LUA_TSTRING || has_place(L)) lua_error(L);
+    const char* text = lua_tostring(L, -1);
+    if (std::strncmp(text, kOwnLuaText, std::strlen(kOwnLuaText)) == 0) {
+        const char* end = std::strchr(text + std::strlen(kOwnLuaText), ':');
+        if (end && end[1] == ' ') text = end + 2;
+    }
+    call.raise(text);
+}
+
+// Calls the text's function below `count` arguments; its one result stays.
+int finish_call(const Call& call, int count) {
+    if (lua_pcall(call.lua(), count, 1, 0) != 0) raise_here(call);
+    return 1;
+}
+
+// As finish_call, for functions that run tools: their errors have a place already.
+int finish_tool_call(const Call& call, int count) {
+    lua_call(call.lua(), count, 1);
+    return 1;
+}
+
+void push_given(const Call& call, const char* path) {
+    if (call.has(path)) {
+        lua_pushvalue(call.lua(), call.stack_index(path));
+    } else {
+        lua_pushnil(call.lua());
+    }
+}
+
+// ---- Tools and hosts
+
+int make_tool(Call& call) {
+    push_tool_function(call.lua(), "tool");
+    push_given(call, "tool");
+    return finish_call(call, 1);
+}
+
+int load_tool(Call& call) {
+    push_tool_function(call.lua(), "load_tool");
+    call.push(call.string("name"));
+    return finish_call(call, 1);
+}
+
+// The option table that a function was called with, which stands behind its arguments.
+int make_host(Call& call) {
+    push_tool_function(call.lua(), "host");
+    lua_pushvalue(call.lua(), 1);
+    return finish_tool_call(call, 1);
+}
+
+int replay(Call& call) {
+    lua_State* L = call.lua();
+    push_tool_function(L, "replay");
+    lua_pushvalue(L, 1);
+    lua_createtable(L, 0, 2);
+    for (const char* name : {"scene", "tools"}) {
+        if (!call.has(name)) continue;
+        lua_getfield(L, 2, name);
+        lua_setfield(L, -2, name);
+    }
+    return finish_tool_call(call, 2);
+}
+
+// ---- Prompts: each yields a request, which its host answers.
+
+constexpr std::array kPickKinds{"point", "vertex", "face", "edge", "boundary", "object"};
+
+// Pixels from the cursor within which a click answers.
+constexpr double kVertexRadius = 30.0, kRadius = 16.0;
+
+void push_request(const Call& call, const char* kind) {
+    if (lua_pushthread(call.lua()) == 1) {
+        call.raise("lissom.pick asks a hand, inside the run function of a tool");
+    }
+    lua_createtable(call.lua(), 0, 5);
+    call.set_field("kind", call.push(kind));
+    call.set_field("prompt", call.push(call.string("prompt")));
+}
+
+template <std::size_t Kind>
+int ask_for_place(Call& call) {
+    push_request(call, kPickKinds[Kind]);
+    const bool is_vertex = std::strcmp(kPickKinds[Kind], "vertex") == 0;
+    call.set_field("radius", call.push(is_vertex ? kVertexRadius : kRadius));
+    call.set_field("optional", call.push(call.boolean("optional")));
+    if (call.has("object")) call.set_field("object", call.push(call.string("object")));
+    return lua_yield(call.lua(), 1);
+}
+
+int ask_for_number(Call& call) {
+    push_request(call, "number");
+    if (call.has("default")) call.set_field("default", call.push(call.number("default")));
+    return lua_yield(call.lua(), 1);
+}
+
+int ask_for_consent(Call& call) {
+    push_request(call, "confirm");
+    return lua_yield(call.lua(), 1);
+}
+
+// ---- Descriptions
+
+const std::string kHostExample = R"(local scene = lissom.scene{}
+scene:add("ball", lissom.shapes.sphere())
+local camera = lissom.camera{ eye = { 0, 0, 5 } }
+)";
+
+Parameter prompt_field() {
+    return string("prompt", "What the person is asked, in a line.");
+}
+
+template <std::size_t Kind>
+Function place_prompt(std::string help) {
+    const std::string kind = kPickKinds[Kind];
+    return {.name = "pick." + kind,
+            .body = ask_for_place<Kind>,
+            .summary = "Asks for " + help +
+                       " and waits for a click there, inside the run function of a tool.",
+            .options = {prompt_field(),
+                        boolean("optional", "The Enter key answers too, with nil.").defaults(false),
+                        string("object", "Only on the object of the scene with this name.")
+                            .optional("any")},
+            .results = {{"lissom.PickHit?", "hit",
+                         "What was clicked; of a boundary it has the Boundary too, `boundary`."}},
+            .example = kHostExample + "local asked\n" + R"(local tool = lissom.tool{ name = "ask",
+    run = function() asked = lissom.pick.)" +
+                       kind +
+                       R"({ prompt = "Click", optional = true } or "none" end }
+lissom.tool_host{ scene = scene, camera = camera, tool = tool }:key{ key = "enter" }
+assert(asked == "none"))"};
+}
+
+std::vector<Function> prompt_functions() {
+    return {
+        place_prompt<0>("a point of a surface"),
+        place_prompt<1>("a vertex"),
+        place_prompt<2>("a face"),
+        place_prompt<3>("an edge"),
+        place_prompt<4>("an open boundary"),
+        place_prompt<5>("an object"),
+        {.name = "pick.number",
+         .body = ask_for_number,
+         .summary = "Asks for a number, which is typed and ended by Enter.",
+         .options = {prompt_field(), number("default", "What Enter alone means.").optional("none")},
+         .results = {{"number", "number", "What was typed."}},
+         .example = kHostExample + R"(local width
+local tool = lissom.tool{ name = "ask", run = function()
+    width = lissom.pick.number{ prompt = "Width?" }
+end }
+lissom.tool_host{ scene = scene, camera = camera, tool = tool }:type("2.5"):key{ key = "enter" }
+assert(width == 2.5))"},
+        {.name = "pick.confirm",
+         .body = ask_for_consent,
+         .summary = "Waits for the Enter key.",
+         .options = {prompt_field()},
+         .results = {{"boolean", "done", "true"}},
+         .example = kHostExample + R"(local done
+local tool = lissom.tool{ name = "ask", run = function()
+    done = lissom.pick.confirm{ prompt = "Enter ends" }
+end }
+lissom.tool_host{ scene = scene, camera = camera, tool = tool }:key{ key = "enter" }
+assert(done))"}};
+}
+
+const std::string kPushTool = R"(local tool = lissom.tool{
+    name = "push",
+    params = { step = { type = "number", default = 0.1 } },
+    press = function(self, ev)
+        local hit = ev:hit()
+        if not hit then return end
+        local x, y, z = hit.mesh:position(hit.vertex)
+        hit.mesh:set_position(hit.vertex, x, y, z + self.params.step)
+    end,
+}
+)";
+
+std::vector<Result> host_fields() {
+    return {
+        {"lissom.Scene", "scene", "What the tools work on."},
+        {"lissom.Camera", "camera", "What it is seen by."},
+        {"integer[]", "size", "{width, height} of the picture in pixels."},
+        {"table?", "tool", "The present tool."},
+        {"fun(self: any, tool: table?, word: string?): lissom.ToolHost", "use",
+         "Another tool, or none; `word` is what a recording calls it, where that is not its name."},
+        {"fun(self: any, camera: lissom.Camera, size: integer[]?): lissom.ToolHost", "look",
+         "Another camera and size of the picture."},
+        {"fun(self: any, event: lissom.MouseEvent): lissom.ToolHost", "press",
+         "A button went down: a step of the scene begins."},
+        {"fun(self: any, event: lissom.MouseEvent): lissom.ToolHost", "move",
+         "The cursor moved: a drag while a button is down."},
+        {"fun(self: any, event: lissom.MouseEvent): lissom.ToolHost", "release",
+         "The button came up: the step ends."},
+        {"fun(self: any, event: lissom.MouseEvent): lissom.ToolHost", "click",
+         "Press and release."},
+        {"fun(self: any, event: table): lissom.ToolHost", "key",
+         "{key=, shift=, ctrl=, alt=}: \"enter\", \"escape\", \"a\", ..."},
+        {"fun(self: any, text: string): lissom.ToolHost", "type", "A key for each character."},
+        {"fun(self: any, values: table): lissom.ToolHost", "set", "Sets parameters of the tool."},
+        {"fun(self: any): lissom.ToolHost", "cancel",
+         "Escape: takes the present gesture back; the tool forgets what it began."},
+        {"fun(self: any): string?", "undo",
+         "The scene's undo, which a running gesture only cancels; the name of the step."},
+        {"fun(self: any): string?", "redo", "The scene's redo."},
+        {"fun(self: any): lissom.ToolMarks", "draw", "What the tool shows over the picture."},
+        {"fun(self: any): string?", "prompt", "What the person is asked, or the tool's help."},
+        {"fun(self: any, open: string[]?): lissom.ToolHost", "record",
+         "Begins a recording, before a tool is used; `open` names the files of the scene."},
+        {"fun(self: any): string", "recording",
+         "The text of the recording: a script that does all again."},
+        {"fun(self: any): lissom.ToolHost", "recover",
+         "Takes back what a tool left that was stopped from outside, for instance by a limit of "
+         "instructions."}};
+}
+
+}  // namespace
+
+void push_tool_function(lua_State* L, const char* name) {
+    luaL_checkstack(L, LUA_MINSTACK, "no room for tools");
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
+    if (!lua_istable(L, -1)) {
+        lua_pop(L, 1);
+        load_tool_functions(L);
+    }
+    lua_getfield(L, -1, name);
+    lua_remove(L, -2);
+}
+
+std::vector<Function> tool_functions() {
+    std::vector<Function> functions{
+        {.name = "tool",
+         .body = make_tool,
+         .summary =
+             "Makes a tool: functions that are called with what a hand does. press, drag and "
+             "release, or run, a coroutine that asks by lissom.pick; move, key, changed (of a "
+             "parameter), draw, activate, deactivate, cancel. All take the tool itself and a "
+             "lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the "
+             "scene, any other call is one of its own; after an error the scene is as before. The "
+             "table's other keys are the tool's own.",
+         .arguments = {table("tool", "name, help, params (as for lissom.params) and functions.")},
+         .results = {{"table", "tool", "The same table; `tool.params` are the values now."}},
+         .errors = {ErrorCode::invalid_argument},
+         .example = kPushTool + R"(assert(tool.params.step == 0.1))"},
+        {.name = "load_tool",
+         .body = load_tool,
+         .summary = "Reads a tool from its file, each time a new one.",
+         .arguments = {string(
+             "name",
+             "A file that ends with .lua, or the name of one that ships: \"select\", "
+             "\"deform\", ... (tools/NAME.lua on package.path).")},
+         .results = {{"table", "tool", "What the file returns."}},
+         .errors = {ErrorCode::invalid_argument},
+         .example = "local _, message = pcall(lissom.load_tool, 'no_such_tool')\n"
+                    "assert(tostring(message):find('no_such_tool'))"},
+        {.name = "tool_host",
+         .body = make_host,
+         .summary = "Runs tools without a window: what a hand would do is called. Errors of a tool "
+                    "go on once the scene is as before.",
+         .options = {object("scene", "lissom.Scene", "What the tools work on."),
+                     object("camera", "lissom.Camera", "What it is seen by."), size_argument(),
+                     table("tool", "The first tool.").optional("none")},
+         .results = {{"lissom.ToolHost", "host", "Call its methods."}},
+         .example = kHostExample + kPushTool + R"(local before = scene:hash()
+local host = lissom.tool_host{ scene = scene, camera = camera, tool = tool }
+host:click{ x = 640, y = 480 }
+assert(scene:hash() ~= before and host:undo() == "push" and scene:hash() == before))"},
+        {.name = "replay",
+         .body = replay,
+         .summary = "Does again what was recorded, and compares the hash of the scene before it, "
+                    "after each step and at the end. A recording is a script that calls this.",
+         .arguments = {either("recording",
+                              {string("file", "A file of a recording."),
+                               table("table", "What such a file calls lissom.replay with.")},
+                              "What was recorded.")},
+         .options = {object("scene", "lissom.Scene",
+                            "The scene to work on; else the files that the recording names are "
+                            "opened.")
+                         .optional(),
+                     table("tools", "Tools by which those of the same names are replaced: a list.")
+                         .optional("none")},
+         .results = {{"lissom.Scene", "scene", "The scene as it is then."}},
+         .example = kHostExample + kPushTool +
+                    R"(local host = lissom.tool_host{ scene = scene, camera = camera }
+host:record():use(tool):click{ x = 640, y = 480 }
+local text = host:recording():gsub('require%("lissom"%)%.replay', '')
+local recorded = assert(load(text))()
+host:undo()
+assert(lissom.replay(recorded, { scene = scene, tools = { tool } }):hash() == recorded.after))"}};
+    for (Function& prompt : prompt_functions()) functions.push_back(std::move(prompt));
+    return functions;
+}
+
+std::vector<Record> tool_records() {
+    return {
+        {"lissom.ToolHost", "Calls tools with what a hand does.", host_fields()},
+        {"lissom.MouseEvent",
+         "What a mouse did.",
+         {{"number", "x", "Pixels from the left edge of the picture."},
+          {"number", "y", "Pixels from its top."},
+          {"string?", "button", "left (default), right or middle; of a press."},
+          {"boolean?", "shift", "Whether this key is down."},
+          {"boolean?", "ctrl", "Likewise."},
+          {"boolean?", "alt", "Likewise."}}},
+        {"lissom.ToolEvent",
+         "What a tool is called with.",
+         {{"number?", "x", "Pixels from the left edge of the picture."},
+          {"number?", "y", "Pixels from its top."},
+          {"number[]?", "start", "Where the button went down, {x, y}."},
+          {"string?", "button", "left, right or middle."},
+          {"string?", "key", "The key, of key."},
+          {"string?", "parameter", "The parameter that was set, of changed."},
+          {"boolean", "shift", "Whether this key is down."},
+          {"boolean", "ctrl", "Likewise."},
+          {"boolean", "alt", "Likewise."},
+          {"lissom.Camera", "camera", "What the scene is seen by."},
+          {"lissom.Scene", "scene", "The scene."},
+          {"integer[]", "size", "{width, height} of the picture in pixels."},
+          {"fun(self: any): any", "ray", "Origin and direction, as camera:ray."},
+          {"fun(self: any): lissom.PickHit?", "hit", "The surface under the cursor."},
+          {"fun(self: any, options: table?): lissom.PickHit?", "pick",
+           "camera:pick of the scene at the cursor."},
+          {"fun(self: any, options: table): lissom.Selected[]", "select",
+           "camera:select of the scene."}}},
+        {"lissom.ToolView",
+         "What a tool draws on, over the picture. Colours are \"#rrggbb\"; each method returns the "
+         "view.",
+         {{"lissom.Camera", "camera", "What the scene is seen by."},
+          {"lissom.Scene", "scene", "The scene."},
+          {"integer[]", "size", "{width, height} of the picture in pixels."},
+          {"number[]?", "cursor", "Where the cursor is."},
+          {"fun(self: any, options: table)", "points", "{points=, color=, radius= in pixels}"},
+          {"fun(self: any, options: table)", "line",
+           "{points=, color=, width= in pixels, closed=}"},
+          {"fun(self: any, options: table)", "curve", "The same."},
+          {"fun(self: any, options: table)", "label", "{at=, text=, color=}"},
+          {"fun(self: any, options: table)", "handle",
+           "{at=, color=, radius=}: a ball to take hold of."},
+          {"fun(self: any, gizmo: lissom.Gizmo)", "gizmo", "The gizmo as it is seen now."},
+          {"fun(self: any, options: table)", "region", "{mesh=, region=, color=}: colours it."},
+          {"fun(self: any, options: table)", "outline",
+           "{pixels=, color=, width=, closed=}: a line in the picture, of {x, y}."},
+          {"fun(self: any, options: table)", "circle",
+           "{at={x, y}, radius=, color=}: in pixels of the picture."}}},
+        {"lissom.ToolMarks",
+         "What a tool shows, as the tables it was drawn with.",
+         {{"table[]", "points", "Balls."},
+          {"table[]", "lines", "Lines in the world."},
+          {"table[]", "labels", "Text at points."},
+          {"table[]", "outlines", "Lines in the picture."},
+          {"table[]", "circles", "Circles in the picture."},
+          {"table[]", "regions", "Coloured vertices."}}}};
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,14 @@
+/// Tools of scripts: what lissom.tool, lissom.tool_host and lissom.replay are made of. The host
+/// itself is written in Lua (host.lua, view.lua, recording.lua), whose text is part of the library.
+#pragma once
+
+#include "bindings/lua/core/compat.h"
+
+namespace lissom::lua {
+
+/// Pushes a function of the host's Lua text: "tool", "host", "replay", "open" (of paths and the
+/// options of lissom.load: their scene) or "load_tool". Raises a Lua error where the state has no
+/// memory for it.
+void push_tool_function(lua_State* L, const char* name);
+
+}  // namespace lissom::lua

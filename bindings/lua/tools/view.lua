@@ -1,0 +1,145 @@
+-- ---- What is drawn over the picture
+
+local view_fields = {
+    points = { points = "list", color = "color", radius = "number" },
+    line = { points = "list", color = "color", width = "number", closed = "boolean" },
+    label = { at = "point", text = "string", color = "color" },
+    outline = { pixels = "list", color = "color", width = "number", closed = "boolean" },
+    circle = { at = "point", color = "color", radius = "number" },
+    region = { mesh = "userdata", region = "userdata", color = "color" },
+}
+local needed = { points = "points", line = "points", label = "at", outline = "pixels", circle = "at",
+    region = "region" }
+
+local function is_point(value, count)
+    if type(value) ~= "table" then return false end
+    for i = 1, count do
+        if type(value[i]) ~= "number" then return false end
+    end
+    return true
+end
+
+local checks = {
+    number = function(value) return type(value) == "number" and value >= 0 and value < 1e6 end,
+    boolean = function(value) return type(value) == "boolean" end,
+    string = function(value) return type(value) == "string" end,
+    userdata = function(value) return type(value) == "userdata" end,
+    color = function(value) return type(value) == "string" and value:match("^#%x%x%x%x%x%x$") ~= nil end,
+    point = is_point,
+    list = function(value, count)
+        if type(value) ~= "table" then return false end
+        for _, point in ipairs(value) do
+            if not is_point(point, count) then return false end
+        end
+        return true
+    end,
+}
+
+local function checked(what, given)
+    if type(given) ~= "table" then error("view:" .. what .. " takes a table of options", 3) end
+    local fields, copy = view_fields[what], {}
+    local count = (what == "outline" or what == "circle") and 2 or 3
+    for key, value in pairs(given) do
+        if not fields[key] then error("view:" .. what .. " has no option '" .. tostring(key) .. "'", 3) end
+        if not checks[fields[key]](value, count) then
+            error("bad option '" .. key .. "' of view:" .. what .. " (" .. fields[key] .. " expected)", 3)
+        end
+        copy[key] = value
+    end
+    if given[needed[what]] == nil then error("view:" .. what .. " needs '" .. needed[what] .. "'", 3) end
+    return copy
+end
+
+local function put(view, list, what, given)
+    table.insert(view.list[list], checked(what, given))
+    return view
+end
+
+function View:points(given) return put(self, "points", "points", given) end
+function View:line(given) return put(self, "lines", "line", given) end
+function View:curve(given) return put(self, "lines", "line", given) end
+function View:label(given) return put(self, "labels", "label", given) end
+function View:outline(given) return put(self, "outlines", "outline", given) end
+function View:circle(given) return put(self, "circles", "circle", given) end
+function View:region(given) return put(self, "regions", "region", given) end
+
+function View:handle(given)
+    local point = { points = { given.at }, color = given.color or "#e8a33d", radius = given.radius or 7 }
+    return put(self, "points", "points", point)
+end
+
+local function hexadecimal(color)
+    local function byte(value) return math.floor(255 * math.max(0, math.min(1, value)) + 0.5) end
+    return string.format("#%02x%02x%02x", byte(color[1]), byte(color[2]), byte(color[3]))
+end
+
+function View:gizmo(gizmo)
+    local cursor = self.cursor and { cursor = self.cursor } or nil
+    local shape = gizmo:shape(self.camera, self.size, cursor)
+    for _, line in ipairs(shape.lines) do
+        local color = hexadecimal(line.color)
+        self:line{ points = line.points, closed = line.closed, width = line.width, color = color }
+    end
+    for _, point in ipairs(shape.points) do
+        self:points{ points = { point.position }, radius = point.radius, color = hexadecimal(point.color) }
+    end
+    return self
+end
+
+local hover_color = "#ffd24a"
+
+-- The points of the boundary that was hit, where its object stands.
+local function points_of(scene, hit)
+    local place = hit.object and scene:info(hit.object).transform
+    local points = {}
+    for i, v in ipairs(hit.boundary:vertices()) do
+        local x, y, z = hit.mesh:position(v)
+        points[i] = { x, y, z }
+        for row = 1, place and 3 or 0 do
+            local m = place[row]
+            points[i][row] = m[1] * x + m[2] * y + m[3] * z + m[4]
+        end
+    end
+    return points
+end
+
+-- Shows what a click would answer.
+local function draw_hover(view, host)
+    local hit, request = host.hover, host.request
+    if not hit or not request then return end
+    if request.kind == "boundary" then
+        view:line{ points = points_of(host.scene, hit), closed = true, color = hover_color, width = 5 }
+    else
+        view:points{ points = { hit.position }, color = hover_color, radius = 6 }
+    end
+end
+
+function Host:draw()
+    self:ready()
+    local view = setmetatable({ camera = self.camera, scene = self.scene, size = self.size,
+        cursor = self.x and { self.x, self.y } or nil,
+        list = { points = {}, lines = {}, labels = {}, outlines = {}, circles = {}, regions = {} } }, View)
+    draw_hover(view, self)
+    local draw = self.tool and self.tool.draw
+    if not draw then return view.list end
+    self.working = true
+    local before = self.scene:depth()
+    self.scene:begin("draw")
+    local done, message = pcall(draw, self.tool, view)
+    local whole = self.scene:depth() == before + 1
+    while self.scene:depth() > before + 1 do self.scene:rollback() end
+    local changed = whole and self.scene:commit()
+    self.working = false
+    if done and whole and not changed then return view.list end
+    if changed and before == 0 then self.scene:undo() end
+    if done then message = "the tool '" .. self.tool.name .. "' changed the scene while it was drawn" end
+    self:fail(message)
+end
+
+function Host:prompt()
+    local request = self.request
+    if not request then return self.tool and self.tool.help or nil end
+    if request.kind ~= "number" then return request.prompt end
+    return request.prompt .. " " .. (self.typed ~= "" and self.typed or tostring(request.default or ""))
+end
+

@@ -1,0 +1,316 @@
+-- Tools and their host: gestures are steps, failures leave the scene as it was, what is recorded repeats.
+local lissom = require "lissom"
+
+local middle = { x = 640, y = 480 }
+
+local function ball_scene()
+    local scene = lissom.scene{}
+    scene:add("ball", lissom.shapes.sphere())
+    return scene
+end
+
+local function host_of(scene, tool, options)
+    local camera = lissom.camera{ eye = { 0, 0, 5 } }
+    return lissom.tool_host{ scene = scene, camera = camera, tool = tool, size = options and options.size }
+end
+
+-- Pulls the vertex under the cursor at each move.
+local function pull()
+    return lissom.tool{
+        name = "pull",
+        params = { step = { type = "number", default = 0.1, min = 0, max = 1 } },
+        press = function(self, ev) self.hit = ev:hit() end,
+        drag = function(self)
+            if not self.hit then return end
+            local mesh, v = self.hit.mesh, self.hit.vertex
+            local x, y, z = mesh:position(v)
+            mesh:set_position(v, x, y, z + self.params.step)
+        end,
+        cancel = function(self) self.cancelled = (self.cancelled or 0) + 1 end,
+        draw = function(self, view)
+            if self.hit then view:points{ points = { self.hit.position }, color = "#ff0000" } end
+        end,
+    }
+end
+
+local function drag(host, moves)
+    host:press(middle)
+    for i = 1, moves do host:move{ x = 640 + i, y = 480 } end
+    return host:release{ x = 640 + moves, y = 480 }
+end
+
+test("a drag is one step; undo and redo give the same hashes", function()
+    local scene = ball_scene()
+    local host = host_of(scene, pull())
+    local before, steps = scene:hash(), #scene:history()
+    drag(host, 7)
+    local after = scene:hash()
+    expect.equal(#scene:history(), steps + 1)
+    expect.equal(host:undo(), "pull")
+    expect.equal(scene:hash(), before)
+    expect.equal(host:redo(), "pull")
+    expect.equal(scene:hash(), after)
+end)
+
+test("a gesture that changes nothing is no step", function()
+    local scene = ball_scene()
+    local host = host_of(scene, pull())
+    local steps = #scene:history()
+    host:click{ x = 1, y = 1 }
+    expect.equal(#scene:history(), steps)
+    expect.equal(scene:depth(), 0)
+end)
+
+test("Escape, undo and another tool in the middle of a drag take it back", function()
+    local scene = ball_scene()
+    local tool = pull()
+    local host = host_of(scene, tool)
+    local before = scene:hash()
+    local ends = {
+        function() host:key{ key = "escape" } end,
+        function() expect.equal(host:undo(), nil) end,
+        function() host:use(pull()) host:use(tool) end,
+        function() host:use(nil) host:use(tool) end,
+    }
+    for _, finish in ipairs(ends) do
+        host:press(middle):move{ x = 650, y = 480 }
+        expect.equal(scene:depth(), 1)
+        finish()
+        expect.equal(scene:depth(), 0)
+        expect.equal(scene:hash(), before)
+        host:release(middle)
+    end
+    expect.equal(tool.cancelled, 2)
+end)
+
+test("an error in each function leaves the scene as it was, and names its line", function()
+    for _, name in ipairs{ "press", "drag", "release", "key", "changed", "move" } do
+        local scene = ball_scene()
+        local tool = pull()
+        tool[name] = function(_, ev)
+            ev.scene:get("ball"):transform{ scale = 2 }
+            error("no " .. name)
+        end
+        local host, before = host_of(scene, tool), scene:hash()
+        local done, message = pcall(function()
+            host:press(middle):move{ x = 641, y = 480 }
+            host:release(middle):move(middle):key{ key = "a" }
+            host:set{ step = 0.5 }
+        end)
+        expect.equal(done, false)
+        expect.equal(message:match("tools_test.lua:%d+: no " .. name) ~= nil, true)
+        expect.equal(scene:depth(), 0)
+        if name ~= "key" and name ~= "changed" and name ~= "move" then expect.equal(scene:hash(), before) end
+        tool[name] = nil
+        host:use(nil)
+        drag(host_of(scene, pull()), 1)
+    end
+end)
+
+test("a tool neither changes the scene while it is drawn nor ends steps", function()
+    local scene = ball_scene()
+    local before = scene:hash()
+    local host = host_of(scene, lissom.tool{ name = "wrong",
+        draw = function(_, view) view.scene:get("ball"):transform{ scale = 2 } end })
+    expect.equal(select(2, pcall(host.draw, host)):match("changed the scene") ~= nil, true)
+    expect.equal(scene:hash(), before)
+    for _, verb in ipairs{ "commit", "rollback", "begin" } do
+        local bad = host_of(scene, lissom.tool{ name = "bad", press = function(_, ev)
+            ev.scene:get("ball"):transform{ scale = 2 }
+            ev.scene[verb](ev.scene, "mine")
+        end })
+        pcall(function() bad:click(middle) end)
+        expect.equal(scene:depth(), 0)
+        scene:undo()
+    end
+end)
+
+test("draw answers what the tool shows, and refuses what is none", function()
+    local host = host_of(ball_scene(), pull())
+    expect.equal(#host:draw().points, 0)
+    host:click(middle)
+    expect.equal(host:draw().points[1].color, "#ff0000")
+    local bad = { { "points", { points = { { 1, 2 } } } }, { "line", {} },
+        { "label", { at = { 1, 2, 3 }, txt = 3 } },
+        { "circle", { at = { 1, 2 }, radius = -1 } }, { "points", { points = {}, color = "red" } } }
+    for _, one in ipairs(bad) do
+        local tool = lissom.tool{ name = "bad", draw = function(_, view) view[one[1]](view, one[2]) end }
+        local other = host_of(ball_scene(), tool)
+        expect.equal(select(2, pcall(other.draw, other)):match("tools_test.lua") ~= nil, true)
+    end
+end)
+
+test("a gizmo is drawn", function()
+    local gizmo = lissom.gizmo{ mode = "move" }
+    local tool = lissom.tool{ name = "g", draw = function(_, view) view:gizmo(gizmo) end }
+    local host = host_of(ball_scene(), tool)
+    expect.equal(#host:draw().lines >= 3, true)
+end)
+
+test("parameters are checked, and a tool hears of changes", function()
+    local heard = {}
+    local tool = pull()
+    tool.changed = function(_, ev) table.insert(heard, ev.parameter) end
+    local host = host_of(ball_scene(), tool)
+    host:set{ step = 0.25 }
+    expect.equal(tool.params.step, 0.25)
+    expect.equal(pcall(host.set, host, { step = 3 }), false)
+    expect.equal(pcall(host.set, host, { stepp = 0.5 }), false)
+    expect.equal(tool.params.step, 0.25)
+    expect.equal(#heard, 1)
+end)
+
+test("what is no tool is refused", function()
+    local function message(given) return select(2, pcall(lissom.tool, given)) end
+    expect.equal(message{ name = "a", pres = function() end }:match("did you mean 'press'") ~= nil, true)
+    expect.equal(message{}:match("name") ~= nil, true)
+    expect.equal(message{ name = "a", press = 3 }:match("function") ~= nil, true)
+    local function nothing() end
+    expect.equal(message{ name = "a", run = nothing, press = nothing }:match("run") ~= nil, true)
+    expect.equal(message{ name = "a", params = { x = { type = "numbr" } } }:match("params") ~= nil, true)
+    local host = host_of(ball_scene())
+    expect.equal(pcall(host.use, host, { name = "a" }), false)
+    expect.equal(pcall(host.press, host, { x = 0 / 0, y = 1 }), false)
+    expect.equal(pcall(host.press, host, { x = 1, y = 1, buton = "left" }), false)
+end)
+
+-- Lifts a vertex that is clicked by a length that is typed.
+local function lift()
+    return lissom.tool{ name = "lift", run = function()
+        local hit = lissom.pick.vertex{ prompt = "Which?" }
+        local length = lissom.pick.number{ prompt = "How far?", default = 0.5 }
+        local x, y, z = hit.mesh:position(hit.vertex)
+        hit.mesh:set_position(hit.vertex, x, y, z + length)
+    end }
+end
+
+test("a tool that asks is answered, and begins again", function()
+    local scene = ball_scene()
+    local host = host_of(scene, lift())
+    local _, _, z = scene:get("ball"):position(1)
+    for round = 1, 3 do
+        expect.equal(host:prompt(), "Which?")
+        host:click{ x = 2, y = 2 }
+        expect.equal(host:prompt(), "Which?")
+        host:click(middle)
+        host:type("0.27"):key{ key = "backspace" }
+        expect.equal(host:prompt(), "How far? 0.2")
+        host:key{ key = "enter" }
+        expect.equal(#scene:history(), 1 + round)
+    end
+    expect.equal(z ~= nil, true)
+    host:click(middle):key{ key = "escape" }
+    expect.equal(host:prompt(), "Which?")
+end)
+
+test("a run that fails, yields at will or never asks leaves the host usable", function()
+    local runs = {
+        function() error("at once") end,
+        function(_, ev) ev.scene:get("ball"):transform{ scale = 2 } coroutine.yield("nothing") end,
+        function() lissom.pick.point{ prompt = "?" } error("later") end,
+    }
+    for _, run in ipairs(runs) do
+        local scene = ball_scene()
+        local before = scene:hash()
+        local host = host_of(scene)
+        local done = pcall(function() host:use(lissom.tool{ name = "bad", run = run }):click(middle) end)
+        expect.equal(done, false)
+        expect.equal(scene:hash(), before)
+        host:use(lift()):click(middle)
+        expect.equal(host:prompt(), "How far? 0.5")
+    end
+    host_of(ball_scene(), lissom.tool{ name = "silent", run = function() end }):click(middle)
+    expect.equal(pcall(lissom.pick.point, { prompt = "?" }), false)
+end)
+
+test("a boundary is picked with its loop", function()
+    local ball = lissom.shapes.sphere()
+    local scene = lissom.scene{}
+    scene:add("cup", (ball:cut{ plane = { point = { 0, 0, 0 }, normal = { 0, -1, 0 } } }))
+    local loop
+    local host = host_of(scene, lissom.tool{ name = "loop", run = function()
+        loop = lissom.pick.boundary{ prompt = "Loop?" }.boundary
+    end })
+    host:look(lissom.camera{ eye = { 0, 4, 3 } })
+    local p = { scene:get("cup"):position(scene:get("cup"):boundaries()[1]:vertices()[1]) }
+    local x, y = host.camera:project(p)
+    host:move{ x = x, y = y }
+    expect.equal(#host:draw().lines, 1)
+    host:click{ x = x, y = y }
+    expect.equal(#loop:vertices() > 3, true)
+end)
+
+local function read(text)
+    local code = text:gsub('return require%("lissom"%)%.replay', "return ")
+    return assert(load(code))()
+end
+
+test("what is recorded is repeated to the same hash", function()
+    local scene = ball_scene()
+    local host = host_of(scene):record()
+    host:use(pull())
+    drag(host, 5)
+    host:set{ step = 0.3 }
+    drag(host, 2)
+    host:press(middle):move{ x = 600, y = 480 }:key{ key = "escape" }
+    host:undo()
+    host:look(lissom.camera{ eye = { 0.3, 1, 4 }, fov = 37 }, { 800, 600 })
+    host:click{ x = 400, y = 300 }
+    host:press{ x = 400, y = 300 }:move{ x = 410, y = 300 }:release{ x = 410, y = 300 }
+    host:use(lift()):click{ x = 400, y = 300 }:type("0.4"):key{ key = "enter" }
+    local recorded = read(host:recording())
+    local tools = { pull(), lift() }
+    expect.equal(lissom.replay(recorded, { scene = ball_scene(), tools = tools }):hash(), recorded.after)
+    -- Differences are named where they begin.
+    local hashes = 0
+    for _, event in ipairs(recorded.events) do
+        if event.hash then hashes = hashes + 1 end
+    end
+    expect.equal(hashes >= 4, true)
+    recorded.events[3][2] = 2
+    local _, message = pcall(lissom.replay, recorded, { scene = ball_scene(), tools = tools })
+    expect.equal(message:match("differs at event %d+") ~= nil, true)
+end)
+
+test("a recording of another scene or version is refused", function()
+    local host = host_of(ball_scene()):record()
+    drag(host:use(pull()), 1)
+    local recorded = read(host:recording())
+    local other = lissom.scene{}
+    other:add("ball", lissom.shapes.box())
+    local _, message = pcall(lissom.replay, recorded, { scene = other, tools = { pull() } })
+    expect.equal(message:match("another scene") ~= nil, true)
+    recorded.version = 2
+    expect.equal(pcall(lissom.replay, recorded, { scene = ball_scene() }), false)
+    expect.equal(pcall(lissom.replay, "no such file.lua"), false)
+    expect.equal(pcall(lissom.replay, { version = 1, events = { 3 } }, { scene = other }), false)
+end)
+
+test("what failed is not repeated", function()
+    local function moody()
+        local tool = pull()
+        tool.release = function(self) if self.params.step > 0.5 then error("too far") end end
+        return tool
+    end
+    local host = host_of(ball_scene()):record():use(moody())
+    drag(host, 2)
+    host:set{ step = 0.75 }
+    expect.equal(pcall(drag, host, 3), false)
+    host:set{ step = 0.2 }
+    drag(host, 1)
+    local recorded = read(host:recording())
+    local scene = lissom.replay(recorded, { scene = ball_scene(), tools = { moody() } })
+    expect.equal(scene:hash(), recorded.after)
+end)
+
+test("a tool whose object is removed while it is dragged", function()
+    local scene = ball_scene()
+    local tool = pull()
+    local host = host_of(scene, tool)
+    host:press(middle):move{ x = 641, y = 480 }
+    scene:remove("ball")
+    host:move{ x = 642, y = 480 }:release{ x = 642, y = 480 }
+    expect.equal(#scene:names(), 0)
+    host:undo()
+    expect.equal(#scene:names(), 1)
+end)
