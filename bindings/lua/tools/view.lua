@@ -74,7 +74,7 @@ local function hexadecimal(color)
 end
 
 function View:gizmo(gizmo)
-    local cursor = self.cursor and { cursor = self.cursor } or nil
+    local cursor = self.cursor and { x = self.cursor[1], y = self.cursor[2] } or nil
     local shape = gizmo:shape(self.camera, self.size, cursor)
     for _, line in ipairs(shape.lines) do
         local color = hexadecimal(line.color)
