@@ -1,0 +1,57 @@
+--- Matrices that move points: four rows of four numbers, the last 0, 0, 0, 1, as scenes, handles and gizmos
+--- have them.
+local vectors = require "vectors"
+
+local matrices = {}
+
+--- The matrix that moves nothing.
+function matrices.identity()
+    return { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 } }
+end
+
+--- The matrix that moves by a vector.
+function matrices.translation(v)
+    return { { 1, 0, 0, v[1] }, { 0, 1, 0, v[2] }, { 0, 0, 1, v[3] }, { 0, 0, 0, 1 } }
+end
+
+--- Does b first, then a; of more, the last first.
+function matrices.product(a, b, ...)
+    local m = {}
+    for i = 1, 4 do
+        m[i] = {}
+        for j = 1, 4 do
+            m[i][j] = a[i][1] * b[1][j] + a[i][2] * b[2][j] + a[i][3] * b[3][j] + a[i][4] * b[4][j]
+        end
+    end
+    if ... then return matrices.product(m, ...) end
+    return m
+end
+
+--- Where a point goes.
+function matrices.point(m, p)
+    local function row(i) return m[i][1] * p[1] + m[i][2] * p[2] + m[i][3] * p[3] + m[i][4] end
+    return { row(1), row(2), row(3) }
+end
+
+--- Where a direction goes: what the matrix adds to points does not count.
+function matrices.direction(m, d)
+    local function row(i) return m[i][1] * d[1] + m[i][2] * d[2] + m[i][3] * d[3] end
+    return { row(1), row(2), row(3) }
+end
+
+--- Whether it takes left to right.
+function matrices.mirrors(m) return vectors.dot(m[1], vectors.cross(m[2], m[3])) < 0 end
+
+--- The matrix that moves back.
+function matrices.inverse(m)
+    local across = { vectors.cross(m[2], m[3]), vectors.cross(m[3], m[1]), vectors.cross(m[1], m[2]) }
+    local size = vectors.dot(m[1], across[1])
+    local back = {}
+    for i = 1, 3 do back[i] = { across[1][i] / size, across[2][i] / size, across[3][i] / size } end
+    local start = matrices.direction(back, { m[1][4], m[2][4], m[3][4] })
+    for i = 1, 3 do back[i][4] = -start[i] end
+    back[4] = { 0, 0, 0, 1 }
+    return back
+end
+
+return matrices

@@ -1,0 +1,137 @@
+--- Bends a mesh by handles, while the rest of its surface follows.
+--
+-- Drag over the surface to select a part of it (shift adds) and press Enter: it becomes a handle, with a
+-- gizmo. Select what shall hold its place and press p: it is pinned, a handle that stays where it is. Then
+-- drag the gizmo. Keys: w moves, e turns, r scales; x, y and z choose an axis; a number says how far, during
+-- the drag or after it and then Enter. Click a handle or press tab to go to another; delete takes it away;
+-- f finishes.
+--
+-- The handles live in the scene, in an object "... deformation" beside the mesh: they are undone and saved.
+local lissom = require "lissom"
+local brush = require "tools.support.brush"
+local grip = require "tools.support.grip"
+local handles = require "tools.support.handles"
+local meshes = require "tools.support.meshes"
+
+local axes = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
+
+-- The handle that the gizmo is at, else the last one; its number, and the list of all.
+local function active(self, scene)
+    local list = handles.list(scene)
+    local number = #list
+    for i, one in ipairs(list) do
+        if one.handle == self.handle then number = i end
+    end
+    if list[number] then self.grip:place(list[number].at) end
+    return list[number], number, list
+end
+
+-- Selects what the brush comes over.
+local function paint(self, ev)
+    for _, one in ipairs(self.brush:paint(ev, self.params.radius)) do
+        meshes.select(one.mesh, meshes.selection(one.mesh):union(one.region))
+    end
+end
+
+-- Makes a handle of the selected vertices that no other has.
+local function add_handle(self, scene)
+    local one = meshes.subject(scene)
+    local region = one and meshes.selection(one.mesh)
+    if not region or #region == 0 then error("nothing is selected: drag over the surface first", 0) end
+    local params, size = self.params, one.mesh:size()
+    local edit = handles.deformation(scene, one, region, params.reach * size)
+    for _, other in ipairs(edit:handles()) do region = region:minus(other:region()) end
+    local normal = axes[params.mirror]
+    local mirror = normal
+        and { point = one.mesh:bounds().center, normal = normal, tolerance = 0.01 * size } or nil
+    meshes.select(one.mesh, one.mesh:region{ vertices = {} })
+    return edit:handle(region, { falloff = params.falloff * size, mirror = mirror,
+        weight = params.softness > 0 and 1 / params.softness or nil })
+end
+
+local keys = {
+    enter = function(self, scene) self.handle = add_handle(self, scene) end,
+    p = function(self, scene, one)
+        add_handle(self, scene)
+        self.handle = one and one.handle
+    end,
+    tab = function(self, _, one, number, list) self.handle = one and list[number % #list + 1].handle end,
+    delete = function(_, scene, one) if one then handles.remove(scene, one) end end,
+    f = function(_, scene, one) if one then scene:remove(one.name) end end,
+}
+
+return lissom.tool{
+    name = "deform",
+    help = "Drag over the surface, then Enter: a handle; p: pinned. Drag its gizmo. Keys: w e r, x y z, "
+        .. "numbers, tab, delete, f(inish).",
+    params = {
+        radius = { type = "number", default = 30, min = 1, max = 300, unit = "pixels", help = "brush" },
+        preview = { type = "boolean", default = true, help = "Drags are quick, and exact when they end." },
+        reach = { type = "number", default = 0, min = 0, max = 4, unit = "mesh sizes",
+            group = "next handle", help = "How far around the first one it may move; 0: everywhere." },
+        softness = { type = "number", default = 0, min = 0, max = 10, group = "next handle",
+            help = "How far the surface may lag behind; 0: it is held exactly." },
+        falloff = { type = "number", default = 0, min = 0, max = 2, unit = "mesh sizes",
+            group = "next handle", help = "Within this distance the surface follows it, less and less." },
+        mirror = { type = "choice", default = "none", choices = { "none", "x", "y", "z" },
+            group = "next handle", help = "Mirrors it at the middle of the mesh: a second one follows." },
+    },
+    grip = grip.new(),
+    brush = brush.new(),
+    press = function(self, ev)
+        local one, _, list = active(self, ev.scene)
+        if one and self.grip:press(ev, one.handle:matrix()) then return end
+        local points = {}
+        for i, other in ipairs(list) do points[i] = other.at end
+        local hit = #points > 0 and ev:pick{ kinds = "point", points = points, radius = 12 }
+        if hit then
+            self.handle = list[hit.index].handle
+            return
+        end
+        for _, other in ipairs(ev.shift and {} or meshes.visible(ev.scene)) do
+            meshes.select(other.mesh, other.mesh:region{ vertices = {} })
+        end
+        paint(self, ev)
+    end,
+    drag = function(self, ev)
+        local one = active(self, ev.scene)
+        if self.brush.last then return paint(self, ev) end
+        if not one or not self.grip.gizmo:part() then return end
+        handles.follow(one, self.grip.before, self.grip:drag(ev))
+        if self.params.preview then
+            assert(one.edit:preview())
+        else
+            assert(one.edit:solve{ draft = true })
+        end
+    end,
+    release = function(self, ev)
+        local one = active(self, ev.scene)
+        if one and self.grip.gizmo:part() then assert(one.edit:solve()) end
+        self.grip:release(one and one.handle:matrix())
+        self.brush:lift()
+    end,
+    move = function(self, ev) self.brush:move(ev) end,
+    key = function(self, ev)
+        local one, number, list = active(self, ev.scene)
+        local taken, motion
+        if one then taken, motion = self.grip:key(ev, one.handle:matrix()) end
+        if motion then
+            handles.follow(one, self.grip.before, motion)
+            assert(one.edit:solve())
+            if not self.grip.gizmo:part() then self.grip:release(one.handle:matrix()) end
+        elseif not taken and keys[ev.key] and not self.grip.gizmo:part() then
+            keys[ev.key](self, ev.scene, one, number, list)
+        end
+    end,
+    draw = function(self, view)
+        local at_gizmo, _, list = active(self, view.scene)
+        for _, one in ipairs(list) do
+            view:region{ mesh = one.mesh, region = one.handle:region(), color = "#8860c8" }
+            view:handle{ at = one.at, color = one == at_gizmo and "#ff9020" or "#8860c8" }
+        end
+        if at_gizmo then self.grip:draw(view) end
+        self.brush:draw(view, self.params.radius)
+    end,
+    cancel = function(self) self.grip:cancel(); self.brush:lift() end,
+    deactivate = function(self) self.grip:cancel(); self.brush:lift() end,
+}

@@ -1,0 +1,137 @@
+--- Merges two meshes along an open boundary of each: what answers the clicks is a coroutine.
+--
+-- Click the loop of the part that is moved, then the loop that it is joined to: the merged surface appears
+-- beside them. Where it is turned wrongly, click pairs of points that shall meet, first on the one loop, then
+-- on the other. Enter takes the result: it goes to the place of the second mesh, and both parts are hidden.
+-- `transition` may be changed until the next merge: the result follows.
+local lissom = require "lissom"
+local matrices = require "matrices"
+local meshes = require "tools.support.meshes"
+local vectors = require "vectors"
+
+local pick = lissom.pick
+-- Merges. A join is { source =, target =, keys =, right = }: hits of two loops, pairs of points on them.
+local function merged(self, scene, join)
+    for _, hit in ipairs{ join.source, join.target } do
+        local there = rawequal(scene:get(hit.object), hit.mesh)
+        if not there then error(hit.object .. " is no longer there", 0) end
+    end
+    local source, target, radii = join.source.boundary, join.target.boundary, self.params.transition
+    local function width(loop) return radii * loop:length() / (2 * math.pi) end
+    return assert(lissom.merge{
+        joins = { { source = source, target = target, keys = #join.keys > 0 and join.keys or nil } },
+        transition = radii > 0 and { source = width(source), target = width(target) } or nil,
+    })
+end
+
+-- Where the result is shown until it is taken: moved from its place to the right of all that is visible.
+local function aside(scene, mesh, place, right)
+    local center, radius = meshes.ball{ mesh = mesh, place = place }
+    local least, most = vectors.dot(center, right) - radius, -math.huge
+    for _, one in ipairs(meshes.visible(scene)) do
+        local middle, size = meshes.ball(one)
+        most = math.max(most, vectors.dot(middle, right) + size)
+    end
+    return matrices.product(matrices.translation(vectors.plus({ 0, 0, 0 }, right, most - least)), place)
+end
+
+-- Shows the result of a join, in place of the one before.
+local function show(self, scene, join)
+    local mesh, before = merged(self, scene, join), self.result and scene:info(self.result)
+    local place = before and before.transform
+    if before then
+        scene:remove(self.result)
+    else
+        self.result = meshes.unused_name(scene, "merged")
+        place = aside(scene, mesh, scene:info(join.target.object).transform, join.right)
+    end
+    scene:add(self.result, mesh, { transform = place })
+    self.joins[mesh] = join
+end
+
+-- The join that is shown, which undo changes too; nil where there is none.
+local function shown(self, scene)
+    local mesh = self.result and scene:get(self.result)
+    return mesh and self.joins[mesh]
+end
+
+-- The same, as long as the result is not taken: the parts are still to be seen.
+local function in_progress(self, scene)
+    local join = shown(self, scene)
+    local target = join and scene:info(join.target.object)
+    return target and target.visible and join
+end
+
+-- The point of a loop that was clicked, in the space of its mesh.
+local function on_loop(scene, loop, hit)
+    local place = scene:info(loop.object).transform
+    return loop.boundary:nearest(matrices.point(matrices.inverse(place), hit.position)).position
+end
+
+-- Draws a loop and the keys on it, the first or second of each pair.
+local function draw_loop(view, loop, keys, which, color)
+    local info = loop and view.scene:info(loop.object)
+    if not info then return end
+    local points = {}
+    for i, point in ipairs(loop.boundary:points()) do points[i] = matrices.point(info.transform, point) end
+    view:line{ points = points, closed = true, color = color, width = 4 }
+    for number, pair in ipairs(keys) do
+        local at = pair[which] and matrices.point(info.transform, pair[which])
+        if at then view:handle{ at = at, color = color } end
+        if at then view:label{ at = at, text = tostring(number) } end
+    end
+end
+
+return lissom.tool{
+    name = "merge",
+    help = "Click two loops, then pairs of points that meet; Enter takes the result.",
+    params = {
+        transition = { type = "number", default = 0, min = 0, max = 2, unit = "radii of the loop",
+            help = "Width on either side of the seam in which the details of both fade into each other." },
+    },
+    joins = setmetatable({}, { __mode = "k" }),
+    run = function(self, ev)
+        local scene = ev.scene
+        self.open = nil
+        if not in_progress(self, scene) then            -- else undo goes back to where keys were asked for
+            self.source = nil
+            self.source = pick.boundary{ prompt = "Click the loop of the part that is moved" }
+            self.result = nil
+            local target = pick.boundary{ prompt = "Click the loop that it is joined to" }
+            show(self, scene, { source = self.source, target = target, keys = {}, right = ev.camera:right() })
+        end
+        local join = shown(self, scene)
+        while true do
+            local from = pick.boundary{ prompt = "Enter takes it; or click a point of the first loop",
+                object = join.source.object, optional = true }
+            if not from then break end
+            self.open = { on_loop(scene, join.source, from) }
+            local to = pick.boundary{ prompt = "Click where it belongs on the second loop",
+                object = join.target.object }
+            local keys = table.move(join.keys, 1, #join.keys, 1, {})
+            table.insert(keys, { self.open[1], on_loop(scene, join.target, to) })
+            self.open = nil
+            show(self, scene, { source = join.source, target = join.target, keys = keys, right = join.right })
+            join = shown(self, scene)
+        end
+        scene:set(self.result, { transform = scene:info(join.target.object).transform })
+        for _, loop in ipairs{ join.source, join.target } do scene:set(loop.object, { visible = false }) end
+    end,
+    changed = function(self, ev)
+        local join = shown(self, ev.scene)
+        if join then show(self, ev.scene, join) end
+    end,
+    draw = function(self, view)
+        local join = in_progress(self, view.scene) or { source = self.source, keys = {} }
+        local keys = table.move(join.keys, 1, #join.keys, 1, {})
+        table.insert(keys, self.open)
+        draw_loop(view, join.source, keys, 1, "#d06020")
+        draw_loop(view, join.target, keys, 2, "#2070c0")
+    end,
+    cancel = function(self, ev)
+        local in_a_step = ev.scene:depth() > 0          -- after an error there is none
+        if in_a_step and in_progress(self, ev.scene) then ev.scene:remove(self.result) end
+        self.source = nil
+    end,
+    deactivate = function(self) self.source = nil end,
+}

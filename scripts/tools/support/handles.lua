@@ -1,0 +1,55 @@
+--- The handles of the deformations in a scene.
+local lissom = require "lissom"
+local matrices = require "matrices"
+local meshes = require "tools.support.meshes"
+
+local handles = {}
+
+--- All handles on visible meshes: a list of { handle =, edit =, name =, mesh =, place =, at = }: name of the
+-- deformation in the scene, the matrix from the mesh's own space to the world, the handle's middle there.
+function handles.list(scene)
+    local list = {}
+    for _, one in ipairs(meshes.visible(scene)) do
+        local name, edit = meshes.deformation(scene, one.mesh)
+        for _, handle in ipairs(edit and edit:handles() or {}) do
+            local at = matrices.point(one.place, handle:center())
+            table.insert(list,
+                { handle = handle, edit = edit, name = name, mesh = one.mesh, place = one.place, at = at })
+        end
+    end
+    return list
+end
+
+--- The deformation of a mesh that is in the scene, else a new one: of what is within a distance around a
+-- region; of the parts of the mesh that it lies on, where the distance is 0.
+function handles.deformation(scene, one, region, reach)
+    local _, edit = meshes.deformation(scene, one.mesh)
+    if edit then return edit end
+    local movable = meshes.parts(region)
+    if reach > 0 then movable = one.mesh:region{ geodesic = { from = region, radius = reach } } end
+    local name = meshes.unused_name(scene, one.name .. " deformation")
+    return scene:add(name, lissom.deform(one.mesh, { region = movable }), { visible = false })
+end
+
+--- Moves a handle by a motion of the world, from where its matrix was before.
+function handles.follow(one, before, motion)
+    local back = matrices.inverse(one.place)
+    one.handle:set_matrix(before)
+    if motion.kind == "rotate" then         -- which says, other than a matrix, how often it goes round
+        local sign = matrices.mirrors(one.place) and -1 or 1
+        one.handle:rotate{ axis = matrices.direction(back, motion.axis), angle = sign * motion.angle }
+    end
+    one.handle:set_matrix(matrices.product(back, motion.matrix, one.place, before))
+end
+
+--- Takes a handle away. Without any the mesh keeps its shape, and the next one begins from there.
+function handles.remove(scene, one)
+    if #one.edit:handles() == (one.handle:mirrored() and 2 or 1) then
+        scene:remove(one.name)
+    else
+        one.handle:remove()
+        assert(one.edit:solve())
+    end
+end
+
+return handles

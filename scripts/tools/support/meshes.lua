@@ -1,0 +1,104 @@
+--- What the tools ask of a scene: its meshes, where they stand, what is selected of them.
+local matrices = require "matrices"
+local vectors = require "vectors"
+
+local meshes = {}
+
+--- The visible meshes: a list of { name =, mesh =, place =, style = }. The place is the matrix from the
+-- mesh's own space to the world. A deformation without its mesh in the scene counts as its mesh.
+function meshes.visible(scene)
+    local list, seen = {}, {}
+    for _, kind in ipairs{ "mesh", "deformation" } do
+        for _, name in ipairs(scene:names()) do
+            local info, mesh = scene:info(name), scene:get(name)
+            if info.kind == kind and kind == "deformation" then mesh = mesh:mesh() end
+            if info.kind == kind and info.visible and not seen[mesh] then
+                table.insert(list, { name = name, mesh = mesh, place = info.transform, style = info.style })
+            end
+            seen[mesh] = true
+        end
+    end
+    return list
+end
+
+--- That of them which is a certain mesh, such as that of a hit; nil where it is no longer to be seen.
+function meshes.find(scene, mesh)
+    for _, one in ipairs(meshes.visible(scene)) do
+        if rawequal(one.mesh, mesh) then return one end
+    end
+    return nil
+end
+
+--- The selected vertices of a mesh, maybe none: its region "selected", which all tools share.
+function meshes.selection(mesh) return mesh:region("selected") or mesh:region{ vertices = {} } end
+
+--- Selects vertices of a mesh, instead of those before.
+function meshes.select(mesh, region)
+    if #region > 0 then
+        mesh:set_region("selected", region)
+    else
+        mesh:remove_region("selected")
+    end
+end
+
+--- The connected parts of its mesh that a region lies on.
+function meshes.parts(region)
+    local mesh = region:mesh()
+    local all, parts = mesh:region{ all = true }, mesh:region{ vertices = {} }
+    for _, vertex in ipairs(region:vertices()) do
+        if not parts:contains(vertex) then parts = parts:union(all:connected{ at = vertex }) end
+    end
+    return parts
+end
+
+--- What to work on where nothing is pointed at: the first visible mesh of which something is selected, else
+-- the only one; nil where there are several.
+function meshes.subject(scene)
+    local list = meshes.visible(scene)
+    for _, one in ipairs(list) do
+        if #meshes.selection(one.mesh) > 0 then return one end
+    end
+    return #list == 1 and list[1] or nil
+end
+
+--- Name and object of the deformation of a mesh that is in the scene; nil where there is none, or it was made
+-- before faces of the mesh changed.
+function meshes.deformation(scene, mesh)
+    for _, name in ipairs(scene:names()) do
+        local edit = scene:get(name)
+        if scene:info(name).kind == "deformation" and rawequal(edit:mesh(), mesh)
+            and pcall(edit.handles, edit) then return name, edit end
+    end
+    return nil
+end
+
+--- Ends the deformation of a mesh, because its shape changes otherwise: the next one begins from that.
+function meshes.end_deformation(scene, mesh)
+    local name = meshes.deformation(scene, mesh)
+    if name then scene:remove(name) end
+end
+
+--- The middle of a mesh in the world, and the radius of a ball around it that has the mesh inside.
+function meshes.ball(one)
+    local box = one.mesh:bounds()
+    local center, radius = matrices.point(one.place, box.center), 0
+    for i = 0, 7 do
+        local corner = {}
+        for axis = 1, 3 do
+            corner[axis] = (i >> (axis - 1)) % 2 == 0 and box.min[axis] or box.max[axis]
+        end
+        radius = math.max(radius, vectors.length(vectors.plus(matrices.point(one.place, corner), center, -1)))
+    end
+    return center, radius
+end
+
+--- A name that no object of a scene has: that given, or the same with a number.
+function meshes.unused_name(scene, name)
+    local base, number = name:gsub(" %d+$", ""), 2
+    while scene:get(name) do
+        name, number = base .. " " .. number, number + 1
+    end
+    return name
+end
+
+return meshes

@@ -1,0 +1,199 @@
+-- Merging by hand: two loops, keys, a transition, and what may come in between.
+local hand = require "hand"
+local lissom = require "lissom"
+
+-- A cup that is open to the right, and a larger one to the right of it that is open to the left. Seen from in
+-- front, at x = -2 and x = 2.
+local function cup(direction, x, radius, segments)
+    local ball = lissom.shapes.sphere{ kind = "triangles", segments = segments }
+    local half = ball:cut{ plane = { point = { 0.02 * direction, 0, 0 }, normal = { -direction, 0, 0 } } }
+    return half:transform{ scale = radius, translate = { x, 0, 0 } }
+end
+
+local h
+
+local function new(options)
+    options = options or {}
+    h = hand.new("merge", { small = cup(1, -2, 1, 10), large = cup(-1, 2, 1.5, 12) },
+        { eye = options.eye or { 0, 0, 50 }, ortho = options.ortho or 19.2, places = options.places })
+end
+
+-- A point of the loop of one of the cups, at an angle from the nearest point upwards.
+local function on(name, angle)
+    local x, radius = name == "small" and -2 or 2, name == "small" and 1 or 1.5
+    local a = math.rad(angle)
+    return { x, radius * math.sin(a), radius * math.cos(a) }
+end
+
+local function click_loops()
+    h:click(on("small", 20))
+    h:click(on("large", 20))
+end
+
+test.before(function() new() end)
+
+test("two loops are clicked: the result stands beside the parts, until Enter puts it in place", function()
+    local before = h.scene:hash()
+    expect.truthy(h.host:prompt():find("moved", 1, true))
+    click_loops()
+    local mesh = h.scene:get("merged")
+    expect.truthy(mesh:is_closed())
+    expect.equal(mesh:components(), 1)
+    expect.truthy(mesh:bounds().min[1] + h.scene:info("merged").transform[1][4]
+        > h.scene:get("large"):bounds().max[1])
+    expect.equal(#h.host:draw().lines, 2)
+    h:key("enter")
+    expect.equal(h.scene:info("merged").transform[1][4], 0)
+    expect.equal(h.scene:info("small").visible, false)
+    expect.equal(h.scene:info("large").visible, false)
+    expect.equal(#h.host:draw().lines, 0)
+    expect.equal(h:there_and_back(), before)
+end)
+
+test("keys: pairs of points that meet turn the part", function()
+    click_loops()
+    local free = h.scene:get("merged"):hash()
+    h:click(on("small", 0))
+    expect.equal(#h.host:draw().labels, 1)
+    h:click(on("large", 60))
+    local keyed = h.scene:get("merged")
+    expect.truthy(keyed:hash() ~= free)
+    expect.truthy(keyed:is_closed())
+    expect.equal(#h.host:draw().labels, 2)
+    h:click(on("small", -60))
+    h:click(on("large", -10))
+    expect.truthy(h.scene:get("merged"):is_closed())
+    h:key("enter")
+    h:there_and_back()
+end)
+
+test("the result is that of lissom.merge", function()
+    click_loops()
+    local small_mesh, large_mesh = h.scene:get("small"), h.scene:get("large")
+    local mesh = lissom.merge{
+        joins = { { source = small_mesh:boundaries()[1], target = large_mesh:boundaries()[1] } },
+    }
+    expect.equal(h.scene:get("merged"):hash(), mesh:hash())
+end)
+
+test("the transition may be changed, before and after the result is taken", function()
+    click_loops()
+    local plain = h.scene:get("merged"):hash()
+    h.host:set{ transition = 0.5 }
+    local soft = h.scene:get("merged"):hash()
+    expect.truthy(soft ~= plain)
+    h.host:set{ transition = 0 }
+    expect.equal(h.scene:get("merged"):hash(), plain)
+    h:key("enter")
+    h.host:set{ transition = 0.5 }
+    expect.equal(h.scene:get("merged"):hash(), soft)
+    expect.equal(h.scene:info("merged").transform[1][4], 0)
+    expect.equal(h.scene:info("small").visible, false)
+    h:there_and_back()
+end)
+
+test("undo in the middle: keys go on from those of before", function()
+    click_loops()
+    local free = h.scene:get("merged"):hash()
+    h:click(on("small", 0))
+    h:click(on("large", 60))
+    h.host:undo()
+    expect.equal(h.scene:get("merged"):hash(), free)
+    expect.equal(#h.host:draw().labels, 0)
+    h.host:set{ transition = 0.5 }
+    h.host:set{ transition = 0 }
+    expect.equal(h.scene:get("merged"):hash(), free)
+    h:click(on("small", 0))
+    h.host:undo()
+    h:click(on("small", 0))
+    h:click(on("large", 30))
+    h:key("enter")
+    expect.equal(h.scene:info("small").visible, false)
+    h.host:undo()
+    expect.equal(#h.host:draw().labels, 2)
+    h:key("enter")
+    expect.equal(h.scene:info("small").visible, false)
+end)
+
+test("clicks beside loops are none, and Enter before there is a result changes nothing", function()
+    h:key("enter")
+    h:click{ 0, 4, 0 }
+    h:click{ -2.5, 0, 0.9 }
+    h:key("enter")
+    expect.equal(h:steps(), 0)
+    expect.equal(#h.scene, 2)
+    h:click(on("small", 20))
+    h:key("enter")
+    expect.equal(#h.scene, 2)
+    h:click(on("large", 20))
+    expect.equal(#h.scene, 3)
+end)
+
+test("Escape begins again, and takes away what was not taken", function()
+    local before = h.scene:hash()
+    h:click(on("small", 20))
+    h.host:cancel()
+    expect.truthy(h.host:prompt():find("moved", 1, true))
+    click_loops()
+    h:click(on("small", 0))
+    h.host:cancel()
+    expect.equal(h.scene:hash(), before)
+    click_loops()
+    h:key("enter")
+    expect.equal(#h.scene, 3)
+end)
+
+test("another tool in the middle", function()
+    h:click(on("small", 20))
+    h.host:use(lissom.load_tool("select"))
+    h.host:use(h.tool)
+    click_loops()
+    expect.equal(#h.scene, 3)
+end)
+
+test("a part goes in the middle: an error, and the tool begins again", function()
+    h:click(on("small", 20))
+    h.scene:remove("small")
+    expect.error(function() h:click(on("large", 20)) end, "small is no longer there")
+    h.host:draw()
+    h.host:undo()
+    h.host:cancel()
+    click_loops()
+    h:key("enter")
+    expect.truthy(h.scene:get("merged"):is_closed())
+end)
+
+test("both loops of one mesh cannot be merged: nothing changes", function()
+    local tube = lissom.shapes.cylinder{ caps = false, radius = 1, height = 4 }
+    h = hand.new("merge", { tube = tube:transform{ rotate = { axis = "x", angle = 20 } } })
+    local before, loops = h.scene:hash(), h.scene:get("tube"):boundaries()
+    local function near(loop) return loop:nearest(0, 0, 50).position end
+    h:click(near(loops[1]))
+    expect.error(function() h:click(near(loops[2])) end)
+    expect.equal(h.scene:hash(), before)
+end)
+
+test("objects that stand elsewhere, turned and scaled: the result is where the second one is", function()
+    local far = 1e5
+    local function placed(scale)
+        return { { scale, 0, 0, far }, { 0, scale, 0, far }, { 0, 0, scale, far }, { 0, 0, 0, 1 } }
+    end
+    h = hand.new("merge", { small = cup(1, -2, 1, 10), large = cup(-1, 2, 1.5, 12) },
+        { eye = { far, far, far + 50 }, target = { far, far, far }, ortho = 19.2,
+            places = { small = placed(0.5), large = placed(1) } })
+    h:click{ far - 1, far, far + 0.5 }
+    h:click{ far + 2, far, far + 1.5 }
+    h:click{ far - 1, far + 0.5 * math.sin(1), far + 0.5 * math.cos(1) }
+    h:click{ far + 2, far + 1.5 * math.sin(1), far + 1.5 * math.cos(1) }
+    h:key("enter")
+    expect.equal(h.scene:info("merged").transform, placed(1))
+    expect.near(h.scene:get("merged"):bounds().max[1], h.scene:get("large"):bounds().max[1], 1e-9)
+end)
+
+test("40,000 faces", function()
+    h = hand.new("merge", { small = cup(1, -2, 1, 40), large = cup(-1, 2, 1.5, 56) }, { ortho = 19.2 })
+    click_loops()
+    h:key("enter")
+    expect.truthy(h.scene:get("merged"):face_count() > 40000)
+    expect.truthy(h.scene:get("merged"):is_closed())
+end)
