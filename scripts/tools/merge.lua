@@ -1,16 +1,16 @@
 --- Merges two meshes along an open boundary of each: what answers the clicks is a coroutine.
 --
 -- Click the loop of the part that is moved, then the loop that it is joined to: the merged surface appears
--- beside them. Where it is turned wrongly, click pairs of points that shall meet, first on the one loop, then
--- on the other. Enter takes the result: it goes to the place of the second mesh, and both parts are hidden.
+-- there, instead of the second mesh. Where it is turned wrongly, click pairs of points that shall meet, the
+-- first on the loop of the part, the second on the seam. Enter takes the result, and the part is hidden too.
 -- `transition` may be changed until the next merge: the result follows.
 local lissom = require "lissom"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
-local vectors = require "vectors"
 
 local pick = lissom.pick
--- Merges. A join is { source =, target =, keys =, right = }: hits of two loops, pairs of points on them.
+
+-- Merges. A join is { source =, target =, keys = }: hits of two loops, pairs of points on them.
 local function merged(self, scene, join)
     for _, hit in ipairs{ join.source, join.target } do
         local there = rawequal(scene:get(hit.object), hit.mesh)
@@ -24,28 +24,16 @@ local function merged(self, scene, join)
     })
 end
 
--- Where the result is shown until it is taken: moved from its place to the right of all that is visible.
-local function aside(scene, mesh, place, right)
-    local center, radius = meshes.ball{ mesh = mesh, place = place }
-    local least, most = vectors.dot(center, right) - radius, -math.huge
-    for _, one in ipairs(meshes.visible(scene)) do
-        local middle, size = meshes.ball(one)
-        most = math.max(most, vectors.dot(middle, right) + size)
-    end
-    return matrices.product(matrices.translation(vectors.plus({ 0, 0, 0 }, right, most - least)), place)
-end
-
--- Shows the result of a join, in place of the one before.
+-- Shows the result of a join, in place of the one before or of the target.
 local function show(self, scene, join)
     local mesh, before = merged(self, scene, join), self.result and scene:info(self.result)
-    local place = before and before.transform
     if before then
         scene:remove(self.result)
     else
         self.result = meshes.unused_name(scene, "merged")
-        place = aside(scene, mesh, scene:info(join.target.object).transform, join.right)
+        scene:set(join.target.object, { visible = false })
     end
-    scene:add(self.result, mesh, { transform = place })
+    scene:add(self.result, mesh, { transform = scene:info(join.target.object).transform })
     self.joins[mesh] = join
 end
 
@@ -55,11 +43,11 @@ local function shown(self, scene)
     return mesh and self.joins[mesh]
 end
 
--- The same, as long as the result is not taken: the parts are still to be seen.
+-- The same, as long as the result is not taken: the part is still to be seen.
 local function in_progress(self, scene)
     local join = shown(self, scene)
-    local target = join and scene:info(join.target.object)
-    return target and target.visible and join
+    local source = join and scene:info(join.source.object)
+    return source and source.visible and join
 end
 
 -- The point of a loop that was clicked, in the space of its mesh.
@@ -98,24 +86,22 @@ return lissom.tool{
             self.source = pick.boundary{ prompt = "Click the loop of the part that is moved" }
             self.result = nil
             local target = pick.boundary{ prompt = "Click the loop that it is joined to" }
-            show(self, scene, { source = self.source, target = target, keys = {}, right = ev.camera:right() })
+            show(self, scene, { source = self.source, target = target, keys = {} })
         end
         local join = shown(self, scene)
         while true do
-            local from = pick.boundary{ prompt = "Enter takes it; or click a point of the first loop",
+            local from = pick.boundary{ prompt = "Enter takes it; or click a point of the part's loop",
                 object = join.source.object, optional = true }
             if not from then break end
             self.open = { on_loop(scene, join.source, from) }
-            local to = pick.boundary{ prompt = "Click where it belongs on the second loop",
-                object = join.target.object }
+            local to = pick.point{ prompt = "Click where it belongs on the seam", object = self.result }
             local keys = table.move(join.keys, 1, #join.keys, 1, {})
             table.insert(keys, { self.open[1], on_loop(scene, join.target, to) })
             self.open = nil
-            show(self, scene, { source = join.source, target = join.target, keys = keys, right = join.right })
-            join = shown(self, scene)
+            join = { source = join.source, target = join.target, keys = keys }
+            show(self, scene, join)
         end
-        scene:set(self.result, { transform = scene:info(join.target.object).transform })
-        for _, loop in ipairs{ join.source, join.target } do scene:set(loop.object, { visible = false }) end
+        scene:set(join.source.object, { visible = false })
     end,
     changed = function(self, ev)
         local join = shown(self, ev.scene)
@@ -130,7 +116,11 @@ return lissom.tool{
     end,
     cancel = function(self, ev)
         local in_a_step = ev.scene:depth() > 0          -- after an error there is none
-        if in_a_step and in_progress(self, ev.scene) then ev.scene:remove(self.result) end
+        local join = in_a_step and in_progress(self, ev.scene)
+        if join then
+            ev.scene:remove(self.result)
+            ev.scene:set(join.target.object, { visible = true })
+        end
         self.source = nil
     end,
     deactivate = function(self) self.source = nil end,
