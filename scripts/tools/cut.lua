@@ -74,6 +74,9 @@ return lissom.tool{
     press = function(self, ev)
         local hit = self.params.by == "path" and ev:pick{ kinds = { "vertex", "face" } }
         if not hit or (clicked(self, ev.scene) and not rawequal(hit.mesh, self.mesh)) then return end
+        for _, vertex in ipairs(self.points) do
+            if vertex == hit.vertex then return end
+        end
         self.mesh = hit.mesh
         table.insert(self.points, hit.vertex)
     end,

@@ -50,13 +50,18 @@ end
 -- Length and line of the way between the points over the surface.
 local function surface(self, p, ones)
     if not rawequal(ones[1].mesh, ones[2].mesh) then return "two objects" end
+    local straight = vectors.length(vectors.plus(p[1], p[2], -1))
+    if self.points[1].face == self.points[2].face then
+        return string.format("%.4g over the surface", straight), { p[1], p[2] }
+    end
     local copy = in_world(ones[1])
     local distances = copy:distances{ from = { point = p[1] } }
     local length = mean(self.points[2], function(v) return distances[v] end)
     if not (length < math.huge) then return "two parts" end
-    local line = copy:path{ points = p }:points()
+    local from, to, line = copy:nearest(p[1]).vertex, copy:nearest(p[2]).vertex, { p[1], p[2] }
+    if from ~= to then line = copy:path{ points = { from, to } }:points() end
     line[1], line[#line] = p[1], p[2]
-    return string.format("%.4g over the surface", length), line
+    return string.format("%.4g over the surface", math.max(length, straight)), line
 end
 
 local measures = {
@@ -104,7 +109,8 @@ return lissom.tool{
         if #located(self, ev.scene) ~= #self.points or #self.points >= wanted[self.params.what] then
             self.points = {}
         end
-        table.insert(self.points, { mesh = hit.mesh, triangle = hit.triangle, bary = hit.bary })
+        table.insert(self.points,
+            { mesh = hit.mesh, face = hit.face, triangle = hit.triangle, bary = hit.bary })
     end,
     key = function(self, ev)
         if ev.key == "backspace" then table.remove(self.points) end

@@ -78,6 +78,7 @@ test("a path of clicked points, from all sides", function()
     h:key("enter")
     h:click{ 0.4, 0.5, 0 }
     h:click{ -0.4, 0.5, 0 }
+    h:click{ -0.4, 0.5, 0 }            -- again, which counts once
     h:click{ -0.9, -0.9, 0 }
     expect.equal(#h.host:draw().lines, 1)
     h:click{ 0, -0.8, 0 }

@@ -45,6 +45,27 @@ test("the way over the surface of a ball", function()
     expect.equal(h:steps(), 0)
 end)
 
+test("the way between two points of one face is straight, and that to the same point nothing", function()
+    h.host:set{ what = "surface" }
+    h:click{ 0.2, 0.2, 0.5 }
+    h:click{ -0.2, -0.1, 0.5 }
+    expect.equal(label(), "0.5 over the surface")
+    h:click{ 0.2, 0.2, 0.5 }
+    h:click{ 0.2, 0.2, 0.5 }
+    expect.equal(label(), "0 over the surface")
+end)
+
+test("points at one vertex, on different faces", function()
+    h = hand.new("measure", { ball = lissom.shapes.sphere{ kind = "triangles", segments = 8 } })
+    h.host:set{ what = "surface" }
+    local ball = h.scene:get("ball")
+    local vertex = ball:nearest(0, 0, 1).vertex
+    local x, y, z = ball:position(vertex)
+    h:click{ x + 0.02, y + 0.01, z }
+    h:click{ x - 0.03, y + 0.02, z }
+    expect.truthy(tonumber(label():match("^[%d.e-]+")) < 0.2)
+end)
+
 test("no way from one part to another", function()
     local two = lissom.shapes.sphere{ kind = "triangles", segments = 8 }
     two:append(two:copy():transform{ translate = { 3, 0, 0 } })
