@@ -145,6 +145,8 @@ test("a gizmo is drawn", function()
     local tool = lissom.tool{ name = "g", draw = function(_, view) view:gizmo(gizmo) end }
     local host = host_of(ball_scene(), tool)
     expect.equal(#host:draw().lines >= 3, true)
+    host:move(middle)
+    expect.equal(#host:draw().lines >= 3, true)
 end)
 
 test("parameters are checked, and a tool hears of changes", function()
@@ -216,6 +218,7 @@ test("a run that fails, yields at will or never asks leaves the host usable", fu
         local done = pcall(function() host:use(lissom.tool{ name = "bad", run = run }):click(middle) end)
         expect.equal(done, false)
         expect.equal(scene:hash(), before)
+        expect.equal(host:prompt() == "?", host.asked == true)
         host:use(lift()):click(middle)
         expect.equal(host:prompt(), "How far? 0.5")
     end

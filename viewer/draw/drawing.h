@@ -75,6 +75,8 @@ struct DrawnLine {
     bool closed = false;
     Color color = kWireColor;
     double width = 4.0;
+
+    bool operator==(const DrawnLine&) const = default;
 };
 
 /// A ball of constant radius in pixels.
@@ -82,6 +84,8 @@ struct DrawnPoint {
     Vec3 position = Vec3::Zero();
     Color color = kHandleColor;
     double radius = 5.0;
+
+    bool operator==(const DrawnPoint&) const = default;
 };
 
 /// Numbers that the two ends of the colour scale stand for.
@@ -96,6 +100,8 @@ struct ValueRange {
 struct Overlay {
     std::vector<DrawnLine> lines = {};
     std::vector<DrawnPoint> points = {};
+
+    bool operator==(const Overlay&) const = default;
 };
 
 /// The smallest range that holds all finite values of `meshes`; nothing where there are none.

@@ -15,6 +15,7 @@
 #include "viewer/window/input.h"
 #include "viewer/window/screen.h"
 #include "viewer/window/session.h"
+#include "viewer/window/tool_panel.h"
 
 namespace lissom::window {
 
@@ -27,6 +28,12 @@ struct PanelContent {
     std::string stage;
     double fraction = 0.0;
     bool is_ortho = false;
+    /// Names of the tools that ship, and what there is to say of the one in hand.
+    std::vector<std::string> tools;
+    ToolState tool;
+    /// What the picture is seen by.
+    Camera camera;
+    PictureSize picture_size;
     /// Of the last frame, without waiting.
     double milliseconds = 0.0;
     std::string driver;
@@ -39,6 +46,7 @@ struct PanelAnswers {
     std::optional<StandardView> view = std::nullopt;
     /// A parameter has another value.
     bool parameters_changed = false;
+    ToolAnswers tool = {};
     /// A line of Lua to evaluate.
     std::optional<std::string> line = std::nullopt;
 };

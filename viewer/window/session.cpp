@@ -1,13 +1,13 @@
 #include "viewer/window/session.h"
 
 #include <algorithm>
+#include <fstream>
 #include <utility>
 
 #include "bindings/cli/repl/display.h"
 #include "bindings/cli/repl/session_text.h"
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/lua/core/failure.h"
-#include "kernel/io/mesh_file.h"
 #include "viewer/lua/shown_values.h"
 #include "viewer/lua/viewer_library.h"
 
@@ -18,14 +18,6 @@ namespace fs = std::filesystem;
 
 // Lines that are kept for a window that does not take them.
 constexpr std::size_t kMostLines = 10000;
-
-std::vector<DrawnMesh> load_meshes(const std::vector<std::string>& paths, const Context& context) {
-    std::vector<DrawnMesh> meshes;
-    for (const std::string& path : paths) {
-        meshes.push_back({std::make_shared<const Mesh>(load_mesh(path, {}, context))});
-    }
-    return meshes;
-}
 
 Box bounds_of(const Snapshot& snapshot) {
     Box box;
@@ -85,8 +77,10 @@ bool is_script(const std::string& word) {
     return fs::path(word).extension() == ".lua";
 }
 
-Session::Session(cli::Program& program, std::function<void()> wake)
-    : program_(program), wake_(std::move(wake)) {
+Session::Session(cli::Program& program, std::function<void()> wake, SessionOptions options)
+    : program_(program), wake_(std::move(wake)), options_(std::move(options)) {
+    look_.kind = ToolInput::Kind::look;
+    look_.size = {1280, 960};
     program_.log_filter = [this](LogLevel level, std::string_view text) {
         if (level == LogLevel::warning || program_.debug) {
             tell(level == LogLevel::warning ? LineKind::warning : LineKind::message,
@@ -108,7 +102,10 @@ Session::Session(cli::Program& program, std::function<void()> wake)
 Session::~Session() {
     finish(1.0);
     // The Lua state ends on the thread that it lived on.
-    worker_.post_only([this] { script_.reset(); });
+    worker_.post_only([this] {
+        bench_.reset();
+        script_.reset();
+    });
     worker_.wait_idle(1.0);
 }
 
@@ -149,6 +146,48 @@ void Session::evaluate(const std::string& line) {
 
 void Session::cancel() {
     if (busy()) cli::Interrupt::press();
+}
+
+void Session::use_tool(const std::string& word) {
+    worker_.post([this, word] {
+        program_.forget_interrupt();
+        if (settle_tool(word)) options_.tool = word;
+        show_scene(true);
+    });
+}
+
+void Session::read_tool_again() {
+    worker_.post([this] {
+        program_.forget_interrupt();
+        settle_tool(options_.tool);
+        show_scene(true);
+    });
+}
+
+void Session::post(ToolInput input) {
+    const std::lock_guard lock(mutex_);
+    const bool waits = !inputs_.empty();
+    push_input(inputs_, std::move(input));
+    if (!waits) worker_.post([this] { take_inputs(); });
+}
+
+void Session::set_tool_parameter(const std::string& name, const lua::ParameterValue& value) {
+    worker_.post([this, name, value] {
+        if (!bench_ || !bench_->has_scene()) return;
+        program_.forget_interrupt();
+        succeeds(bench_->set(name, value));
+        show_scene(true);
+    });
+}
+
+std::optional<ToolState> Session::take_tool_state() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(tool_state_, std::nullopt);
+}
+
+std::vector<fs::path> Session::tool_files() const {
+    const std::lock_guard lock(mutex_);
+    return tool_files_;
 }
 
 std::pair<std::string, double> Session::progress() const {
@@ -196,8 +235,10 @@ void Session::run(const std::vector<std::string>& words) {
 
 // A state of its own, whose prints and pictures come here.
 void Session::open_script(const lua::ScriptArguments& arguments) {
+    bench_.reset();
     script_.reset();
     script_ = std::make_unique<cli::Script>(program_, arguments);
+    bench_ = std::make_unique<ToolBench>(*script_);
     lua_State* L = script_->lua();
     lua_pushlightuserdata(L, this);
     lua_pushcclosure(L, print, 1);
@@ -212,16 +253,15 @@ void Session::run_script(const std::vector<std::string>& words) {
     const cli::ScriptResult result = script_->run_file(words[0]);
     publish_parameters();
     find_files();
-    if (result.status != cli::kSuccess) {
-        tell(LineKind::error, result.message);
-    } else {
-        const bool returns = show_values();
-        if (!returns && pictures_ == 0) {
-            tell(LineKind::warning,
-                 words[0] +
-                     " shows nothing: let it draw with lissom.render, or return "
-                     "what is to be seen: a mesh, strands, a scene, or a table of them");
-        }
+    if (!succeeds(result)) return lua_settop(L, 0);
+    const bool returns = show_values();
+    succeeds(bench_->take_values(1, lua_gettop(L)));
+    settle_scene({});
+    if (!returns && pictures_ == 0) {
+        tell(LineKind::warning, words[0] +
+                                    " shows nothing: let it draw with lissom.render, or return "
+                                    "what is to be seen: a mesh, strands, a scene, or a table of "
+                                    "them");
     }
     lua_settop(L, 0);
 }
@@ -246,22 +286,100 @@ void Session::load_files(const std::vector<std::string>& paths) {
         const std::lock_guard lock(mutex_);
         files_.assign(paths.begin(), paths.end());
     }
-    try {
-        Picture picture;
-        picture.meshes = load_meshes(paths, program_.context());
-        for (const DrawnMesh& drawn : picture.meshes) {
-            if (drawn.mesh->face_count() > 0) continue;
-            throw Error(ErrorCode::mesh_empty, "a mesh without faces cannot be drawn");
-        }
-        std::vector<std::string> names;
-        for (const std::string& path : paths) names.push_back(fs::path(path).filename().string());
-        show(std::move(picture), std::move(names));
-    } catch (const Error& error) {
-        tell(LineKind::error,
-             lua::lua_message(error) + " [" + std::string(code_name(error.code())) + "]");
-    } catch (const std::bad_alloc&) {
-        tell(LineKind::error, "there is no memory for these files");
+    // What was there stays where the files cannot be read.
+    auto script = std::exchange(script_, nullptr);
+    auto bench = std::exchange(bench_, nullptr);
+    open_script({});
+    lua_newtable(script_->lua());
+    if (succeeds(bench_->open(paths))) return settle_scene(paths);
+    bench_ = std::move(bench);
+    script_ = std::move(script);
+}
+
+// ---- Tools
+
+// Tells what went wrong; false then.
+bool Session::succeeds(const cli::ScriptResult& result) {
+    if (result.status == cli::kSuccess) return true;
+    tell(LineKind::error, result.message);
+    program_.forget_interrupt();
+    if (bench_) bench_->recover();
+    return false;
+}
+
+// A scene is there that was not before: it is seen and recorded as `open`, and the tool works on
+// it.
+void Session::settle_scene(const std::vector<std::string>& open) {
+    if (bench_->has_scene()) {
+        bench_->publish_scene();
+        succeeds(bench_->take(look_));
+        if (!options_.record.empty()) succeeds(bench_->record(open));
+        if (!options_.tool.empty()) settle_tool(options_.tool);
+        if (pictures_ == 0) return show_scene(true);
     }
+    const std::lock_guard lock(mutex_);
+    tool_state_ = bench_->state();
+}
+
+bool Session::settle_tool(const std::string& word) {
+    if (!bench_ || !bench_->has_scene()) {
+        tell(LineKind::warning,
+             "tools work on a scene: open meshes, or let the script return a scene or meshes");
+        return false;
+    }
+    const bool done = succeeds(bench_->use(word));
+    const std::vector<fs::path> files = bench_->tool_files(word);
+    const std::lock_guard lock(mutex_);
+    tool_files_ = files;
+    return done;
+}
+
+void Session::take_inputs() {
+    std::unique_lock lock(mutex_);
+    const std::vector<ToolInput> inputs = std::exchange(inputs_, {});
+    lock.unlock();
+    program_.forget_interrupt();
+    bool only_hovers = true;
+    for (const ToolInput& input : inputs) {
+        if (input.kind == ToolInput::Kind::look) look_ = input;
+        if (!bench_ || !bench_->has_scene()) continue;
+        only_hovers = only_hovers && input.kind == ToolInput::Kind::move && !bench_->is_held();
+        succeeds(bench_->take(input));
+    }
+    show_scene(!only_hovers);
+}
+
+// Shows the scene with what the tool draws; where that is as before only if `always`.
+void Session::show_scene(bool always) {
+    if (!bench_ || !bench_->has_scene()) return;
+    succeeds(bench_->draw());
+    try {
+        ToolState state = bench_->state();
+        const bool same = state == last_state_;
+        if (same && !always) return;
+        Picture picture = bench_->picture();
+        std::vector<std::string> names = bench_->names_of(picture);
+        show(frozen(std::move(picture)), std::move(names));
+        last_state_ = state;
+        const std::lock_guard lock(mutex_);
+        tool_state_ = std::move(state);
+    } catch (const Error& error) {
+        tell(LineKind::error, error.message());
+    } catch (const std::bad_alloc&) {
+        tell(LineKind::error, "there is no memory to show this");
+    }
+    if (always) save_recording();
+    wake_();
+}
+
+void Session::save_recording() {
+    const std::optional<std::string> text = bench_->recording();
+    if (!text || *text == recorded_) return;
+    recorded_ = *text;
+    std::ofstream file(options_.record, std::ios::binary);
+    if (file << *text && file.flush()) return;
+    tell(LineKind::error, "the recording cannot be written to " + options_.record);
+    options_.record.clear();
 }
 
 void Session::evaluate_line(const std::string& line) {
@@ -289,7 +407,7 @@ void Session::evaluate_line(const std::string& line) {
             tell(LineKind::error, result.message);
         } else {
             for (int i = 1; i <= lua_gettop(L); ++i) tell(LineKind::result, cli::display(L, i));
-            show_values();
+            if (!show_values()) show_scene(true);
         }
     }
     lua_settop(L, 0);

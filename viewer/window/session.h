@@ -16,6 +16,7 @@
 #include "bindings/cli/script.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "viewer/picture.h"
+#include "viewer/window/tool_bench.h"
 #include "viewer/window/worker.h"
 
 namespace lissom::window {
@@ -39,10 +40,17 @@ struct Shown {
     std::uint64_t number = 0;
 };
 
+struct SessionOptions {
+    /// The tool that is in hand from the first: a file, or the name of one that ships.
+    std::string tool = {};
+    /// Where what is done with tools is recorded; empty for nowhere.
+    std::string record = {};
+};
+
 class Session {
   public:
     /// `wake` is called on the session's thread when there is something new.
-    Session(cli::Program& program, std::function<void()> wake);
+    Session(cli::Program& program, std::function<void()> wake, SessionOptions options = {});
     /// Stops what runs; waits a second for it at most.
     ~Session();
 
@@ -58,6 +66,15 @@ class Session {
     void evaluate(const std::string& line);
     /// Stops what runs.
     void cancel();
+    /// Takes a tool in hand: a file, the name of one that ships, or none where `word` is empty.
+    void use_tool(const std::string& word);
+    /// Reads the tool in hand again, whose parameters and state stay; the old one stays where the
+    /// new one fails.
+    void read_tool_again();
+    /// A hand has done this.
+    void post(ToolInput input);
+    /// A parameter of the tool has this value.
+    void set_tool_parameter(const std::string& name, const lua::ParameterValue& value);
 
     bool busy() const { return worker_.busy(); }
     /// What the running operation does, and the fraction done.
@@ -68,8 +85,12 @@ class Session {
     std::vector<ConsoleLine> take_lines();
     /// The parameters that the script has declared, since the last call.
     std::optional<std::vector<lua::ScriptParameter>> take_parameters();
+    /// What the panel says of the scene and the tool, since the last call.
+    std::optional<ToolState> take_tool_state();
     /// What was read for what is shown: the script, what it requires, or the files.
     std::vector<std::filesystem::path> files() const;
+    /// What was read for the tool in hand.
+    std::vector<std::filesystem::path> tool_files() const;
 
     /// Stops what runs and waits `seconds` for it; false where it goes on: the process must then
     /// end without ending this object.
@@ -81,6 +102,12 @@ class Session {
     void run_script(const std::vector<std::string>& words);
     bool show_values();
     void load_files(const std::vector<std::string>& paths);
+    void settle_scene(const std::vector<std::string>& open);
+    bool settle_tool(const std::string& word);
+    void take_inputs();
+    bool succeeds(const cli::ScriptResult& result);
+    void show_scene(bool always);
+    void save_recording();
     void evaluate_line(const std::string& line);
     void show(Picture picture, std::vector<std::string> names = {});
     void tell(LineKind kind, const std::string& text);
@@ -97,14 +124,21 @@ class Session {
     std::optional<Shown> shown_;
     std::vector<ConsoleLine> lines_;
     std::optional<std::vector<lua::ScriptParameter>> parameters_;
-    std::vector<std::filesystem::path> files_;
+    std::vector<std::filesystem::path> files_, tool_files_;
+    std::vector<ToolInput> inputs_;
+    std::optional<ToolState> tool_state_;
     std::string stage_;
     double fraction_ = 0.0;
     std::uint64_t number_ = 0;
 
     // The worker's own.
+    SessionOptions options_;
     std::function<void(const Picture&)> listener_;
     std::unique_ptr<cli::Script> script_;
+    std::unique_ptr<ToolBench> bench_;
+    ToolInput look_;
+    std::string recorded_;
+    ToolState last_state_;
     std::size_t pictures_ = 0;
     Worker worker_;
 };

@@ -37,7 +37,8 @@ constexpr double kZoomStep = 1.15;
 
 constexpr const char* kHelp =
     "Drag turns, with shift moves, the wheel comes nearer. 1 to 7: sides, F: all, O: perspective, "
-    "W: wire, B: boundaries, Esc: stop, F5: run again, F12: picture, Ctrl-Q: end. "
+    "W: wire, B: boundaries, Esc: stop, F5: run again, F12: picture, Ctrl-Z: undo, Ctrl-Q: end. "
+    "With a tool in hand the right button turns, the middle one moves, and keys are the tool's. "
     "Files can be dropped here.";
 
 std::string text_of(const lua::ParameterValue& value) {
@@ -78,10 +79,12 @@ class ViewApp {
         : options_(options),
           window_("lissom", {options.width, options.height}),
           panel_(window_),
-          session_(program, [] { GlfwWindow::wake(); }),
+          session_(
+              program, [] { GlfwWindow::wake(); }, options.session),
           painter_(threads_of(program), [] { GlfwWindow::wake(); }) {
         content_.driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
         content_.lines.push_back({LineKind::message, kHelp});
+        content_.tools = shipped_tools();
         if (!options.words.empty()) open(options.words);
     }
 
@@ -98,6 +101,12 @@ class ViewApp {
     void take_inputs();
     void take(const Input& input);
     void navigate(const Input& input);
+    bool give_to_tool(const Input& input);
+    void tell_camera();
+    void press_tool_key(const Input& input);
+    void answer_tool(const ToolAnswers& answers);
+    void take_tool_state(ToolState state);
+    bool has_tool() const { return !content_.tool.tool.empty(); }
     void press_key(const Input& input);
     void take_results();
     void show(Shown shown);
@@ -123,6 +132,7 @@ class ViewApp {
     void set_camera(const Camera& camera) {
         camera_ = camera;
         moved();
+        tell_camera();
     }
     void frame_all() {
         if (shown_ && !shown_->bounds.empty()) set_camera(framed(view(), shown_->bounds));
@@ -135,7 +145,7 @@ class ViewApp {
     Screen screen_;
     Session session_;
     Painter painter_;
-    FileWatch watch_;
+    FileWatch watch_, tool_watch_;
     PanelContent content_;
     DisplaySettings settings_;
     std::optional<Shown> shown_;
@@ -144,6 +154,8 @@ class ViewApp {
 
     // Of the drag that goes on: which button, and where the cursor was last.
     std::optional<MouseButton> dragged_;
+    // The tool has the drag.
+    bool tool_drags_ = false;
     Vec2 cursor_ = Vec2::Zero();
 
     // Number of the last change of what is seen, and of the change that a finished picture shows.
@@ -204,7 +216,8 @@ void ViewApp::take(const Input& input) {
                         input.kind == Input::Kind::text;
     if (input.kind == Input::Kind::drop) return open(input.files);
     // A drag that began in the picture stays there; the panel sees every move and every release.
-    const bool for_panel = is_key ? panel_.wants_keys() : panel_.wants_mouse() && !dragged_;
+    const bool for_panel =
+        is_key ? panel_.wants_keys() : panel_.wants_mouse() && !dragged_ && !tool_drags_;
     const bool is_position = input.kind == Input::Kind::move || input.kind == Input::Kind::release;
     if (for_panel || is_position || is_key || input.kind == Input::Kind::press) panel_.feed(input);
     const Canvas canvas = panel_.canvas(window_.size());
@@ -212,11 +225,12 @@ void ViewApp::take(const Input& input) {
     if (is_key) {
         const bool stops = input.key == Key::escape && input.kind == Input::Kind::key_down;
         if (stops && session_.busy()) return session_.cancel();
+        if (!for_panel && has_tool()) press_tool_key(input);
         if (!for_panel && input.kind == Input::Kind::key_down) press_key(input);
-    } else if ((inside && !for_panel) || dragged_) {
+    } else if ((inside && !for_panel) || dragged_ || tool_drags_) {
         Input own = input;
         own.at -= Vec2(canvas.x, canvas.y);
-        navigate(own);
+        if (!give_to_tool(own)) navigate(own);
     }
 }
 
@@ -231,7 +245,8 @@ void ViewApp::navigate(const Input& input) {
         case Input::Kind::move: {
             const Vec2 drag = input.at - cursor_;
             if (dragged_ && drag != Vec2::Zero()) {
-                const bool turns = *dragged_ == MouseButton::left;
+                const bool turns = *dragged_ == MouseButton::left ||
+                                   (has_tool() && *dragged_ == MouseButton::right);
                 set_camera(turns ? orbited(view(), drag) : panned(view(), drag));
             }
             break;
@@ -248,6 +263,83 @@ void ViewApp::navigate(const Input& input) {
     cursor_ = input.at;
 }
 
+// With a tool in hand the left button is the tool's, but with alt; the others move the camera.
+bool ViewApp::give_to_tool(const Input& input) {
+    ToolInput event;
+    event.at = input.at;
+    event.modifiers = input.modifiers;
+    const bool is_press = input.kind == Input::Kind::press;
+    if (is_press && (dragged_ || tool_drags_)) return tool_drags_;
+    if (is_press)
+        tool_drags_ = has_tool() && input.button == MouseButton::left && !input.modifiers.alt;
+    const bool own = tool_drags_ || (has_tool() && !dragged_ && input.kind == Input::Kind::move);
+    if (!own) return false;
+    cursor_ = input.at;
+    switch (input.kind) {
+        case Input::Kind::press:
+            event.kind = ToolInput::Kind::press;
+            break;
+        case Input::Kind::move:
+            event.kind = ToolInput::Kind::move;
+            break;
+        case Input::Kind::release:
+            if (input.button != MouseButton::left) return true;
+            event.kind = ToolInput::Kind::release;
+            tool_drags_ = false;
+            break;
+        default:
+            return tool_drags_;
+    }
+    session_.post(event);
+    return true;
+}
+
+void ViewApp::press_tool_key(const Input& input) {
+    ToolInput event;
+    event.kind = ToolInput::Kind::key;
+    event.modifiers = input.modifiers;
+    if (input.kind == Input::Kind::key_down && input.key == Key::escape) {
+        event.kind = ToolInput::Kind::cancel;
+        tool_drags_ = false;
+        return session_.post(event);
+    }
+    const bool types = input.kind == Input::Kind::text;
+    const bool is_named = input.kind == Input::Kind::key_down && input.key != Key::character;
+    if (!types && !is_named) return;
+    event.key = tool_key(input);
+    if (!event.key.empty()) session_.post(event);
+}
+
+void ViewApp::tell_camera() {
+    ToolInput event;
+    event.kind = ToolInput::Kind::look;
+    event.camera = camera_;
+    const PictureSize size = view().size;
+    event.size = {static_cast<int>(size.width), static_cast<int>(size.height)};
+    session_.post(event);
+}
+
+void ViewApp::answer_tool(const ToolAnswers& answers) {
+    if (answers.tool) session_.use_tool(*answers.tool);
+    if (answers.parameter) {
+        const lua::ScriptParameter& p = content_.tool.parameters[*answers.parameter];
+        if (p.value) session_.set_tool_parameter(p.name, *p.value);
+    }
+    ToolInput event;
+    event.kind = answers.undo ? ToolInput::Kind::undo : ToolInput::Kind::redo;
+    if (answers.undo || answers.redo) session_.post(event);
+}
+
+void ViewApp::take_tool_state(ToolState state) {
+    if (state.tool != content_.tool.tool) tell("tool " + state.tool);
+    if (state.place != content_.tool.place || state.steps.size() != content_.tool.steps.size()) {
+        tell("history " + std::to_string(state.place) + " of " +
+             std::to_string(state.steps.size()));
+    }
+    content_.tool = std::move(state);
+    frames_owed_ = 2;
+}
+
 void ViewApp::look_from(StandardView side) {
     if (!shown_ || shown_->bounds.empty()) return;
     FramingOptions framing = shown_->picture->framing;
@@ -262,8 +354,13 @@ void ViewApp::press_key(const Input& input) {
     if (input.key != Key::character || input.modifiers.alt) return;
     if (input.modifiers.ctrl) {
         closes_ = closes_ || input.character == U'Q';
+        const bool redoes = input.character == U'Y' || input.modifiers.shift;
+        if (input.character == U'Z' || input.character == U'Y') {
+            answer_tool({.undo = !redoes, .redo = redoes});
+        }
         return;
     }
+    if (has_tool()) return;
     constexpr std::array kSides{
         StandardView::front, StandardView::back,   StandardView::left,         StandardView::right,
         StandardView::top,   StandardView::bottom, StandardView::three_quarter};
@@ -284,6 +381,7 @@ void ViewApp::take_results() {
         frames_owed_ = 2;
     }
     if (auto declared = session_.take_parameters()) take_parameters(std::move(*declared));
+    if (auto state = session_.take_tool_state()) take_tool_state(std::move(*state));
     if (auto shown = session_.take_shown()) show(std::move(*shown));
     if (auto result = painter_.take(); result && result->number == change_) {
         sharp_ = change_;
@@ -334,6 +432,11 @@ void ViewApp::take_parameters(std::vector<lua::ScriptParameter> declared) {
 
 void ViewApp::watch_files() {
     if (!session_.busy()) watch_.set(session_.files());
+    tool_watch_.set(session_.tool_files());
+    if (tool_watch_.changed(Clock::now())) {
+        tell("tool changed");
+        session_.read_tool_again();
+    }
     if (!watch_.changed(Clock::now())) return;
     tell("changed");
     session_.run_again(words_of(content_.parameters));
@@ -355,6 +458,7 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.run_again) session_.run_again(words_of(content_.parameters));
     if (answers.cancel) session_.cancel();
     if (answers.parameters_changed) parameters_changed_ = Clock::now();
+    answer_tool(answers.tool);
     if (answers.line) session_.evaluate(*answers.line);
 }
 
@@ -369,7 +473,10 @@ void ViewApp::draw_scene() {
         uploaded_settings_ = settings_;
     }
     if (stale) {
-        if (!(canvas == drawn_canvas_)) ++change_;
+        if (!(canvas == drawn_canvas_)) {
+            ++change_;
+            tell_camera();
+        }
         screen_.draw(camera_, canvas, background_of(settings_), coarseness_);
         drawn_ = change_;
         drawn_canvas_ = canvas;
@@ -390,6 +497,8 @@ void ViewApp::frame() {
         shown_.reset();
     }
     content_.is_ortho = camera_.is_ortho();
+    content_.camera = camera_;
+    content_.picture_size = view().size;
     const DisplaySettings old = settings_;
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, size.width, size.height);
@@ -407,7 +516,8 @@ void ViewApp::frame() {
 
 // Draws a finished picture once nothing moves.
 void ViewApp::ask_for_sharp() {
-    const bool at_rest = seconds_since(last_change_) > kRest && !dragged_ && frames_owed_ == 0;
+    const bool at_rest =
+        seconds_since(last_change_) > kRest && !dragged_ && !tool_drags_ && frames_owed_ == 0;
     if (!at_rest) {
         if (asked_ != change_) painter_.stop();
         was_at_rest_ = false;

@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "bindings/cli/program.h"
+#include "viewer/window/session.h"
 
 namespace lissom::window {
 
 struct ViewOptions {
     /// Mesh files, or a script and the words of its command line.
     std::vector<std::string> words;
+    /// The tool in hand, and where to record what it does.
+    SessionOptions session = {};
     int width = 1280, height = 800;
     /// Writes a line to the standard output for each thing that the window has done, for tests:
     /// "shown 1", "at rest", "picture x.png".

@@ -39,6 +39,10 @@ int view(Program& program, const std::vector<std::string>& words) {
     app.add_option("FILE", files, "Mesh files, or one script");
     app.add_option("--size", size, "Width and height of the window (default: 1280x800)")
         ->check(check_size);
+    app.add_option("--tool", options.session.tool,
+                   "The tool in hand: a file, or the name of one that ships");
+    app.add_option("--record", options.session.record,
+                   "Write what is done with tools to this file, a script that does it again");
     app.add_flag("--tell", options.tells, "Write what the window does, for tests");
     int status = kSuccess;
     if (!program.parse(app, own, status)) return status;

@@ -133,6 +133,9 @@ function Host:fail(message)
     local cancel = self.tool and self.tool.cancel
     if cancel then pcall(cancel, self.tool, self:event("cancel")) end
     self.working = false
+    local asks, asked = self.tool and self.tool.run, self.asked
+    self.asked = false
+    if asks and asked then pcall(self.start_run, self) end
     error(message, 0)
 end
 
@@ -397,12 +400,11 @@ end
 function Host:travel(verb)
     self:ready()
     if self.held then return self:cancel() and nil end
-    local waits = self.thread ~= nil
     self:cancel_quietly()
     self:note{ verb }
     local name = self.scene[verb](self.scene)
     self:mark(name ~= nil)
-    if waits then self:start_run() end
+    self:start_run()
     return name
 end
 

@@ -88,8 +88,8 @@ local function free_name(scene, name)
     return free
 end
 
-local function loaded_or_error(value, message)
-    if value == nil then error(message, 0) end
+local function loaded_or_error(value, message, code)
+    if value == nil then error(message .. " [" .. code .. "]", 0) end
     return value
 end
 
@@ -114,6 +114,10 @@ local function load_tool(word)
     end
     local chunk, message = loadfile(path, "t")
     if not chunk then error(message, 0) end
+    local folder = (path:match("^(.*[/\\])") or "./") .. "?.lua"
+    if not (";" .. package.path .. ";"):find(";" .. folder .. ";", 1, true) then
+        package.path = folder .. ";" .. package.path
+    end
     local tool = chunk()
     if not is_tool(tool) then
         error(path .. " does not return a tool; end it with return lissom.tool{...}", 0)
@@ -133,12 +137,14 @@ local function tool_for(word, given)
     return load_tool(word)
 end
 
+local function look(host, numbers)
+    local camera = { eye = numbers.eye, target = numbers.target, up = numbers.up, fov = numbers.fov,
+        ortho = numbers.ortho }
+    return host:look(lissom.camera(camera), numbers.size)
+end
+
 local player = {
-    look = function(host, event)
-        local n = event[2]
-        local camera = { eye = n.eye, target = n.target, up = n.up, fov = n.fov, ortho = n.ortho }
-        host:look(lissom.camera(camera), n.size)
-    end,
+    look = function(host, event) look(host, event[2]) end,
     tool = function(host, event, tools)
         local tool = event[2] and tool_for(event[2], tools)
         host:use(tool, event[2])
@@ -218,4 +224,93 @@ local function make_host(options)
     return host
 end
 
-return { tool = make_tool, host = make_host, replay = replay, open = open_scene, load_tool = load_tool }
+-- ---- For windows
+
+local function type_of(value)
+    if type(value) ~= "userdata" then return type(value) end
+    local meta = debug and debug.getmetatable(value) or getmetatable(value)
+    return type(meta) == "table" and meta.__name or "userdata"
+end
+
+local in_scenes = set_of{ "lissom.Mesh", "lissom.Deformation", "lissom.Strands", "lissom.Hairstyle",
+    "lissom.Polyline" }
+
+-- Adds what a scene can hold, also from tables within tables, under the keys that it has there.
+local function add_values(scene, value, name, seen, depth)
+    if in_scenes[type_of(value)] then
+        if not seen[value] then scene:add(free_name(scene, name), value) end
+        seen[value] = true
+    elseif type(value) == "table" and not is_tool(value) and depth < 4 and not seen[value] then
+        seen[value] = true
+        local keys = {}
+        for key in next, value do table.insert(keys, key) end
+        table.sort(keys, function(a, b) return tostring(a) < tostring(b) end)
+        for _, key in ipairs(keys) do
+            local label = type(key) == "string" and key ~= "" and key or name
+            add_values(scene, rawget(value, key), label, seen, depth + 1)
+        end
+    end
+end
+
+-- The host of the first scene among the values, or of a scene of what else there is; nil for nothing.
+local function host_of(...)
+    local scene
+    for i = 1, select("#", ...) do
+        local value = select(i, ...)
+        if not scene and type_of(value) == "lissom.Scene" then scene = value end
+    end
+    if not scene then
+        scene = lissom.scene{}
+        for i = 1, select("#", ...) do add_values(scene, (select(i, ...)), "object", {}, 0) end
+        if #scene == 0 then return nil end
+        scene:clear_history()
+    end
+    return new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
+end
+
+-- The modules that the tool loaded last has brought along.
+local tool_modules = {}
+
+local function use(host, word)
+    if word == "" then return host:use(nil) end
+    local old, kept = host.tool, {}
+    for _, name in ipairs(tool_modules) do
+        kept[name], package.loaded[name] = package.loaded[name], nil
+    end
+    local before = {}
+    for name in pairs(package.loaded) do before[name] = true end
+    local done, tool = pcall(load_tool, word)
+    if not done then
+        for name, module in pairs(kept) do package.loaded[name] = module end
+        error(tool, 0)
+    end
+    tool_modules = {}
+    for name in pairs(package.loaded) do
+        if not before[name] then table.insert(tool_modules, name) end
+    end
+    if old and old.name == tool.name then
+        tool.state = old.state
+        for _, p in ipairs(old.params:schema()) do
+            if p.value ~= p.default then pcall(function() tool.params[p.name] = p.value end) end
+        end
+    end
+    return host:use(tool, word)
+end
+
+-- The files that the present tool was read from.
+local function tool_files(word)
+    local files = { word:match("%.lua$") and word or package.searchpath("tools." .. word, package.path) }
+    for _, name in ipairs(tool_modules) do table.insert(files, (package.searchpath(name, package.path))) end
+    return files
+end
+
+local function draw(host)
+    host.drawn = nil
+    host.prompted = host:prompt()
+    host.drawn = host:draw()
+end
+
+local function method(host, name, ...) return host[name](host, ...) end
+
+return { tool = make_tool, host = make_host, replay = replay, open = open_scene, load_tool = load_tool,
+    host_of = host_of, look = look, use = use, tool_files = tool_files, draw = draw, method = method }

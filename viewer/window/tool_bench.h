@@ -1,0 +1,123 @@
+/// ToolBench: a scene of a script and the tool in hand, in the script's Lua state. It lives on the
+/// thread of the script.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings/cli/script.h"
+#include "bindings/lua/core/script_parameters.h"
+#include "viewer/picture.h"
+#include "viewer/window/tool_input.h"
+
+namespace lissom::window {
+
+/// Text at a point of the world.
+struct ToolLabel {
+    Vec3 at = Vec3::Zero();
+    std::string text;
+    Color color;
+
+    bool operator==(const ToolLabel&) const = default;
+};
+
+/// A line in the picture, in pixels from its top left corner.
+struct ToolOutline {
+    std::vector<Vec2> pixels;
+    bool closed = false;
+    Color color;
+    double width = 1.5;
+
+    bool operator==(const ToolOutline&) const = default;
+};
+
+/// What a tool shows that is no part of the scene.
+struct ToolMarks {
+    std::vector<ToolLabel> labels;
+    std::vector<ToolOutline> outlines;
+
+    bool operator==(const ToolMarks&) const = default;
+};
+
+/// What the panel says of the scene and the tool.
+struct ToolState {
+    bool has_scene = false;
+    /// Name of the tool in hand; empty for none.
+    std::string tool;
+    /// What the tool asks, or its help.
+    std::string prompt;
+    std::vector<lua::ScriptParameter> parameters;
+    /// Names of the steps, oldest first; the first `place` can be undone.
+    std::vector<std::string> steps;
+    std::size_t place = 0;
+    /// In the world, part of the picture.
+    Overlay overlay;
+    ToolMarks marks;
+
+    /// Whether the same is seen; parameters are not looked at.
+    bool operator==(const ToolState& other) const;
+};
+
+class ToolBench {
+  public:
+    /// `script` must outlive it, and has opened lissom.
+    explicit ToolBench(cli::Script& script) : script_(script) {}
+
+    // ---- Scenes. Each function answers how it went; after a failure all is as before.
+
+    /// Opens files as one scene: meshes with the options of lissom.load on top of the stack, which
+    /// are taken from it, or one .lissom file.
+    cli::ScriptResult open(const std::vector<std::string>& paths);
+    /// Makes a scene of what is between two stack indices: a scene that is there, or objects that a
+    /// scene can hold. Without any there is no scene afterwards.
+    cli::ScriptResult take_values(int first, int last);
+    bool has_scene() const { return has_scene_; }
+    /// Sets the global variable `scene`, for lines of a console.
+    void publish_scene();
+
+    // ---- Tools
+
+    /// Takes a tool in hand: a file, the name of one that ships, or none where `word` is empty.
+    cli::ScriptResult use(const std::string& word);
+    /// What `word`, the tool in hand, was read from.
+    std::vector<std::filesystem::path> tool_files(const std::string& word);
+    /// Whether a button is down that the tool knows of.
+    bool is_held() const;
+    /// A hand has done this.
+    cli::ScriptResult take(const ToolInput& input);
+    cli::ScriptResult set(const std::string& name, const lua::ParameterValue& value);
+    /// After a call that was stopped from outside.
+    void recover();
+
+    /// Begins a recording; `open` are the files of the scene, where nothing else led to it.
+    cli::ScriptResult record(const std::vector<std::string>& open);
+    /// Its text up to now; nothing where none is made.
+    std::optional<std::string> recording();
+
+    // ---- What there is to see
+
+    /// Tells by the tool what it shows; then `picture` and `state` can be asked.
+    cli::ScriptResult draw();
+    /// Errors: those of drawing_of.
+    Picture picture();
+    /// A name for each mesh of the picture.
+    std::vector<std::string> names_of(const Picture& picture);
+    ToolState state();
+
+  private:
+    cli::ScriptResult call(const char* method, int count);
+    void push_host() const;
+    void push_tool() const;
+    void paint_regions(Picture& picture);
+
+    cli::Script& script_;
+    bool has_scene_ = false;
+    bool records_ = false;
+};
+
+/// Names of the tools that ship, in their order.
+std::vector<std::string> shipped_tools();
+
+}  // namespace lissom::window

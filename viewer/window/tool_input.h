@@ -1,0 +1,37 @@
+/// What a hand does to the picture, on its way to a tool; and a queue in which moves do not pile
+/// up.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernel/sketch/camera.h"
+#include "viewer/gl/gl_objects.h"
+#include "viewer/window/input.h"
+
+namespace lissom::window {
+
+struct ToolInput {
+    enum class Kind { press, move, release, key, cancel, undo, redo, look };
+
+    Kind kind = Kind::move;
+    /// Pixels from the top left corner of the picture.
+    Vec2 at = Vec2::Zero();
+    MouseButton button = MouseButton::left;
+    Modifiers modifiers = {};
+    /// "enter", "a", ...
+    std::string key = {};
+    /// Of look: from where the picture is seen now, and its size.
+    Camera camera = {};
+    gl::Extent size = {};
+};
+
+/// Adds `input` behind others. A move that follows a move with the same buttons, or a look that
+/// follows a look, takes its place: whoever is slower than the hand is never behind by more than
+/// one.
+void push_input(std::vector<ToolInput>& inputs, ToolInput input);
+
+/// The name of a key as tools know it: "enter", "a", "7"; empty for one that they are not told of.
+std::string tool_key(const Input& input);
+
+}  // namespace lissom::window
