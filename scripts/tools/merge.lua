@@ -37,6 +37,12 @@ local function show(self, scene, join)
     self.joins[mesh] = join
 end
 
+-- The same; where it cannot be merged, that is told in the picture, and the clicks go on.
+local function try(self, scene, join)
+    local done, message = pcall(show, self, scene, join)
+    self.trouble = not done and { at = join.target.position, text = message:gsub("^%S+:%d+: ", "") } or nil
+end
+
 -- The join that is shown, which undo changes too; nil where there is none.
 local function shown(self, scene)
     local mesh = self.result and scene:get(self.result)
@@ -81,33 +87,33 @@ return lissom.tool{
     run = function(self, ev)
         local scene = ev.scene
         self.open = nil
-        if not in_progress(self, scene) then            -- else undo goes back to where keys were asked for
+        while not in_progress(self, scene) do           -- after undo it may be: then keys are asked for
             self.source = nil
             self.source = pick.boundary{ prompt = "Click the loop of the part that is moved" }
             self.result = nil
             local target = pick.boundary{ prompt = "Click the loop that it is joined to" }
-            show(self, scene, { source = self.source, target = target, keys = {} })
+            try(self, scene, { source = self.source, target = target, keys = {} })
         end
         local join = shown(self, scene)
-        while true do
+        while join do
             local from = pick.boundary{ prompt = "Enter takes it; or click a point of the part's loop",
                 object = join.source.object, optional = true }
-            if not from then break end
+            if not from then return scene:set(join.source.object, { visible = false }) end
             self.open = { on_loop(scene, join.source, from) }
             local to = pick.point{ prompt = "Click where it belongs on the seam", object = self.result }
             local keys = table.move(join.keys, 1, #join.keys, 1, {})
             table.insert(keys, { self.open[1], on_loop(scene, join.target, to) })
             self.open = nil
-            join = { source = join.source, target = join.target, keys = keys }
-            show(self, scene, join)
+            try(self, scene, { source = join.source, target = join.target, keys = keys })
+            join = shown(self, scene)
         end
-        scene:set(join.source.object, { visible = false })
     end,
     changed = function(self, ev)
         local join = shown(self, ev.scene)
-        if join then show(self, ev.scene, join) end
+        if join then try(self, ev.scene, join) end
     end,
     draw = function(self, view)
+        if self.trouble then view:label(self.trouble) end
         local join = in_progress(self, view.scene) or { source = self.source, keys = {} }
         local keys = table.move(join.keys, 1, #join.keys, 1, {})
         table.insert(keys, self.open)
@@ -121,7 +127,7 @@ return lissom.tool{
             ev.scene:remove(self.result)
             ev.scene:set(join.target.object, { visible = true })
         end
-        self.source = nil
+        self.source, self.trouble = nil, nil
     end,
-    deactivate = function(self) self.source = nil end,
+    deactivate = function(self) self.source, self.trouble = nil, nil end,
 }
