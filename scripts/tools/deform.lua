@@ -127,10 +127,11 @@ return lissom.tool{
         local at_gizmo, _, list = active(self, view.scene)
         for _, one in ipairs(list) do
             view:region{ mesh = one.mesh, region = one.handle:region(), color = "#8860c8" }
-            view:handle{ at = one.at, color = one == at_gizmo and "#ff9020" or "#8860c8" }
+            if one ~= at_gizmo then view:handle{ at = one.at, color = "#8860c8" } end
         end
         if at_gizmo then self.grip:draw(view) end
-        self.brush:draw(view, self.params.radius)
+        local busy = at_gizmo and (self.grip.gizmo:part() or self.grip:is_under(view))
+        if not busy then self.brush:draw(view, self.params.radius) end
     end,
     cancel = function(self) self.grip:cancel(); self.brush:lift() end,
     deactivate = function(self) self.grip:cancel(); self.brush:lift() end,

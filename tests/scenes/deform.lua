@@ -74,6 +74,11 @@ test("what is drawn: handles, the gizmo, what is typed", function()
     hold()
     local drawn = h.host:draw()
     expect.equal(#drawn.regions, 2)
+    local at = handles()[2]:center()
+    h:move{ at[1] - 1, at[2] - 1, 0 }
+    expect.equal(#h.host:draw().circles, 1)
+    h:move{ at[1] + 0.6, at[2], 0 }                     -- over the gizmo a press does not paint
+    expect.equal(#h.host:draw().circles, 0)
     h.host:type("12.5")
     expect.equal(h.host:draw().labels[1].text, "12.5")
     h:key("backspace")

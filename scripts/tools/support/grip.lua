@@ -92,6 +92,12 @@ function grip:cancel()
     self.typed, self.after = "", nil
 end
 
+--- Whether the cursor is over one of its parts, so that a press would hold that.
+function grip:is_under(view)
+    local cursor = view.cursor
+    return cursor and self.gizmo:hit(view.camera, view.size, cursor[1], cursor[2]) ~= nil
+end
+
 function grip:draw(view)
     view:gizmo(self.gizmo)
     if self.typed ~= "" then view:label{ at = self.gizmo:origin(), text = self.typed } end
