@@ -256,7 +256,8 @@ void Session::run_script(const std::vector<std::string>& words) {
     if (!succeeds(result)) return lua_settop(L, 0);
     const bool returns = show_values();
     succeeds(bench_->take_values(1, lua_gettop(L)));
-    settle_scene({});
+    // What its command line said is not in a recording.
+    settle_scene(words.size() == 1 ? words : std::vector<std::string>());
     if (!returns && pictures_ == 0) {
         tell(LineKind::warning, words[0] +
                                     " shows nothing: let it draw with lissom.render, or return "
@@ -373,6 +374,7 @@ void Session::show_scene(bool always) {
 }
 
 void Session::save_recording() {
+    if (options_.record.empty()) return;
     const std::optional<std::string> text = bench_->recording();
     if (!text || *text == recorded_) return;
     recorded_ = *text;

@@ -43,7 +43,7 @@ std::string tool_key(const Input& input) {
     const bool types =
         input.kind == Input::Kind::text && input.character > 32 && input.character < 127;
     if (!types) return "";
-    return {1, static_cast<char>(std::tolower(static_cast<int>(input.character)))};
+    return std::string(1, static_cast<char>(std::tolower(static_cast<int>(input.character))));
 }
 
 }  // namespace lissom::window

@@ -10,7 +10,7 @@
 namespace lissom::window {
 namespace {
 
-constexpr std::size_t kColumns = 4;
+constexpr std::size_t kColumns = 3;
 // Steps that are in sight at once.
 constexpr float kHistoryLines = 5.0f;
 
@@ -27,11 +27,11 @@ float width_of_button() {
 }
 
 // A button that is drawn strongly where it is `down`.
-bool tool_button(const char* label, bool down) {
+bool tool_button(const char* label, float width, bool down) {
     if (down) {
         ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     }
-    const bool pressed = ImGui::Button(label, ImVec2(width_of_button(), 0.0f));
+    const bool pressed = ImGui::Button(label, ImVec2(width, 0.0f));
     if (down) ImGui::PopStyleColor();
     return pressed;
 }
@@ -40,18 +40,19 @@ bool tool_button(const char* label, bool down) {
 
 ToolAnswers draw_tools(const std::vector<std::string>& names, ToolState& state) {
     ToolAnswers answers;
-    if (tool_button("turn", state.tool.empty())) answers.tool = "";
+    const float width = width_of_button();
+    if (tool_button("turn", width, state.tool.empty())) answers.tool = "";
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("No tool: the left button turns the picture");
     std::size_t place = 1;
     bool is_own = !state.tool.empty();
     for (const std::string& name : names) {
         if (place++ % kColumns != 0) ImGui::SameLine();
         is_own = is_own && name != state.tool;
-        if (tool_button(name.c_str(), name == state.tool)) answers.tool = name;
+        if (tool_button(name.c_str(), width, name == state.tool)) answers.tool = name;
     }
     if (is_own) {
         if (place % kColumns != 0) ImGui::SameLine();
-        tool_button(state.tool.c_str(), true);
+        tool_button(state.tool.c_str(), width, true);
     }
     if (!state.prompt.empty()) ImGui::TextWrapped("%s", state.prompt.c_str());
     answers.parameter = draw_parameters(state.parameters);

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 
 #include "kernel/core/index.h"
 #include "viewer/window/session.h"
@@ -49,6 +50,11 @@ int view(Program& program, const std::vector<std::string>& words) {
     std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height);
     if (files.size() > 1 && window::is_script(files.back())) {
         return program.fail("lissom view: give either meshes or one script", kUsage);
+    }
+    std::error_code error;
+    for (const std::string& file : files) {
+        if (!std::filesystem::equivalent(file, options.session.record, error)) continue;
+        return program.fail("lissom view: --record would overwrite " + file, kUsage);
     }
     options.words.insert(options.words.begin(), files.begin(), files.end());
     return window::run_view(program, options);

@@ -93,8 +93,64 @@ local function loaded_or_error(value, message, code)
     return value
 end
 
--- The scene of mesh files, or of one .lissom file; options are those of lissom.load.
+local function new_host(scene, camera, size)
+    size = type(size) == "number" and { size, size } or size or { 1280, 960 }
+    return setmetatable({ scene = scene, camera = camera, size = size, typed = "" }, Host)
+end
+
+local function type_of(value)
+    if type(value) ~= "userdata" then return type(value) end
+    local meta = debug and debug.getmetatable(value) or getmetatable(value)
+    return type(meta) == "table" and meta.__name or "userdata"
+end
+
+local in_scenes = set_of{ "lissom.Mesh", "lissom.Deformation", "lissom.Strands", "lissom.Hairstyle",
+    "lissom.Polyline" }
+
+-- Adds what a scene can hold, also from tables within tables, under the keys that it has there.
+local function add_values(scene, value, name, seen, depth)
+    if in_scenes[type_of(value)] then
+        if not seen[value] then scene:add(free_name(scene, name), value) end
+        seen[value] = true
+    elseif type(value) == "table" and not is_tool(value) and depth < 4 and not seen[value] then
+        seen[value] = true
+        local keys = {}
+        for key in next, value do table.insert(keys, key) end
+        table.sort(keys, function(a, b) return tostring(a) < tostring(b) end)
+        for _, key in ipairs(keys) do
+            local label = type(key) == "string" and key ~= "" and key or name
+            add_values(scene, rawget(value, key), label, seen, depth + 1)
+        end
+    end
+end
+
+-- The host of the first scene among the values, or of a scene of what else there is; nil for nothing.
+local function host_of(...)
+    local scene
+    for i = 1, select("#", ...) do
+        local value = select(i, ...)
+        if not scene and type_of(value) == "lissom.Scene" then scene = value end
+    end
+    if not scene then
+        scene = lissom.scene{}
+        for i = 1, select("#", ...) do add_values(scene, (select(i, ...)), "object", {}, 0) end
+        if #scene == 0 then return nil end
+        scene:clear_history()
+    end
+    return new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
+end
+
+local function run_script(path)
+    local chunk, message = loadfile(path, "t")
+    if not chunk then error(message, 0) end
+    local host = host_of(chunk())
+    if not host then error(path .. " returns no scene, nor what a scene can hold", 0) end
+    return host.scene
+end
+
+-- The scene of mesh files, of one .lissom file or of one script; options are those of lissom.load.
 local function open_scene(paths, options)
+    if #paths == 1 and paths[1]:match("%.lua$") then return run_script(paths[1]) end
     local is_scene = #paths == 1 and paths[1]:match("%.lissom$")
     if is_scene then return loaded_or_error(lissom.load_scene(paths[1])) end
     local scene = lissom.scene{}
@@ -189,11 +245,6 @@ local function same_or_error(scene, wanted, what)
     end
 end
 
-local function new_host(scene, camera, size)
-    size = type(size) == "number" and { size, size } or size or { 1280, 960 }
-    return setmetatable({ scene = scene, camera = camera, size = size, typed = "" }, Host)
-end
-
 local function replay(recorded, options)
     if type(recorded) == "string" then recorded = recording_of(recorded) end
     if recorded.version ~= 1 then
@@ -225,48 +276,6 @@ local function make_host(options)
 end
 
 -- ---- For windows
-
-local function type_of(value)
-    if type(value) ~= "userdata" then return type(value) end
-    local meta = debug and debug.getmetatable(value) or getmetatable(value)
-    return type(meta) == "table" and meta.__name or "userdata"
-end
-
-local in_scenes = set_of{ "lissom.Mesh", "lissom.Deformation", "lissom.Strands", "lissom.Hairstyle",
-    "lissom.Polyline" }
-
--- Adds what a scene can hold, also from tables within tables, under the keys that it has there.
-local function add_values(scene, value, name, seen, depth)
-    if in_scenes[type_of(value)] then
-        if not seen[value] then scene:add(free_name(scene, name), value) end
-        seen[value] = true
-    elseif type(value) == "table" and not is_tool(value) and depth < 4 and not seen[value] then
-        seen[value] = true
-        local keys = {}
-        for key in next, value do table.insert(keys, key) end
-        table.sort(keys, function(a, b) return tostring(a) < tostring(b) end)
-        for _, key in ipairs(keys) do
-            local label = type(key) == "string" and key ~= "" and key or name
-            add_values(scene, rawget(value, key), label, seen, depth + 1)
-        end
-    end
-end
-
--- The host of the first scene among the values, or of a scene of what else there is; nil for nothing.
-local function host_of(...)
-    local scene
-    for i = 1, select("#", ...) do
-        local value = select(i, ...)
-        if not scene and type_of(value) == "lissom.Scene" then scene = value end
-    end
-    if not scene then
-        scene = lissom.scene{}
-        for i = 1, select("#", ...) do add_values(scene, (select(i, ...)), "object", {}, 0) end
-        if #scene == 0 then return nil end
-        scene:clear_history()
-    end
-    return new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
-end
 
 -- The modules that the tool loaded last has brought along.
 local tool_modules = {}

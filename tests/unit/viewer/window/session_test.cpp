@@ -6,66 +6,16 @@
 #include <chrono>
 #include <thread>
 
-#include "bindings/lua/core/registry.h"
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/bindings/program_run.h"
 #include "tests/unit/viewer/picture_folder.h"
-#include "viewer/lua/viewer_library.h"
+#include "tests/unit/viewer/window/session_host.h"
 
 using namespace lissom;
 using namespace lissom::window;
-using test::ProgramFolder;
 
 namespace {
 
-cli::ProgramParts viewer_parts() {
-    cli::ProgramParts parts = cli::kernel_parts();
-    parts.libraries.push_back(lua::viewer_library);
-    return parts;
-}
-
-struct Host {
-    cli::ProgramParts parts = viewer_parts();
-    cli::Program program{parts};
-    ProgramFolder folder;
-    std::atomic<int> wakes{0};
-    std::vector<ConsoleLine> lines;
-    Session session{program, [this] { ++wakes; }};
-
-    // Milliseconds until nothing runs.
-    double wait(double seconds = 60.0) {
-        const auto start = std::chrono::steady_clock::now();
-        const auto spent = [&] {
-            return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        };
-        while (session.busy() && spent() < seconds) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-        CHECK_FALSE(session.busy());
-        for (ConsoleLine& line : session.take_lines()) {
-            lines.push_back(std::move(line));
-        }
-        return 1e3 * spent();
-    }
-    void run(const std::string& text, std::vector<std::string> words = {}) {
-        words.insert(words.begin(), folder.write("script.lua", text));
-        session.open(words);
-        wait();
-    }
-    bool says(LineKind kind, const std::string& part) const {
-        for (const ConsoleLine& line : lines) {
-            if (line.kind == kind && line.text.find(part) != std::string::npos) return true;
-        }
-        return false;
-    }
-    // Lets the script come as far as its first print.
-    void wait_for_line() {
-        while (lines.empty()) {
-            lines = session.take_lines();
-            std::this_thread::yield();
-        }
-    }
-};
+using Host = test::SessionHost;
 
 constexpr const char* kBar = "local lissom = require 'lissom'\n";
 

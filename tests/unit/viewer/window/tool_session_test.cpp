@@ -1,0 +1,317 @@
+// Tools of a session: what a hand does reaches them in order, becomes steps, and can be repeated.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "kernel/io/mesh_file.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/viewer/window/session_host.h"
+#include "viewer/window/tool_input.h"
+
+using namespace lissom;
+using namespace lissom::window;
+
+namespace {
+
+using Kind = ToolInput::Kind;
+
+// Pulls the vertex under the cursor.
+constexpr const char* kPull = R"(local lissom = require "lissom"
+return lissom.tool{ name = "pull", params = { step = { type = "number", default = 0.1, max = 5 } },
+    press = function(self, ev) self.hit = ev:hit() end,
+    drag = function(self)
+        local x, y, z = self.hit.mesh:position(self.hit.vertex)
+        self.hit.mesh:set_position(self.hit.vertex, x, y, z + self.params.step)
+        self.state.drags = (self.state.drags or 0) + 1
+    end,
+    key = function(self, ev)
+        if ev.key == "s" then print("drags", self.state.drags, self.params.step) end
+        if ev.key == "l" then while true do end end
+        if ev.key == "e" then ev.scene:get("ball"):transform{ scale = 2 } error("oops") end
+    end,
+    draw = function(self, view)
+        if self.hit then view:points{ points = { self.hit.position } } end
+        view:label{ at = { 0, 0, 0 }, text = "here" }
+    end }
+)";
+
+ToolInput input(Kind kind, double x = 320.0, double y = 240.0) {
+    ToolInput made;
+    made.kind = kind;
+    made.at = {x, y};
+    return made;
+}
+
+ToolInput key(const char* name) {
+    ToolInput made;
+    made.kind = Kind::key;
+    made.key = name;
+    return made;
+}
+
+// A session with a ball in front of its camera.
+struct ToolHost : test::SessionHost {
+    explicit ToolHost(SessionOptions chosen = {}) : SessionHost(std::move(chosen)) {
+        save_mesh(make_sphere(), ball);
+    }
+
+    std::string ball = folder.path("ball.obj");
+
+    void open(const std::string& tool = {}) {
+        session.open({ball});
+        wait();
+        ToolInput look = input(Kind::look);
+        look.camera = Camera({.eye = {0.0, 0.0, 5.0}});
+        look.size = {640, 480};
+        session.post(look);
+        if (!tool.empty()) session.use_tool(tool);
+        wait();
+    }
+    void drag(int moves) {
+        session.post(input(Kind::press));
+        wait();
+        for (int i = 0; i < moves; ++i) {
+            session.post(input(Kind::move, 320.0 + i));
+            wait();
+        }
+        session.post(input(Kind::release));
+        wait();
+    }
+    // The positions that are shown.
+    std::vector<Vec3> shown() {
+        if (auto next = session.take_shown()) last = std::move(next);
+        REQUIRE(last);
+        REQUIRE(last->picture->meshes.size() == 1);
+        const auto positions = last->picture->meshes[0].mesh->positions();
+        return {positions.begin(), positions.end()};
+    }
+    ToolState state() {
+        if (auto next = session.take_tool_state()) known = std::move(*next);
+        return known;
+    }
+    std::optional<Shown> last;
+    ToolState known;
+};
+
+std::string host_tool(const test::ProgramFolder& folder) {
+    return folder.write("pull.lua", kPull);
+}
+
+std::string content_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("tool input: moves and looks do not pile up, all else does") {
+    std::vector<ToolInput> inputs;
+    push_input(inputs, input(Kind::move, 1.0));
+    push_input(inputs, input(Kind::move, 2.0));
+    push_input(inputs, input(Kind::press, 2.0));
+    for (int i = 0; i < 100; ++i) push_input(inputs, input(Kind::move, i));
+    push_input(inputs, key("a"));
+    push_input(inputs, key("a"));
+    push_input(inputs, input(Kind::look));
+    push_input(inputs, input(Kind::look));
+    ToolInput shifted = input(Kind::move, 7.0);
+    push_input(inputs, input(Kind::move, 6.0));
+    shifted.modifiers.shift = true;
+    push_input(inputs, shifted);
+    REQUIRE(inputs.size() == 8);
+    CHECK(inputs[0].at.x() == 2.0);
+    CHECK(inputs[2].at.x() == 99.0);
+}
+
+TEST_CASE("tool input: keys have the names that tools know") {
+    Input typed;
+    typed.kind = Input::Kind::text;
+    typed.character = U'P';
+    CHECK(tool_key(typed) == "p");
+    typed.character = U'+';
+    CHECK(tool_key(typed) == "+");
+    typed.character = U'é';
+    CHECK(tool_key(typed).empty());
+    Input pressed;
+    pressed.kind = Input::Kind::key_down;
+    pressed.key = Key::enter;
+    CHECK(tool_key(pressed) == "enter");
+}
+
+TEST_CASE("session: a drag with a tool is one step, which undo takes back and redo does again") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    CHECK(host.state().tool == "pull");
+    const std::vector<Vec3> before = host.shown();
+    host.drag(4);
+    const std::vector<Vec3> after = host.shown();
+    CHECK(after != before);
+    CHECK(host.state().steps == std::vector<std::string>{"pull"});
+    CHECK(host.state().marks.labels.size() == 1);
+    CHECK(host.state().overlay.points.size() == 1);
+    host.session.post(input(Kind::undo));
+    host.wait();
+    CHECK(host.shown() == before);
+    CHECK(host.state().place == 0);
+    host.session.post(input(Kind::redo));
+    host.wait();
+    CHECK(host.shown() == after);
+    CHECK(host.lines.empty());
+}
+
+TEST_CASE("session: Escape in a drag, and an error in a tool, leave the scene as it was") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    const std::vector<Vec3> before = host.shown();
+    host.session.post(input(Kind::press));
+    host.session.post(input(Kind::move, 330.0));
+    host.wait();
+    CHECK(host.shown() != before);
+    host.session.post(input(Kind::cancel));
+    host.wait();
+    CHECK(host.shown() == before);
+    host.session.post(key("e"));
+    host.wait();
+    CHECK(host.says(LineKind::error, "pull.lua:12: oops"));
+    CHECK(host.shown() == before);
+    host.drag(1);
+    CHECK(host.shown() != before);
+}
+
+TEST_CASE("session: a tool that never returns is stopped, and works again") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    const std::vector<Vec3> before = host.shown();
+    host.session.post(key("l"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    CHECK(host.session.busy());
+    host.session.cancel();
+    host.wait(10.0);
+    host.drag(2);
+    CHECK(host.shown() != before);
+    CHECK(host.state().steps.size() == 1);
+}
+
+TEST_CASE(
+    "session: a tool that is read again keeps its parameters and state; a broken one is not "
+    "taken") {
+    ToolHost host;
+    const std::string file = host.folder.write("pull.lua", kPull);
+    host.open(file);
+    REQUIRE_FALSE(host.session.tool_files().empty());
+    host.session.set_tool_parameter("step", 0.5);
+    host.drag(3);
+    std::string text = kPull;
+    text.replace(text.find("\"drags\""), 7, "\"again\"");
+    host.folder.write("pull.lua", text);
+    host.session.read_tool_again();
+    host.session.post(key("s"));
+    host.wait();
+    CHECK(host.says(LineKind::message, "again\t3\t0.5"));
+    host.folder.write("pull.lua", "this is no Lua");
+    host.session.read_tool_again();
+    host.wait();
+    CHECK(host.says(LineKind::error, "pull.lua:1:"));
+    CHECK(host.state().tool == "pull");
+    const std::vector<Vec3> before = host.shown();
+    host.drag(1);
+    CHECK(host.shown() != before);
+}
+
+TEST_CASE("session: a wrong value of a tool's parameter is told and not taken") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    host.session.set_tool_parameter("step", 50.0);
+    host.wait();
+    CHECK(host.says(LineKind::error, "at most 5"));
+    CHECK(std::get<double>(*host.state().parameters.front().value) == 0.1);
+}
+
+TEST_CASE("session: tools want a scene, which scripts give by what they return") {
+    ToolHost host;
+    const std::string tool = host.folder.write("pull.lua", kPull);
+    host.session.use_tool(tool);
+    host.wait();
+    CHECK(host.says(LineKind::warning, "tools work on a scene"));
+    host.run("local lissom = require 'lissom'\nreturn { ball = lissom.shapes.sphere{}, 3 }");
+    CHECK(host.state().has_scene);
+    host.session.use_tool(tool);
+    host.wait();
+    CHECK(host.state().tool == "pull");
+    CHECK(host.shown().size() > 10);
+    host.session.evaluate("print(#scene, scene:names()[1])");
+    host.wait();
+    CHECK(host.says(LineKind::message, "1\tball"));
+}
+
+TEST_CASE("session: hovering shows nothing new where a tool draws the same") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(1);
+    (void)host.shown();
+    for (int i = 0; i < 5; ++i) {
+        host.session.post(input(Kind::move, 10.0 * i));
+        host.wait();
+    }
+    CHECK_FALSE(host.session.take_shown());
+}
+
+TEST_CASE("session: what is recorded is a script that comes to the same scene") {
+    test::ProgramFolder outside;
+    const std::string record = outside.path("events.lua");
+    std::vector<Vec3> after;
+    ToolHost host({.record = record});
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(4);
+    host.session.set_tool_parameter("step", 0.25);
+    host.drag(2);
+    host.session.post(input(Kind::undo));
+    host.wait();
+    after = host.shown();
+    CHECK(host.lines.empty());
+    REQUIRE(content_of(record).find("replay") != std::string::npos);
+    host.session.open({record});
+    host.wait();
+    CHECK(host.lines.empty());
+    CHECK(host.shown() == after);
+}
+
+TEST_CASE("session: a recording of a script's scene runs that script") {
+    test::ProgramFolder outside;
+    const std::string record = outside.path("events.lua");
+    ToolHost host({.tool = host_tool(outside), .record = record});
+    const std::string script =
+        host.folder.write("scene.lua", "return { ball = require('lissom').shapes.sphere{} }");
+    host.session.open({script});
+    host.wait();
+    ToolInput look = input(Kind::look);
+    look.camera = Camera({.eye = {0.0, 0.0, 5.0}});
+    look.size = {640, 480};
+    host.session.post(look);
+    host.drag(3);
+    const std::vector<Vec3> after = host.shown();
+    CHECK(host.lines.empty());
+    test::SessionHost again;
+    again.session.open({record});
+    again.wait();
+    CHECK(again.lines.empty());
+    const auto shown = again.session.take_shown();
+    REQUIRE(shown);
+    const auto positions = shown->picture->meshes.at(0).mesh->positions();
+    CHECK(std::vector<Vec3>(positions.begin(), positions.end()) == after);
+}
+
+TEST_CASE("session: a recording that cannot be written is told once") {
+    ToolHost host({.record = "/no such folder/events.lua"});
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(1);
+    host.drag(1);
+    std::size_t told = 0;
+    for (const ConsoleLine& line : host.lines) {
+        told += line.text.find("cannot be written") != std::string::npos ? 1 : 0;
+    }
+    CHECK(told == 1);
+}
