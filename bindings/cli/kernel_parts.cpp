@@ -9,6 +9,7 @@ ProgramParts kernel_parts() {
                    {"test", "PATH...", "Runs the tests of scripts.", run_tests},
                    {"inspect", "MESH...", "Says what is in mesh files.", inspect},
                    {"convert", "IN OUT", "Writes meshes in another format.", convert},
+                   {"new", "tool NAME", "Writes a tool to begin with.", make_new},
                    {"repl", "", "Runs Lua line by line.", repl},
                    {"help", "NAME", "Says how a Lua function is called.", help},
                    {"explain", "[CODE]", "Says what an error code means.", explain}};

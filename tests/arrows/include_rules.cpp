@@ -56,6 +56,8 @@ const std::vector<Rule>& rules() {
          {"Eigen", "Lua", "OpenGL", "CLI11", "printing", "platform"}},
         {"viewer/window/glfw_window.cpp", {"kernel", "viewer"}, {"OpenGL", "GLFW"}},
         {"viewer/window/panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
+        {"viewer/window/tool_panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
+        {"viewer/window/parameter_widgets.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
         {"examples", {"kernel"}, {"printing"}},
         {"examples/engine", {"bindings/engine"}, {"platform"}},
         {"tests/bench",

@@ -93,6 +93,31 @@ TEST_CASE("explain knows every code") {
           std::string::npos);
 }
 
+TEST_CASE("a new tool runs as it is written, and nothing is overwritten") {
+    const Folder folder;
+    CHECK(run({"new", "tool", folder.path("bulge")}).status == kSuccess);
+    REQUIRE(folder.has("bulge.lua"));
+    const std::string script = folder.write("try.lua", R"(local lissom = require "lissom"
+local scene = lissom.scene{}
+local ball = scene:add("ball", lissom.shapes.sphere())
+local tool = lissom.load_tool(arg[1])
+local before, low = scene:hash(), ball:bounds().max[3]
+local camera = lissom.camera{ eye = { 0, 0, 5 } }
+local host = lissom.tool_host{ scene = scene, camera = camera, tool = tool }
+host:move{ x = 640, y = 480 }:press{ x = 640, y = 480 }:move{ x = 641, y = 480 }
+host:release{ x = 641, y = 480 }
+assert(#host:draw().circles == 1 and tool.name == "bulge")
+assert(ball:bounds().max[3] > low and host:undo() == "bulge" and scene:hash() == before))");
+    const Ended ended = run({"run", script, folder.path("bulge.lua")});
+    CHECK(ended.err == "");
+    CHECK(ended.status == kSuccess);
+    CHECK(run({"new", "tool", folder.path("bulge")}).err.find("exists already") !=
+          std::string::npos);
+    CHECK(run({"new", "tool", folder.path("no folder/bulge")}).status == kFailure);
+    CHECK(run({"new", "tool", folder.path("a name")}).status == kUsage);
+    CHECK(run({"new", "toll", "a"}).err.find("there is: tool") != std::string::npos);
+}
+
 TEST_CASE("scripts end with a status and the place of their error") {
     const Folder folder;
     const auto ends = [&](const std::string& code, std::vector<std::string> words = {}) {
