@@ -90,10 +90,14 @@ std::vector<DrawnStrands> strands_of(const Picture& picture, std::optional<std::
 
 // All in one space.
 Snapshot whole(const Picture& picture, const ValueRange& range) {
-    return {picture.meshes,
-            strands_of(picture, std::nullopt),
-            {std::make_shared<const Overlay>(picture.marks)},
-            range};
+    std::vector<std::shared_ptr<const Overlay>> overlays = {
+        std::make_shared<const Overlay>(picture.marks)};
+    if (!picture.tool_marks.lines.empty() || !picture.tool_marks.points.empty()) {
+        auto marks = std::make_shared<Overlay>(picture.tool_marks);
+        marks->on_top = true;
+        overlays.push_back(std::move(marks));
+    }
+    return {picture.meshes, strands_of(picture, std::nullopt), std::move(overlays), range};
 }
 
 // What every cell shows; only the first where all is in one space.

@@ -21,6 +21,8 @@ struct Picture {
     std::vector<DrawnMesh> meshes = {};
     /// Drawn with every mesh, in the world of the camera.
     Overlay marks = {};
+    /// Likewise, not hidden by any surface: what a tool shows.
+    Overlay tool_marks = {};
     /// In cells, those that name a mesh are drawn with that mesh, others with every mesh.
     std::vector<PictureStrands> strands = {};
 

@@ -155,12 +155,16 @@ void SceneDrawer::draw_surfaces(const Tile& tile) const {
 void SceneDrawer::draw_marks(const Tile& tile) const {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glDepthMask(GL_FALSE);
-    use_for_marks(tools_.line, tile);
-    scene_.draw_lines();
-    glDepthMask(GL_TRUE);
-    use_for_marks(tools_.point, tile);
-    scene_.draw_points();
+    for (const bool on_top : {false, true}) {
+        if (on_top) glDisable(GL_DEPTH_TEST);
+        glDepthMask(GL_FALSE);
+        use_for_marks(tools_.line, tile);
+        scene_.draw_lines(on_top);
+        glDepthMask(GL_TRUE);
+        use_for_marks(tools_.point, tile);
+        scene_.draw_points(on_top);
+    }
+    glEnable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
 }
 

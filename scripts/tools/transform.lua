@@ -77,7 +77,7 @@ return lissom.tool{
         local one = held(self, view.scene)
         if not one then return end
         self.grip:draw(view)
-        view:label{ at = (meshes.ball(one)), text = one.name }
+        if #meshes.visible(view.scene) > 1 then view:label{ at = (meshes.ball(one)), text = one.name } end
     end,
     cancel = function(self) self.grip:cancel() end,
     deactivate = function(self) self.grip:cancel() end,

@@ -100,6 +100,8 @@ struct ValueRange {
 struct Overlay {
     std::vector<DrawnLine> lines = {};
     std::vector<DrawnPoint> points = {};
+    /// No surface hides them.
+    bool on_top = false;
 
     bool operator==(const Overlay&) const = default;
 };

@@ -203,6 +203,7 @@ std::shared_ptr<const GpuMarks> Upload::marks(const Overlay& overlay) {
                          static_cast<float>(point.radius)});
     }
     auto result = std::make_shared<GpuMarks>();
+    result->on_top = overlay.on_top;
     result->lines = instances(segments, {{0, 3, GL_FLOAT, offsetof(LineSegment, begin)},
                                          {1, 3, GL_FLOAT, offsetof(LineSegment, end)},
                                          {2, 4, GL_UNSIGNED_BYTE, offsetof(LineSegment, color)},
@@ -311,14 +312,22 @@ void GpuScene::draw_surfaces() const {
     for (const auto& surface : shown_.surfaces) surface->draw();
 }
 
-void GpuScene::draw_lines() const {
-    for (const auto& marks : shown_.overlays) marks->lines.draw();
-    for (const auto& surface : shown_.surfaces) surface->marks->lines.draw();
+void GpuScene::draw_lines(bool on_top) const {
+    for (const auto& marks : shown_.overlays) {
+        if (marks->on_top == on_top) marks->lines.draw();
+    }
+    for (const auto& surface : shown_.surfaces) {
+        if (!on_top) surface->marks->lines.draw();
+    }
 }
 
-void GpuScene::draw_points() const {
-    for (const auto& marks : shown_.overlays) marks->points.draw();
-    for (const auto& surface : shown_.surfaces) surface->marks->points.draw();
+void GpuScene::draw_points(bool on_top) const {
+    for (const auto& marks : shown_.overlays) {
+        if (marks->on_top == on_top) marks->points.draw();
+    }
+    for (const auto& surface : shown_.surfaces) {
+        if (!on_top) surface->marks->points.draw();
+    }
 }
 
 }  // namespace lissom

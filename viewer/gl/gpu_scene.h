@@ -36,6 +36,7 @@ struct GpuMarks {
         void draw() const;
     };
     Array lines, points;
+    bool on_top = false;
 };
 
 /// Triangles of one mesh, and its marks. Never changes; what stays is shared with the next one.
@@ -78,8 +79,9 @@ class GpuScene {
     }
 
     void draw_surfaces() const;
-    void draw_lines() const;
-    void draw_points() const;
+    /// Those that no surface hides, or the others.
+    void draw_lines(bool on_top) const;
+    void draw_points(bool on_top) const;
 
   private:
     struct Shown {

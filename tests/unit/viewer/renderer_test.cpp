@@ -179,6 +179,12 @@ TEST_CASE("lines have their width in pixels, are hidden by surfaces and cut at t
         front_camera(4.0), small_options());
     CHECK(test::is_gray(hidden.color(48, 48)));
     CHECK(hidden.color(5, 48).r > 0.9);
+    const Image on_top =
+        renderer->render({.meshes = {{test::shared(square)}},
+                          .overlays = test::marks({.lines = {behind}, .on_top = true})},
+                         front_camera(4.0), small_options());
+    CHECK(on_top.color(48, 48).r > 0.9);
+    CHECK(test::is_gray(on_top.color(48, 70)));
 
     const Camera inside({.eye = Vec3(0, 0, 0), .target = Vec3(0, 0, -1)});
     const DrawnLine past{{Vec3(0.1, -0.1, -9), Vec3(0.1, -0.1, 2)}, false, red, 4.0};
