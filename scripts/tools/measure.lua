@@ -35,7 +35,8 @@ local function located(self, scene)
     local places, ones = {}, {}
     for _, point in ipairs(self.points) do
         local one = meshes.find(scene, point.mesh)
-        if one and math.max(table.unpack(point.triangle)) <= #one.mesh then
+        local a, b, c = point.triangle[1], point.triangle[2], point.triangle[3]
+        if one and math.max(a, b, c) <= #one.mesh then
             local at = {}
             for axis = 1, 3 do
                 at[axis] = mean(point, function(v) return (select(axis, one.mesh:position(v))) end)
@@ -70,8 +71,10 @@ local measures = {
     end,
     angle = function(_, p)
         local a, b = vectors.plus(p[1], p[2], -1), vectors.plus(p[3], p[2], -1)
-        local angle = math.deg(math.atan(vectors.length(vectors.cross(a, b)), vectors.dot(a, b)))
-        return string.format("%.4g degrees", angle), p
+        if vectors.length(a) * vectors.length(b) == 0 then return "no angle", p end
+        a, b = vectors.unit(a), vectors.unit(b)
+        local half = math.atan(vectors.length(vectors.plus(a, b, -1)) / vectors.length(vectors.plus(a, b, 1)))
+        return string.format("%.4g degrees", math.deg(2 * half)), p
     end,
     surface = surface,
     object = function(_, _, ones)
@@ -86,8 +89,8 @@ local function result(self, scene)
     local p, ones = located(self, scene)
     if #p < wanted[self.params.what] then return nil, p end
     local key = self.params.what .. ones[1].mesh:hash()
-    for _, row in ipairs{ p[1], p[2] or {}, p[3] or {}, table.unpack(ones[1].place) } do
-        key = key .. " " .. table.concat(row, " ")
+    for _, rows in ipairs{ p, ones[1].place } do
+        for _, row in ipairs(rows) do key = key .. " " .. table.concat(row, " ") end
     end
     if key ~= self.measured then
         self.measured, self.text, self.line = key, measures[self.params.what](self, p, ones)

@@ -33,6 +33,14 @@ test("an angle, at the second point", function()
     h:click{ 0, 0, 0.5 }
     h:click{ 0, 0.25, 0.5 }
     expect.equal(label(), "90 degrees")
+    h:click{ 0.25, 0, 0.5 }
+    h:click{ 0, 0, 0.5 }
+    h:click{ -0.25, 0, 0.5 }
+    expect.equal(label(), "180 degrees")
+    h:click{ 0.25, 0, 0.5 }
+    h:click{ 0.25, 0, 0.5 }
+    h:click{ 0, 0, 0.5 }
+    expect.equal(label(), "no angle")
 end)
 
 test("the way over the surface of a ball", function()

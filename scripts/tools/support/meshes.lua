@@ -85,7 +85,7 @@ function meshes.ball(one)
     for i = 0, 7 do
         local corner = {}
         for axis = 1, 3 do
-            corner[axis] = (i >> (axis - 1)) % 2 == 0 and box.min[axis] or box.max[axis]
+            corner[axis] = math.floor(i / 2 ^ (axis - 1)) % 2 == 0 and box.min[axis] or box.max[axis]
         end
         radius = math.max(radius, vectors.length(vectors.plus(matrices.point(one.place, corner), center, -1)))
     end
