@@ -171,6 +171,17 @@ void Session::post(ToolInput input) {
     if (!waits) worker_.post([this] { take_inputs(); });
 }
 
+void Session::save_scene(const std::string& path, bool is_recovery) {
+    worker_.post([this, path, is_recovery] {
+        if (!bench_ || !bench_->has_scene() || bench_->is_held()) return;
+        program_.forget_interrupt();
+        std::string left_out;
+        if (!succeeds(bench_->save(path, left_out)) || is_recovery) return;
+        tell(LineKind::result, "saved " + path);
+        if (!left_out.empty()) tell(LineKind::warning, left_out);
+    });
+}
+
 void Session::set_tool_parameter(const std::string& name, const lua::ParameterValue& value) {
     worker_.post([this, name, value] {
         if (!bench_ || !bench_->has_scene()) return;

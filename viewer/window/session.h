@@ -73,6 +73,8 @@ class Session {
     void read_tool_again();
     /// A hand has done this.
     void post(ToolInput input);
+    /// Writes the scene to a file, and tells that it did; silently where it is a recovery.
+    void save_scene(const std::string& path, bool is_recovery = false);
     /// A parameter of the tool has this value.
     void set_tool_parameter(const std::string& name, const lua::ParameterValue& value);
 

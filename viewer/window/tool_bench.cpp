@@ -303,6 +303,17 @@ void ToolBench::publish_scene() {
     lua_pop(L, 1);
 }
 
+cli::ScriptResult ToolBench::save(const std::string& path, std::string& left_out) {
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_host();
+    lua_pushstring(L, path.c_str());
+    cli::ScriptResult result = call("save", 2);
+    if (result.status == cli::kSuccess) left_out = lua_tostring(L, -1);
+    lua_settop(L, top);
+    return result;
+}
+
 // ---- Tools
 
 cli::ScriptResult ToolBench::use(const std::string& word) {

@@ -313,6 +313,13 @@ local function tool_files(word)
     return files
 end
 
+-- Sentences about what had no place in the file.
+local function save(host, path)
+    local done, left_out, code = host.scene:save(path)
+    if not done then error(left_out .. " [" .. code .. "]", 0) end
+    return table.concat(left_out, "; ")
+end
+
 local function draw(host)
     host.drawn = nil
     host.prompted = host:prompt()
@@ -322,4 +329,5 @@ end
 local function method(host, name, ...) return host[name](host, ...) end
 
 return { tool = make_tool, host = make_host, replay = replay, open = open_scene, load_tool = load_tool,
-    host_of = host_of, look = look, use = use, tool_files = tool_files, draw = draw, method = method }
+    host_of = host_of, look = look, use = use, tool_files = tool_files, draw = draw,
+    save = save, method = method }

@@ -247,6 +247,23 @@ TEST_CASE("session: tools want a scene, which scripts give by what they return")
     CHECK(host.says(LineKind::message, "1\tball"));
 }
 
+TEST_CASE("session: a scene is saved, and opened again as it was") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(3);
+    const std::vector<Vec3> after = host.shown();
+    const std::string path = host.folder.path("scene.lissom");
+    host.session.save_scene(path);
+    host.session.save_scene("/no such folder/scene.lissom");
+    host.wait();
+    CHECK(host.says(LineKind::result, "saved"));
+    CHECK(host.says(LineKind::error, "file_write_failed"));
+    host.session.open({path});
+    host.wait();
+    CHECK(host.shown() == after);
+    CHECK(host.state().has_scene);
+}
+
 TEST_CASE("session: hovering shows nothing new where a tool draws the same") {
     ToolHost host;
     host.open(host.folder.write("pull.lua", kPull));

@@ -1,0 +1,11 @@
+/// Numbers of processes. The platform that they need is in process_number.cpp.
+#pragma once
+
+namespace lissom::cli {
+
+/// Of this process.
+long process_number();
+/// Whether a process with this number runs.
+bool process_runs(long number);
+
+}  // namespace lissom::cli
