@@ -5,25 +5,16 @@
 #include <memory>
 
 #include "kernel/core/error.h"
-#include "viewer/draw/legend.h"
 #include "viewer/draw/overlay.h"
 
 namespace lissom {
 namespace {
-
-// Ink that reads on the background.
-constexpr Color kDarkInk{0.16, 0.17, 0.20};
-constexpr Color kLightInk{0.92, 0.92, 0.93};
 
 void require_faces(const std::vector<DrawnMesh>& meshes) {
     for (const DrawnMesh& drawn : meshes) {
         if (drawn.mesh->face_count() > 0) continue;
         throw Error(ErrorCode::mesh_empty, "a mesh without faces cannot be drawn");
     }
-}
-
-Color ink_on(const std::optional<Color>& background) {
-    return background && lightness(*background) < 0.5 ? kLightInk : kDarkInk;
 }
 
 // Points that tell where strands are: of so many at most, evenly chosen.
@@ -190,6 +181,13 @@ Snapshot snapshot_of(const Picture& picture) {
     return whole(placed, range_of(picture, range_of_values(picture.meshes)));
 }
 
+std::optional<Legend> legend_of(const Picture& picture) {
+    const std::optional<ValueRange> of_values = range_of_values(picture.meshes);
+    const bool has_legend = of_values || !picture.legend_parts.empty();
+    if (!picture.legend || !has_legend) return std::nullopt;
+    return Legend{range_of(picture, of_values), picture.legend_label, picture.legend_parts};
+}
+
 Camera camera_of(const Picture& picture, const Snapshot& snapshot, double aspect) {
     return camera_for(picture, snapshot, aspect);
 }
@@ -212,12 +210,10 @@ Image draw_picture(Renderer& renderer, const Picture& picture, const Context& co
     const RenderOptions& options = picture.options;
     renderer.require_valid(options);
 
-    const std::optional<ValueRange> of_values = range_of_values(picture.meshes);
-    const Legend legend{range_of(picture, of_values), picture.legend_label};
-    const bool has_legend = picture.legend && of_values;
-    const int strip = has_legend ? legend_width(legend, options.height) : 0;
+    const std::optional<Legend> legend = legend_of(picture);
+    const int strip = legend ? legend_width(*legend, options.height) : 0;
     const Cells cells(picture, options.width - strip, options.height);
-    const Snapshot all = whole(picture, legend.range);
+    const Snapshot all = whole(picture, range_of(picture, range_of_values(picture.meshes)));
     const std::vector<Snapshot> snapshots = cells_of(picture, all);
 
     Image image(options.width, options.height);
@@ -240,7 +236,7 @@ Image draw_picture(Renderer& renderer, const Picture& picture, const Context& co
             draw_caption(image, picture.captions[i], cells, cell, ink_on(options.background));
         }
     }
-    if (has_legend) draw_legend(image, legend, ink_on(options.background));
+    if (legend) draw_legend(image, *legend, ink_on(options.background));
     return image;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/draw/legend.h"
 #include "viewer/draw/snapshot.h"
 #include "viewer/renderer.h"
 
@@ -42,10 +43,13 @@ struct Picture {
 
     /// Ends of the colour scale; without them, the least and greatest value drawn.
     std::optional<ValueRange> range = std::nullopt;
-    /// Draw the colour scale and its numbers at the right, where a mesh has values.
+    /// Draw the colour scale and its numbers at the right, where a mesh has values, or the names
+    /// of the parts.
     bool legend = true;
-    /// Stands above the colour scale.
+    /// Stands above the colour scale or the names.
     std::string legend_label = {};
+    /// Names of the parts that meshes show; where there are any there is no scale.
+    std::vector<LegendPart> legend_parts = {};
 
     RenderOptions options = {};
 };
@@ -53,6 +57,10 @@ struct Picture {
 /// All of `picture` in one space, its scale of colours included: with columns, the meshes stand
 /// side by side. Errors: invalid_argument where the range is empty.
 Snapshot snapshot_of(const Picture& picture);
+
+/// The legend that draw_picture draws at the right of `picture`; nothing where it draws none.
+/// Errors: invalid_argument where the range is empty.
+std::optional<Legend> legend_of(const Picture& picture);
 
 /// The camera of `picture`, or the standard view that frames all of its snapshot in a picture whose
 /// width is `aspect` times its height. Errors: as frame_points.

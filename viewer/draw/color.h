@@ -44,6 +44,8 @@ inline constexpr Color kClayColor{0.80, 0.795, 0.785};
 inline constexpr Color kRegionColor{0.45, 0.63, 0.89};
 inline constexpr Color kHandleColor{0.61, 0.39, 0.79};
 inline constexpr Color kWireColor{0.13, 0.14, 0.17};
+inline constexpr Color kVertexNormalColor{0.20, 0.50, 0.85};
+inline constexpr Color kFaceNormalColor{0.15, 0.62, 0.62};
 inline constexpr Color kWhite{1.0, 1.0, 1.0};
 
 /// Colours of things that are told apart by number; they repeat after eight.

@@ -17,8 +17,17 @@ namespace lissom {
 /// than the crease angle stay sharp. flat: one normal a face.
 enum class Shading { smooth, flat };
 
+/// A region drawn in a colour of its own.
+struct DrawnRegion {
+    Region region;
+    Color color = kRegionColor;
+
+    bool operator==(const DrawnRegion&) const = default;
+};
+
 /// How a mesh is drawn. A face takes its colour from the first of these that applies: a handle with
-/// all of the face's vertices; the values; the region, likewise; the attribute "color"; `color`.
+/// all of the face's vertices; the values; the region, likewise; the last of the parts that does;
+/// the attribute "color"; `color`.
 struct MeshStyle {
     Color color = kClayColor;
     /// Draw the colours of the attribute "color" (read as sRGB) where the mesh has it.
@@ -39,9 +48,14 @@ struct MeshStyle {
     /// Drawn in `handle_color`; vertices of a handle that it holds no face of are drawn as points.
     std::vector<Region> handles = {};
     Color handle_color = kHandleColor;
+    /// Drawn each in its colour, vertices of one that it holds no face of as points.
+    std::vector<DrawnRegion> parts = {};
 
     /// Draw the loops of open boundaries as lines, each in its own colour.
     bool boundaries = false;
+    /// Draw normals as lines of half the mean length of an edge: at vertices, and in the middle of
+    /// faces. Of many, evenly chosen ones.
+    bool vertex_normals = false, face_normals = false;
     /// Width of these lines in pixels; points are three times as wide.
     double line_width = 4.0;
 

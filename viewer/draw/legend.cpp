@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include "viewer/draw/colormap.h"
 #include "viewer/draw/overlay.h"
@@ -50,6 +51,22 @@ std::string number_text(double value, double step, double largest) {
     return text;
 }
 
+// Ink that reads on the background.
+constexpr Color kDarkInk{0.16, 0.17, 0.20};
+constexpr Color kLightInk{0.92, 0.92, 0.93};
+
+// Bytes of a name that are drawn, and the distance of two names in heights of capitals.
+constexpr std::size_t kLongestName = 24;
+constexpr double kNameStep = 2.2;
+
+// The name, or its beginning; never ends inside a letter of UTF-8.
+std::string short_name(const std::string& name) {
+    if (name.size() <= kLongestName) return name;
+    std::size_t end = kLongestName - 3;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
+    return name.substr(0, end) + "...";
+}
+
 // Sizes of a legend in pixels.
 struct Measures {
     double text, bar_width, bar_height, numbers_width, label_text;
@@ -60,8 +77,12 @@ struct Measures {
           bar_height(kBarShare * picture_height),
           numbers_width(0.0),
           label_text(text) {
-        for (const LegendTick& tick : legend_ticks(legend.range)) {
-            numbers_width = std::max(numbers_width, lay_out_text(tick.text, text).width);
+        const auto widen = [&](const std::string& line) {
+            numbers_width = std::max(numbers_width, lay_out_text(line, text).width);
+        };
+        for (const LegendPart& part : legend.parts) widen(short_name(part.name));
+        if (legend.parts.empty()) {
+            for (const LegendTick& tick : legend_ticks(legend.range)) widen(tick.text);
         }
         const double label = lay_out_text(legend.label, text).width;
         if (label > content_width()) label_text = text * content_width() / label;
@@ -84,7 +105,48 @@ void draw_bar(Image& image, int x, int y, int width, int height, const Color& in
     }
 }
 
+void draw_scale(Image& image, const Legend& legend, const Measures& measures, int x,
+                const Color& ink) {
+    const double text = measures.text;
+    const int width = index_of(std::lround(measures.bar_width));
+    const int height = index_of(std::lround(measures.bar_height));
+    const int y = (image.height - height) / 2;
+    draw_bar(image, x, y, width, height, ink);
+    for (const LegendTick& tick : legend_ticks(legend.range)) {
+        const double at = y + (1.0 - tick.place) * height;
+        const double end = x + width + kTickLength * text;
+        draw_strokes(image, {{Vec2(x + width, at), Vec2(end, at)}}, std::max(1.0, 0.1 * text), ink);
+        draw_text(image, tick.text, end + kTickGap * text, at + 0.5 * text, text, ink);
+    }
+    draw_text(image, legend.label, x, y - 1.4 * text, measures.label_text, ink);
+}
+
+// As many names as there is room for; the last row counts the others.
+void draw_names(Image& image, const Legend& legend, const Measures& measures, int x,
+                const Color& ink) {
+    const double text = measures.text, step = kNameStep * text;
+    const int room = std::max(static_cast<int>(0.9 * image.height / step) - 2, 1);
+    const int count = count_of(legend.parts);
+    const int shown = count > room ? room - 1 : count;
+    const int side = index_of(std::lround(measures.bar_width));
+    double base = 0.5 * (image.height - std::min(count, room) * step) + text;
+    draw_text(image, legend.label, x, base - 1.4 * step, measures.label_text, ink);
+    const double left = x + side + (kTickLength + kTickGap) * text;
+    for (const LegendPart& part : std::span(legend.parts).first(at(shown))) {
+        const int top = index_of(std::lround(base - 0.5 * (text + side)));
+        fill_rectangle(image, x, top, side, side, part.color);
+        draw_text(image, short_name(part.name), left, base, text, ink);
+        base += step;
+    }
+    if (shown == count) return;
+    draw_text(image, "and " + std::to_string(count - shown) + " more", left, base, text, ink);
+}
+
 }  // namespace
+
+Color ink_on(const std::optional<Color>& background) {
+    return background && lightness(*background) < 0.5 ? kLightInk : kDarkInk;
+}
 
 std::vector<LegendTick> legend_ticks(const ValueRange& range) {
     const double extent = range.high - range.low;
@@ -106,20 +168,13 @@ int legend_width(const Legend& legend, int picture_height) {
 
 void draw_legend(Image& image, const Legend& legend, const Color& ink) {
     const Measures measures(legend, image.height);
-    const double text = measures.text;
-    const double left = image.width - measures.width() + kMargin * text;
+    const double left = image.width - measures.width() + kMargin * measures.text;
     const int x = index_of(std::lround(left));
-    const int width = index_of(std::lround(measures.bar_width));
-    const int height = index_of(std::lround(measures.bar_height));
-    const int y = (image.height - height) / 2;
-    draw_bar(image, x, y, width, height, ink);
-    for (const LegendTick& tick : legend_ticks(legend.range)) {
-        const double at = y + (1.0 - tick.place) * height;
-        const double end = x + width + kTickLength * text;
-        draw_strokes(image, {{Vec2(x + width, at), Vec2(end, at)}}, std::max(1.0, 0.1 * text), ink);
-        draw_text(image, tick.text, end + kTickGap * text, at + 0.5 * text, text, ink);
+    if (legend.parts.empty()) {
+        draw_scale(image, legend, measures, x, ink);
+    } else {
+        draw_names(image, legend, measures, x, ink);
     }
-    draw_text(image, legend.label, x, y - 1.4 * text, measures.label_text, ink);
 }
 
 }  // namespace lissom

@@ -1,6 +1,7 @@
-/// Legend: the colour scale beside a picture, with its numbers.
+/// Legend: the colour scale beside a picture, with its numbers, or names with their colours.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,21 @@
 
 namespace lissom {
 
+struct LegendPart {
+    std::string name;
+    Color color = {};
+
+    bool operator==(const LegendPart&) const = default;
+};
+
 struct Legend {
-    ValueRange range;
-    /// Stands above the scale: what the numbers are.
+    ValueRange range = {};
+    /// Stands above the scale or the names: what the numbers are.
     std::string label = {};
+    /// Drawn instead of the scale where there are any; those that find no room are counted.
+    std::vector<LegendPart> parts = {};
+
+    bool operator==(const Legend&) const = default;
 };
 
 /// A number beside the scale.
@@ -30,5 +42,8 @@ int legend_width(const Legend& legend, int picture_height);
 
 /// Draws a legend into the last `legend_width` columns of `image`, in `ink`.
 void draw_legend(Image& image, const Legend& legend, const Color& ink);
+
+/// Ink that reads on a background; on none, that of a white one.
+Color ink_on(const std::optional<Color>& background);
 
 }  // namespace lissom

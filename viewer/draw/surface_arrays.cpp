@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "kernel/core/error.h"
+#include "kernel/mesh/measure/measures.h"
 #include "viewer/draw/colormap.h"
 #include "viewer/draw/shading_normals.h"
 
@@ -37,6 +38,7 @@ class SurfaceColors {
           attribute_(style.vertex_colors ? mesh.attributes().find("color") : nullptr),
           paint_(mesh.face_count(), Paint::own) {
         if (attribute_ && attribute_->width < 3) attribute_ = nullptr;
+        for (std::size_t i = 0; i < style.parts.size(); ++i) paint_part(index_of(i));
         if (style.region) paint_faces(*style.region, Paint::region, "the region to draw");
         if (!style.values.empty()) paint_values();
         for (const Region& handle : style.handles) {
@@ -48,6 +50,8 @@ class SurfaceColors {
         switch (paint_[face]) {
             case Paint::region:
                 return to_bytes(style_.region_color);
+            case Paint::part:
+                return to_bytes(style_.parts[part_[face]].color);
             case Paint::handle:
                 return to_bytes(style_.handle_color);
             case Paint::no_value:
@@ -60,11 +64,18 @@ class SurfaceColors {
     bool has_values(Index face) const { return paint_[face] == Paint::value; }
 
   private:
-    enum class Paint : char { own, region, handle, value, no_value };
+    enum class Paint : char { own, part, region, handle, value, no_value };
 
     void paint_faces(const Region& region, Paint paint, std::string_view what) {
         require_same_topology(mesh_, region.topology(), what);
         for (const Index f : region.faces()) paint_[f] = paint;
+    }
+
+    void paint_part(Index part) {
+        const Region& region = style_.parts[part].region;
+        paint_faces(region, Paint::part, "a part to draw");
+        part_.resize(mesh_.face_count());
+        for (const Index f : region.faces()) part_[f] = part;
     }
 
     void paint_values() {
@@ -90,6 +101,8 @@ class SurfaceColors {
     const MeshStyle& style_;
     const Attribute* attribute_;
     std::vector<Paint> paint_;
+    // Of faces that a part paints: which.
+    std::vector<Index> part_;
 };
 
 // The flags of kEdgeFlags for a triangle of a polygon with `sides` sides.
@@ -243,13 +256,18 @@ bool same_colors(const DrawnMesh& a, const DrawnMesh& b) {
         same_attribute(a.mesh->attributes().find("color"), b.mesh->attributes().find("color"));
     return same_attributes && s.vertex_colors == t.vertex_colors && s.color == t.color &&
            s.region == t.region && s.region_color == t.region_color && s.handles == t.handles &&
-           s.handle_color == t.handle_color && same_numbers(s.values, t.values);
+           s.handle_color == t.handle_color && s.parts == t.parts &&
+           same_numbers(s.values, t.values);
 }
 
 bool same_marks(const DrawnMesh& a, const DrawnMesh& b) {
     const MeshStyle &s = a.style, &t = b.style;
-    if (s.boundaries != t.boundaries || s.handles != t.handles) return false;
-    if (!s.boundaries && s.handles.empty()) return true;
+    if (s.boundaries != t.boundaries || s.vertex_normals != t.vertex_normals ||
+        s.face_normals != t.face_normals || s.handles != t.handles || s.parts != t.parts) {
+        return false;
+    }
+    const bool has_lines = s.boundaries || s.vertex_normals || s.face_normals;
+    if (!has_lines && s.handles.empty() && s.parts.empty()) return true;
     return same_positions(a, b) && s.handle_color == t.handle_color && s.line_width == t.line_width;
 }
 
@@ -266,17 +284,48 @@ void add_boundaries(const DrawnMesh& drawn, Overlay& marks) {
     }
 }
 
-void add_loose_vertices(const DrawnMesh& drawn, const Region& handle, Overlay& marks) {
+// Those of `region` that it holds no face of.
+void add_loose_vertices(const DrawnMesh& drawn, const Region& region, const Color& color,
+                        Overlay& marks) {
     const Topology& topology = drawn.mesh->topology();
     std::vector<char> held(topology.vertex_count(), 0);
-    for (const Index f : handle.faces()) {
+    for (const Index f : region.faces()) {
         for (const Index v : topology.face(f)) held[v] = 1;
     }
-    for (const Index v : handle.vertices()) {
+    for (const Index v : region.vertices()) {
         if (held[v]) continue;
-        marks.points.push_back({drawn.transform(drawn.mesh->position(v)), drawn.style.handle_color,
-                                1.5 * drawn.style.line_width});
+        marks.points.push_back(
+            {drawn.transform(drawn.mesh->position(v)), color, 1.5 * drawn.style.line_width});
     }
+}
+
+// Normals that are drawn of one kind.
+constexpr std::size_t kMostNormals = 30000;
+constexpr double kNormalWidth = 1.5;
+
+// Lines from `begins` along `normals` of the mesh.
+void add_normals(const DrawnMesh& drawn, const std::vector<Vec3>& begins,
+                 const std::vector<Vec3>& normals, const Color& color, Overlay& marks) {
+    const double length = 0.5 * mean_edge_length(*drawn.mesh) *
+                          std::cbrt(std::abs(drawn.transform.linear.determinant()));
+    const Mat3 turned = drawn.transform.linear.inverse().transpose();
+    const std::size_t stride = begins.size() / kMostNormals + 1;
+    for (std::size_t i = 0; i < begins.size(); i += stride) {
+        const Vec3 begin = drawn.transform(begins[i]);
+        const Vec3 end = begin + length * (turned * normals[i]).normalized();
+        if (end.allFinite()) marks.lines.push_back({{begin, end}, false, color, kNormalWidth});
+    }
+}
+
+std::vector<Vec3> face_middles(const Mesh& mesh) {
+    std::vector<Vec3> middles;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const std::span<const Index> face = mesh.topology().face(f);
+        Vec3 sum = Vec3::Zero();
+        for (const Index v : face) sum += mesh.position(v);
+        middles.push_back(sum / static_cast<double>(face.size()));
+    }
+    return middles;
 }
 
 }  // namespace
@@ -284,7 +333,21 @@ void add_loose_vertices(const DrawnMesh& drawn, const Region& handle, Overlay& m
 Overlay build_marks(const DrawnMesh& drawn) {
     Overlay marks;
     if (drawn.style.boundaries) add_boundaries(drawn, marks);
-    for (const Region& handle : drawn.style.handles) add_loose_vertices(drawn, handle, marks);
+    const Mesh& mesh = *drawn.mesh;
+    const MeshStyle& style = drawn.style;
+    for (const Region& handle : style.handles) {
+        add_loose_vertices(drawn, handle, style.handle_color, marks);
+    }
+    for (const DrawnRegion& part : style.parts) {
+        add_loose_vertices(drawn, part.region, part.color, marks);
+    }
+    if (style.vertex_normals) {
+        add_normals(drawn, {mesh.positions().begin(), mesh.positions().end()}, vertex_normals(mesh),
+                    kVertexNormalColor, marks);
+    }
+    if (style.face_normals) {
+        add_normals(drawn, face_middles(mesh), face_normals(mesh), kFaceNormalColor, marks);
+    }
     return marks;
 }
 

@@ -69,8 +69,8 @@ bool same_vertices(const DrawnMesh& a, const DrawnMesh& b);
 bool same_colors(const DrawnMesh& a, const DrawnMesh& b);
 bool same_marks(const DrawnMesh& a, const DrawnMesh& b);
 
-/// Lines and points that the style asks for, in the world of the camera: boundary loops, and the
-/// vertices of handles that hold no face.
+/// Lines and points that the style asks for, in the world of the camera: boundary loops, normals,
+/// and the vertices of handles and parts that hold no face.
 Overlay build_marks(const DrawnMesh& drawn);
 
 }  // namespace lissom

@@ -18,6 +18,8 @@ void apply(const DisplaySettings& settings, MeshStyle& style) {
     if (settings.wire) style.wire = true;
     if (settings.flat) style.shading = Shading::flat;
     if (settings.boundaries) style.boundaries = true;
+    if (settings.vertex_normals) style.vertex_normals = true;
+    if (settings.face_normals) style.face_normals = true;
 }
 
 // Those of a picture that are shown, in one space.
@@ -28,7 +30,6 @@ Picture visible(const Picture& picture, const DisplaySettings& settings) {
     result.strands.clear();
     result.columns = 0;
     result.captions.clear();
-    result.legend = false;
     for (std::size_t i = 0; i < placed.meshes.size(); ++i) {
         if (is_hidden(settings, i)) continue;
         result.meshes.push_back(placed.meshes[i]);
@@ -39,7 +40,9 @@ Picture visible(const Picture& picture, const DisplaySettings& settings) {
         if (mesh && is_hidden(settings, *mesh)) continue;
         result.strands.push_back({placed.strands[i], std::nullopt});
     }
-    if (range_of_values(result.meshes)) result.range = placed.range;
+    const bool has_range = placed.range.low < placed.range.high;
+    if (has_range && range_of_values(result.meshes)) result.range = placed.range;
+    if (result.meshes.empty()) result.legend = false;
     return result;
 }
 
@@ -90,6 +93,10 @@ Snapshot quick_snapshot(const Picture& picture, const DisplaySettings& settings,
     snapshot.strands.clear();
     snapshot.overlays.push_back(std::move(lines));
     return snapshot;
+}
+
+std::optional<Legend> shown_legend(const Picture& picture, const DisplaySettings& settings) {
+    return legend_of(visible(picture, settings));
 }
 
 }  // namespace lissom::window

@@ -1,6 +1,7 @@
 /// How a window shows what it shows, beside what a script has asked for.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "viewer/picture.h"
@@ -12,6 +13,7 @@ struct DisplaySettings {
     bool wire = false;
     bool flat = false;
     bool boundaries = false;
+    bool vertex_normals = false, face_normals = false;
     /// Occlusion and all samples once nothing moves.
     bool sharp = true;
     /// One for each mesh of the picture; those behind the end are visible.
@@ -23,13 +25,16 @@ struct DisplaySettings {
 /// Behind the meshes.
 Color background_of(const DisplaySettings& settings);
 
-/// `picture` as the window shows it: without what is hidden, cells, captions and legend, all in one
-/// space, in a picture of `width` x `height` pixels that `camera` sees.
+/// `picture` as the window shows it: without what is hidden, cells and captions, all in one space,
+/// in a picture of `width` x `height` pixels that `camera` sees.
 Picture displayed(const Picture& picture, const DisplaySettings& settings, const Camera& camera,
                   int width, int height);
 
 /// What is drawn while something moves: the same without strands, of which `most` stand for all as
 /// lines.
 Snapshot quick_snapshot(const Picture& picture, const DisplaySettings& settings, Index most);
+
+/// The legend beside what is shown.
+std::optional<Legend> shown_legend(const Picture& picture, const DisplaySettings& settings);
 
 }  // namespace lissom::window

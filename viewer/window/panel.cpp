@@ -20,6 +20,7 @@ constexpr double kTextHeight = 15.0;
 // The last lines of the console are drawn.
 constexpr std::size_t kShownLines = 2000;
 constexpr std::size_t kLongestText = 1024;
+constexpr int kFramesAfterInput = 2;
 
 constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                             "/usr/share/fonts/dejavu/DejaVuSans.ttf",
@@ -47,6 +48,8 @@ void set_colors(bool dark) {
     const auto faded = [&](float alpha) { return ImVec4(accent.x, accent.y, accent.z, alpha); };
     style.Colors[ImGuiCol_WindowBg] =
         dark ? ImVec4(0.125f, 0.13f, 0.145f, 1.0f) : ImVec4(0.97f, 0.97f, 0.975f, 1.0f);
+    style.Colors[ImGuiCol_PopupBg] =
+        dark ? ImVec4(0.16f, 0.165f, 0.185f, 1.0f) : ImVec4(1.0f, 1.0f, 1.0f, 1.0f);
     style.Colors[ImGuiCol_FrameBg] =
         dark ? ImVec4(0.21f, 0.22f, 0.245f, 1.0f) : ImVec4(0.88f, 0.885f, 0.9f, 1.0f);
     style.Colors[ImGuiCol_Header] = faded(0.30f);
@@ -153,6 +156,29 @@ void draw_objects(const std::vector<std::string>& objects, std::vector<bool>& hi
     }
 }
 
+void draw_colors(const PanelContent& content, PanelAnswers& answers) {
+    if (content.colorings.size() < 2) return;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("colours");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1.0f);
+    if (ImGui::BeginCombo("##colors", label_of(content.coloring).c_str())) {
+        for (std::size_t i = 0; i < content.colorings.size(); ++i) {
+            const Coloring& one = content.colorings[i];
+            ImGui::PushID(static_cast<int>(i));
+            const bool is_chosen = one == content.coloring;
+            if (ImGui::Selectable(label_of(one).c_str(), is_chosen)) answers.coloring = one;
+            ImGui::PopID();
+        }
+        ImGui::EndCombo();
+    }
+    if (!is_distortion(content.coloring)) return;
+    if (ImGui::Button("compare with this shape", ImVec2(-1.0f, 0.0f))) {
+        answers.compare_with_this = true;
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Until then: the first that was shown.");
+}
+
 }  // namespace
 
 struct Panel::State {
@@ -166,7 +192,8 @@ struct Panel::State {
     std::vector<std::string> entered;
     std::size_t recalled = 0;
     std::size_t lines_drawn = 0;
-    bool draws_again = false;
+    // Frames after one that took input: lists open in the second.
+    int frames_owed = 0;
 
     Canvas canvas_of(gl::Extent window) const {
         const int left = static_cast<int>(kWidth * scale);
@@ -213,7 +240,7 @@ void Panel::feed(const Input& input) {
 }
 
 bool Panel::owes_frame() const {
-    return !state_->inputs.empty() || state_->draws_again;
+    return !state_->inputs.empty() || state_->frames_owed > 0;
 }
 
 bool Panel::wants_mouse() const {
@@ -266,6 +293,7 @@ bool Panel::State::apply(const Input& input, bool& has_changed) {
 
 void Panel::State::take_inputs() {
     bool has_changed = false;
+    frames_owed = inputs.empty() ? std::max(frames_owed - 1, 0) : kFramesAfterInput;
     while (!inputs.empty() && apply(inputs.front(), has_changed)) inputs.pop_front();
 }
 
@@ -297,6 +325,10 @@ void Panel::State::view_section(const PanelContent& content, DisplaySettings& se
     ImGui::Checkbox("boundaries", &settings.boundaries);
     ImGui::SameLine(0.5f * ImGui::GetWindowWidth());
     ImGui::Checkbox("sharp", &settings.sharp);
+    ImGui::Checkbox("normals", &settings.vertex_normals);
+    ImGui::SameLine(0.5f * ImGui::GetWindowWidth());
+    ImGui::Checkbox("of faces", &settings.face_normals);
+    draw_colors(content, answers);
 }
 
 void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelAnswers& answers,
@@ -389,8 +421,10 @@ void Panel::State::console(const PanelContent& content, PanelAnswers& answers, g
         ImGui::PopTextWrapPos();
         ImGui::PopStyleColor();
     }
-    if (lines_drawn != count) ImGui::SetScrollHereY(1.0f);
-    draws_again = lines_drawn != count;
+    if (lines_drawn != count) {
+        ImGui::SetScrollHereY(1.0f);
+        frames_owed = std::max(frames_owed, 1);
+    }
     lines_drawn = count;
     ImGui::EndChild();
     prompt(answers);

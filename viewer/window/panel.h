@@ -10,6 +10,7 @@
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/sketch/camera.h"
 #include "viewer/gl/gl_objects.h"
+#include "viewer/window/coloring.h"
 #include "viewer/window/display.h"
 #include "viewer/window/glfw_window.h"
 #include "viewer/window/input.h"
@@ -34,6 +35,9 @@ struct PanelContent {
     /// What the picture is seen by.
     Camera camera;
     PictureSize picture_size;
+    /// What may give the meshes their colours, and what does.
+    std::vector<Coloring> colorings;
+    Coloring coloring;
     /// Of the last frame, without waiting.
     double milliseconds = 0.0;
     std::string driver;
@@ -42,8 +46,9 @@ struct PanelContent {
 /// What a person has asked for in one frame.
 struct PanelAnswers {
     bool frame_all = false, toggle_ortho = false, screenshot = false, run_again = false,
-         cancel = false;
+         cancel = false, compare_with_this = false;
     std::optional<StandardView> view = std::nullopt;
+    std::optional<Coloring> coloring = std::nullopt;
     /// A parameter has another value.
     bool parameters_changed = false;
     ToolAnswers tool = {};

@@ -4,6 +4,7 @@
 
 #include "kernel/sketch/camera.h"
 #include "viewer/draw/image.h"
+#include "viewer/draw/legend.h"
 #include "viewer/draw/snapshot.h"
 #include "viewer/gl/gl_objects.h"
 #include "viewer/gl/gpu_scene.h"
@@ -24,8 +25,13 @@ class Screen {
 
     /// Becomes what `snapshot` shows; see GpuScene::update.
     Uploads update(const Snapshot& snapshot) { return scene_.update(snapshot); }
-    /// Draws what `camera` sees with one sample a pixel and without occlusion, in a picture that is
-    /// `coarseness` times smaller than `canvas`.
+    /// From now on `legend` stands at the right of what is drawn on a canvas of this height; taken
+    /// pictures have their own.
+    void set_legend(const std::optional<Legend>& legend, int height, const Color& background);
+    /// What the legend leaves free of a canvas.
+    Canvas beside_legend(const Canvas& canvas) const;
+    /// Draws what `camera` sees beside the legend, with one sample a pixel and without occlusion,
+    /// in a picture that is `coarseness` times smaller than `canvas`.
     void draw(const Camera& camera, const Canvas& canvas, const Color& background, int coarseness);
     /// Shows `image` from now on.
     void take(const Image& image);
@@ -37,6 +43,7 @@ class Screen {
     GpuScene scene_;
     GpuHairShade no_hair_;
     std::unique_ptr<DrawTarget> target_;
+    gl::Framebuffer legend_;
     gl::Framebuffer finished_;
     const gl::Framebuffer* shown_ = nullptr;
 };

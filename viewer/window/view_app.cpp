@@ -13,6 +13,7 @@
 #include "kernel/core/clock.h"
 #include "kernel/core/error.h"
 #include "kernel/sketch/navigation.h"
+#include "viewer/window/colorer.h"
 #include "viewer/window/display.h"
 #include "viewer/window/file_watch.h"
 #include "viewer/window/glfw_window.h"
@@ -81,7 +82,8 @@ class ViewApp {
           panel_(window_),
           session_(
               program, [] { GlfwWindow::wake(); }, options.session),
-          painter_(threads_of(program), [] { GlfwWindow::wake(); }) {
+          painter_(threads_of(program), [] { GlfwWindow::wake(); }),
+          colorer_([] { GlfwWindow::wake(); }) {
         content_.driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
         content_.lines.push_back({LineKind::message, kHelp});
         content_.tools = shipped_tools();
@@ -110,6 +112,7 @@ class ViewApp {
     void press_key(const Input& input);
     void take_results();
     void show(Shown shown);
+    void update_legend();
     void take_parameters(std::vector<lua::ScriptParameter> declared);
     void watch_files();
     void answer(const PanelAnswers& answers);
@@ -121,7 +124,7 @@ class ViewApp {
         if (options_.tells) std::cout << text << std::endl;
     }
     View view() const {
-        const Canvas canvas = panel_.canvas(window_.size());
+        const Canvas canvas = screen_.beside_legend(panel_.canvas(window_.size()));
         return {camera_, {1.0 * canvas.width, 1.0 * canvas.height}};
     }
     void moved() {
@@ -145,6 +148,7 @@ class ViewApp {
     Screen screen_;
     Session session_;
     Painter painter_;
+    Colorer colorer_;
     FileWatch watch_, tool_watch_;
     PanelContent content_;
     DisplaySettings settings_;
@@ -159,7 +163,8 @@ class ViewApp {
     Vec2 cursor_ = Vec2::Zero();
 
     // Number of the last change of what is seen, and of the change that a finished picture shows.
-    std::uint64_t change_ = 1, asked_ = 0, sharp_ = 0, drawn_ = 0, uploaded_ = 0;
+    std::uint64_t change_ = 1, asked_ = 0, sharp_ = 0, drawn_ = 0;
+    std::shared_ptr<const Picture> uploaded_;
     DisplaySettings uploaded_settings_;
     Canvas drawn_canvas_;
     Clock::time_point last_change_ = Clock::now(), last_frame_ = Clock::now();
@@ -382,7 +387,11 @@ void ViewApp::take_results() {
     }
     if (auto declared = session_.take_parameters()) take_parameters(std::move(*declared));
     if (auto state = session_.take_tool_state()) take_tool_state(std::move(*state));
-    if (auto shown = session_.take_shown()) show(std::move(*shown));
+    if (auto shown = session_.take_shown()) colorer_.show(std::move(*shown));
+    if (auto colored = colorer_.take()) {
+        if (!colored->error.empty()) content_.lines.push_back({LineKind::error, colored->error});
+        show(std::move(colored->shown));
+    }
     if (auto result = painter_.take(); result && result->number == change_) {
         sharp_ = change_;
         if (result->error.empty()) screen_.take(result->image);
@@ -411,6 +420,8 @@ void ViewApp::show(Shown shown) {
             shown_->picture->meshes[i],
             i < shown_->names.size() ? shown_->names[i] : "mesh " + std::to_string(i + 1)));
     }
+    content_.colorings = colorings_of(*shown_->picture);
+    update_legend();
     if (!camera_is_placed_) {
         const View now = view();
         const Picture& picture = *shown_->picture;
@@ -454,6 +465,9 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.toggle_ortho) {
         set_camera(camera_.is_ortho() ? with_perspective(camera_) : without_perspective(camera_));
     }
+    if (answers.coloring) colorer_.choose(*answers.coloring);
+    if (answers.compare_with_this) colorer_.compare_with_this();
+    content_.coloring = colorer_.coloring();
     if (answers.screenshot) wants_picture_ = true;
     if (answers.run_again) session_.run_again(words_of(content_.parameters));
     if (answers.cancel) session_.cancel();
@@ -464,16 +478,23 @@ void ViewApp::answer(const PanelAnswers& answers) {
 
 // ---- Drawing
 
+void ViewApp::update_legend() {
+    screen_.set_legend(shown_legend(*shown_->picture, settings_),
+                       panel_.canvas(window_.size()).height, background_of(settings_));
+}
+
 void ViewApp::draw_scene() {
     const Canvas canvas = panel_.canvas(window_.size());
-    const bool stale = drawn_ != change_ || !(canvas == drawn_canvas_);
-    if (shown_ && (uploaded_ != shown_->number || !(uploaded_settings_ == settings_))) {
+    const bool resized = !(canvas == drawn_canvas_);
+    const bool other_settings = !(uploaded_settings_ == settings_);
+    if (shown_ && (uploaded_ != shown_->picture || other_settings)) {
         screen_.update(quick_snapshot(*shown_->picture, settings_, kQuickStrands));
-        uploaded_ = shown_->number;
+        uploaded_ = shown_->picture;
         uploaded_settings_ = settings_;
     }
-    if (stale) {
-        if (!(canvas == drawn_canvas_)) {
+    if (shown_ && (resized || other_settings)) update_legend();
+    if (drawn_ != change_ || resized) {
+        if (resized) {
             ++change_;
             tell_camera();
         }
@@ -532,7 +553,7 @@ void ViewApp::ask_for_sharp() {
         asked_ = change_;
         sharp_ = 0;
     }
-    const bool done = (!wanted || sharp_ == change_) && !session_.busy();
+    const bool done = (!wanted || sharp_ == change_) && !session_.busy() && !colorer_.busy();
     if (done && !was_at_rest_) tell("at rest");
     was_at_rest_ = done;
 }

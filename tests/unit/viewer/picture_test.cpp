@@ -106,6 +106,21 @@ TEST_CASE("a legend appears beside the mesh where it has values") {
     CHECK(drawn_box(draw_picture(*renderer, picture)).max.x() == without);
 }
 
+TEST_CASE("names of parts appear beside the mesh, instead of a scale") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh sphere = make_sphere();
+    Picture picture = picture_of(sphere, 400, 300);
+    CHECK_FALSE(legend_of(picture));
+    const double without = drawn_box(draw_picture(*renderer, picture)).max.x();
+    const Color red{1.0, 0.0, 0.0};
+    picture.meshes[0].style.parts = {{Region::all(sphere.shared_topology()), red}};
+    picture.legend_parts = {{"all of it", red}};
+    REQUIRE(legend_of(picture));
+    CHECK(legend_of(picture)->parts == picture.legend_parts);
+    CHECK(drawn_box(draw_picture(*renderer, picture)).max.x() > without + 10.0);
+}
+
 TEST_CASE("a range that is given decides the colours") {
     const auto renderer = test::make_renderer();
     if (!renderer) return;

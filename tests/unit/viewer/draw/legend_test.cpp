@@ -46,6 +46,39 @@ TEST_CASE("a range of one value has one number") {
     CHECK(texts({0.0, 0.0}).size() == 1);
 }
 
+TEST_CASE("a legend of parts shows their colours and as many names as there is room for") {
+    Legend legend;
+    legend.label = "regions";
+    legend.parts = {{"head", {1.0, 0.0, 0.0}}, {"tail", {0.0, 0.0, 1.0}}};
+    const auto pixels_of = [&](const Image& image, const Color& color) {
+        int count = 0;
+        for (int i = 0; i < image.width * image.height; ++i) {
+            count += image.color(i % image.width, i / image.width) == color ? 1 : 0;
+        }
+        return count;
+    };
+    const auto drawn = [&] {
+        Image image(300, 400);
+        fill_rectangle(image, 0, 0, 300, 400, kWhite);
+        draw_legend(image, legend, {});
+        return image;
+    };
+    const int square = pixels_of(drawn(), {1.0, 0.0, 0.0});
+    CHECK(square > 50);
+    CHECK(pixels_of(drawn(), {0.0, 0.0, 1.0}) == square);
+    const int narrow = legend_width(legend, 400);
+    legend.parts.push_back({"a name that is longer than most", {0.0, 1.0, 0.0}});
+    CHECK(legend_width(legend, 400) > narrow);
+    CHECK(legend_width(legend, 400) < 250);
+    for (int i = 0; i < 200; ++i) legend.parts.push_back({"more", {0.0, 1.0, 0.0}});
+    const Image full = drawn();
+    CHECK(pixels_of(full, {1.0, 0.0, 0.0}) == square);
+    const int greens = pixels_of(full, {0.0, 1.0, 0.0}) / square;
+    CHECK(greens > 5);
+    CHECK(greens < 30);
+    for (int x = 0; x < 300; ++x) CHECK(full.color(x, 399) == kWhite);
+}
+
 TEST_CASE("a legend shows the scale with its low end at the bottom, inside its strip") {
     const Legend legend{{0.0, 1.0}, "distance"};
     Image image(300, 400);

@@ -192,6 +192,61 @@ TEST_CASE("boundary loops become lines of different colours, lone handle vertice
     CHECK(marks.points[0].position == moved(tube.position(3)));
 }
 
+TEST_CASE(
+    "parts have their colours, the last over the others, and points where they hold no face") {
+    const Mesh sphere = make_sphere();
+    const Region all = Region::all(sphere.shared_topology());
+    const Region face(sphere.shared_topology(),
+                      {sphere.topology().face(7).begin(), sphere.topology().face(7).end()});
+    const Color red{1.0, 0.0, 0.0}, blue{0.0, 0.0, 1.0}, green{0.0, 1.0, 0.0};
+    MeshStyle style{.parts = {{all, red}, {face, blue}}};
+    std::size_t blues = 0;
+    for (const Corner& corner : build(sphere, style)) {
+        const bool is_blue = color_of(corner) == to_bytes(blue);
+        blues += is_blue ? 1 : 0;
+        CHECK((is_blue || color_of(corner) == to_bytes(red)));
+    }
+    CHECK(blues == 3 * (sphere.topology().face(7).size() - 2));
+    CHECK(build_marks({test::shared(sphere), style}).points.empty());
+    const DrawnMesh before{test::shared(sphere), style};
+    style.parts.push_back({Region(sphere.shared_topology(), {3}), green});
+    const DrawnMesh after{before.mesh, style};
+    CHECK_FALSE(same_colors(before, after));
+    CHECK_FALSE(same_marks(before, after));
+    const Overlay marks = build_marks(after);
+    REQUIRE(marks.points.size() == 1);
+    CHECK(marks.points[0].color == green);
+    // The region of interest lies over them.
+    style.region = all;
+    CHECK(color_of(build(sphere, style)[0]) == to_bytes(kRegionColor));
+    style.parts = {{Region::all(make_sphere().shared_topology()), red}};
+    CHECK(test::error_of([&] { build(sphere, style); }).code() == ErrorCode::topology_mismatch);
+}
+
+TEST_CASE("normals stand on vertices and faces, outward, also where the picture is a mirror") {
+    const Mesh sphere = make_sphere();
+    DrawnMesh drawn{test::shared(sphere)};
+    drawn.style.vertex_normals = drawn.style.face_normals = true;
+    CHECK_FALSE(same_marks({drawn.mesh}, drawn));
+    for (const double side : {1.0, -1.0}) {
+        drawn.transform = translation(Vec3(5, 0, 0));
+        drawn.transform.linear = Vec3(2.0 * side, 2.0, 2.0).asDiagonal();
+        const Overlay marks = build_marks(drawn);
+        REQUIRE(marks.lines.size() == at(sphere.vertex_count() + sphere.face_count()));
+        for (const DrawnLine& line : marks.lines) {
+            const Vec3 from = line.points[0] - Vec3(5, 0, 0), to = line.points[1] - Vec3(5, 0, 0);
+            CHECK(to.norm() > from.norm());
+            CHECK(to.normalized().dot(from.normalized()) > 0.99);
+        }
+    }
+    // Many are drawn by evenly chosen ones.
+    const Mesh fine = make_sphere({.segments = 250});
+    const DrawnMesh many{test::shared(fine), {.vertex_normals = true}};
+    REQUIRE(fine.vertex_count() > 100000);
+    CHECK(build_marks(many).lines.size() <= 30000);
+    CHECK(build_marks(many).lines.size() > 10000);
+}
+
 TEST_CASE("the range of values leaves out NaN and is nothing without values") {
     const Mesh square = test::make_square();
     DrawnMesh drawn{test::shared(square)};

@@ -59,6 +59,36 @@ TEST_CASE("display: hidden meshes are left out, and what grows on them") {
     CHECK(plain.strands.empty());
 }
 
+TEST_CASE("display: the legend of values stands beside them, whichever of them are hidden") {
+    Picture picture = two_boxes();
+    picture.meshes[1].style.values.assign(8, 2.0);
+    picture.meshes[1].style.values[0] = 5.0;
+    picture.legend_label = "height";
+    DisplaySettings settings;
+    const auto legend = shown_legend(picture, settings);
+    REQUIRE(legend);
+    CHECK(legend->label == "height");
+    CHECK(legend->range == ValueRange{2.0, 5.0});
+    CHECK(legend_of(displayed(picture, settings, Camera(), 100, 80)) == legend);
+    settings.hidden = {true, false};
+    CHECK(shown_legend(picture, settings) == legend);
+    settings.hidden = {false, true};
+    CHECK_FALSE(shown_legend(picture, settings));
+    CHECK_FALSE(shown_legend(two_boxes(), {}));
+    // One value everywhere has a legend too.
+    picture.meshes[1].style.values.assign(8, 2.0);
+    REQUIRE(shown_legend(picture, {}));
+    CHECK(shown_legend(picture, {})->range == ValueRange{2.0, 2.0});
+}
+
+TEST_CASE("display: normals are drawn where they are asked for") {
+    DisplaySettings settings;
+    settings.vertex_normals = true;
+    const Picture plain = displayed(two_boxes(), settings, Camera(), 100, 80);
+    CHECK(plain.meshes[1].style.vertex_normals);
+    CHECK_FALSE(plain.meshes[1].style.face_normals);
+}
+
 TEST_CASE("display: meshes in cells stand side by side") {
     Picture picture = two_boxes();
     picture.meshes[1].transform = {};

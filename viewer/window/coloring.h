@@ -1,0 +1,58 @@
+/// Coloring: what gives the meshes of a window their colours, as a person chooses: their own, the
+/// numbers of an attribute, their regions, or how far they are distorted.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "viewer/picture.h"
+
+namespace lissom::window {
+
+struct Coloring {
+    /// values: an attribute of the vertices. stretch, area, angle: against another shape of the
+    /// same faces, see Distortion.
+    enum class By { own, regions, values, stretch, area, angle };
+
+    By by = By::own;
+    /// Of By::values.
+    std::string attribute = {};
+
+    bool operator==(const Coloring&) const = default;
+};
+
+/// Whether it compares shapes.
+bool is_distortion(const Coloring& coloring);
+
+/// How a list of choices calls it.
+std::string label_of(const Coloring& coloring);
+
+/// What there is to choose from for the meshes of `picture`: their own colours, then regions where
+/// they have any, attributes with one number a vertex, and distortion.
+std::vector<Coloring> colorings_of(const Picture& picture);
+
+/// The shapes that meshes are compared with: for each mesh of a picture the first of the same faces
+/// that was seen in its place.
+class RestShapes {
+  public:
+    using MeshPtr = std::shared_ptr<const Mesh>;
+
+    /// Sees the meshes of the next picture.
+    void see(const Picture& picture);
+    /// Forgets all shapes, so that those that are seen next are the first.
+    void forget() { shapes_.clear(); }
+    /// One for each mesh of the picture that was seen last.
+    const std::vector<MeshPtr>& shapes() const { return shapes_; }
+
+  private:
+    std::vector<MeshPtr> shapes_;
+};
+
+/// `picture` with its meshes in these colours, and the legend that belongs to them; meshes that
+/// have nothing of the kind keep their own. `rest` has one shape a mesh. Errors: cancelled.
+Picture colored(Picture picture, const Coloring& coloring,
+                const std::vector<RestShapes::MeshPtr>& rest, const Context& context = {});
+
+}  // namespace lissom::window
