@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "viewer/window/parameter_widgets.h"
+#include "viewer/window/prompt_completion.h"
 
 namespace lissom::window {
 namespace {
@@ -21,6 +22,7 @@ constexpr double kTextHeight = 15.0;
 constexpr std::size_t kShownLines = 2000;
 constexpr std::size_t kLongestText = 1024;
 constexpr int kFramesAfterInput = 2;
+constexpr std::size_t kShownCandidates = 60;
 
 constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                             "/usr/share/fonts/dejavu/DejaVuSans.ttf",
@@ -188,6 +190,14 @@ struct Panel::State {
     std::deque<Input> inputs;
     bool is_dark = true;
     std::string line;
+    // Words that may stand where the line was completed, and that line up to there.
+    std::vector<std::string> candidates;
+    std::string completed_text;
+    // The line was changed from outside: the cursor goes to its end.
+    bool goes_to_end = false;
+    // Of each line of the console: the place that it names.
+    std::vector<std::optional<SourcePlace>> places;
+    std::string preset;
     // Lines that were entered, and which of them the arrows have come to.
     std::vector<std::string> entered;
     std::size_t recalled = 0;
@@ -206,9 +216,17 @@ struct Panel::State {
                       PanelAnswers& answers);
     void side(PanelContent& content, DisplaySettings& settings, PanelAnswers& answers,
               gl::Extent window);
-    void console(const PanelContent& content, PanelAnswers& answers, gl::Extent window);
-    void prompt(PanelAnswers& answers);
-    static int recall(ImGuiInputTextCallbackData* data);
+    void preset_row(const std::vector<std::string>& presets, PanelAnswers& answers);
+    void console(PanelContent& content, PanelAnswers& answers, gl::Extent window);
+    void console_line(const ConsoleLine& line, const std::optional<SourcePlace>& place,
+                      PanelAnswers& answers) const;
+    void find_places(const std::vector<ConsoleLine>& lines);
+    void prompt(PanelContent& content, PanelAnswers& answers);
+    void candidate_list(float left, float bottom, float width);
+    void take_candidate(const std::string& word);
+    struct PromptFrame;
+    void recall(ImGuiInputTextCallbackData& data);
+    void continue_line(ImGuiInputTextCallbackData& data, PanelContent& content);
 };
 
 Panel::Panel(GlfwWindow& window) : state_(std::make_unique<State>(window.scale())) {
@@ -331,6 +349,35 @@ void Panel::State::view_section(const PanelContent& content, DisplaySettings& se
     draw_colors(content, answers);
 }
 
+// A list of what there is, a name, and what to do with it.
+void Panel::State::preset_row(const std::vector<std::string>& presets, PanelAnswers& answers) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const auto width = [&](const char* label) {
+        return ImGui::CalcTextSize(label).x + 2.0f * style.FramePadding.x + style.ItemSpacing.x;
+    };
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - width("save") - width("delete") -
+                            ImGui::GetFrameHeight() - style.ItemSpacing.x);
+    std::array<char, kLongestText> name{};
+    preset.copy(name.data(), name.size() - 1);
+    ImGui::InputTextWithHint("##preset", "preset", name.data(), name.size());
+    preset = name.data();
+    ImGui::SameLine();
+    if (ImGui::BeginCombo("##presets", "", ImGuiComboFlags_NoPreview)) {
+        for (const std::string& one : presets) {
+            if (!ImGui::Selectable(one.c_str(), one == preset)) continue;
+            answers.load_preset = preset = one;
+        }
+        if (presets.empty()) ImGui::TextDisabled("none yet: write a name and save");
+        ImGui::EndCombo();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("save") && !preset.empty()) answers.save_preset = preset;
+    ImGui::SameLine();
+    if (ImGui::Button("delete") && !preset.empty()) {
+        answers.remove_preset = std::exchange(preset, {});
+    }
+}
+
 void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelAnswers& answers,
                         gl::Extent window) {
     const int left = canvas_of(window).x;
@@ -371,55 +418,157 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
     }
     if (!content.parameters.empty() &&
         ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen)) {
+        if (content.presets) preset_row(*content.presets, answers);
         answers.parameters_changed = draw_parameters(content.parameters).has_value();
     }
     ImGui::End();
 }
 
-// The arrows recall what was entered before.
-int Panel::State::recall(ImGuiInputTextCallbackData* data) {
-    auto& state = *static_cast<State*>(data->UserData);
-    const std::size_t count = state.entered.size();
-    if (data->EventKey == ImGuiKey_UpArrow && state.recalled > 0) --state.recalled;
-    if (data->EventKey == ImGuiKey_DownArrow && state.recalled < count) ++state.recalled;
-    const std::string text = state.recalled < count ? state.entered[state.recalled] : "";
-    data->DeleteChars(0, data->BufTextLen);
-    data->InsertChars(0, text.c_str());
-    return 0;
+void replace_text(ImGuiInputTextCallbackData& data, const std::string& text, std::size_t cursor) {
+    data.DeleteChars(0, data.BufTextLen);
+    data.InsertChars(0, text.c_str());
+    data.CursorPos = static_cast<int>(cursor);
+    data.ClearSelection();
 }
 
-void Panel::State::prompt(PanelAnswers& answers) {
+// The arrows recall what was entered before.
+void Panel::State::recall(ImGuiInputTextCallbackData& data) {
+    const std::size_t count = entered.size();
+    if (data.EventKey == ImGuiKey_UpArrow && recalled > 0) --recalled;
+    if (data.EventKey == ImGuiKey_DownArrow && recalled < count) ++recalled;
+    const std::string text = recalled < count ? entered[recalled] : "";
+    replace_text(data, text, text.size());
+}
+
+// Takes an answer to Tab, where the line is still the one that was asked about.
+void Panel::State::continue_line(ImGuiInputTextCallbackData& data, PanelContent& content) {
+    if (std::exchange(goes_to_end, false)) replace_text(data, data.Buf, data.BufTextLen);
+    const std::string now(data.Buf, static_cast<std::size_t>(data.BufTextLen));
+    const auto cursor = static_cast<std::size_t>(data.CursorPos);
+    if (now.substr(0, cursor) != completed_text) candidates.clear();
+    const auto answer = std::exchange(content.completion, std::nullopt);
+    if (!answer || answer->text != now.substr(0, cursor)) return;
+    const CompletedLine next =
+        completed_line(now, cursor, answer->found.begin, answer->found.words);
+    replace_text(data, next.line, next.cursor);
+    candidates = next.candidates;
+    completed_text = next.line.substr(0, next.cursor);
+}
+
+// In place of the beginning that all candidates have in common.
+void Panel::State::take_candidate(const std::string& word) {
+    std::size_t common = std::min(word.size(), completed_text.size());
+    while (!completed_text.ends_with(word.substr(0, common))) --common;
+    line.insert(completed_text.size(), word.substr(common));
+    candidates.clear();
+    goes_to_end = true;
+}
+
+void Panel::State::candidate_list(float left, float bottom, float width) {
+    if (candidates.empty()) return;
+    ImGui::SetNextWindowPos(ImVec2(left, bottom), ImGuiCond_Always, ImVec2(0.0f, 1.0f));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), ImVec2(width, 1e6f));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyle().Colors[ImGuiCol_PopupBg]);
+    ImGui::Begin("candidates", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                     ImGuiWindowFlags_AlwaysAutoResize);
+    const std::size_t count = std::min(candidates.size(), kShownCandidates);
+    const float gap = 2.0f * ImGui::GetStyle().ItemSpacing.x;
+    float used = 0.0f;
+    std::optional<std::string> taken;
+    for (std::size_t i = 0; i < count; ++i) {
+        const ImVec2 size = ImGui::CalcTextSize(candidates[i].c_str());
+        used += size.x + gap;
+        if (i > 0 && used < 0.9f * width) ImGui::SameLine(0.0f, gap);
+        if (used >= 0.9f * width) used = size.x + gap;
+        if (ImGui::Selectable(candidates[i].c_str(), false, 0, size)) taken = candidates[i];
+    }
+    if (count < candidates.size()) ImGui::TextDisabled("and %zu more", candidates.size() - count);
+    ImGui::End();
+    ImGui::PopStyleColor();
+    if (taken) take_candidate(*taken);
+}
+
+// What the prompt's callbacks need of a frame.
+struct Panel::State::PromptFrame {
+    State& state;
+    PanelContent& content;
+    PanelAnswers& answers;
+
+    void take(ImGuiInputTextCallbackData& data) const {
+        if (data.EventFlag == ImGuiInputTextFlags_CallbackHistory) state.recall(data);
+        if (data.EventFlag == ImGuiInputTextFlags_CallbackAlways) {
+            state.continue_line(data, content);
+        }
+        if (data.EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
+            answers.complete.emplace(data.Buf, static_cast<std::size_t>(data.CursorPos));
+        }
+    }
+};
+
+void Panel::State::prompt(PanelContent& content, PanelAnswers& answers) {
     std::array<char, kLongestText> text{};
     line.copy(text.data(), text.size() - 1);
     ImGui::SetNextItemWidth(-1.0f);
+    if (goes_to_end) ImGui::SetKeyboardFocusHere();
+    PromptFrame frame{*this, content, answers};
+    const auto callback = [](ImGuiInputTextCallbackData* data) {
+        static_cast<PromptFrame*>(data->UserData)->take(*data);
+        return 0;
+    };
     const bool ended = ImGui::InputTextWithHint(
-        "##prompt", "Lua", text.data(), text.size(),
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory, recall, this);
+        "##prompt", "Lua: Tab completes", text.data(), text.size(),
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory |
+            ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_CallbackAlways,
+        callback, &frame);
     line = text.data();
     if (!ended || line.empty()) return;
+    candidates.clear();
     entered.push_back(line);
     recalled = entered.size();
     answers.line = std::exchange(line, {});
     ImGui::SetKeyboardFocusHere(-1);
 }
 
-void Panel::State::console(const PanelContent& content, PanelAnswers& answers, gl::Extent window) {
+// Those of lines that are new; a file that appears later is not looked for again.
+void Panel::State::find_places(const std::vector<ConsoleLine>& lines) {
+    const auto exists = [](const std::string& name) {
+        std::error_code error;
+        return std::filesystem::is_regular_file(name, error);
+    };
+    for (std::size_t i = places.size(); i < lines.size(); ++i) {
+        places.push_back(find_place(lines[i].text, exists));
+    }
+}
+
+void Panel::State::console_line(const ConsoleLine& one, const std::optional<SourcePlace>& place,
+                                PanelAnswers& answers) const {
+    ImGui::PushStyleColor(ImGuiCol_Text, color_of(one.kind, is_dark));
+    ImGui::PushTextWrapPos(0.0f);
+    const std::string shown = (one.kind == LineKind::input ? "> " : "") + one.text;
+    ImGui::TextUnformatted(shown.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    if (!place || !ImGui::IsItemHovered()) return;
+    ImGui::SetTooltip("click: line %d of %s in your editor", place->line, place->file.c_str());
+    if (ImGui::IsItemClicked()) answers.place = place;
+}
+
+void Panel::State::console(PanelContent& content, PanelAnswers& answers, gl::Extent window) {
     const Canvas above = canvas_of(window);
     ImGui::SetNextWindowPos(ImVec2(static_cast<float>(above.x), static_cast<float>(above.height)));
     ImGui::SetNextWindowSize(
         ImVec2(static_cast<float>(above.width), static_cast<float>(window.height - above.height)));
-    ImGui::Begin("console", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
+    ImGui::Begin("console", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
     const float room = ImGui::GetFrameHeightWithSpacing();
     ImGui::BeginChild("lines", ImVec2(0.0f, -room));
     const std::size_t count = content.lines.size();
+    find_places(content.lines);
     for (std::size_t i = count - std::min(count, kShownLines); i < count; ++i) {
-        const ConsoleLine& one = content.lines[i];
-        ImGui::PushStyleColor(ImGuiCol_Text, color_of(one.kind, is_dark));
-        ImGui::PushTextWrapPos(0.0f);
-        const std::string shown = (one.kind == LineKind::input ? "> " : "") + one.text;
-        ImGui::TextUnformatted(shown.c_str());
-        ImGui::PopTextWrapPos();
-        ImGui::PopStyleColor();
+        console_line(content.lines[i], places[i], answers);
     }
     if (lines_drawn != count) {
         ImGui::SetScrollHereY(1.0f);
@@ -427,8 +576,10 @@ void Panel::State::console(const PanelContent& content, PanelAnswers& answers, g
     }
     lines_drawn = count;
     ImGui::EndChild();
-    prompt(answers);
+    prompt(content, answers);
+    const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
     ImGui::End();
+    candidate_list(corner.x, corner.y, end.x - corner.x);
 }
 
 Canvas Panel::canvas(gl::Extent window) const {

@@ -16,6 +16,7 @@
 #include "viewer/window/input.h"
 #include "viewer/window/screen.h"
 #include "viewer/window/session.h"
+#include "viewer/window/source_place.h"
 #include "viewer/window/tool_panel.h"
 
 namespace lissom::window {
@@ -24,7 +25,11 @@ namespace lissom::window {
 struct PanelContent {
     std::vector<std::string> objects;
     std::vector<lua::ScriptParameter> parameters;
+    /// Names of the presets of the parameters; none where there is no script to keep them for.
+    std::optional<std::vector<std::string>> presets;
     std::vector<ConsoleLine> lines;
+    /// How the line of the console may go on; the panel takes it.
+    std::optional<Completion> completion;
     bool busy = false;
     std::string stage;
     double fraction = 0.0;
@@ -52,8 +57,15 @@ struct PanelAnswers {
     /// A parameter has another value.
     bool parameters_changed = false;
     ToolAnswers tool = {};
+    /// A preset to take values from, to keep values in, or to forget.
+    std::optional<std::string> load_preset = std::nullopt, save_preset = std::nullopt,
+                               remove_preset = std::nullopt;
     /// A line of Lua to evaluate.
     std::optional<std::string> line = std::nullopt;
+    /// The line of the console up to the cursor, to be completed.
+    std::optional<std::string> complete = std::nullopt;
+    /// To be opened in an editor.
+    std::optional<SourcePlace> place = std::nullopt;
 };
 
 class Panel {

@@ -144,6 +144,10 @@ void Session::evaluate(const std::string& line) {
     worker_.post([this, line] { evaluate_line(line); });
 }
 
+void Session::complete(const std::string& text) {
+    worker_.post([this, text] { find_completions(text); });
+}
+
 void Session::cancel() {
     if (busy()) cli::Interrupt::press();
 }
@@ -219,6 +223,11 @@ std::vector<ConsoleLine> Session::take_lines() {
 std::optional<std::vector<lua::ScriptParameter>> Session::take_parameters() {
     const std::lock_guard lock(mutex_);
     return std::exchange(parameters_, std::nullopt);
+}
+
+std::optional<Completion> Session::take_completion() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(completion_, std::nullopt);
 }
 
 std::vector<fs::path> Session::files() const {
@@ -302,8 +311,7 @@ void Session::load_files(const std::vector<std::string>& paths) {
     auto script = std::exchange(script_, nullptr);
     auto bench = std::exchange(bench_, nullptr);
     open_script({});
-    lua_newtable(script_->lua());
-    if (succeeds(bench_->open(paths))) return settle_scene(paths);
+    if (succeeds(bench_->open(paths, options_.load))) return settle_scene(paths);
     bench_ = std::move(bench);
     script_ = std::move(script);
 }
@@ -325,7 +333,7 @@ void Session::settle_scene(const std::vector<std::string>& open) {
     if (bench_->has_scene()) {
         bench_->publish_scene();
         succeeds(bench_->take(look_));
-        if (!options_.record.empty()) succeeds(bench_->record(open));
+        if (!options_.record.empty()) succeeds(bench_->record(open, options_.load));
         if (!options_.tool.empty()) settle_tool(options_.tool);
         if (pictures_ == 0) return show_scene(true);
     }
@@ -395,13 +403,29 @@ void Session::save_recording() {
     options_.record.clear();
 }
 
-void Session::evaluate_line(const std::string& line) {
+// The state of the script, else one of its own, with the variable `lissom`.
+lua_State* Session::console_state() {
     program_.forget_interrupt();
     if (!script_) open_script({});
     lua_State* L = script_->lua();
     lua_settop(L, 0);
     lua_pushcfunction(L, provide_library);
     if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+    return L;
+}
+
+void Session::find_completions(const std::string& text) {
+    Completion completion{text, cli::completions(console_state(), text)};
+    lua_settop(script_->lua(), 0);
+    {
+        const std::lock_guard lock(mutex_);
+        completion_ = std::move(completion);
+    }
+    wake_();
+}
+
+void Session::evaluate_line(const std::string& line) {
+    lua_State* L = console_state();
     const std::string expression = "return " + line;
     const std::string statement = cli::with_session_variables(line);
     const auto load = [&](const std::string& text) {

@@ -13,8 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "bindings/cli/repl/completion.h"
 #include "bindings/cli/script.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "kernel/io/mesh_file.h"
 #include "viewer/picture.h"
 #include "viewer/window/tool_bench.h"
 #include "viewer/window/worker.h"
@@ -40,11 +42,20 @@ struct Shown {
     std::uint64_t number = 0;
 };
 
+/// How a line of the console may go on.
+struct Completion {
+    /// The line up to the cursor, as it was asked for.
+    std::string text;
+    cli::Completions found;
+};
+
 struct SessionOptions {
     /// The tool that is in hand from the first: a file, or the name of one that ships.
     std::string tool = {};
     /// Where what is done with tools is recorded; empty for nowhere.
     std::string record = {};
+    /// How mesh files are read.
+    LoadOptions load = {};
 };
 
 class Session {
@@ -64,6 +75,8 @@ class Session {
     void run_again(const std::vector<std::string>& words);
     /// Evaluates a line of Lua in the state of the script; values that can be seen are shown.
     void evaluate(const std::string& line);
+    /// Finds out how `text`, a line of the console up to the cursor, may go on.
+    void complete(const std::string& text);
     /// Stops what runs.
     void cancel();
     /// Takes a tool in hand: a file, the name of one that ships, or none where `word` is empty.
@@ -85,6 +98,8 @@ class Session {
     std::optional<Shown> take_shown();
     /// Lines of the console since the last call.
     std::vector<ConsoleLine> take_lines();
+    /// What was asked for last, where it was found since the last call.
+    std::optional<Completion> take_completion();
     /// The parameters that the script has declared, since the last call.
     std::optional<std::vector<lua::ScriptParameter>> take_parameters();
     /// What the panel says of the scene and the tool, since the last call.
@@ -111,6 +126,8 @@ class Session {
     void show_scene(bool always);
     void save_recording();
     void evaluate_line(const std::string& line);
+    lua_State* console_state();
+    void find_completions(const std::string& text);
     void show(Picture picture, std::vector<std::string> names = {});
     void tell(LineKind kind, const std::string& text);
     void publish_parameters();
@@ -129,6 +146,7 @@ class Session {
     std::vector<std::filesystem::path> files_, tool_files_;
     std::vector<ToolInput> inputs_;
     std::optional<ToolState> tool_state_;
+    std::optional<Completion> completion_;
     std::string stage_;
     double fraction_ = 0.0;
     std::uint64_t number_ = 0;

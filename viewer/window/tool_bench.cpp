@@ -266,15 +266,44 @@ bool ToolState::operator==(const ToolState& other) const {
 
 // ---- Scenes
 
-cli::ScriptResult ToolBench::open(const std::vector<std::string>& paths) {
-    lua_State* L = script_.lua();
-    const int top = lua_gettop(L) - 1;
+namespace {
+
+void push_paths(lua_State* L, const std::vector<std::string>& paths) {
     lua_createtable(L, static_cast<int>(paths.size()), 0);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         lua_pushstring(L, paths[i].c_str());
         lua_rawseti(L, -2, static_cast<int>(i) + 1);
     }
-    lua_insert(L, -2);
+}
+
+// The options of lissom.load that are not its defaults.
+void push_load_options(lua_State* L, const LoadOptions& options) {
+    lua_newtable(L);
+    const auto set = [&](const char* key, const char* value) {
+        lua_pushstring(L, value);
+        lua_setfield(L, -2, key);
+    };
+    if (options.weld == Weld::seams) set("weld", "seams");
+    if (options.weld == Weld::all) set("weld", "all");
+    if (options.weld == Weld::none) set("weld", "none");
+    if (options.up != UpAxis::none) set("up", options.up == UpAxis::y ? "y" : "z");
+    if (options.unit != 1.0) {
+        lua_pushnumber(L, options.unit);
+        lua_setfield(L, -2, "unit");
+    }
+    if (options.repair) return;
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "repair");
+}
+
+}  // namespace
+
+cli::ScriptResult ToolBench::open(const std::vector<std::string>& paths,
+                                  const LoadOptions& options) {
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_paths(L, paths);
+    push_load_options(L, options);
     cli::ScriptResult result = call("open", 2);
     if (result.status == cli::kSuccess) result = take_values(top + 1, lua_gettop(L));
     lua_settop(L, top);
@@ -394,17 +423,15 @@ void ToolBench::recover() {
     lua_settop(L, top);
 }
 
-cli::ScriptResult ToolBench::record(const std::vector<std::string>& open) {
+cli::ScriptResult ToolBench::record(const std::vector<std::string>& open,
+                                    const LoadOptions& options) {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push_host();
     lua_pushliteral(L, "record");
-    lua_createtable(L, static_cast<int>(open.size()), 0);
-    for (std::size_t i = 0; i < open.size(); ++i) {
-        lua_pushstring(L, open[i].c_str());
-        lua_rawseti(L, -2, static_cast<int>(i) + 1);
-    }
-    cli::ScriptResult result = call("method", 3);
+    push_paths(L, open);
+    push_load_options(L, options);
+    cli::ScriptResult result = call("method", 4);
     records_ = result.status == cli::kSuccess;
     lua_settop(L, top);
     return result;

@@ -9,6 +9,7 @@
 
 #include "bindings/cli/script.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "kernel/io/mesh_file.h"
 #include "viewer/picture.h"
 #include "viewer/window/tool_input.h"
 
@@ -67,9 +68,8 @@ class ToolBench {
 
     // ---- Scenes. Each function answers how it went; after a failure all is as before.
 
-    /// Opens files as one scene: meshes with the options of lissom.load on top of the stack, which
-    /// are taken from it, or one .lissom file.
-    cli::ScriptResult open(const std::vector<std::string>& paths);
+    /// Opens files as one scene: meshes, read with `options`, or one .lissom file.
+    cli::ScriptResult open(const std::vector<std::string>& paths, const LoadOptions& options);
     /// Makes a scene of what is between two stack indices: a scene that is there, or objects that a
     /// scene can hold. Without any there is no scene afterwards.
     cli::ScriptResult take_values(int first, int last);
@@ -93,8 +93,9 @@ class ToolBench {
     /// After a call that was stopped from outside.
     void recover();
 
-    /// Begins a recording; `open` are the files of the scene, where nothing else led to it.
-    cli::ScriptResult record(const std::vector<std::string>& open);
+    /// Begins a recording; `open` are the files of the scene, where nothing else led to it, and
+    /// how they were read.
+    cli::ScriptResult record(const std::vector<std::string>& open, const LoadOptions& options);
     /// Its text up to now; nothing where none is made.
     std::optional<std::string> recording();
 

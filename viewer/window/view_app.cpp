@@ -19,6 +19,7 @@
 #include "viewer/window/glfw_window.h"
 #include "viewer/window/painter.h"
 #include "viewer/window/panel.h"
+#include "viewer/window/presets.h"
 #include "viewer/window/screen.h"
 #include "viewer/window/session.h"
 
@@ -116,6 +117,9 @@ class ViewApp {
     void take_parameters(std::vector<lua::ScriptParameter> declared);
     void watch_files();
     void answer(const PanelAnswers& answers);
+    void answer_presets(const PanelAnswers& answers);
+    void list_presets();
+    void open_editor(const SourcePlace& place);
     void run_with_parameters();
     void frame();
     void draw_scene();
@@ -150,6 +154,8 @@ class ViewApp {
     Painter painter_;
     Colorer colorer_;
     FileWatch watch_, tool_watch_;
+    Presets presets_;
+    StartedPrograms programs_;
     PanelContent content_;
     DisplaySettings settings_;
     std::optional<Shown> shown_;
@@ -178,6 +184,8 @@ class ViewApp {
 
 void ViewApp::open(const std::vector<std::string>& words) {
     session_.open(words);
+    presets_ = Presets(is_script(words.front()) ? words.front() : "");
+    list_presets();
     camera_is_placed_ = false;
     window_.set_title(std::filesystem::path(words.front()).filename().string() + " - lissom");
 }
@@ -385,6 +393,14 @@ void ViewApp::take_results() {
         content_.lines.push_back(std::move(line));
         frames_owed_ = 2;
     }
+    for (const std::string& failure : programs_.failures()) {
+        content_.lines.push_back({LineKind::error, failure});
+        frames_owed_ = 2;
+    }
+    if (auto completion = session_.take_completion()) {
+        content_.completion = std::move(completion);
+        frames_owed_ = 2;
+    }
     if (auto declared = session_.take_parameters()) take_parameters(std::move(*declared));
     if (auto state = session_.take_tool_state()) take_tool_state(std::move(*state));
     if (auto shown = session_.take_shown()) colorer_.show(std::move(*shown));
@@ -474,6 +490,50 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.parameters_changed) parameters_changed_ = Clock::now();
     answer_tool(answers.tool);
     if (answers.line) session_.evaluate(*answers.line);
+    if (answers.complete) session_.complete(*answers.complete);
+    if (answers.place) open_editor(*answers.place);
+    answer_presets(answers);
+}
+
+// Without parameters in sight there is nothing to keep; a broken file is told when it is met.
+void ViewApp::list_presets() {
+    content_.presets.reset();
+    if (presets_.file().empty()) return;
+    content_.presets.emplace();
+    try {
+        content_.presets = presets_.names();
+    } catch (const Error& error) {
+        content_.lines.push_back({LineKind::error, error.message()});
+    }
+}
+
+void ViewApp::answer_presets(const PanelAnswers& answers) {
+    if (!answers.load_preset && !answers.save_preset && !answers.remove_preset) return;
+    try {
+        if (answers.save_preset) {
+            presets_.save(*answers.save_preset, values_of(content_.parameters));
+        }
+        if (answers.remove_preset) presets_.remove(*answers.remove_preset);
+        if (answers.load_preset) {
+            for (const std::string& refused :
+                 apply_preset(presets_.load(*answers.load_preset), content_.parameters)) {
+                content_.lines.push_back({LineKind::warning, refused});
+            }
+            parameters_changed_ = Clock::now();
+        }
+    } catch (const Error& error) {
+        content_.lines.push_back({LineKind::error, error.message()});
+    }
+    list_presets();
+}
+
+void ViewApp::open_editor(const SourcePlace& place) {
+    const EditorHost host{
+        [](const char* name) { return std::getenv(name); },
+        [this](const std::vector<std::string>& words) { return programs_.start(words); }};
+    const std::string wrong = open_in_editor(place, host);
+    if (!wrong.empty()) content_.lines.push_back({LineKind::error, wrong});
+    tell(wrong.empty() ? "editor" : "error " + wrong);
 }
 
 // ---- Drawing

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "bindings/cli/load_flags.h"
 #include "kernel/core/index.h"
 #include "viewer/window/session.h"
 #include "viewer/window/view_app.h"
@@ -44,6 +45,13 @@ int view(Program& program, const std::vector<std::string>& words) {
                    "The tool in hand: a file, or the name of one that ships");
     app.add_option("--record", options.session.record,
                    "Write what is done with tools to this file, a script that does it again");
+    std::string up;
+    app.add_option("--up", up, "Up axis of the mesh files")->check(CLI::IsMember({"y", "z"}));
+    app.add_option("--unit", options.session.load.unit,
+                   "Length of the mesh files' unit: coordinates are multiplied by it (default: 1)")
+        ->check(CLI::PositiveNumber);
+    LoadFlags flags;
+    flags.declare(app);
     app.add_flag("--tell", options.tells, "Write what the window does, for tests");
     int status = kSuccess;
     if (!program.parse(app, own, status)) return status;
@@ -51,6 +59,8 @@ int view(Program& program, const std::vector<std::string>& words) {
     if (files.size() > 1 && window::is_script(files.back())) {
         return program.fail("lissom view: give either meshes or one script", kUsage);
     }
+    flags.apply(options.session.load);
+    if (!up.empty()) options.session.load.up = up == "y" ? UpAxis::y : UpAxis::z;
     std::error_code error;
     for (const std::string& file : files) {
         if (!std::filesystem::equivalent(file, options.session.record, error)) continue;

@@ -21,11 +21,13 @@ function Host:mark(changed)
     if self.log and changed and #self.log > 0 then self.log[#self.log].hash = self.scene:hash() end
 end
 
--- Begins a recording; `open` names the files of the scene, where it is as they were opened.
-function Host:record(open)
+-- Begins a recording; `open` names the files of the scene, where it is as they were opened with the
+-- options `load` of lissom.load.
+function Host:record(open, load)
     self:ready()
     if self.tool then error("record before a tool is used: its state is not in a recording", 2) end
     self.opened = { open = open and #open > 0 and open or nil, hash = self.scene:hash() }
+    self.opened.load = self.opened.open and load and next(load) and load
     self.log = {}
     local numbers = camera_numbers(self.camera)
     numbers.size = self.size
@@ -65,6 +67,7 @@ function Host:recording()
     table.insert(lines, 'return require("lissom").replay{')
     table.insert(lines, "    version = 1,")
     if self.opened.open then table.insert(lines, "    open = " .. text_of(self.opened.open) .. ",") end
+    if self.opened.load then table.insert(lines, "    load = " .. text_of(self.opened.load) .. ",") end
     table.insert(lines, '    before = "' .. self.opened.hash .. '",')
     table.insert(lines, "    events = {")
     for _, event in ipairs(self.log) do table.insert(lines, "        " .. text_of(event) .. ",") end
@@ -254,7 +257,7 @@ local function replay(recorded, options)
     local scene = options.scene
     if not scene then
         if not recorded.open then error("the recording names no files: give it a scene (scene=)", 0) end
-        scene = open_scene(recorded.open)
+        scene = open_scene(recorded.open, recorded.load)
     end
     same_or_error(scene, recorded.before, "before its first event: it was made with another scene or mesh")
     local host = new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -156,6 +157,53 @@ TEST_CASE("session: the console has the library, and keeps its variables") {
     host.session.evaluate("t:nothing()");
     host.wait();
     CHECK(host.says(LineKind::error, "nothing"));
+}
+
+TEST_CASE("session: lines are completed from what can be called and from the script's variables") {
+    Host host;
+    const auto words_for = [&](const std::string& text) {
+        host.session.complete(text);
+        host.wait();
+        const auto completion = host.session.take_completion();
+        REQUIRE(completion);
+        CHECK(completion->text == text);
+        return completion->found.words;
+    };
+    const auto has = [](const std::vector<std::string>& words, const std::string& word) {
+        return std::find(words.begin(), words.end(), word) != words.end();
+    };
+    // Before anything has run.
+    CHECK(has(words_for("lissom.sha"), "shapes"));
+    CHECK(has(words_for("lissom.render{ me"), "mesh = "));
+    host.run(std::string(kBar) + "my_mesh = lissom.shapes.box{}");
+    CHECK(words_for("my_") == std::vector<std::string>{"my_mesh"});
+    CHECK(has(words_for("my_mesh:sub"), "subdivide"));
+    CHECK(words_for("nothing_like_this").empty());
+    CHECK_FALSE(host.session.take_completion());
+    // What runs goes on, and the answer comes after it.
+    host.lines.clear();
+    host.session.open({host.folder.write("script.lua", "print 'on'\nwhile true do end")});
+    host.wait_for_line();
+    host.session.complete("lissom.sha");
+    CHECK_FALSE(host.session.take_completion());
+    host.session.cancel();
+    host.wait();
+    CHECK(host.session.take_completion());
+}
+
+TEST_CASE("session: mesh files are turned and scaled as they are asked to be") {
+    Host host;
+    const std::string file = host.folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 0 2\nf 1 2 3\n");
+    LoadOptions options;
+    options.up = UpAxis::z;
+    options.unit = 10.0;
+    host.session.set_load_options(options);
+    host.session.open({file});
+    host.wait();
+    const auto shown = host.session.take_shown();
+    REQUIRE(shown);
+    CHECK(shown->bounds.max.y() == doctest::Approx(20.0));
+    CHECK(shown->bounds.max.x() == doctest::Approx(10.0));
 }
 
 TEST_CASE("session: what a script requires is read for it") {
