@@ -88,10 +88,14 @@ drag() { # X Y DX DY : in ten moves
     xdotool mouseup 1
 }
 
-type_line() { # TEXT : into the console
+type_text() { # TEXT : into the console
     xdotool mousemove --window "$window" 700 783 click 1
     sleep 0.3
     xdotool type --delay 60 -- "$1"
+}
+
+type_line() { # TEXT
+    type_text "$1"
     xdotool key Return
 }
 
@@ -138,7 +142,7 @@ wait_for "line size	1.0"
 wait_for "at rest"
 shot script
 # The slider lies in the panel, below its heading.
-drag 60 358 9 0
+drag 60 384 9 0
 wait_for "line size	"
 wait_for "shown 2"
 sed -i 's/default = 1/default = 2/; s/return box/return missing()/' script.lua
@@ -148,6 +152,13 @@ sed -i 's/missing()/lissom.shapes.torus{}/' script.lua
 wait_for "shown 3"
 wait_for "at rest"
 type_line '#lissom.shapes.box{} > 4'
+wait_for "line true"
+type_text '#lissom.shapes.bo'
+xdotool key Tab
+wait_for "completed"
+xdotool type --delay 60 '{} > 5'
+xdotool key Return
+wait_for "line #lissom.shapes.box{} > 5"
 wait_for "line true"
 printf 'print("going")\nwhile true do pcall(function() while true do end end) end\n' >script.lua
 wait_for "line going"

@@ -180,6 +180,7 @@ class ViewApp {
     bool wants_picture_ = false;
     bool closes_ = false;
     bool was_at_rest_ = false;
+    bool has_frame_ = false;
 };
 
 void ViewApp::open(const std::vector<std::string>& words) {
@@ -399,6 +400,7 @@ void ViewApp::take_results() {
     }
     if (auto completion = session_.take_completion()) {
         content_.completion = std::move(completion);
+        tell("completed");
         frames_owed_ = 2;
     }
     if (auto declared = session_.take_parameters()) take_parameters(std::move(*declared));
@@ -587,6 +589,7 @@ void ViewApp::frame() {
     last_frame_ = Clock::now();
     window_.show();
     glFinish();
+    if (!std::exchange(has_frame_, true)) tell("first frame");
     if (drawn_ != before) {
         content_.milliseconds = 1e3 * seconds_since(start);
         coarseness_ = content_.milliseconds > 1e3 * kSlowFrame ? 2 : coarseness_;
