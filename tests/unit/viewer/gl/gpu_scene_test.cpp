@@ -165,6 +165,52 @@ TEST_CASE("a scene: where vertices move, positions and normals alone are uploade
     CHECK(stage.draw() == before);
 }
 
+TEST_CASE("a scene: what moves fast sends the same, and looks nearly the same") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const Mesh ball = make_sphere({.segments = 24}), box = make_box();
+    for (const Mesh* mesh : {&ball, &box}) {
+        for (const Shading shading : {Shading::smooth, Shading::flat}) {
+            for (const double side : {1.0, -1.0}) {
+                CAPTURE(side);
+                Stage stage(*platform);
+                const auto shown = [&](double factor) {
+                    DrawnMesh drawn{shared(stretched(*mesh, factor))};
+                    drawn.style.shading = shading;
+                    drawn.transform.linear = Vec3(side, 1.0, 1.0).asDiagonal();
+                    return Snapshot{.meshes = {drawn}};
+                };
+                stage.update(shown(1.0));
+                for (const double factor : {1.1, 1.2, 1.3}) {
+                    const CountedCalls counted;
+                    const Uploads uploads =
+                        stage.scene.update(shown(factor), {}, MovedVertices::quick);
+                    CHECK(uploads.bytes() == counted.bytes);
+                    CHECK(uploads.bytes() == corners(*mesh) * sizeof(SurfaceVertex));
+                }
+                REQUIRE(stage.scene.surfaces().front()->groups);
+                CHECK(mean_difference(stage.draw(), stage.draw_fresh(shown(1.3))) < 0.5);
+                // Another shading, mirror or mesh is made exactly.
+                DrawnMesh other = shown(1.0).meshes[0];
+                other.transform.linear = Vec3(-side, 1.0, 1.0).asDiagonal();
+                stage.scene.update({.meshes = {other}}, {}, MovedVertices::quick);
+                CHECK(stage.draw() == stage.draw_fresh({.meshes = {other}}));
+            }
+        }
+    }
+}
+
+TEST_CASE("a scene: the same faces made again move as those of one topology") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    Stage stage(*platform);
+    stage.update({.meshes = {{shared(make_sphere({.kind = SphereKind::triangles}))}}});
+    Mesh again = make_sphere({.kind = SphereKind::triangles});
+    for (Vec3& p : again.edit_positions()) p.y() *= 1.3;
+    CHECK(stage.update({.meshes = {{shared(again)}}}).colors == 0);
+    CHECK(mean_difference(stage.draw(), stage.draw_fresh({.meshes = {{shared(again)}}})) < 0.02);
+}
+
 TEST_CASE("a scene: a mesh that is changed in place is known by its revision") {
     const auto platform = test::make_platform();
     if (!platform) return;

@@ -191,19 +191,22 @@ TEST_CASE("session: lines are completed from what can be called and from the scr
     CHECK(host.session.take_completion());
 }
 
-TEST_CASE("session: mesh files are turned and scaled as they are asked to be") {
-    Host host;
-    const std::string file = host.folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 0 2\nf 1 2 3\n");
+TEST_CASE("session: mesh files are turned and scaled as they are asked to be, in recordings too") {
+    const test::ProgramFolder folder;
     LoadOptions options;
     options.up = UpAxis::z;
     options.unit = 10.0;
-    host.session.set_load_options(options);
-    host.session.open({file});
+    Host host({.record = folder.path("done.lua"), .load = options});
+    host.session.open({folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 0 2\nf 1 2 3\n")});
     host.wait();
     const auto shown = host.session.take_shown();
     REQUIRE(shown);
     CHECK(shown->bounds.max.y() == doctest::Approx(20.0));
     CHECK(shown->bounds.max.x() == doctest::Approx(10.0));
+    REQUIRE(folder.has("done.lua"));
+    host.session.evaluate("dofile('" + folder.path("done.lua") + "')");
+    host.wait();
+    for (const ConsoleLine& line : host.lines) CHECK(line.kind != LineKind::error);
 }
 
 TEST_CASE("session: what a script requires is read for it") {

@@ -1,0 +1,94 @@
+#include "viewer/draw/quick_vertices.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace lissom {
+namespace {
+
+using Point = std::array<float, 3>;
+
+// Corners of a triangle as they are drawn: a mirrored one goes round the other way.
+std::array<int, 3> drawn_corners(bool mirrored) {
+    return mirrored ? std::array{0, 2, 1} : std::array{0, 1, 2};
+}
+
+// Groups at each vertex, chained.
+class GroupChains {
+  public:
+    explicit GroupChains(Index vertices) : first_(vertices, kNoIndex) {}
+
+    Index find_or_add(Index vertex, const Point& normal) {
+        for (Index g = first_[vertex]; g != kNoIndex; g = next_[g]) {
+            if (normal_[g] == normal) return g;
+        }
+        next_.push_back(first_[vertex]);
+        normal_.push_back(normal);
+        first_[vertex] = count_of(next_) - 1;
+        return first_[vertex];
+    }
+    Index count() const { return count_of(next_); }
+
+  private:
+    std::vector<Index> first_, next_;
+    std::vector<Point> normal_;
+};
+
+std::vector<Eigen::Vector3f> float_positions(std::span<const Vec3> positions) {
+    std::vector<Eigen::Vector3f> result;
+    result.reserve(positions.size());
+    for (const Vec3& p : positions) result.push_back(p.cast<float>());
+    return result;
+}
+
+Point parts(const Eigen::Vector3f& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace
+
+NormalGroups normal_groups(const SurfaceTriangles& triangles,
+                           std::span<const SurfaceVertex> vertices, Shading shading) {
+    const Triangulation& faces = *triangles.faces;
+    NormalGroups groups{std::vector<Index>(vertices.size()), 0};
+    if (shading == Shading::flat) {
+        for (std::size_t e = 0; e < vertices.size(); ++e) groups.of_entry[e] = faces.face[e / 3];
+        groups.count =
+            faces.face.empty() ? 0 : 1 + *std::max_element(faces.face.begin(), faces.face.end());
+        return groups;
+    }
+    Index most = 0;
+    for (const Triangle& t : faces.triangles) most = std::max({most, t[0], t[1], t[2]});
+    GroupChains chains(most + 1);
+    const std::array<int, 3> order = drawn_corners(triangles.mirrored);
+    for (std::size_t e = 0; e < vertices.size(); ++e) {
+        const Index v = faces.triangles[index_of(e / 3)][order[e % 3]];
+        groups.of_entry[e] = chains.find_or_add(v, vertices[e].normal);
+    }
+    groups.count = chains.count();
+    return groups;
+}
+
+void quick_surface_vertices(const SurfaceTriangles& triangles, const NormalGroups& groups,
+                            std::span<const Vec3> positions, std::vector<SurfaceVertex>& result) {
+    const std::vector<Triangle>& list = triangles.faces->triangles;
+    const std::vector<Eigen::Vector3f> points = float_positions(positions);
+    const std::array<int, 3> order = drawn_corners(triangles.mirrored);
+    std::vector<Eigen::Vector3f> normals(at(groups.count), Eigen::Vector3f::Zero());
+    for (std::size_t t = 0; t < list.size(); ++t) {
+        const Eigen::Vector3f &a = points[list[t][order[0]]], &b = points[list[t][order[1]]],
+                              &c = points[list[t][order[2]]];
+        const Eigen::Vector3f area = (b - a).cross(c - a);
+        for (std::size_t i = 0; i < 3; ++i) normals[groups.of_entry[3 * t + i]] += area;
+    }
+    for (Eigen::Vector3f& n : normals) {
+        const float length = n.norm();
+        if (length > 0.0f) n /= length;
+    }
+    result.resize(3 * list.size());
+    for (std::size_t e = 0; e < result.size(); ++e) {
+        result[e] = {parts(points[list[e / 3][order[e % 3]]]), parts(normals[groups.of_entry[e]])};
+    }
+}
+
+}  // namespace lissom
