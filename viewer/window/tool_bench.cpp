@@ -490,10 +490,7 @@ Picture ToolBench::picture() {
     push_raw(L, -1, "scene");
     Picture picture = lua::picture_of_values(L, top + 2, top + 2);
     push_raw(L, top + 1, "drawn");
-    const Overlay marks = overlay_of(L, lua_gettop(L));
-    picture.marks.lines.insert(picture.marks.lines.end(), marks.lines.begin(), marks.lines.end());
-    picture.marks.points.insert(picture.marks.points.end(), marks.points.begin(),
-                                marks.points.end());
+    picture.tool_marks = overlay_of(L, lua_gettop(L));
     paint_regions(picture);
     lua_settop(L, top);
     return picture;
