@@ -26,6 +26,15 @@ local function active(self, scene)
     return list[number], number, list
 end
 
+-- The handle that has the vertex under the cursor.
+local function handle_under(ev, list)
+    local hit = ev:hit()
+    for _, one in ipairs(hit and list or {}) do
+        if rawequal(one.mesh, hit.mesh) and one.handle:region():contains(hit.vertex) then return one end
+    end
+    return nil
+end
+
 -- Selects what the brush comes over.
 local function paint(self, ev)
     for _, one in ipairs(self.brush:paint(ev, self.params.radius)) do
@@ -57,7 +66,7 @@ local keys = {
     end,
     tab = function(self, _, one, number, list) self.handle = one and list[number % #list + 1].handle end,
     delete = function(_, scene, one) if one then handles.remove(scene, one) end end,
-    f = function(_, scene, one) if one then scene:remove(one.name) end end,
+    f = function(_, scene, one) if one then meshes.end_deformation(scene, one.mesh) end end,
 }
 
 return lissom.tool{
@@ -84,8 +93,9 @@ return lissom.tool{
         local points = {}
         for i, other in ipairs(list) do points[i] = other.at end
         local hit = #points > 0 and ev:pick{ kinds = "point", points = points, radius = 12 }
-        if hit then
-            self.handle = list[hit.index].handle
+        local one_hit = hit and list[hit.index] or not ev.shift and handle_under(ev, list)
+        if one_hit then
+            self.handle = one_hit.handle
             return
         end
         for _, other in ipairs(ev.shift and {} or meshes.visible(ev.scene)) do

@@ -13,7 +13,7 @@ local pick = lissom.pick
 -- Merges. A join is { source =, target =, keys = }: hits of two loops, pairs of points on them.
 local function merged(self, scene, join)
     for _, hit in ipairs{ join.source, join.target } do
-        local there = rawequal(scene:get(hit.object), hit.mesh)
+        local there = rawequal(meshes.get(scene, hit.object), hit.mesh)
         if not there then error(hit.object .. " is no longer there", 0) end
     end
     local source, target, radii = join.source.boundary, join.target.boundary, self.params.transition

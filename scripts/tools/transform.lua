@@ -47,7 +47,8 @@ return lissom.tool{
         local one = held(self, ev.scene)
         if one and self.grip:press(ev, one.place) then return end
         local hit = ev:hit()
-        if hit then self.object = hit.object end
+        local other = hit and meshes.find(ev.scene, hit.mesh)
+        if other then self.object = other.name end
     end,
     drag = function(self, ev)
         local one = held(self, ev.scene)

@@ -162,6 +162,15 @@ test("a part goes in the middle: that is told, and the clicks begin again", func
     expect.truthy(h.scene:get("merged"):is_closed())
 end)
 
+test("deformations are merged as their meshes", function()
+    local small, large = cup(1, -2, 1, 10), cup(-1, 2, 1.5, 12)
+    h = hand.new("merge", { small = lissom.deform(small), large = lissom.deform(large) }, { ortho = 19.2 })
+    click_loops()
+    h:key("enter")
+    expect.truthy(h.scene:get("merged"):is_closed())
+    expect.equal(h.scene:info("small").visible, false)
+end)
+
 test("both loops of one mesh cannot be merged: nothing changes", function()
     local tube = lissom.shapes.cylinder{ caps = false, radius = 1, height = 4 }
     h = hand.new("merge", { tube = tube:transform{ rotate = { axis = "x", angle = 20 } } })

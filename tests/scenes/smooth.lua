@@ -101,6 +101,17 @@ test("a deformation in progress ends with its shape, and undo brings it back", f
     expect.equal(h.scene:hash(), bent)
 end)
 
+test("a deformation that a script has added without its mesh becomes the mesh", function()
+    local edit = lissom.deform(mesh)
+    edit:handle(mesh:region{ box = { max = { -1.5, nil, nil } } })
+    h = hand.new("smooth", { sheet = edit })
+    h:click{ 0, 0, 0 }
+    expect.equal(h.scene:info("sheet").kind, "mesh")
+    expect.truthy(height(mesh, 0, 0, 0.15) < 0.1)
+    h.host:undo()
+    expect.equal(h.scene:info("sheet").kind, "deformation")
+end)
+
 test("two meshes under one brush, a turned one among them, and one with a hole", function()
     local turned = { { 0, -1, 0, 2.2 }, { 1, 0, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 } }
     local holed = rough()

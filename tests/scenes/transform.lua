@@ -123,6 +123,15 @@ test("the object goes in the middle of a drag", function()
     expect.near(place()[1][4], 0.5, 1e-9)
 end)
 
+test("a deformation without its mesh is moved as a whole", function()
+    local box = lissom.shapes.box{ segments = { 2, 2, 2 } }
+    h = hand.new("transform", { bend = lissom.deform(box), other = lissom.shapes.box() },
+        { places = { other = { { 1, 0, 0, 3 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 } } } })
+    h:click{ 0, 0, 0.5 }
+    h:drag{ { 0.6, 0, 0 }, { 1.1, 0, 0 } }
+    expect.near(place("bend")[1][4], 0.5, 1e-9)
+end)
+
 test("what is bent or painted stays where it is on the object", function()
     h:drag{ { 0.6, 0, 0 }, { 1.6, 0, 0 } }
     h.host:use(lissom.load_tool("select"))

@@ -107,7 +107,7 @@ end
 local function draw_hover(view, host)
     local hit, request = host.hover, host.request
     if not hit or not request then return end
-    if hit.object and not rawequal(host.scene:get(hit.object), hit.mesh) then return end
+    if hit.object and not host.scene:info(hit.object) then return end
     if request.kind == "boundary" then
         view:line{ points = points_of(host.scene, hit), closed = true, color = hover_color, width = 5 }
     else

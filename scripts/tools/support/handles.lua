@@ -45,7 +45,7 @@ end
 --- Takes a handle away. Without any the mesh keeps its shape, and the next one begins from there.
 function handles.remove(scene, one)
     if #one.edit:handles() == (one.handle:mirrored() and 2 or 1) then
-        scene:remove(one.name)
+        meshes.end_deformation(scene, one.mesh)
     else
         one.handle:remove()
         assert(one.edit:solve())

@@ -4,18 +4,25 @@ local vectors = require "vectors"
 
 local meshes = {}
 
+--- The mesh that an object of the scene is, or deforms; nil where there is none.
+function meshes.get(scene, name)
+    local info, object = scene:info(name), scene:get(name)
+    if not info then return nil end
+    if info.kind == "deformation" then return object:mesh() end
+    return info.kind == "mesh" and object or nil
+end
+
 --- The visible meshes: a list of { name =, mesh =, place =, style = }. The place is the matrix from the
 -- mesh's own space to the world. A deformation without its mesh in the scene counts as its mesh.
 function meshes.visible(scene)
     local list, seen = {}, {}
     for _, kind in ipairs{ "mesh", "deformation" } do
         for _, name in ipairs(scene:names()) do
-            local info, mesh = scene:info(name), scene:get(name)
-            if info.kind == kind and kind == "deformation" then mesh = mesh:mesh() end
+            local info, mesh = scene:info(name), meshes.get(scene, name)
             if info.kind == kind and info.visible and not seen[mesh] then
+                seen[mesh] = true
                 table.insert(list, { name = name, mesh = mesh, place = info.transform, style = info.style })
             end
-            seen[mesh] = true
         end
     end
     return list
@@ -72,10 +79,17 @@ function meshes.deformation(scene, mesh)
     return nil
 end
 
---- Ends the deformation of a mesh, because its shape changes otherwise: the next one begins from that.
+--- Ends the deformation of a mesh, which keeps its shape: the next one begins from that. The mesh itself
+-- takes its place where it is not in the scene yet.
 function meshes.end_deformation(scene, mesh)
     local name = meshes.deformation(scene, mesh)
-    if name then scene:remove(name) end
+    if not name then return end
+    local info = scene:info(name)
+    scene:remove(name)
+    for _, other in ipairs(scene:names()) do
+        if rawequal(scene:get(other), mesh) then return end
+    end
+    scene:add(name, mesh, { transform = info.transform, visible = info.visible, style = info.style })
 end
 
 --- The middle of a mesh in the world, and the radius of a ball around it that has the mesh inside.
