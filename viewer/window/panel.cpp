@@ -395,6 +395,10 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
         if (ImGui::Button("run again")) answers.run_again = true;
         ImGui::SameLine();
         if (ImGui::Button("picture")) answers.screenshot = true;
+        if (content.tool.has_scene) {
+            ImGui::SameLine();
+            if (ImGui::Button("save")) answers.save = true;
+        }
         ImGui::SameLine();
         ImGui::TextDisabled("%.0f ms", content.milliseconds);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", content.driver.c_str());

@@ -50,8 +50,8 @@ struct PanelContent {
 
 /// What a person has asked for in one frame.
 struct PanelAnswers {
-    bool frame_all = false, toggle_ortho = false, screenshot = false, run_again = false,
-         cancel = false, compare_with_this = false;
+    bool frame_all = false, toggle_ortho = false, screenshot = false, save = false,
+         run_again = false, cancel = false, compare_with_this = false;
     std::optional<StandardView> view = std::nullopt;
     std::optional<Coloring> coloring = std::nullopt;
     /// A parameter has another value.

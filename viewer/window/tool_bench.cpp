@@ -473,12 +473,7 @@ void ToolBench::paint_regions(Picture& picture) {
         for (DrawnMesh& drawn : picture.meshes) {
             if (drawn.mesh.get() != &mesh->mesh) continue;
             if (region->region.topology() != drawn.mesh->shared_topology()) continue;
-            if (drawn.style.region) {  // what is selected or was drawn before stays to be seen
-                drawn.style.handles.push_back(region->region);
-            } else {
-                drawn.style.region = region->region;
-                drawn.style.region_color = raw_color(L, one, kRegionColor);
-            }
+            drawn.style.parts.push_back({region->region, raw_color(L, one, kRegionColor)});
         }
     });
 }

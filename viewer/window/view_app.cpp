@@ -20,6 +20,7 @@
 #include "viewer/window/painter.h"
 #include "viewer/window/panel.h"
 #include "viewer/window/presets.h"
+#include "viewer/window/recovery.h"
 #include "viewer/window/screen.h"
 #include "viewer/window/session.h"
 
@@ -34,12 +35,15 @@ constexpr double kRest = 0.15;
 constexpr double kParameterRest = 0.08;
 // A frame that takes longer is drawn at half the size from then on.
 constexpr double kSlowFrame = 0.05;
+// Seconds between two copies of a scene.
+constexpr double kCopyEvery = 1.0;
 // Of a line of the wheel.
 constexpr double kZoomStep = 1.15;
 
 constexpr const char* kHelp =
     "Drag turns, with shift moves, the wheel comes nearer. 1 to 7: sides, F: all, O: perspective, "
-    "W: wire, B: boundaries, Esc: stop, F5: run again, F12: picture, Ctrl-Z: undo, Ctrl-Q: end. "
+    "W: wire, B: boundaries, Esc: stop, F5: run again, F12: picture, Ctrl-Z: undo, Ctrl-S: save, "
+    "Ctrl-Q: end. "
     "With a tool in hand the right button turns, the middle one moves, and keys are the tool's. "
     "Files can be dropped here.";
 
@@ -88,6 +92,7 @@ class ViewApp {
         content_.driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
         content_.lines.push_back({LineKind::message, kHelp});
         content_.tools = shipped_tools();
+        offer_recovery();
         if (!options.words.empty()) open(options.words);
     }
 
@@ -111,6 +116,11 @@ class ViewApp {
     void take_tool_state(ToolState state);
     bool has_tool() const { return !content_.tool.tool.empty(); }
     void press_key(const Input& input);
+    void copy_scene();
+    std::string scene_path() const;
+    void save();
+    void keep_unsaved();
+    void offer_recovery();
     void take_results();
     void show(Shown shown);
     void update_legend();
@@ -164,6 +174,11 @@ class ViewApp {
 
     // Of the drag that goes on: which button, and where the cursor was last.
     std::optional<MouseButton> dragged_;
+    Recovery recovery_{state_folder()};
+    // Numbers of the last change of the scene, of the one in the recovery, and of the saved one.
+    std::uint64_t scene_change_ = 0, copied_change_ = 0, saved_change_ = 0;
+    Clock::time_point last_copy_ = Clock::now();
+    std::string saved_path_;
     // The tool has the drag.
     bool tool_drags_ = false;
     Vec2 cursor_ = Vec2::Zero();
@@ -184,6 +199,8 @@ class ViewApp {
 };
 
 void ViewApp::open(const std::vector<std::string>& words) {
+    options_.words = words;
+    saved_path_.clear();
     session_.open(words);
     presets_ = Presets(is_script(words.front()) ? words.front() : "");
     list_presets();
@@ -198,15 +215,66 @@ int ViewApp::run() {
         take_results();
         watch_files();
         run_with_parameters();
+        copy_scene();
         if (frames_owed_ > 0 || panel_.owes_frame() || session_.busy()) frame();
         ask_for_sharp();
     }
     painter_.stop();
+    keep_unsaved();
     if (!session_.finish(1.0)) {
         std::cerr << "lissom: the script did not stop when the window was closed" << std::endl;
         std::_Exit(cli::kFailure);
     }
     return cli::kSuccess;
+}
+
+// ---- What a person has made must not be lost
+
+// The scene has changed since it was copied last: a copy is made, at most one a second.
+void ViewApp::copy_scene() {
+    if (scene_change_ == copied_change_ || seconds_since(last_copy_) < kCopyEvery) return;
+    if (tool_drags_ || session_.busy()) return;
+    copied_change_ = scene_change_;
+    last_copy_ = Clock::now();
+    session_.save_scene(recovery_.file().string(), true);
+}
+
+// A free name here: the scene of armadillo.obj is armadillo.lissom.
+std::string ViewApp::scene_path() const {
+    const std::filesystem::path first = options_.words.empty() ? "scene" : options_.words.front();
+    if (first.extension() == ".lissom") return first.string();
+    const std::string stem = first.stem().string();
+    std::error_code error;
+    for (int number = 1;; ++number) {
+        std::string path = stem + (number > 1 ? "-" + std::to_string(number) : "") + ".lissom";
+        if (!std::filesystem::exists(path, error)) return path;
+    }
+}
+
+void ViewApp::save() {
+    if (saved_path_.empty()) saved_path_ = scene_path();
+    session_.save_scene(saved_path_);
+    saved_change_ = scene_change_;
+}
+
+// At the end: what was not saved is kept, and told.
+void ViewApp::keep_unsaved() {
+    if (saved_change_ == scene_change_) return;
+    const std::filesystem::path kept = recovery_.keep();
+    if (kept.empty()) return;
+    std::cerr << "lissom: the scene was not saved; lissom view " << kept.string() << " opens it"
+              << std::endl;
+}
+
+// At the start: what a killed window has left.
+void ViewApp::offer_recovery() {
+    for (const std::filesystem::path& left : Recovery::left_in(state_folder())) {
+        content_.lines.push_back(
+            {LineKind::warning, "A window was ended without being closed. lissom view " +
+                                    left.string() +
+                                    " opens what it showed; delete the file when "
+                                    "it is not wanted."});
+    }
 }
 
 double ViewApp::wait_time() const {
@@ -347,6 +415,7 @@ void ViewApp::answer_tool(const ToolAnswers& answers) {
 void ViewApp::take_tool_state(ToolState state) {
     if (state.tool != content_.tool.tool) tell("tool " + state.tool);
     if (state.place != content_.tool.place || state.steps.size() != content_.tool.steps.size()) {
+        ++scene_change_;
         tell("history " + std::to_string(state.place) + " of " +
              std::to_string(state.steps.size()));
     }
@@ -369,6 +438,7 @@ void ViewApp::press_key(const Input& input) {
     if (input.modifiers.ctrl) {
         closes_ = closes_ || input.character == U'Q';
         const bool redoes = input.character == U'Y' || input.modifiers.shift;
+        if (input.character == U'S') save();
         if (input.character == U'Z' || input.character == U'Y') {
             answer_tool({.undo = !redoes, .redo = redoes});
         }
@@ -491,6 +561,7 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.cancel) session_.cancel();
     if (answers.parameters_changed) parameters_changed_ = Clock::now();
     answer_tool(answers.tool);
+    if (answers.save) save();
     if (answers.line) session_.evaluate(*answers.line);
     if (answers.complete) session_.complete(*answers.complete);
     if (answers.place) open_editor(*answers.place);

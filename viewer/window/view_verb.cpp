@@ -19,6 +19,11 @@ std::string check_size(const std::string& text) {
     return good ? "" : "a size is written as 1280x800";
 }
 
+// Options that may be given the name of a script.
+bool takes_value(const std::string& word) {
+    return word == "--tool" || word == "--record";
+}
+
 }  // namespace
 
 int view(Program& program, const std::vector<std::string>& words) {
@@ -27,7 +32,8 @@ int view(Program& program, const std::vector<std::string>& words) {
     window::ViewOptions options;
     for (std::size_t i = 0; i < words.size(); ++i) {
         own.push_back(words[i]);
-        if (!window::is_script(words[i])) continue;
+        const bool is_value = i > 0 && takes_value(words[i - 1]);
+        if (is_value || !window::is_script(words[i])) continue;
         options.words.assign(words.begin() + index_of(i) + 1, words.end());
         break;
     }
