@@ -50,6 +50,7 @@ local function add_handle(self, scene)
     local params, size = self.params, one.mesh:size()
     local edit = handles.deformation(scene, one, region, params.reach * size)
     for _, other in ipairs(edit:handles()) do region = region:minus(other:region()) end
+    region = meshes.without_specks(region)
     local normal = axes[params.mirror]
     local mirror = normal
         and { point = one.mesh:bounds().center, normal = normal, tolerance = 0.01 * size } or nil

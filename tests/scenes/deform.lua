@@ -211,6 +211,20 @@ test("a handle alone moves all of its part, and no other part of the mesh", func
     expect.near(both:bounds().max[1], 3.5, 1e-12)
 end)
 
+test("specks that the brush has caught are no part of a handle, few vertices are", function()
+    local mesh = lissom.shapes.bar{ across = 12, along = 60 }
+    h = hand.new("deform", { bar = mesh })
+    local blob = mesh:region{ box = { min = { nil, 1.5, nil } } }
+    local speck = mesh:region{ vertices = { mesh:nearest(0.5, -2, 0).vertex } }
+    expect.truthy(#blob > 101)
+    mesh:set_region("selected", blob:union(speck))
+    h:key("enter")
+    expect.equal(#handles()[1]:region(), #blob)
+    mesh:set_region("selected", speck)
+    h:key("p")
+    expect.equal(#handles()[2]:region(), 1)
+end)
+
 test("reach keeps the rest of the surface where it is", function()
     h.host:set{ reach = 0.6 }
     h:drag{ { -0.5, 2.4, 0.5 }, { 0.5, 2.4, 0.5 } }

@@ -58,6 +58,18 @@ function meshes.parts(region)
     return parts
 end
 
+--- A region without specks, such as a brush catches of what lies behind: connected parts of less than a
+-- hundredth of it.
+function meshes.without_specks(region)
+    local rest, kept = region, region
+    while #rest > 0 do
+        local part = rest:connected{ at = rest:vertices()[1] }
+        if #part < 0.01 * #region then kept = kept:minus(part) end
+        rest = rest:minus(part)
+    end
+    return kept
+end
+
 --- What to work on where nothing is pointed at: the first visible mesh of which something is selected, else
 -- the only one; nil where there are several.
 function meshes.subject(scene)
