@@ -284,7 +284,7 @@ void add_boundaries(const DrawnMesh& drawn, Overlay& marks) {
     }
 }
 
-// Those of `region` that it holds no face of.
+// Those of `region` that it holds no face of, and none beside.
 void add_loose_vertices(const DrawnMesh& drawn, const Region& region, const Color& color,
                         Overlay& marks) {
     const Topology& topology = drawn.mesh->topology();
@@ -293,7 +293,10 @@ void add_loose_vertices(const DrawnMesh& drawn, const Region& region, const Colo
         for (const Index v : topology.face(f)) held[v] = 1;
     }
     for (const Index v : region.vertices()) {
-        if (held[v]) continue;
+        const auto ring = topology.neighbors(v);
+        const bool beside =
+            std::any_of(ring.begin(), ring.end(), [&](Index n) { return held[n] != 0; });
+        if (held[v] || beside) continue;
         marks.points.push_back(
             {drawn.transform(drawn.mesh->position(v)), color, 1.5 * drawn.style.line_width});
     }

@@ -190,6 +190,16 @@ TEST_CASE("boundary loops become lines of different colours, lone handle vertice
     CHECK_FALSE(marks.lines[0].color == marks.lines[1].color);
     REQUIRE(marks.points.size() == 1);
     CHECK(marks.points[0].position == moved(tube.position(3)));
+
+    // A face, a vertex beside it, and one elsewhere.
+    const auto face = tube.topology().face(0);
+    std::vector<Index> held(face.begin(), face.end());
+    for (const Index v : tube.topology().neighbors(face[0])) held.push_back(v);
+    held.push_back(tube.vertex_count() - 4);
+    style.handles = {Region(tube.shared_topology(), held)};
+    const Overlay rim = build_marks({test::shared(tube), style, moved});
+    REQUIRE(rim.points.size() == 1);
+    CHECK(rim.points[0].position == moved(tube.position(tube.vertex_count() - 4)));
 }
 
 TEST_CASE(
