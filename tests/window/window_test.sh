@@ -21,6 +21,7 @@ end() {
 }
 trap end EXIT
 cd "$work"
+export XDG_STATE_HOME=$work/state
 
 Xvfb -displayfd 3 -screen 0 1400x1000x24 -noreset -nolisten tcp 3>display >/dev/null 2>&1 &
 pids+=($!)
@@ -142,7 +143,7 @@ wait_for "line size	1.0"
 wait_for "at rest"
 shot script
 # The slider lies in the panel, below its heading.
-drag 60 513 9 0
+drag 60 383 9 0
 wait_for "line size	"
 wait_for "shown "
 sed -i 's/default = 1/default = 2/; s/return box/return missing()/' script.lua
@@ -169,6 +170,57 @@ wait_for "error script.lua:2: cancelled"
 shot stopped
 printf 'print("again")\nwhile true do end\n' >script.lua
 wait_for "line again"
+close_view 0
+
+# --- Tools: a drag is a step; undo, redo, save; a change of the tool's file; what was recorded repeats
+cat >ball.lua <<'LUA'
+local lissom = require "lissom"
+assert(lissom.shapes.sphere{}:save("ball.obj"))
+LUA
+"$program" run ball.lua
+"$program" new tool bulge >/dev/null
+open_view ball.obj --tool bulge.lua --record events.lua
+wait_for "tool bulge"
+wait_for "at rest"
+drag 700 300 5 2
+wait_for "history 1 of 1"
+wait_for "at rest"
+shot bulge
+xdotool key ctrl+z
+wait_for "history 0 of 1"
+xdotool key ctrl+shift+z
+wait_for "history 1 of 1"
+xdotool key ctrl+s
+wait_for "line saved ball.lissom"
+sed -i 's/name = "bulge"/name = "swell"/' bulge.lua
+wait_for "tool swell"
+drag 700 320 5 2
+wait_for "history 2 of 2"
+sed -i 's/return lissom.tool/return nonsense.tool/' bulge.lua
+wait_for "error "
+sed -i 's/return nonsense.tool/return lissom.tool/' bulge.lua
+wait_for "tool changed"
+sleep 2.5
+wait_for "at rest"
+close_view 0
+grep -q "was not saved" told || fail "an unsaved scene is not told"
+"$program" run events.lua || fail "what was recorded does not repeat"
+
+# --- A window that is killed: the next one offers its scene
+open_view ball.lissom --tool smooth
+wait_for "tool smooth"
+wait_for "at rest"
+drag 700 300 5 2
+wait_for "history 1 of 1"
+sleep 2.5
+kill -9 "$view"
+wait "$view" 2>/dev/null || true
+open_view ball.obj
+wait_for "line A window was ended"
+left=$(sed -n 's/.*lissom view \(.*lissom\) opens what.*/\1/p' told)
+close_view 0
+open_view "$left"
+wait_for "shown "
 close_view 0
 
 # --- What cannot be read is told, and the window stays

@@ -410,6 +410,11 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
     if (ImGui::CollapsingHeader("Objects", ImGuiTreeNodeFlags_DefaultOpen)) {
         draw_objects(content.objects, settings.hidden);
     }
+    if (!content.parameters.empty() &&
+        ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen)) {
+        if (content.presets) preset_row(*content.presets, answers);
+        answers.parameters_changed = draw_parameters(content.parameters).has_value();
+    }
     if (content.tool.has_scene) {
         if (ImGui::CollapsingHeader("Tools", ImGuiTreeNodeFlags_DefaultOpen)) {
             answers.tool = draw_tools(content.tools, content.tool);
@@ -419,11 +424,6 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
             answers.tool.undo = asked.undo;
             answers.tool.redo = asked.redo;
         }
-    }
-    if (!content.parameters.empty() &&
-        ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen)) {
-        if (content.presets) preset_row(*content.presets, answers);
-        answers.parameters_changed = draw_parameters(content.parameters).has_value();
     }
     ImGui::End();
 }

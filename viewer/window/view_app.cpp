@@ -269,11 +269,10 @@ void ViewApp::keep_unsaved() {
 // At the start: what a killed window has left.
 void ViewApp::offer_recovery() {
     for (const std::filesystem::path& left : Recovery::left_in(state_folder())) {
-        content_.lines.push_back(
-            {LineKind::warning, "A window was ended without being closed. lissom view " +
-                                    left.string() +
-                                    " opens what it showed; delete the file when "
-                                    "it is not wanted."});
+        std::string text = "A window was ended without being closed. lissom view " + left.string() +
+                           " opens what it showed; delete the file when it is not wanted.";
+        tell("line " + text);
+        content_.lines.push_back({LineKind::warning, std::move(text)});
     }
 }
 
