@@ -408,7 +408,11 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
         view_section(content, settings, answers);
     }
     if (ImGui::CollapsingHeader("Objects", ImGuiTreeNodeFlags_DefaultOpen)) {
-        draw_objects(content.objects, settings.hidden);
+        if (content.tool.has_scene) {
+            answers.tool = draw_scene_objects(content.tool);
+        } else {
+            draw_objects(content.objects, settings.hidden);
+        }
     }
     if (!content.parameters.empty() &&
         ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen)) {
@@ -417,7 +421,9 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
     }
     if (content.tool.has_scene) {
         if (ImGui::CollapsingHeader("Tools", ImGuiTreeNodeFlags_DefaultOpen)) {
-            answers.tool = draw_tools(content.tools, content.tool);
+            const ToolAnswers asked = draw_tools(content.tools, content.tool);
+            answers.tool.tool = asked.tool;
+            answers.tool.parameter = asked.parameter;
         }
         if (ImGui::CollapsingHeader("History")) {
             const ToolAnswers asked = draw_history(content.tool);

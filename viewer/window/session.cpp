@@ -186,6 +186,15 @@ void Session::save_scene(const std::string& path, bool is_recovery) {
     });
 }
 
+void Session::show_object(const std::string& name, bool visible) {
+    worker_.post([this, name, visible] {
+        if (!bench_ || !bench_->has_scene()) return;
+        program_.forget_interrupt();
+        succeeds(bench_->show(name, visible));
+        show_scene(true);
+    });
+}
+
 void Session::set_tool_parameter(const std::string& name, const lua::ParameterValue& value) {
     worker_.post([this, name, value] {
         if (!bench_ || !bench_->has_scene()) return;

@@ -86,6 +86,8 @@ class Session {
     void read_tool_again();
     /// A hand has done this.
     void post(ToolInput input);
+    /// Shows or hides an object of the scene.
+    void show_object(const std::string& name, bool visible);
     /// Writes the scene to a file, and tells that it did; silently where it is a recovery.
     void save_scene(const std::string& path, bool is_recovery = false);
     /// A parameter of the tool has this value.

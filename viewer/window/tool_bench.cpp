@@ -230,6 +230,13 @@ void push_event(lua_State* L, const ToolInput& input) {
     lua_setfield(L, -2, "button");
 }
 
+std::string label_of(const NamedObject& object) {
+    const auto* item = dynamic_cast<const lua::ScriptItem*>(object.item.get());
+    const auto surface = item ? item->surface() : nullptr;
+    if (!surface || object.item->kind() != ItemKind::mesh) return object.name;
+    return object.name + "  (" + std::to_string(surface->mesh.face_count()) + " faces)";
+}
+
 constexpr std::array kVerbs{"press", "move", "release", "key", "cancel", "undo", "redo"};
 
 }  // namespace
@@ -261,7 +268,8 @@ void ToolBench::push_tool() const {
 
 bool ToolState::operator==(const ToolState& other) const {
     return tool == other.tool && prompt == other.prompt && steps == other.steps &&
-           place == other.place && overlay == other.overlay && marks == other.marks;
+           place == other.place && objects == other.objects && overlay == other.overlay &&
+           marks == other.marks;
 }
 
 // ---- Scenes
@@ -368,6 +376,18 @@ cli::ScriptResult ToolBench::take(const ToolInput& input) {
         push_event(L, input);
         result = call("method", 3);
     }
+    lua_settop(L, top);
+    return result;
+}
+
+cli::ScriptResult ToolBench::show(const std::string& name, bool visible) {
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_host();
+    lua_pushliteral(L, "show");
+    lua_pushstring(L, name.c_str());
+    lua_pushboolean(L, visible ? 1 : 0);
+    cli::ScriptResult result = call("method", 4);
     lua_settop(L, top);
     return result;
 }
@@ -526,6 +546,11 @@ ToolState ToolBench::state() {
         if (parameters) state.parameters = parameters->list;
     }
     if (const auto* object = raw_object<lua::SceneObject>(L, host, "scene")) {
+        for (const auto& named : object->scene.objects()) {
+            // A deformation is seen by its mesh.
+            if (named->item->kind() == ItemKind::deformation) continue;
+            state.objects.push_back({named->name, label_of(*named), named->look.visible});
+        }
         const HistoryReport history = object->scene.history();
         for (const auto& step : history.steps) state.steps.push_back(step.name);
         state.place = history.place;

@@ -42,9 +42,21 @@ struct ToolMarks {
     bool operator==(const ToolMarks&) const = default;
 };
 
+/// An object of the scene.
+struct ToolObject {
+    std::string name;
+    /// With the number of faces of a mesh.
+    std::string label;
+    bool visible = true;
+
+    bool operator==(const ToolObject&) const = default;
+};
+
 /// What the panel says of the scene and the tool.
 struct ToolState {
     bool has_scene = false;
+    /// What can be shown by itself, in the order of the scene.
+    std::vector<ToolObject> objects;
     /// Name of the tool in hand; empty for none.
     std::string tool;
     /// What the tool asks, or its help.
@@ -89,6 +101,8 @@ class ToolBench {
     bool is_held() const;
     /// A hand has done this.
     cli::ScriptResult take(const ToolInput& input);
+    /// Shows or hides an object of the scene.
+    cli::ScriptResult show(const std::string& name, bool visible);
     cli::ScriptResult set(const std::string& name, const lua::ParameterValue& value);
     /// After a call that was stopped from outside.
     void recover();

@@ -38,6 +38,21 @@ bool tool_button(const char* label, float width, bool down) {
 
 }  // namespace
 
+ToolAnswers draw_scene_objects(const ToolState& state) {
+    ToolAnswers answers;
+    for (const ToolObject& object : state.objects) {
+        bool visible = object.visible;
+        ImGui::PushID(object.name.c_str());
+        if (ImGui::Checkbox(object.label.c_str(), &visible)) {
+            answers.object = ToolObject{object.name, object.label, visible};
+        }
+        // A long name reaches beyond the panel.
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", object.label.c_str());
+        ImGui::PopID();
+    }
+    return answers;
+}
+
 ToolAnswers draw_tools(const std::vector<std::string>& names, ToolState& state) {
     ToolAnswers answers;
     const float width = width_of_button();

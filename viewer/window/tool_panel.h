@@ -19,7 +19,12 @@ struct ToolAnswers {
     /// Place of a parameter of the tool that has another value.
     std::optional<std::size_t> parameter = std::nullopt;
     bool undo = false, redo = false;
+    /// An object that shall be seen or hidden.
+    std::optional<ToolObject> object = std::nullopt;
 };
+
+/// The objects of the scene, each with a box whether it is seen.
+ToolAnswers draw_scene_objects(const ToolState& state);
 
 /// Buttons for the tools called `names`, and the parameters of the one in hand, whose values a
 /// person may change.

@@ -402,6 +402,7 @@ void ViewApp::tell_camera() {
 
 void ViewApp::answer_tool(const ToolAnswers& answers) {
     if (answers.tool) session_.use_tool(*answers.tool);
+    if (answers.object) session_.show_object(answers.object->name, answers.object->visible);
     if (answers.parameter) {
         const lua::ScriptParameter& p = content_.tool.parameters[*answers.parameter];
         if (p.value) session_.set_tool_parameter(p.name, *p.value);

@@ -405,6 +405,7 @@
 ---@field cancel fun(self: any): lissom.ToolHost Escape: takes the present gesture back; the tool forgets what it began.
 ---@field undo fun(self: any): string? The scene's undo, which a running gesture only cancels; the name of the step.
 ---@field redo fun(self: any): string? The scene's redo.
+---@field show fun(self: any, name: string, visible: boolean): lissom.ToolHost Shows or hides an object: a step of its own.
 ---@field draw fun(self: any): lissom.ToolMarks What the tool shows over the picture.
 ---@field prompt fun(self: any): string? What the person is asked, or the tool's help.
 ---@field record fun(self: any, open: string[]?): lissom.ToolHost Begins a recording, before a tool is used; `open` names the files of the scene.

@@ -124,14 +124,24 @@ function Host:take_back()
     while depth and self.scene:depth() > depth do self.scene:rollback() end
 end
 
+-- Also a step, or nothing where that fails too.
+function Host:cancel_after_failure()
+    local cancel = self.tool and self.tool.cancel
+    if not cancel then return end
+    self:begin()
+    local done = pcall(cancel, self.tool, self:event("cancel"))
+    if not done or self.scene:depth() ~= self.depth + 1 then return self:take_back() end
+    self.depth = nil
+    self:mark(self.scene:commit())
+end
+
 -- The message goes on after the scene is as it was before the step.
 function Host:fail(message)
     local held = self.held ~= nil
     self:take_back()
     self:forget_failed(held)
     self.thread, self.request, self.hover = nil, nil, nil
-    local cancel = self.tool and self.tool.cancel
-    if cancel then pcall(cancel, self.tool, self:event("cancel")) end
+    self:cancel_after_failure()
     self.working = false
     local asks, asked = self.tool and self.tool.run, self.asked
     self.asked = false
@@ -406,6 +416,18 @@ function Host:travel(verb)
     self:mark(name ~= nil)
     self:start_run()
     return name
+end
+
+-- Shows or hides an object of the scene: a step of its own.
+function Host:show(name, visible)
+    self:ready()
+    visible = visible and true or false
+    if self.held then self:cancel() end
+    self:note{ "show", name, visible }
+    local known = self.scene:info(name)
+    if known and known.visible ~= visible then self.scene:set(name, { visible = visible }) end
+    self:mark(true)
+    return self
 end
 
 function Host:undo() return self:travel("undo") end

@@ -127,7 +127,8 @@ local function add_values(scene, value, name, seen, depth)
     end
 end
 
--- The host of the first scene among the values, or of a scene of what else there is; nil for nothing.
+-- The host of the first scene among the values, or of a scene of what else there is; nil for nothing. What
+-- made the scene is not for a hand to undo.
 local function host_of(...)
     local scene
     for i = 1, select("#", ...) do
@@ -138,8 +139,8 @@ local function host_of(...)
         scene = lissom.scene{}
         for i = 1, select("#", ...) do add_values(scene, (select(i, ...)), "object", {}, 0) end
         if #scene == 0 then return nil end
-        scene:clear_history()
     end
+    scene:clear_history()
     return new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
 end
 
@@ -213,6 +214,7 @@ local player = {
         host:key{ key = event[2], shift = event.shift, ctrl = event.ctrl, alt = event.alt }
     end,
     cancel = function(host) host:cancel() end,
+    show = function(host, event) host:show(event[2], event[3]) end,
     undo = function(host) host:undo() end,
     redo = function(host) host:redo() end,
 }

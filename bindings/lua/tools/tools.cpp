@@ -263,6 +263,8 @@ std::vector<Result> host_fields() {
         {"fun(self: any): string?", "undo",
          "The scene's undo, which a running gesture only cancels; the name of the step."},
         {"fun(self: any): string?", "redo", "The scene's redo."},
+        {"fun(self: any, name: string, visible: boolean): lissom.ToolHost", "show",
+         "Shows or hides an object: a step of its own."},
         {"fun(self: any): lissom.ToolMarks", "draw", "What the tool shows over the picture."},
         {"fun(self: any): string?", "prompt", "What the person is asked, or the tool's help."},
         {"fun(self: any, open: string[]?): lissom.ToolHost", "record",

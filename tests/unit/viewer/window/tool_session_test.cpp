@@ -247,6 +247,35 @@ TEST_CASE("session: tools want a scene, which scripts give by what they return")
     CHECK(host.says(LineKind::message, "1\tball"));
 }
 
+TEST_CASE("session: objects of a scene are hidden and shown again, which is a step too") {
+    ToolHost host;
+    host.open();
+    REQUIRE(host.state().objects.size() == 1);
+    CHECK(host.state().objects.front().label.find("faces") != std::string::npos);
+    (void)host.shown();
+    host.session.show_object("ball", false);
+    host.session.show_object("no such object", false);
+    host.wait();
+    CHECK_FALSE(host.state().objects.front().visible);
+    CHECK(host.session.take_shown()->picture->meshes.empty());
+    host.session.post(input(Kind::undo));
+    host.wait();
+    CHECK(host.state().objects.front().visible);
+    CHECK(host.session.take_shown()->picture->meshes.size() == 1);
+    CHECK(host.lines.empty());
+}
+
+TEST_CASE("session: a script's scene comes without steps to undo") {
+    ToolHost host;
+    host.run(
+        "local lissom = require 'lissom'\nlocal scene = lissom.scene{}\n"
+        "scene:add('ball', lissom.shapes.sphere{})\nreturn scene");
+    CHECK(host.state().steps.empty());
+    host.session.post(input(Kind::undo));
+    host.wait();
+    CHECK(host.shown().size() > 10);
+}
+
 TEST_CASE("session: a scene is saved, and opened again as it was") {
     ToolHost host;
     host.open(host.folder.write("pull.lua", kPull));
