@@ -67,5 +67,5 @@ if(TARGET lissom)
     install(FILES ${PROJECT_BINARY_DIR}/luarc.json DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
             RENAME .luarc.json)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/lua DESTINATION ${CMAKE_INSTALL_DOCDIR})
-    install(FILES ${PROJECT_SOURCE_DIR}/docs/testing.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+    install(FILES ${PROJECT_SOURCE_DIR}/docs/testing.md ${PROJECT_SOURCE_DIR}/docs/tools.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endif()
