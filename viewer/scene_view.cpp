@@ -17,8 +17,9 @@ constexpr double kOcclusionOfView = 0.20;
 // Nearest and farthest depth.
 std::pair<double, double> depths(const GpuScene& scene, const Camera& camera) {
     double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+    const Vec3 forward = camera.forward(), eye = camera.eye();
     const auto visit = [&](const Vec3& p) {
-        const double depth = camera.forward().dot(p - camera.eye());
+        const double depth = forward.dot(p - eye);
         nearest = std::min(nearest, depth);
         farthest = std::max(farthest, depth);
     };

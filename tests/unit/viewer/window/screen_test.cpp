@@ -1,0 +1,47 @@
+#include "viewer/window/screen.h"
+
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/viewer/viewer_support.h"
+#include "viewer/gl/platform.h"
+#include "viewer/window/display.h"
+
+using namespace lissom;
+using namespace lissom::window;
+
+TEST_CASE("screen: a camera that moves sends nothing, a mesh that moves its vertices alone") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    Screen screen;
+    Picture picture;
+    // Quads: their diagonals would change with the shape.
+    picture.meshes = {{std::make_shared<const Mesh>(make_sphere())}};
+    CHECK(screen.update(quick_snapshot(picture, {}, 0)).colors > 0);
+    screen.draw(test::front_camera(4.0), {0, 0, 80, 60}, kWhite, 1);
+    CHECK(screen.update(quick_snapshot(picture, {}, 0)).bytes() == 0);
+    for (const double factor : {1.2, 1.4}) {
+        Mesh moved = *picture.meshes[0].mesh;
+        for (Vec3& p : moved.edit_positions()) p.x() *= factor;
+        picture.meshes[0].mesh = std::make_shared<const Mesh>(moved);
+        const Uploads uploads = screen.update(quick_snapshot(picture, {}, 0));
+        CHECK(uploads.vertices > 0);
+        CHECK(uploads.bytes() == uploads.vertices);
+    }
+}
+
+TEST_CASE("screen: the legend takes the columns that it takes of a finished picture") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    Screen screen;
+    const Canvas canvas{290, 0, 900, 600};
+    CHECK(screen.beside_legend(canvas) == canvas);
+    const Legend legend{{0.0, 2.0}, "stretch"};
+    screen.set_legend(legend, canvas.height, kWhite);
+    const Canvas beside = screen.beside_legend(canvas);
+    CHECK(beside.x == canvas.x);
+    CHECK(beside.width == canvas.width - legend_width(legend, canvas.height));
+    CHECK(screen.beside_legend({0, 0, 20, 600}).width == 1);
+    screen.set_legend(std::nullopt, canvas.height, kWhite);
+    CHECK(screen.beside_legend(canvas) == canvas);
+}
