@@ -611,9 +611,13 @@ void ViewApp::open_editor(const SourcePlace& place) {
 
 // ---- Drawing
 
+// Tools learn how wide the picture is beside it.
 void ViewApp::update_legend() {
-    screen_.set_legend(shown_legend(*shown_->picture, settings_),
-                       panel_.canvas(window_.size()).height, background_of(settings_));
+    const Canvas canvas = panel_.canvas(window_.size());
+    const Canvas before = screen_.beside_legend(canvas);
+    screen_.set_legend(shown_legend(*shown_->picture, settings_), canvas.height,
+                       background_of(settings_));
+    if (!(screen_.beside_legend(canvas) == before)) tell_camera();
 }
 
 void ViewApp::draw_scene() {
