@@ -34,10 +34,10 @@ class GroupChains {
     std::vector<Point> normal_;
 };
 
-std::vector<Eigen::Vector3f> float_positions(std::span<const Vec3> positions) {
+std::vector<Eigen::Vector3f> float_positions(const Mesh& mesh, const Affine& to_picture) {
     std::vector<Eigen::Vector3f> result;
-    result.reserve(positions.size());
-    for (const Vec3& p : positions) result.push_back(p.cast<float>());
+    result.reserve(mesh.positions().size());
+    for (const Vec3& p : mesh.positions()) result.push_back(to_picture(p).cast<float>());
     return result;
 }
 
@@ -69,10 +69,11 @@ NormalGroups normal_groups(const SurfaceTriangles& triangles,
     return groups;
 }
 
-void quick_surface_vertices(const SurfaceTriangles& triangles, const NormalGroups& groups,
-                            std::span<const Vec3> positions, std::vector<SurfaceVertex>& result) {
+void quick_surface_vertices(const Mesh& mesh, const Affine& to_picture,
+                            const SurfaceTriangles& triangles, const NormalGroups& groups,
+                            std::vector<SurfaceVertex>& result) {
     const std::vector<Triangle>& list = triangles.faces->triangles;
-    const std::vector<Eigen::Vector3f> points = float_positions(positions);
+    const std::vector<Eigen::Vector3f> points = float_positions(mesh, to_picture);
     const std::array<int, 3> order = drawn_corners(triangles.mirrored);
     std::vector<Eigen::Vector3f> normals(at(groups.count), Eigen::Vector3f::Zero());
     for (std::size_t t = 0; t < list.size(); ++t) {

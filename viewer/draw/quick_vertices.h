@@ -20,8 +20,10 @@ struct NormalGroups {
 NormalGroups normal_groups(const SurfaceTriangles& triangles,
                            std::span<const SurfaceVertex> vertices, Shading shading);
 
-/// What surface_vertices makes of these positions, but for the way normals are weighted.
-void quick_surface_vertices(const SurfaceTriangles& triangles, const NormalGroups& groups,
-                            std::span<const Vec3> positions, std::vector<SurfaceVertex>& result);
+/// What surface_vertices makes of `mesh` where the picture has it, but for the way normals are
+/// weighted.
+void quick_surface_vertices(const Mesh& mesh, const Affine& to_picture,
+                            const SurfaceTriangles& triangles, const NormalGroups& groups,
+                            std::vector<SurfaceVertex>& result);
 
 }  // namespace lissom

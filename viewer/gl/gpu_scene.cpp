@@ -146,17 +146,17 @@ std::shared_ptr<const GpuSurface> Upload::surface(const DrawnMesh& drawn,
 void Upload::fill_vertices(GpuSurface& surface, const GpuSurface* before) {
     const auto& [mesh, style, transform, object] = surface.drawn;
     const Affine to_picture = translation(-origin_) * transform;
-    const std::vector<Vec3> positions = picture_positions(*mesh, to_picture);
     const bool keeps = quick_ && before && before->drawn.style.shading == style.shading &&
                        before->drawn.style.crease == style.crease &&
                        before->triangles.mirrored == (to_picture.linear.determinant() < 0.0);
     if (keeps && before->groups) {
         surface.triangles = before->triangles;
         surface.groups = before->groups;
-        quick_surface_vertices(surface.triangles, *surface.groups, positions, *quick_);
+        quick_surface_vertices(*mesh, to_picture, surface.triangles, *surface.groups, *quick_);
         surface.vertices = std::make_shared<const gl::Buffer>(buffer(*quick_, &Uploads::vertices));
         return;
     }
+    const std::vector<Vec3> positions = picture_positions(*mesh, to_picture);
     surface.triangles = keeps ? before->triangles
                               : surface_triangles(*mesh, positions, to_picture,
                                                   before ? &before->triangles : nullptr);
