@@ -34,7 +34,7 @@ local function show(self, scene, join)
         scene:set(join.target.object, { visible = false })
     end
     scene:add(self.result, mesh, { transform = scene:info(join.target.object).transform })
-    self.joins[mesh] = join
+    self.joins[mesh:hash()] = join
 end
 
 -- The same; where it cannot be merged, that is told in the picture, and the clicks go on.
@@ -46,7 +46,7 @@ end
 -- The join that is shown, which undo changes too; nil where there is none.
 local function shown(self, scene)
     local mesh = self.result and scene:get(self.result)
-    return mesh and self.joins[mesh]
+    return mesh and self.joins[mesh:hash()]
 end
 
 -- The same, as long as the result is not taken: the part is still to be seen.
@@ -83,7 +83,7 @@ return lissom.tool{
         transition = { type = "number", default = 0, min = 0, max = 2, unit = "radii of the loop",
             help = "Width on either side of the seam in which the details of both fade into each other." },
     },
-    joins = setmetatable({}, { __mode = "k" }),
+    joins = {},             -- by the hash of what they make
     run = function(self, ev)
         local scene = ev.scene
         self.open = nil

@@ -27,7 +27,7 @@ function hand.new(tool, objects, options)
         ortho = not options.fov and (options.ortho or 9.6) or nil,
     }
     self.host = lissom.tool_host{ scene = self.scene, camera = self.camera, size = size }
-    if options.record then self.host:record() end
+    if options.record then self.host:record():keep_journal() end
     return self:use(tool)
 end
 

@@ -28,6 +28,12 @@ local function again(tool, objects, act, options)
     expect.equal(fresh.scene:hash(), h.scene:hash())
     expect.equal(fresh:steps(), h:steps())
     expect.truthy(h:steps() > 0)
+    -- The journal ends with a check of the hash.
+    local told, other = h.host:journal_text(), hand.new("select", objects())
+    if os.getenv("LISSOM_SHOW_JOURNAL") then print(told) end
+    expect.falsy(told:find("record events instead"))
+    assert(load(told, "=journal"))(other.scene)
+    expect.equal(other:steps(), h:steps())
 end
 
 local function one_bar() return { bar = bar() } end

@@ -275,6 +275,51 @@ test("what is recorded is repeated to the same hash", function()
     expect.equal(message:match("differs at event %d+") ~= nil, true)
 end)
 
+test("a journal is a script of calls that comes to the same scene, without what failed", function()
+    local scene = ball_scene()
+    local host = host_of(scene):keep_journal():use(pull())
+    drag(host, 5)
+    host:press(middle):move{ x = 600, y = 480 }:key{ key = "escape" }
+    host:set{ step = 0.3 }
+    drag(host, 2)
+    host:undo()
+    host:show("ball", false):show("ball", true)
+    host:use(lift()):click(middle):type("0.4"):key{ key = "enter" }
+    local bad = lissom.tool{ name = "bad", press = function(_, ev)
+        ev.scene:get("ball"):transform{ scale = 2 }
+        error("no")
+    end }
+    expect.equal(pcall(function() host:use(bad):click(middle) end), false)
+    local told = host:journal_text()
+    expect.equal(told:find("scale", 1, true), nil)
+    -- Of a drag that sets what it moves, the last says all.
+    expect.equal(select(2, told:gsub("set_position", "")) <= 8, true)
+    local other = ball_scene()
+    assert(load(told))(other)
+    expect.equal(other:hash(), scene:hash())
+    local before = #scene:history()
+    expect.equal(#other:history(), before)
+end)
+
+test("a journal says what calls do not tell", function()
+    local scene = ball_scene()
+    local host = host_of(scene):keep_journal()
+    host:use(lissom.tool{ name = "odd", press = function(_, ev)
+        local mesh = ev.scene:get("ball")
+        mesh:set_region("up", mesh:region{ where = function(_, _, _, z) return z > 0 end })
+        ev.scene:add("a \"quoted\" name\n", lissom.shapes.box():transform{ translate = { 1, 0, 0 } })
+    end }):click(middle)
+    expect.equal(host:journal_text():find("record events instead", 1, true) ~= nil, true)
+    local calls = lissom.tool{ name = "named", press = function(_, ev)
+        local box = ev.scene:get('a "quoted" name\n')
+        box:set_region("front", box:region{ vertices = { 1, 2, 3, 5 } }:grow(1))
+    end }
+    local again = host_of(scene):keep_journal():use(calls):click(middle)
+    local told = again:journal_text()
+    scene:undo()
+    assert(load(told))(scene)
+end)
+
 test("a recording of another scene or version is refused", function()
     local host = host_of(ball_scene()):record()
     drag(host:use(pull()), 1)

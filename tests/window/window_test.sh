@@ -179,7 +179,7 @@ assert(lissom.shapes.sphere{}:save("ball.obj"))
 LUA
 "$program" run ball.lua
 "$program" new tool bulge >/dev/null
-open_view ball.obj --tool bulge.lua --record events.lua
+open_view ball.obj --tool bulge.lua --record events.lua --journal calls.lua
 wait_for "tool bulge"
 wait_for "at rest"
 drag 700 300 5 2
@@ -205,6 +205,7 @@ wait_for "at rest"
 close_view 0
 grep -q "was not saved" told || fail "an unsaved scene is not told"
 "$program" run events.lua || fail "what was recorded does not repeat"
+"$program" run calls.lua || fail "the journal does not come to the same scene"
 
 # --- A window that is killed: the next one offers its scene
 open_view ball.lissom --tool smooth

@@ -342,7 +342,11 @@ void Session::settle_scene(const std::vector<std::string>& open) {
     if (bench_->has_scene()) {
         bench_->publish_scene();
         succeeds(bench_->take(look_));
-        if (!options_.record.empty()) succeeds(bench_->record(open, options_.load));
+        const auto record = [&](const char* method, const std::string& path) {
+            if (!path.empty()) succeeds(bench_->record(method, open, options_.load));
+        };
+        record("record", options_.record);
+        record("keep_journal", options_.journal);
         if (!options_.tool.empty()) settle_tool(options_.tool);
         if (pictures_ == 0) return show_scene(true);
     }
@@ -397,19 +401,25 @@ void Session::show_scene(bool always) {
     } catch (const std::bad_alloc&) {
         tell(LineKind::error, "there is no memory to show this");
     }
-    if (always) save_recording();
+    if (always) save_records();
     wake_();
 }
 
-void Session::save_recording() {
-    if (options_.record.empty()) return;
-    const std::optional<std::string> text = bench_->recording();
-    if (!text || *text == recorded_) return;
-    recorded_ = *text;
-    std::ofstream file(options_.record, std::ios::binary);
+void Session::save_records() {
+    save_record("recording", options_.record, recorded_);
+    save_record("journal_text", options_.journal, told_);
+}
+
+// Writes what the host's method `what` tells, where that is not what was saved.
+void Session::save_record(const char* what, std::string& path, std::string& saved) {
+    if (path.empty()) return;
+    const std::optional<std::string> text = bench_->text_of(what);
+    if (!text || *text == saved) return;
+    saved = *text;
+    std::ofstream file(path, std::ios::binary);
     if (file << *text && file.flush()) return;
-    tell(LineKind::error, "the recording cannot be written to " + options_.record);
-    options_.record.clear();
+    tell(LineKind::error, "what is recorded cannot be written to " + path);
+    path.clear();
 }
 
 // The state of the script, else one of its own, with the variable `lissom`.

@@ -54,6 +54,8 @@ struct SessionOptions {
     std::string tool = {};
     /// Where what is done with tools is recorded; empty for nowhere.
     std::string record = {};
+    /// Where the calls that tools make are kept as a script; empty for nowhere.
+    std::string journal = {};
     /// How mesh files are read.
     LoadOptions load = {};
 };
@@ -126,7 +128,8 @@ class Session {
     void take_inputs();
     bool succeeds(const cli::ScriptResult& result);
     void show_scene(bool always);
-    void save_recording();
+    void save_records();
+    void save_record(const char* what, std::string& path, std::string& saved);
     void evaluate_line(const std::string& line);
     lua_State* console_state();
     void find_completions(const std::string& text);
@@ -159,7 +162,7 @@ class Session {
     std::unique_ptr<cli::Script> script_;
     std::unique_ptr<ToolBench> bench_;
     ToolInput look_;
-    std::string recorded_;
+    std::string recorded_, told_;
     ToolState last_state_;
     std::size_t pictures_ = 0;
     Worker worker_;

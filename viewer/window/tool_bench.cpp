@@ -443,28 +443,28 @@ void ToolBench::recover() {
     lua_settop(L, top);
 }
 
-cli::ScriptResult ToolBench::record(const std::vector<std::string>& open,
+cli::ScriptResult ToolBench::record(const char* method, const std::vector<std::string>& open,
                                     const LoadOptions& options) {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push_host();
-    lua_pushliteral(L, "record");
+    lua_pushstring(L, method);
     push_paths(L, open);
     push_load_options(L, options);
     cli::ScriptResult result = call("method", 4);
-    records_ = result.status == cli::kSuccess;
     lua_settop(L, top);
     return result;
 }
 
-std::optional<std::string> ToolBench::recording() {
-    if (!records_) return std::nullopt;
+std::optional<std::string> ToolBench::text_of(const char* method) {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push_host();
-    lua_pushliteral(L, "recording");
+    lua_pushstring(L, method);
     std::optional<std::string> text;
-    if (call("method", 2).status == cli::kSuccess) text = lua_tostring(L, -1);
+    if (call("method", 2).status == cli::kSuccess && lua_type(L, -1) == LUA_TSTRING) {
+        text = lua_tostring(L, -1);
+    }
     lua_settop(L, top);
     return text;
 }

@@ -107,11 +107,12 @@ class ToolBench {
     /// After a call that was stopped from outside.
     void recover();
 
-    /// Begins a recording; `open` are the files of the scene, where nothing else led to it, and
-    /// how they were read.
-    cli::ScriptResult record(const std::vector<std::string>& open, const LoadOptions& options);
-    /// Its text up to now; nothing where none is made.
-    std::optional<std::string> recording();
+    /// Begins a recording ("record") or a journal ("keep_journal"); `open` are the files of the
+    /// scene, where nothing else led to it, and how they were read.
+    cli::ScriptResult record(const char* method, const std::vector<std::string>& open,
+                             const LoadOptions& options);
+    /// Their text up to now ("recording", "journal_text"); nothing where none is made.
+    std::optional<std::string> text_of(const char* method);
 
     // ---- What there is to see
 
@@ -131,7 +132,6 @@ class ToolBench {
 
     cli::Script& script_;
     bool has_scene_ = false;
-    bool records_ = false;
 };
 
 /// Names of the tools that ship, in their order.

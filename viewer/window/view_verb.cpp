@@ -21,7 +21,7 @@ std::string check_size(const std::string& text) {
 
 // Options that may be given the name of a script.
 bool takes_value(const std::string& word) {
-    return word == "--tool" || word == "--record";
+    return word == "--tool" || word == "--record" || word == "--journal";
 }
 
 }  // namespace
@@ -51,6 +51,8 @@ int view(Program& program, const std::vector<std::string>& words) {
                    "The tool in hand: a file, or the name of one that ships");
     app.add_option("--record", options.session.record,
                    "Write what is done with tools to this file, a script that does it again");
+    app.add_option("--journal", options.session.journal,
+                   "Write the calls that tools make to this file, a script to read and change");
     std::string up;
     app.add_option("--up", up, "Up axis of the mesh files")->check(CLI::IsMember({"y", "z"}));
     app.add_option("--unit", options.session.load.unit,
@@ -69,8 +71,11 @@ int view(Program& program, const std::vector<std::string>& words) {
     if (!up.empty()) options.session.load.up = up == "y" ? UpAxis::y : UpAxis::z;
     std::error_code error;
     for (const std::string& file : files) {
-        if (!std::filesystem::equivalent(file, options.session.record, error)) continue;
-        return program.fail("lissom view: --record would overwrite " + file, kUsage);
+        for (const std::string& written : {options.session.record, options.session.journal}) {
+            if (!std::filesystem::equivalent(file, written, error)) continue;
+            return program.fail("lissom view: " + written + " is opened, and would be overwritten",
+                                kUsage);
+        }
     }
     options.words.insert(options.words.begin(), files.begin(), files.end());
     return window::run_view(program, options);

@@ -10,7 +10,7 @@ namespace lissom::lua {
 namespace {
 
 // Keys of Lua's registry: their addresses.
-const char kStateKey = 0, kModuleKey = 0;
+const char kStateKey = 0, kModuleKey = 0, kListenerKey = 0;
 
 const char kBoxMark = 0;
 
@@ -44,12 +44,43 @@ int collect_state(lua_State* L) {
 
 // ---- Calls. Upvalues: the description (light), the StateBox, the Type (light) for objects.
 
+// Calls a method of the listener with `count` values from the stack index `first` on.
+void tell_listener(lua_State* L, State& state, const char* method, const Entry& entry, int first,
+                   int count) {
+    luaL_checkstack(L, count + LUA_MINSTACK, "too many values to be heard");
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kListenerKey);
+    lua_getfield(L, -1, method);
+    lua_insert(L, -2);
+    if (entry.type) {
+        lua_pushstring(L, entry.type->name.c_str());
+    } else {
+        lua_pushnil(L);
+    }
+    lua_pushstring(L, entry.function->name.c_str());
+    for (int i = 0; i < count; ++i) lua_pushvalue(L, first + i);
+    state.is_heard = false;
+    const int status = lua_pcall(L, count + 3, 0, 0);
+    state.is_heard = true;
+    if (status != 0) lua_error(L);
+}
+
+int dispatch_heard(lua_State* L, State& state, const Entry& entry) {
+    tell_listener(L, state, "before", entry, 1, lua_gettop(L));
+    Call call(L, state, entry);
+    const int results = entry.function->body(call);
+    // A body that has yielded has none.
+    if (results < 0 || !state.is_heard) return results;
+    tell_listener(L, state, "after", entry, lua_gettop(L) - results + 1, results);
+    return results;
+}
+
 int dispatch(lua_State* L) {
     const auto* entry = static_cast<const Entry*>(lua_touserdata(L, lua_upvalueindex(1)));
     State& state = state_upvalue(L, 2);
     if (state.only_help && (entry->type || entry->function->name != "params")) {
         return end_for_help(L, state);
     }
+    if (state.is_heard) return dispatch_heard(L, state, *entry);
     Call call(L, state, *entry);
     return entry->function->body(call);
 }
@@ -371,6 +402,15 @@ void open(lua_State* L, const HostOptions& options) {
     lua_pushvalue(L, -1);
     raw_set_pointer(L, LUA_REGISTRYINDEX, &kModuleKey);
     lua_remove(L, box);
+}
+
+int hear_calls(lua_State* L) {
+    State* state = find_state(L);
+    if (!state) return 0;
+    lua_settop(L, 1);
+    state->is_heard = lua_istable(L, 1);
+    raw_set_pointer(L, LUA_REGISTRYINDEX, &kListenerKey);
+    return 0;
 }
 
 const Entry* find_entry(lua_State* L, int index) {

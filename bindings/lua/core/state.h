@@ -87,6 +87,9 @@ struct State {
     std::size_t dropped_count = 0;
     std::optional<CallCodes> call_codes;
 
+    /// A listener hears calls; see hear_calls.
+    bool is_heard = false;
+
     /// Native bytes that the collector has not been told of yet.
     std::size_t uncharged_bytes = 0;
 };
@@ -98,6 +101,12 @@ void open(lua_State* L, const HostOptions& options);
 /// Raises a Lua error that ends the script, which has begun to work although only its help was
 /// asked for (State::only_help).
 int end_for_help(lua_State* L, State& state);
+
+/// A C function for Lua: its argument, a table with the methods before(type, name, arguments...) and
+/// after(type, name, results...), hears each call of the library from now on, but for those that it
+/// makes itself; nil: nobody does. `type` is nil for a function of the module. What yields or fails
+/// has no after.
+int hear_calls(lua_State* L);
 
 /// The function of the registration table that the value at `index` is, or null.
 const Entry* find_entry(lua_State* L, int index);

@@ -410,6 +410,8 @@
 ---@field prompt fun(self: any): string? What the person is asked, or the tool's help.
 ---@field record fun(self: any, open: string[]?): lissom.ToolHost Begins a recording, before a tool is used; `open` names the files of the scene.
 ---@field recording fun(self: any): string The text of the recording: a script that does all again.
+---@field keep_journal fun(self: any, open: string[]?): lissom.ToolHost Begins a journal: the calls that the tools make; `open` as for record.
+---@field journal_text fun(self: any): string The journal: a script of calls that makes the same scene, to be read and changed.
 ---@field recover fun(self: any): lissom.ToolHost Takes back what a tool left that was stopped from outside, for instance by a limit of instructions.
 
 ---What a mouse did.

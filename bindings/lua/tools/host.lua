@@ -1,6 +1,6 @@
 -- The host of tools: calls a tool's functions with what a hand does, each in a step of the scene. What is
 -- returned is what the binding calls; its reference is in tools.cpp.
-local lissom = ...
+local lissom, hear = ...
 
 local Tool, Event, View, Host = { __name = "lissom.Tool" }, {}, {}, { __name = "lissom.ToolHost" }
 Tool.__tostring = function(tool) return "lissom.Tool: " .. rawget(tool, "name") end
@@ -116,6 +116,20 @@ end
 function Host:begin()
     self.depth = self.scene:depth()
     self.scene:begin(self.tool.name)
+    if self.journal then self.journal:begin_step() end
+end
+
+-- While a function of the tool runs, the journal hears what it calls.
+function Host:start_work(name)
+    self.working = true
+    if not self.journal then return end
+    self.journal:begin_group(name == "drag")
+    hear(self.journal)
+end
+
+function Host:end_work()
+    hear(nil)
+    self.working = false
 end
 
 function Host:take_back()
@@ -129,14 +143,16 @@ function Host:cancel_after_failure()
     local cancel = self.tool and self.tool.cancel
     if not cancel then return end
     self:begin()
+    if self.journal then hear(self.journal) end
     local done = pcall(cancel, self.tool, self:event("cancel"))
+    hear(nil)
     if not done or self.scene:depth() ~= self.depth + 1 then return self:take_back() end
-    self.depth = nil
-    self:mark(self.scene:commit())
+    self:mark(self:commit())
 end
 
 -- The message goes on after the scene is as it was before the step.
 function Host:fail(message)
+    hear(nil)
     local held = self.held ~= nil
     self:take_back()
     self:forget_failed(held)
@@ -152,10 +168,10 @@ end
 function Host:call(name, event)
     local callback = self.tool and self.tool[name]
     if not callback then return end
-    self.working = true
+    self:start_work(name)
     local done, message = pcall(callback, self.tool, event)
     if not done then self:fail(message) end
-    self.working = false
+    self:end_work()
 end
 
 function Host:commit()
@@ -163,7 +179,9 @@ function Host:commit()
         self:fail("the tool '" .. self.tool.name .. "' began or ended a step; its host does that")
     end
     self.depth = nil
-    return self.scene:commit()
+    local changed = self.scene:commit()
+    if self.journal then self.journal:end_step(self.tool.name, changed) end
+    return changed
 end
 
 function Host:step(name, event)
@@ -177,7 +195,7 @@ end
 -- What a broken-off call left: a script that was stopped from outside leaves its step open.
 function Host:recover()
     if not self.working then return self end
-    self.working = false
+    self:end_work()
     self:take_back()
     self.thread, self.request, self.hover = nil, nil, nil
     return self
@@ -206,15 +224,15 @@ end
 function Host:resume(...)
     local opened = not self.depth
     if opened then self:begin() end
-    self.working = true
     self.request, self.hover, self.typed = nil, nil, ""
+    self:start_work("run")
     local done, request = coroutine.resume(self.thread, ...)
     if not done then self:fail(request) end
     local waits = coroutine.status(self.thread) == "suspended"
     if waits and not (type(request) == "table" and request.kind) then
         self:fail("the run of a tool waits for nothing but the answers of lissom.pick")
     end
-    self.working = false
+    self:end_work()
     if opened then self:mark(self:commit()) end
     if waits then
         self.request, self.asked = request, true
@@ -414,6 +432,7 @@ function Host:travel(verb)
     self:note{ verb }
     local name = self.scene[verb](self.scene)
     self:mark(name ~= nil)
+    if self.journal and name then table.insert(self.journal.lines, "scene:" .. verb .. "()") end
     self:start_run()
     return name
 end
@@ -425,7 +444,11 @@ function Host:show(name, visible)
     if self.held then self:cancel() end
     self:note{ "show", name, visible }
     local known = self.scene:info(name)
-    if known and known.visible ~= visible then self.scene:set(name, { visible = visible }) end
+    if known and known.visible ~= visible then
+        self.scene:set(name, { visible = visible })
+        local line = string.format("scene:set(%q, { visible = %s })", name, tostring(visible))
+        if self.journal then table.insert(self.journal.lines, line) end
+    end
     self:mark(true)
     return self
 end

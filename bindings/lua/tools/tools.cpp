@@ -42,7 +42,8 @@ void load_tool_functions(lua_State* L) {
 #endif
     if (status != 0) lua_error(L);
     open(L, find_state(L)->host);
-    lua_call(L, 1, 1);
+    lua_pushcfunction(L, hear_calls);
+    lua_call(L, 2, 1);
     lua_pushvalue(L, -1);
     raw_set_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
 }
@@ -271,6 +272,10 @@ std::vector<Result> host_fields() {
          "Begins a recording, before a tool is used; `open` names the files of the scene."},
         {"fun(self: any): string", "recording",
          "The text of the recording: a script that does all again."},
+        {"fun(self: any, open: string[]?): lissom.ToolHost", "keep_journal",
+         "Begins a journal: the calls that the tools make; `open` as for record."},
+        {"fun(self: any): string", "journal_text",
+         "The journal: a script of calls that makes the same scene, to be read and changed."},
         {"fun(self: any): lissom.ToolHost", "recover",
          "Takes back what a tool left that was stopped from outside, for instance by a limit of "
          "instructions."}};

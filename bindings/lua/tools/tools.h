@@ -1,5 +1,6 @@
 /// Tools of scripts: what lissom.tool, lissom.tool_host and lissom.replay are made of. The host
-/// itself is written in Lua (host.lua, view.lua, recording.lua), whose text is part of the library.
+/// itself is written in Lua (host.lua and what follows it, see CMakeLists.txt), whose text is part
+/// of the library.
 #pragma once
 
 #include "bindings/lua/core/compat.h"

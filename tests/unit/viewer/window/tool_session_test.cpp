@@ -325,6 +325,25 @@ TEST_CASE("session: what is recorded is a script that comes to the same scene") 
     CHECK(host.shown() == after);
 }
 
+TEST_CASE("session: a journal is a script of calls that comes to the same scene") {
+    test::ProgramFolder outside;
+    const std::string journal = outside.path("calls.lua");
+    ToolHost host({.journal = journal});
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(4);
+    host.drag(2);
+    host.session.post(input(Kind::undo));
+    host.session.show_object("ball", true);
+    host.wait();
+    const std::vector<Vec3> after = host.shown();
+    CHECK(host.lines.empty());
+    CHECK(content_of(journal).find("set_position") != std::string::npos);
+    host.session.open({journal});
+    host.wait();
+    CHECK(host.lines.empty());
+    CHECK(host.shown() == after);
+}
+
 TEST_CASE("session: a recording of a script's scene runs that script") {
     test::ProgramFolder outside;
     const std::string record = outside.path("events.lua");
