@@ -125,6 +125,34 @@ test("a tool neither changes the scene while it is drawn nor ends steps", functi
     end
 end)
 
+test("what a tool begins while it is drawn is taken back; a host's own steps are the host's", function()
+    local scene = ball_scene()
+    local before = scene:hash()
+    local wrong = lissom.tool{ name = "wrong", draw = function(_, view) view.scene:begin("mine") end }
+    local host = host_of(scene, wrong)
+    for _ = 1, 3 do expect.equal(pcall(host.draw, host), false) end
+    expect.equal(scene:depth(), 0)
+    local ended = host_of(scene, lissom.tool{ name = "ended", press = function(_, ev)
+        ev.scene:get("ball"):transform{ scale = 2 }
+        pcall(ev.scene.commit, ev.scene)
+        error("and then")
+    end })
+    expect.equal(pcall(function() ended:click(middle) end), false)
+    expect.equal(scene:hash(), before)
+end)
+
+test("sizes and events that are none are refused, and nothing changes", function()
+    local host = host_of(ball_scene(), pull())
+    for _, size in ipairs{ { 0, 0 }, { 5 }, "x", { -5, -5 }, { 0 / 0, 1 }, { 1e9, 1e9 } } do
+        expect.equal(pcall(host.look, host, host.camera, size), false)
+    end
+    expect.equal(host.size[1], 1280)
+    expect.equal(pcall(host.press, host, 5), false)
+    expect.equal(pcall(host.key, host), false)
+    expect.equal(pcall(host.set, host, 3), false)
+    expect.equal(pcall(host.look, host), false)
+end)
+
 test("draw answers what the tool shows, and refuses what is none", function()
     local host = host_of(ball_scene(), pull())
     expect.equal(#host:draw().points, 0)
@@ -328,6 +356,10 @@ test("a recording of another scene or version is refused", function()
     other:add("ball", lissom.shapes.box())
     local _, message = pcall(lissom.replay, recorded, { scene = other, tools = { pull() } })
     expect.equal(message:match("another scene") ~= nil, true)
+    recorded.before = nil
+    table.insert(recorded.events, 2, { "outside" })
+    _, message = pcall(lissom.replay, recorded, { scene = ball_scene(), tools = { pull() } })
+    expect.equal(message:match("console changed the scene") ~= nil, true)
     recorded.version = 2
     expect.equal(pcall(lissom.replay, recorded, { scene = ball_scene() }), false)
     expect.equal(pcall(lissom.replay, "no such file.lua"), false)

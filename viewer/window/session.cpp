@@ -71,6 +71,22 @@ int provide_library(lua_State* L) {
     return 0;
 }
 
+// Writes a file whole or not at all.
+bool write_whole(const std::string& path, const std::string& text) {
+    const std::string beside = path + ".part";
+    std::error_code error;
+    {
+        std::ofstream file(beside, std::ios::binary);
+        if (!(file << text && file.flush())) {
+            file.close();
+            fs::remove(beside, error);
+            return false;
+        }
+    }
+    fs::rename(beside, path, error);
+    return !error;
+}
+
 }  // namespace
 
 bool is_script(const std::string& word) {
@@ -331,8 +347,12 @@ void Session::load_files(const std::vector<std::string>& paths) {
 bool Session::succeeds(const cli::ScriptResult& result) {
     if (result.status == cli::kSuccess) return true;
     tell(LineKind::error, result.message);
-    program_.forget_interrupt();
-    if (bench_) bench_->recover();
+    // Somebody may go on pressing Escape.
+    constexpr int kMostTimes = 20;
+    for (int i = 0; bench_ && i < kMostTimes; ++i) {
+        program_.forget_interrupt();
+        if (bench_->recover()) break;
+    }
     return false;
 }
 
@@ -411,15 +431,19 @@ void Session::save_records() {
 }
 
 // Writes what the host's method `what` tells, where that is not what was saved.
-void Session::save_record(const char* what, std::string& path, std::string& saved) {
-    if (path.empty()) return;
+void Session::save_record(const char* what, const std::string& path, std::string& saved) {
+    if (path.empty() || bench_->is_held()) return;
     const std::optional<std::string> text = bench_->text_of(what);
     if (!text || *text == saved) return;
-    saved = *text;
-    std::ofstream file(path, std::ios::binary);
-    if (file << *text && file.flush()) return;
-    tell(LineKind::error, "what is recorded cannot be written to " + path);
-    path.clear();
+    if (write_whole(path, *text)) {
+        saved = *text;
+        record_fails_ = false;
+        return;
+    }
+    // It is tried again at the next change.
+    if (!std::exchange(record_fails_, true)) {
+        tell(LineKind::error, "what is recorded cannot be written to " + path);
+    }
 }
 
 // The state of the script, else one of its own, with the variable `lissom`.
@@ -463,7 +487,12 @@ void Session::evaluate_line(const std::string& line) {
             tell(LineKind::error, result.message);
         } else {
             for (int i = 1; i <= lua_gettop(L); ++i) tell(LineKind::result, cli::display(L, i));
-            if (!show_values()) show_scene(true);
+            if (bench_->changed_outside()) {
+                tell(LineKind::warning,
+                     "the recording does not hold what the console does: it cannot be repeated");
+            }
+            const bool holds = bench_->holds(1, lua_gettop(L));
+            if (holds || !show_values()) show_scene(true);
         }
     }
     lua_settop(L, 0);

@@ -129,7 +129,7 @@ class Session {
     bool succeeds(const cli::ScriptResult& result);
     void show_scene(bool always);
     void save_records();
-    void save_record(const char* what, std::string& path, std::string& saved);
+    void save_record(const char* what, const std::string& path, std::string& saved);
     void evaluate_line(const std::string& line);
     lua_State* console_state();
     void find_completions(const std::string& text);
@@ -163,6 +163,7 @@ class Session {
     std::unique_ptr<ToolBench> bench_;
     ToolInput look_;
     std::string recorded_, told_;
+    bool record_fails_ = false;
     ToolState last_state_;
     std::size_t pictures_ = 0;
     Worker worker_;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "bindings/lua/core/call.h"
 #include "bindings/lua/core/object.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/scene/scene_object.h"
@@ -237,6 +238,13 @@ std::string label_of(const NamedObject& object) {
     return object.name + "  (" + std::to_string(surface->mesh.face_count()) + " faces)";
 }
 
+// A place in the library's own Lua text says nothing to a person.
+void without_own_place(std::string& message) {
+    if (!message.starts_with(lua::kOwnLuaText)) return;
+    const std::size_t end = message.find(": ");
+    if (end != std::string::npos) message.erase(0, end + 2);
+}
+
 constexpr std::array kVerbs{"press", "move", "release", "key", "cancel", "undo", "redo"};
 
 }  // namespace
@@ -252,7 +260,11 @@ cli::ScriptResult ToolBench::call(const char* method, int count) {
     lua_insert(L, -2);
     lua_pushinteger(L, count);
     lua_pushcclosure(L, call_packed, 3);
-    return script_.call_function();
+    revive_scene();
+    cli::ScriptResult result = script_.call_function();
+    revive_scene();
+    without_own_place(result.message);
+    return result;
 }
 
 void ToolBench::push_host() const {
@@ -433,14 +445,50 @@ bool ToolBench::is_held() const {
     return held;
 }
 
-void ToolBench::recover() {
-    if (!has_scene_) return;
+bool ToolBench::recover() {
+    if (!has_scene_) return true;
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push_host();
     lua_pushliteral(L, "recover");
-    call("method", 2);
+    const bool done = call("method", 2).status == cli::kSuccess;
     lua_settop(L, top);
+    return done;
+}
+
+bool ToolBench::holds(int first, int last) {
+    if (!has_scene_) return false;
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_host();
+    for (int i = first; i <= last; ++i) lua_pushvalue(L, i);
+    const bool done = call("holds", last - first + 2).status == cli::kSuccess;
+    const bool held = done && lua_toboolean(L, -1) != 0;
+    lua_settop(L, top);
+    return held;
+}
+
+bool ToolBench::changed_outside() {
+    if (!has_scene_) return false;
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_host();
+    lua_pushliteral(L, "changed_outside");
+    const bool done = call("method", 2).status == cli::kSuccess;
+    const bool changed = done && lua_toboolean(L, -1) != 0;
+    lua_settop(L, top);
+    return changed;
+}
+
+// A scene that a script has closed is open again: the window has it still.
+void ToolBench::revive_scene() {
+    lua_State* L = script_.lua();
+    push_host();
+    push_raw(L, -1, "scene");
+    lua::Holder* holder = lua::find_holder(L, -1, lua::SceneObject::kTypeName);
+    if (holder && !holder->object) holder->object = scene_;
+    if (holder) scene_ = holder->object;
+    lua_pop(L, 2);
 }
 
 cli::ScriptResult ToolBench::record(const char* method, const std::vector<std::string>& open,

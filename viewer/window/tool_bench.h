@@ -105,7 +105,11 @@ class ToolBench {
     cli::ScriptResult show(const std::string& name, bool visible);
     cli::ScriptResult set(const std::string& name, const lua::ParameterValue& value);
     /// After a call that was stopped from outside.
-    void recover();
+    bool recover();
+    /// Whether one of the values between two stack indices is an object of the scene, or that.
+    bool holds(int first, int last);
+    /// Something else than a tool may have changed the scene: true where a recording lacks that.
+    bool changed_outside();
 
     /// Begins a recording ("record") or a journal ("keep_journal"); `open` are the files of the
     /// scene, where nothing else led to it, and how they were read.
@@ -129,9 +133,12 @@ class ToolBench {
     void push_host() const;
     void push_tool() const;
     void paint_regions(Picture& picture);
+    void revive_scene();
 
     cli::Script& script_;
     bool has_scene_ = false;
+    /// What a script may have closed, and must not.
+    std::shared_ptr<void> scene_;
 };
 
 /// Names of the tools that ship, in their order.

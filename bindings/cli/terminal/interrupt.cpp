@@ -127,6 +127,7 @@ bool Interrupt::pressed() const {
 }
 
 void Interrupt::clear() {
+    const std::lock_guard lock(pressing);
     pressed_flag = 0;
     context_.clear_cancel();
     if (lua_State* L = running_thread.load()) lua_sethook(L, nullptr, 0, 0);

@@ -1,6 +1,6 @@
 -- The host of tools: calls a tool's functions with what a hand does, each in a step of the scene. What is
 -- returned is what the binding calls; its reference is in tools.cpp.
-local lissom, hear = ...
+local lissom, hear, guard = ...
 
 local Tool, Event, View, Host = { __name = "lissom.Tool" }, {}, {}, { __name = "lissom.ToolHost" }
 Tool.__tostring = function(tool) return "lissom.Tool: " .. rawget(tool, "name") end
@@ -85,6 +85,7 @@ local event_fields = {
 local buttons = set_of{ "left", "right", "middle" }
 
 local function check_event(what, fields)
+    if type(fields) ~= "table" then misuse("an event of the %s is a table", what) end
     local known = event_fields[what]
     for key in pairs(fields) do
         if not known[key] then misuse("an event of the %s has no '%s'", what, tostring(key)) end
@@ -95,7 +96,7 @@ local function check_event(what, fields)
     end
     for _, axis in ipairs{ "x", "y" } do
         local value = fields[axis]
-        if type(value) ~= "number" or value ~= value or math.abs(value) > 1e9 then
+        if type(value) ~= "number" or not (value <= 1e9 and value >= -1e9) then
             misuse("an event needs %s, a number of pixels", axis)
         end
     end
@@ -116,6 +117,7 @@ end
 function Host:begin()
     self.depth = self.scene:depth()
     self.scene:begin(self.tool.name)
+    self.guarded = guard(self.scene, self.scene:depth())
     if self.journal then self.journal:begin_step() end
 end
 
@@ -135,6 +137,7 @@ end
 function Host:take_back()
     local depth = self.depth
     self.depth, self.held = nil, nil
+    if depth then guard(self.scene, self.guarded) end
     while depth and self.scene:depth() > depth do self.scene:rollback() end
 end
 
@@ -179,6 +182,7 @@ function Host:commit()
         self:fail("the tool '" .. self.tool.name .. "' began or ended a step; its host does that")
     end
     self.depth = nil
+    guard(self.scene, self.guarded)
     local changed = self.scene:commit()
     if self.journal then self.journal:end_step(self.tool.name, changed) end
     return changed
@@ -194,9 +198,11 @@ end
 
 -- What a broken-off call left: a script that was stopped from outside leaves its step open.
 function Host:recover()
-    if not self.working then return self end
     self:end_work()
     self:take_back()
+    guard(self.scene, 0)
+    while self.scene:depth() > self.base do self.scene:rollback() end
+    self:forget_unfinished()
     self.thread, self.request, self.hover = nil, nil, nil
     return self
 end
@@ -303,11 +309,22 @@ local function camera_numbers(camera)
         fov = camera:fov(), ortho = camera:ortho() }
 end
 
+local function checked_size(size)
+    for i = 1, 2 do
+        local pixels = type(size) == "table" and size[i]
+        if type(pixels) ~= "number" or pixels % 1 ~= 0 or pixels < 1 or pixels > 65536 then
+            error("a size is {width, height} in pixels, each from 1 to 65536", 3)
+        end
+    end
+    return { size[1], size[2] }
+end
+
 function Host:look(camera, size)
     self:ready()
+    if type(camera) ~= "userdata" then error("look takes a camera", 2) end
     local numbers = camera_numbers(camera)
-    self.camera = lissom.camera(numbers)
-    self.size = size and { size[1], size[2] } or self.size
+    size = checked_size(size or self.size)
+    self.camera, self.size = lissom.camera(numbers), size
     numbers.size = self.size
     self:note{ "look", numbers }
     return self
@@ -387,13 +404,14 @@ function Host:key(fields)
 end
 
 function Host:type(text)
-    for character in tostring(text):gmatch(".") do self:key{ key = character } end
+    for character in tostring(text):gmatch("[^\128-\191][\128-\191]*") do self:key{ key = character } end
     return self
 end
 
 function Host:set(values)
     self:ready()
     if not self.tool then error("there is no tool whose parameters could be set", 2) end
+    if type(values) ~= "table" then error("set takes a table of values", 2) end
     local names = {}
     for name in pairs(values) do table.insert(names, name) end
     table.sort(names)

@@ -389,6 +389,7 @@ end
 
 function Host:journal_text()
     if not self.journal then error("no journal is kept; see keep_journal", 2) end
+    if self.held then error("a gesture is not finished: release the button first", 2) end
     local text = { "-- What was done with tools, as calls.", 'local lissom = require "lissom"', "" }
     local body = table.concat(self.journal.lines, "\n")
     if body:find('ids"', 1, true) then table.insert(text, ids_text .. "\n") end

@@ -16,9 +16,29 @@ function Host:forget_failed(held)
     if #self.log > 0 then self.log[#self.log] = { "cancel" } end
 end
 
+-- A gesture or an event that was broken off is not in the recording.
+function Host:forget_unfinished()
+    local log = self.log or {}
+    for i = #log, 1, -1 do
+        if log[i][1] == "press" then return self:forget_failed(true) end
+        if log[i][1] ~= "move" then break end
+    end
+    if #log > 0 and log[#log][1] ~= "look" and log[#log][1] ~= "tool" then self:forget_failed(false) end
+end
+
+-- Something else than the tools has changed the scene: that is not in the recording, which says so.
+function Host:changed_outside()
+    if not self.log or self.scene:hash() == self.known_hash then return false end
+    self:note{ "outside" }
+    self:mark(true)
+    return true
+end
+
 -- The hash that the scene has after the event noted last, where that changed it.
 function Host:mark(changed)
-    if self.log and changed and #self.log > 0 then self.log[#self.log].hash = self.scene:hash() end
+    if not (self.log and changed and #self.log > 0) then return end
+    self.known_hash = self.scene:hash()
+    self.log[#self.log].hash = self.known_hash
 end
 
 -- Begins a recording; `open` names the files of the scene, where it is as they were opened with the
@@ -26,6 +46,7 @@ end
 function Host:record(open, load)
     self:ready()
     if self.tool then error("record before a tool is used: its state is not in a recording", 2) end
+    self.known_hash = self.scene:hash()
     self.opened = { open = open and #open > 0 and open or nil, hash = self.scene:hash() }
     self.opened.load = self.opened.open and load and next(load) and load
     self.log = {}
@@ -37,6 +58,7 @@ end
 
 -- The shortest text that reads as the same number.
 local function number_text(value)
+    if value == 0 then return 1 / value < 0 and "-0.0" or "0" end
     if value % 1 == 0 and math.abs(value) < 2 ^ 53 then return string.format("%d", value) end
     for digits = 15, 17 do
         local text = string.format("%." .. digits .. "g", value)
@@ -63,6 +85,7 @@ end
 
 function Host:recording()
     if not self.log then error("nothing is recorded; see record", 2) end
+    if self.held then error("a gesture is not finished: release the button first", 2) end
     local lines = { "-- What was done with tools; lissom run does it again." }
     table.insert(lines, 'return require("lissom").replay{')
     table.insert(lines, "    version = 1,")
@@ -98,7 +121,8 @@ end
 
 local function new_host(scene, camera, size)
     size = type(size) == "number" and { size, size } or size or { 1280, 960 }
-    return setmetatable({ scene = scene, camera = camera, size = size, typed = "" }, Host)
+    return setmetatable({ scene = scene, camera = camera, size = checked_size(size), typed = "",
+        base = scene:depth() }, Host)
 end
 
 local function type_of(value)
@@ -214,6 +238,9 @@ local player = {
         host:key{ key = event[2], shift = event.shift, ctrl = event.ctrl, alt = event.alt }
     end,
     cancel = function(host) host:cancel() end,
+    outside = function()
+        error("a script or a console changed the scene here, which is not in the recording", 0)
+    end,
     show = function(host, event) host:show(event[2], event[3]) end,
     undo = function(host) host:undo() end,
     redo = function(host) host:redo() end,
@@ -232,7 +259,7 @@ local function recording_of(path)
     local chunk, message
     local sandbox = { require = function() return catcher end }
     if setfenv then
-        chunk, message = loadfile(path)
+        chunk, message = loadfile(path, "t")
         if chunk then setfenv(chunk, sandbox) end
     else
         chunk, message = loadfile(path, "t", sandbox)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bindings/lua/core/library.h"
+#include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tool_text.h"
 
@@ -32,6 +33,17 @@ const char* read_piece(lua_State*, void* state, std::size_t* size) {
     return text;
 }
 
+// Of a scene and a depth: the step opened there is ended by the host alone from now on. Returns the
+// depth for which that held before.
+int guard_step(lua_State* L) {
+    Holder* holder = find_holder(L, 1, SceneObject::kTypeName);
+    auto* scene = holder ? static_cast<SceneObject*>(holder->object.get()) : nullptr;
+    if (!scene) return luaL_error(L, "the scene was closed");
+    lua_pushinteger(L, static_cast<lua_Integer>(scene->step_depth));
+    scene->step_depth = static_cast<std::size_t>(lua_tointeger(L, 2));
+    return 1;
+}
+
 // Runs the text and keeps what it returns.
 void load_tool_functions(lua_State* L) {
     Piece piece;
@@ -43,7 +55,8 @@ void load_tool_functions(lua_State* L) {
     if (status != 0) lua_error(L);
     open(L, find_state(L)->host);
     lua_pushcfunction(L, hear_calls);
-    lua_call(L, 2, 1);
+    lua_pushcfunction(L, guard_step);
+    lua_call(L, 3, 1);
     lua_pushvalue(L, -1);
     raw_set_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
 }

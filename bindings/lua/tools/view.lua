@@ -20,7 +20,7 @@ local function is_point(value, count)
 end
 
 local checks = {
-    number = function(value) return type(value) == "number" and value >= 0 and value < 1e6 end,
+    number = function(value) return type(value) == "number" and value >= 0 and value < math.huge end,
     boolean = function(value) return type(value) == "boolean" end,
     string = function(value) return type(value) == "string" end,
     userdata = function(value) return type(value) == "userdata" end,
@@ -126,11 +126,13 @@ function Host:draw()
     self.working = true
     local before = self.scene:depth()
     self.scene:begin("draw")
+    local outer = guard(self.scene, before + 1)
     local done, message = pcall(draw, self.tool, view)
-    local whole = self.scene:depth() == before + 1
-    while self.scene:depth() > before + 1 do self.scene:rollback() end
-    local changed = whole and self.scene:commit()
     self.working = false
+    guard(self.scene, outer)
+    local whole = self.scene:depth() == before + 1
+    local changed = whole and self.scene:commit()
+    while self.scene:depth() > before do self.scene:rollback() end
     if done and whole and not changed then return view.list end
     if changed and before == 0 then self.scene:undo() end
     if done then message = "the tool '" .. self.tool.name .. "' changed the scene while it was drawn" end

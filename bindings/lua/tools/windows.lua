@@ -49,8 +49,20 @@ local function draw(host)
     host.drawn = host:draw()
 end
 
+-- Whether one of the values is an object of the scene, or the scene itself.
+local function holds(host, ...)
+    for i = 1, select("#", ...) do
+        local value = select(i, ...)
+        if rawequal(value, host.scene) then return true end
+        for _, name in ipairs(host.scene:names()) do
+            if rawequal(host.scene:get(name), value) then return true end
+        end
+    end
+    return false
+end
+
 local function method(host, name, ...) return host[name](host, ...) end
 
 return { tool = make_tool, host = make_host, replay = replay, open = open_scene, load_tool = load_tool,
-    host_of = host_of, look = look, use = use, tool_files = tool_files, draw = draw,
+    host_of = host_of, look = look, use = use, tool_files = tool_files, draw = draw, holds = holds,
     save = save, method = method }

@@ -107,6 +107,7 @@ end
 --- The middle of a mesh in the world, and the radius of a ball around it that has the mesh inside.
 function meshes.ball(one)
     local box = one.mesh:bounds()
+    if not box then return matrices.point(one.place, { 0, 0, 0 }), 0 end         -- a mesh without vertices
     local center, radius = matrices.point(one.place, box.center), 0
     for i = 0, 7 do
         local corner = {}

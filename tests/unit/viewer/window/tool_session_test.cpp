@@ -369,6 +369,61 @@ TEST_CASE("session: a recording of a script's scene runs that script") {
     CHECK(std::vector<Vec3>(positions.begin(), positions.end()) == after);
 }
 
+TEST_CASE("session: a storm of Escapes leaves no step open") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    // The pulled vertex stays in front of the camera.
+    host.session.set_tool_parameter("step", 1e-3);
+    host.wait();
+    const std::vector<Vec3> before = host.shown();
+    for (int round = 0; round < 60; ++round) {
+        host.session.post(input(Kind::press));
+        for (int i = 0; i < 6; ++i) {
+            host.session.post(input(Kind::move, 320.0 + i));
+            std::this_thread::sleep_for(std::chrono::microseconds(137 * (round % 7)));
+            host.session.cancel();
+        }
+        host.session.post(input(Kind::release));
+    }
+    host.wait();
+    host.lines.clear();
+    host.session.post(input(Kind::cancel));
+    host.session.evaluate("print('depth', scene:depth())");
+    host.wait();
+    CHECK(host.says(LineKind::message, "depth\t0"));
+    const std::size_t steps = host.state().steps.size();
+    host.drag(2);
+    CHECK(host.state().steps.size() == steps + 1);
+    while (host.state().place > 0) {
+        host.session.post(input(Kind::undo));
+        host.wait();
+    }
+    CHECK(host.shown() == before);
+}
+
+TEST_CASE("session: a scene that a script closes is still the window's") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    host.session.evaluate("scene:close()");
+    host.wait();
+    const std::vector<Vec3> before = host.shown();
+    host.drag(2);
+    CHECK(host.shown() != before);
+    CHECK(host.state().steps.size() == 1);
+}
+
+TEST_CASE("session: what the console changes while events are recorded is told") {
+    test::ProgramFolder outside;
+    ToolHost host({.record = outside.path("events.lua")});
+    host.open(host.folder.write("pull.lua", kPull));
+    host.session.evaluate("#scene");
+    host.wait();
+    CHECK_FALSE(host.says(LineKind::warning, "recording"));
+    host.session.evaluate("scene:get('ball'):transform{ scale = 2 }");
+    host.wait();
+    CHECK(host.says(LineKind::warning, "the recording does not hold"));
+}
+
 TEST_CASE("session: a recording that cannot be written is told once") {
     ToolHost host({.record = "/no such folder/events.lua"});
     host.open(host.folder.write("pull.lua", kPull));
