@@ -198,11 +198,12 @@ end
 
 -- What a broken-off call left: a script that was stopped from outside leaves its step open.
 function Host:recover()
+    local broken = self.working or self.held or self.scene:depth() > self.base
     self:end_work()
     self:take_back()
     guard(self.scene, 0)
     while self.scene:depth() > self.base do self.scene:rollback() end
-    self:forget_unfinished()
+    if broken then self:forget_unfinished() end
     self.thread, self.request, self.hover = nil, nil, nil
     return self
 end
