@@ -186,7 +186,7 @@ Parameter prompt_field() {
 }
 
 template <std::size_t Kind>
-Function place_prompt(std::string help) {
+Function place_prompt(const std::string& help) {
     const std::string kind = kPickKinds[Kind];
     return {.name = "pick." + kind,
             .body = ask_for_place<Kind>,
