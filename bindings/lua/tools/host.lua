@@ -203,7 +203,8 @@ function Host:recover()
     self:take_back()
     guard(self.scene, 0)
     while self.scene:depth() > self.base do self.scene:rollback() end
-    if broken then self:forget_unfinished() end
+    if not broken then return self end      -- a run that waits goes on waiting
+    self:forget_unfinished()
     self.thread, self.request, self.hover = nil, nil, nil
     return self
 end

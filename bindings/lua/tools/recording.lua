@@ -194,7 +194,9 @@ local function load_tool(word)
     local path = word
     if not word:match("%.lua$") then
         path = package.searchpath("tools." .. word, package.path)
-        if not path then error("there is no tool '" .. word .. "'", 0) end
+        if not path then
+            error("there is no tool '" .. word .. "': name one of scripts/tools, or a .lua file", 0)
+        end
     end
     local chunk, message = loadfile(path, "t")
     if not chunk then error(message, 0) end

@@ -8,8 +8,8 @@
 namespace lissom::lua {
 
 /// Pushes a function of the host's Lua text: "tool", "host", "replay", "open" (of paths and the
-/// options of lissom.load: their scene) or "load_tool". Raises a Lua error where the state has no
-/// memory for it.
+/// options of lissom.load: their scene), "load_tool", or one that windows call (windows.lua).
+/// Raises a Lua error where the state has no memory for it.
 void push_tool_function(lua_State* L, const char* name);
 
 }  // namespace lissom::lua

@@ -181,6 +181,24 @@ TEST_CASE("session: Escape in a drag, and an error in a tool, leave the scene as
     CHECK(host.shown() != before);
 }
 
+TEST_CASE("session: a tool that asks goes on asking after an error") {
+    ToolHost host;
+    host.open(host.folder.write("ask.lua", R"(local lissom = require "lissom"
+return lissom.tool{ name = "ask", run = function()
+    lissom.pick.point{ prompt = "Where?" }
+    error("not there")
+end })"));
+    CHECK(host.state().prompt == "Where?");
+    for (int i = 0; i < 2; ++i) {
+        host.lines.clear();
+        host.session.post(input(Kind::press));
+        host.session.post(input(Kind::release));
+        host.wait();
+        CHECK(host.says(LineKind::error, "not there"));
+        CHECK(host.state().prompt == "Where?");
+    }
+}
+
 TEST_CASE("session: a tool that never returns is stopped, and works again") {
     ToolHost host;
     host.open(host.folder.write("pull.lua", kPull));
