@@ -1,7 +1,7 @@
 -- Scripts run under Lua 5.4.
 std = "lua54"
 max_line_length = 110
-exclude_files = { "build", "out" }
+exclude_files = { "build", "out", "tests/scenes/golden/*.events.lua", "tests/scenes/golden/*.calls.lua" }
 -- A parameter that a callback is given but does not need is no mistake; a variable is.
 unused_args = false
 -- not (x <= y) is true where one of them is NaN; x > y is not.

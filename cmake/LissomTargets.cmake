@@ -28,10 +28,10 @@ function(lissom_target_defaults target)
 endfunction()
 
 # lissom_unity(TARGET): compiles sources together, so that their headers are read once: those of a room (a
-# folder), at most eight at a time, so that a change is soon compiled; or, with LISSOM_UNITY=LARGE, those of all
-# rooms of a static library, so that a build from nothing takes half the time. Names in anonymous namespaces are
-# therefore unique within a library, and within a room of tests. Sources with options of their own, and those
-# marked SKIP_UNITY_BUILD_INCLUSION, are compiled alone.
+# folder), at most eight and of a library about 32 KB at a time, so that a change is soon compiled; or, with
+# LISSOM_UNITY=LARGE, those of all rooms of a library, so that a build from nothing takes half the time. Names in
+# anonymous namespaces are therefore unique within a library, and within a room of tests. Sources with options of
+# their own, and those marked SKIP_UNITY_BUILD_INCLUSION, are compiled alone.
 function(lissom_unity target)
     if(NOT LISSOM_UNITY)
         return()
@@ -41,20 +41,34 @@ function(lissom_unity target)
     set(rooms "")
     foreach(source ${sources})
         set(room "library")
-        set(most 24)
-        if(NOT LISSOM_UNITY STREQUAL "LARGE" OR NOT type STREQUAL "STATIC_LIBRARY")
+        set(most 40)
+        set(most_bytes 1000000)
+        if(NOT LISSOM_UNITY STREQUAL "LARGE" OR type STREQUAL "EXECUTABLE")
             get_filename_component(room ${source} DIRECTORY)
             string(REPLACE "${PROJECT_SOURCE_DIR}/" "" room "room_${room}")
             string(MAKE_C_IDENTIFIER "${room}" room)
             set(most 8)
+            if(NOT type STREQUAL "EXECUTABLE")
+                set(most_bytes 32000)
+            endif()
         endif()
+        get_filename_component(path ${source} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
+        file(SIZE ${path} bytes)
         if(NOT room IN_LIST rooms)
             list(APPEND rooms ${room})
+            set(part_${room} 0)
+            set(count_${room} 0)
+            set(bytes_${room} 0)
+        endif()
+        math(EXPR bytes "${bytes} + ${bytes_${room}}")
+        if(count_${room} EQUAL most OR (count_${room} GREATER 0 AND bytes GREATER most_bytes))
+            math(EXPR part_${room} "${part_${room}} + 1")
+            math(EXPR bytes "${bytes} - ${bytes_${room}}")
             set(count_${room} 0)
         endif()
-        math(EXPR part "${count_${room}} / ${most}")
         math(EXPR count_${room} "${count_${room}} + 1")
-        set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${room}_${part})
+        set(bytes_${room} ${bytes})
+        set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${room}_${part_${room}})
     endforeach()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     # A type of one source may hold names of its anonymous namespace: no other source sees it.
@@ -75,9 +89,21 @@ function(lissom_library name)
     lissom_unity(lissom_${name})
 endfunction()
 
-# lissom_hot_loops(TARGET): for libraries whose time goes into loops over numbers.
+# lissom_hot_loops(TARGET FILES...): for libraries whose time goes into loops over numbers; the build that is soonest
+# done leaves out what takes long to compile. FILES hold functions for processors with fused multiply-add: what a
+# compiler fuses depends on its level and on what is compiled beside, so these are compiled alone and always alike,
+# and every release build gives the same numbers.
 function(lissom_hot_loops target)
-    target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O3>)
+    set(release $<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>)
+    if(LISSOM_UNITY STREQUAL "LARGE")
+        target_compile_options(${target} PRIVATE $<${release}:-O2>)
+    else()
+        target_compile_options(${target} PRIVATE $<${release}:-O3>)
+    endif()
+    if(ARGN)
+        set_property(SOURCE ${ARGN} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
+        set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS $<${release}:-O3>)
+    endif()
 endfunction()
 
 set(LISSOM_TEST_DATA ${PROJECT_SOURCE_DIR}/../shared/data CACHE PATH "Real meshes and heads for tests")

@@ -8,6 +8,7 @@
 
 #include "viewer/draw/legend.h"
 #include "viewer/draw/snapshot.h"
+#include "viewer/draw/style_marks.h"
 #include "viewer/renderer.h"
 
 namespace lissom {
@@ -22,6 +23,8 @@ struct Picture {
     std::vector<DrawnMesh> meshes = {};
     /// Drawn with every mesh, in the world of the camera.
     Overlay marks = {};
+    /// Not drawn: what a window adds to the marks where a person asks for fields of hairstyles.
+    NamedMarks field_marks = {};
     /// Likewise, not hidden by any surface: what a tool shows.
     Overlay tool_marks = {};
     /// In cells, those that name a mesh are drawn with that mesh, others with every mesh.

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "viewer/draw/colormap.h"
+#include "viewer/draw/studio_light.h"
 #include "viewer/gl/shaders.h"
+#include "viewer/strands/hair_light.h"
 #include "viewer/strands/strand_layer.h"
 
 namespace lissom {
@@ -42,6 +44,8 @@ std::vector<Tile> split(int width, int height, int size) {
     return tiles;
 }
 
+}  // namespace
+
 Image read_pixels(const gl::Framebuffer& from) {
     Image image(from.extent().width, from.extent().height);
     from.bind();
@@ -50,13 +54,13 @@ Image read_pixels(const gl::Framebuffer& from) {
     return image;
 }
 
-}  // namespace
-
 SceneTools::SceneTools()
     : surface("surface", shaders::kCommon, shaders::kSurfaceVertex, shaders::kSurfaceFragment),
       line("line", shaders::kCommon, shaders::kLineVertex, shaders::kLineFragment),
       point("point", shaders::kCommon, shaders::kPointVertex, shaders::kPointFragment),
       output("output", shaders::kCommon, shaders::kCoverVertex, shaders::kOutputFragment),
+      strand_output("strand output", shaders::kCommon, shaders::kCoverVertex,
+                    shaders::kStrandOutputFragment),
       colormap(make_colormap()),
       no_vertices(gl::make_vertex_array()) {}
 
@@ -107,6 +111,11 @@ Image SceneDrawer::picture(Progress& progress) const {
 }
 
 void SceneDrawer::draw(const Tile& tile, const DrawTarget& target) const {
+    draw_samples(tile, target);
+    finish(target, tools_.output);
+}
+
+void SceneDrawer::draw_samples(const Tile& tile, const DrawTarget& target) const {
     target.samples.bind();
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glEnable(GL_DEPTH_TEST);
@@ -116,8 +125,17 @@ void SceneDrawer::draw(const Tile& tile, const DrawTarget& target) const {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     draw_surfaces(tile);
     draw_marks(tile);
+}
+
+void SceneDrawer::finish_with_strands(const DrawTarget& target) const {
+    tools_.strand_output.use();
+    tools_.strand_output.set("u_samples", static_cast<float>(std::max(options_.samples, 1)));
+    finish(target, tools_.strand_output);
+}
+
+void SceneDrawer::finish(const DrawTarget& target, const gl::Program& output) const {
     target.samples.resolve_to(target.picture);
-    draw_output(target);
+    draw_output(target, output);
     gl::check_errors("drawing the picture");
 }
 
@@ -137,7 +155,16 @@ void SceneDrawer::draw_surfaces(const Tile& tile) const {
     program.set_texture("u_openness_depth", 1, openness_.color());
     program.set("u_openness_scale", Vec2(per_pixel / options_.supersample));
     program.set("u_openness_offset", Vec2(per_pixel.cwiseProduct(Vec2(tile.x, tile.y))));
-    program.set_volume("u_hair", 2, hair_.volume.id());
+    program.set_volume("u_hair", 2, hair_.volume->id());
+    program.set_volume("u_hair_moments", 3, (hair_.moments ? hair_.moments : hair_.volume)->id());
+    program.set("u_hair_kind", static_cast<int>(hair_.kind));
+    Mat4 turn = Mat4::Identity();
+    turn.topLeftCorner<3, 3>() = hair_.turn;
+    program.set("u_hair_turn", turn);
+    const Mat3& turned = hair_.turn;
+    program.set("u_hair_key", Vec3(turned * kKeyLight.direction.cast<double>().normalized()));
+    program.set("u_hair_up", Vec3(turned.col(1)));
+    program.set("u_hair_slope", ambient_slope());
     program.set("u_hair_scale", hair_.scale);
     program.set("u_hair_offset", hair_.offset);
     program.set("u_hair_step", static_cast<float>(hair_.step));
@@ -181,8 +208,7 @@ void SceneDrawer::use_for_marks(const gl::Program& program, const Tile& tile) co
     program.set("u_scale", static_cast<float>(scale));
 }
 
-void SceneDrawer::draw_output(const DrawTarget& target) const {
-    const gl::Program& program = tools_.output;
+void SceneDrawer::draw_output(const DrawTarget& target, const gl::Program& program) const {
     target.output.bind();
     glDisable(GL_DEPTH_TEST);
     program.use();

@@ -14,7 +14,7 @@ namespace lissom {
 /// What is made once for all pictures.
 struct SceneTools {
     Occlusion occlusion;
-    gl::Program surface, line, point, output;
+    gl::Program surface, line, point, output, strand_output;
     /// The colour scale in linear values, one row.
     gl::Texture colormap;
     gl::VertexArray no_vertices;
@@ -31,6 +31,9 @@ struct DrawTarget {
     DrawTarget(gl::Extent extent, const RenderOptions& options);
 };
 
+/// The pixels of an output.
+Image read_pixels(const gl::Framebuffer& from);
+
 /// Draws the meshes and overlays of a scene as one camera sees them.
 class SceneDrawer {
   public:
@@ -40,6 +43,12 @@ class SceneDrawer {
 
     /// A part of the picture, whose size is that of `target`.
     void draw(const Tile& tile, const DrawTarget& target) const;
+    /// The same in two steps, between which strands are drawn into `target.samples`, which is bound
+    /// meanwhile. Without supersampling.
+    void draw_samples(const Tile& tile, const DrawTarget& target) const;
+    void finish_with_strands(const DrawTarget& target) const;
+    /// From view space to that part.
+    Mat4 projection(const Tile& tile) const;
     /// All of it; large pictures are drawn in parts. Errors: memory_limit; cancelled.
     Image picture(Progress& progress) const;
 
@@ -48,8 +57,8 @@ class SceneDrawer {
     void draw_surfaces(const Tile& tile) const;
     void draw_marks(const Tile& tile) const;
     void use_for_marks(const gl::Program& program, const Tile& tile) const;
-    void draw_output(const DrawTarget& target) const;
-    Mat4 projection(const Tile& tile) const;
+    void finish(const DrawTarget& target, const gl::Program& output) const;
+    void draw_output(const DrawTarget& target, const gl::Program& program) const;
 
     const SceneTools& tools_;
     const GpuScene& scene_;

@@ -203,9 +203,10 @@ void print_mesh(const Json& mesh) {
     line("genus", mesh["genus"].dump());
     line("components", mesh["components"].dump());
     line("boundaries", boundaries_text(mesh["boundaries"]));
-    if (mesh["isolated_vertices"] > 0)
+    if (mesh["isolated_vertices"].get<Index>() > 0)
         line("isolated", mesh["isolated_vertices"].dump() + " vertices");
-    if (mesh["zero_area_faces"] > 0) line("no area", mesh["zero_area_faces"].dump() + " faces");
+    if (mesh["zero_area_faces"].get<Index>() > 0)
+        line("no area", mesh["zero_area_faces"].dump() + " faces");
     if (!mesh["attributes"].empty()) line("attributes", attributes_text(mesh["attributes"]));
     for (const auto& [kind, counts] : mesh["labels"].items()) {
         line(kind + "s", counts_text(counts));

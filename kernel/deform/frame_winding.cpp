@@ -1,7 +1,6 @@
 // Rotations of handles beyond half a turn. The first system cannot tell a turn by t from one by t
 // minus a full turn; what was asked for is propagated instead, and only what the handles'
 // translations add is taken as the first system would. frame_rotations.cpp leads there.
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/deform/rotation/winding.h"
 #include "kernel/deform/system/frame_blocks.h"
+#include "kernel/solve/dual/least_norm.h"
 
 namespace lissom {
 namespace {
@@ -158,7 +158,8 @@ std::vector<Vec4> mismatches(const SecondInput& input, const TurnAnswers& answer
     const auto count = count_of(movable);
     Eigen::MatrixXd natural(count, 3);
     if (count > 0) {
-        natural = answers.stiffness.completeOrthogonalDecomposition().solve(
+        natural = least_norm_solution(
+            answers.stiffness,
             forces_on(input, movable, answers, rotations, deviation, scratch, context));
     }
     std::vector<Vec4> result;

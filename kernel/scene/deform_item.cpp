@@ -86,9 +86,11 @@ void add_handles(Hasher& hasher, const DeformDescription& description) {
 
 }  // namespace
 
-DeformContent::DeformContent(Deformer& deformer, ContentStore& store) {
-    DeformSetup setup = deformer.setup();
-    const auto shown = deformer.result();
+DeformContent::DeformContent(Deformer& deformer, ContentStore& store)
+    : DeformContent(deformer.setup(), deformer.result(), store) {}
+
+DeformContent::DeformContent(DeformSetup setup, const std::shared_ptr<const ShownResult>& shown,
+                             ContentStore& store) {
     rest_ = store.keep(setup.rest, lissom::memory_bytes(*setup.rest));
     holds_ = store.keep(setup.holds, lissom::memory_bytes(*setup.holds));
     shown_ = store.keep(shown, lissom::memory_bytes(*shown));

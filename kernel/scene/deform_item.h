@@ -19,6 +19,8 @@ namespace lissom {
 class DeformContent : public ItemContent {
   public:
     DeformContent(Deformer& deformer, ContentStore& store);
+    DeformContent(DeformSetup setup, const std::shared_ptr<const ShownResult>& shown,
+                  ContentStore& store);
 
     /// To be given to Deformer::restore and Deformer::show.
     DeformSetup setup() const { return {rest_->value, holds_->value, poses_}; }

@@ -27,9 +27,9 @@ void add_frame(Hasher& hasher, const Scalp& scalp) {
 
 }  // namespace
 
-HairstyleContent::HairstyleContent(const Hairstyle& style, ContentStore& store)
-    : inputs_(store.keep(std::make_shared<const StyleInputs>(style.inputs()),
-                         size_in_bytes(style.inputs()))),
+HairstyleContent::HairstyleContent(const Hairstyle& style, const StyleInputs& inputs,
+                                   ContentStore& store)
+    : inputs_(store.keep(std::make_shared<const StyleInputs>(inputs), size_in_bytes(inputs))),
       options_(style.options()),
       scalp_(style.shared_scalp()) {}
 
@@ -54,11 +54,15 @@ std::uint64_t HairstyleContent::compute_hash() const {
 
 bool HairstyleItem::is_head_unchanged() const {
     const auto* item = dynamic_cast<const MeshItem*>(head_.get());
-    if (!item || item->mesh().shared_topology() != style_->head().shared_topology()) return false;
+    return item && is_head(item->mesh());
+}
+
+bool HairstyleItem::is_head(const Mesh& mesh) const {
+    if (mesh.shared_topology() != style_->head().shared_topology()) return false;
     const auto same = [&](const Vec3& metres, const Vec3& position) {
         return metres == style_->scalp().to_metres(position);
     };
-    const auto kept = style_->head().positions(), now = item->mesh().positions();
+    const auto kept = style_->head().positions(), now = mesh.positions();
     return std::equal(kept.begin(), kept.end(), now.begin(), now.end(), same);
 }
 

@@ -18,7 +18,10 @@ namespace lissom {
 
 class HairstyleContent : public ItemContent {
   public:
-    HairstyleContent(const Hairstyle& style, ContentStore& store);
+    HairstyleContent(const Hairstyle& style, ContentStore& store)
+        : HairstyleContent(style, style.inputs(), store) {}
+    /// Of `style` with other inputs.
+    HairstyleContent(const Hairstyle& style, const StyleInputs& inputs, ContentStore& store);
 
     /// To be given to Hairstyle::restore.
     const StyleInputs& inputs() const { return *inputs_->value; }
@@ -44,6 +47,8 @@ class HairstyleItem : public SceneItem {
     const std::shared_ptr<SceneItem>& head() const { return head_; }
     /// Whether the mesh has the shape that the style was made on.
     bool is_head_unchanged() const;
+    /// Whether `mesh` is that shape.
+    bool is_head(const Mesh& mesh) const;
     /// The head that the style was made on: that mesh, or where it has changed the shape that the
     /// style keeps.
     Mesh head_as_it_was() const;

@@ -37,6 +37,10 @@ class History {
         return place_ < steps_.size() ? state(place_ + 1) : nullptr;
     }
     const std::deque<Step>& steps() const { return steps_; }
+    /// The state after the first `i` steps.
+    const std::shared_ptr<const SceneState>& state(std::size_t i) const {
+        return i == 0 ? first_ : steps_[i - 1].state;
+    }
     /// Number of steps that can be undone.
     std::size_t place() const { return place_; }
     /// Number of steps that went because of the limit.
@@ -54,9 +58,6 @@ class History {
     void clear();
 
   private:
-    const std::shared_ptr<const SceneState>& state(std::size_t i) const {
-        return i == 0 ? first_ : steps_[i - 1].state;
-    }
     std::size_t bytes_beside(std::size_t present) const;
     void drop_oldest();
 

@@ -1,6 +1,7 @@
 #include "kernel/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_set>
 
 #include "kernel/core/error.h"
@@ -264,6 +265,37 @@ std::shared_ptr<const SceneState> Scene::state() {
         open_.empty() ? settle() : capture();
         return seen_;
     });
+}
+
+std::vector<std::shared_ptr<const SceneState>> Scene::past() const {
+    std::vector<std::shared_ptr<const SceneState>> states;
+    if (!open_.empty()) return states;
+    for (std::size_t i = 0; i <= history_.steps().size(); ++i) states.push_back(history_.state(i));
+    return states;
+}
+
+void Scene::append(std::string name, ObjectList objects) {
+    require_closed("append");
+    with_memory_errors([&] {
+        const std::size_t bytes = store_.bytes();
+        objects_ = std::move(objects);
+        for (const auto& object : objects_) next_id_ = std::max(next_id_, object->id.value + 1);
+        capture();
+        record(std::move(name), bytes);
+    });
+}
+
+void Scene::set_parameters(const std::string& owner, SceneParameters values) {
+    for (const auto& [name, value] : values) {
+        const auto* number = std::get_if<double>(&value);
+        require(!number || std::isfinite(*number), "the parameter '" + name + "' must be finite",
+                ErrorCode::not_finite);
+    }
+    if (values.empty()) {
+        parameters_.erase(owner);
+    } else {
+        parameters_[owner] = std::move(values);
+    }
 }
 
 std::uint64_t Scene::hash() {

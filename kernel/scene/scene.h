@@ -24,6 +24,7 @@
 #include "kernel/scene/content_store.h"
 #include "kernel/scene/history.h"
 #include "kernel/scene/scene_item.h"
+#include "kernel/scene/scene_parameters.h"
 #include "kernel/scene/scene_state.h"
 
 namespace lissom {
@@ -120,6 +121,19 @@ class Scene {
     /// Forgets all steps; the scene stays as it is. Errors: as undo.
     void clear_history();
 
+    /// The states before the first step of the history and after each; none while a step is open.
+    std::vector<std::shared_ptr<const SceneState>> past() const;
+    /// Adds a step that was done before, for what reads histories: `objects` are those after it,
+    /// whose items hold what it led to. It is a step even where nothing has changed. Errors: as
+    /// undo.
+    void append(std::string name, ObjectList objects);
+
+    /// Values that tools and scripts keep with the scene, by whose they are. They are no part of
+    /// its history nor of its hash. Errors: not_finite.
+    const ParametersByOwner& parameters() const { return parameters_; }
+    /// No values: forgets those of `owner`.
+    void set_parameters(const std::string& owner, SceneParameters values);
+
     /// Of names, order, looks and contents of all objects, whatever led there; the same on every
     /// run, platform and number of threads.
     std::uint64_t hash();
@@ -152,6 +166,7 @@ class Scene {
     std::shared_ptr<const SceneState> seen_;
     History history_;
     std::vector<OpenStep> open_;
+    ParametersByOwner parameters_;
 };
 
 }  // namespace lissom

@@ -1,14 +1,22 @@
 #include "kernel/scene/scene_file.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/hasher.h"
 #include "kernel/core/memory_error.h"
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/folder.h"
 #include "kernel/scene/deform_item.h"
-#include "kernel/scene/file/describe_items.h"
+#include "kernel/scene/file/folder_lists.h"
+#include "kernel/scene/file/history_file.h"
+#include "kernel/scene/file/part_archive.h"
+#include "kernel/scene/file/scene_archive.h"
+#include "kernel/scene/file/scene_records.h"
 #include "kernel/scene/hairstyle_item.h"
 #include "kernel/scene/mesh_item.h"
 #include "kernel/scene/polyline_item.h"
@@ -17,41 +25,18 @@
 namespace lissom {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* kFormat = "lissom scene";
 constexpr Index kSceneVersion = 1;
 constexpr const char* kManifest = "scene.json";
-constexpr const char* kKinds[] = {"mesh", "deformation", "strands", "hairstyle", "polyline"};
-
-// An item of a file, of one of the kinds.
-struct ItemRecord {
-    ItemKind kind = ItemKind::mesh;
-    MeshRecord mesh;
-    DeformRecord deformation;
-    StrandsRecord strands;
-    HairstyleRecord hairstyle;
-    Polyline polyline;
-};
-
-template <typename Archive>
-void describe(Archive& a, ItemRecord& item) {
-    a.choice("kind", item.kind, kKinds);
-    switch (item.kind) {
-        case ItemKind::mesh:
-            return describe(a, item.mesh);
-        case ItemKind::deformation:
-            return describe(a, item.deformation);
-        case ItemKind::strands:
-            return describe(a, item.strands);
-        case ItemKind::hairstyle:
-            return describe(a, item.hairstyle);
-        case ItemKind::polyline:
-            return describe(a, item.polyline);
-    }
-}
+constexpr const char* kHistoryFile = "history.tar";
 
 struct SceneRecord {
     std::string format = kFormat;
     Index version = kSceneVersion;
+    ParametersByOwner parameters;
+    /// By their numbers.
     std::vector<ItemRecord> items;
     std::vector<ObjectRecord> objects;
 };
@@ -65,202 +50,247 @@ void require_version(const SceneRecord& scene) {
 }
 
 template <typename Archive>
-void describe(Archive& a, SceneRecord& scene) {
+void describe_head(Archive& a, SceneRecord& scene) {
     a.text("format", scene.format);
     a.integer("version", scene.version);
     require_version(scene);
+    a.parameters("parameters", scene.parameters);
+}
+
+template <typename Archive>
+void describe_content(Archive& a, SceneRecord& scene) {
     a.objects("items", scene.items, [](Archive& b, ItemRecord& x) { describe(b, x); });
     a.objects("objects", scene.objects, [](Archive& b, ObjectRecord& x) { describe(b, x); });
 }
 
-// ---- From a state to records
+// ---- Writing
 
-class SceneRecorder {
-  public:
-    SceneRecorder(const SceneState& state, const Context& context)
-        : state_(state), context_(context) {}
+void name_items(SceneRecord& scene) {
+    for (const ObjectRecord& object : scene.objects) {
+        std::string& label = scene.items[at(object.item)].label;
+        if (label.empty()) label = object.name;
+    }
+    for (ItemRecord& item : scene.items) {
+        if (item.label.empty()) item.label = kind_name(item.kind);
+    }
+}
 
-    SceneRecord record() {
-        for (const CapturedItem& captured : state_.items) {
-            context_.checkpoint();
-            add(captured);
+SceneRecord record_scene(Scene& scene, std::vector<std::string>& left_out, const Context& context) {
+    const auto state = scene.state();
+    SceneRecord result;
+    result.parameters = scene.parameters();
+    ItemTable items;
+    StateRecorder recorder(*state, items);
+    for (const CapturedItem& captured : state->items) {
+        context.checkpoint();
+        // A hairstyle has brought its head along.
+        if (number_of(items, captured.item->identity()) != kNoIndex) continue;
+        std::vector<PlacedRecord> records;
+        if (!recorder.add(captured, records)) {
+            left_out.push_back("a deformation whose mesh has another topology by now");
         }
-        for (const auto& object : state_.objects) add(*object);
-        return std::move(scene_);
-    }
-    std::vector<std::string> left_out() { return std::move(left_out_); }
-
-  private:
-    // Of the item of this identity in the file, or kNoIndex.
-    Index place_of(const void* identity) const {
-        const auto found = std::find(identities_.begin(), identities_.end(), identity);
-        return found == identities_.end() ? kNoIndex : index_of(found - identities_.begin());
-    }
-
-    ItemRecord& put(const void* identity, ItemKind kind) {
-        identities_.push_back(identity);
-        ItemRecord& record = scene_.items.emplace_back();
-        record.kind = kind;
-        return record;
-    }
-
-    void add(const CapturedItem& captured) {
-        const SceneItem& item = *captured.item;
-        const ItemContent& content = *captured.content;
-        switch (item.kind()) {
-            case ItemKind::mesh:
-                return add_mesh(item.identity(), dynamic_cast<const MeshContent&>(content).mesh());
-            case ItemKind::strands:
-                put(item.identity(), item.kind()).strands =
-                    record_of(dynamic_cast<const StrandsContent&>(content).strands());
-                return;
-            case ItemKind::polyline:
-                put(item.identity(), item.kind()).polyline =
-                    dynamic_cast<const PolylineContent&>(content).polyline();
-                return;
-            case ItemKind::deformation:
-                return add_deformation(captured);
-            case ItemKind::hairstyle:
-                return add_hairstyle(captured);
+        for (PlacedRecord& placed : records) result.items.push_back(std::move(placed.record));
+        const auto* mesh = dynamic_cast<const MeshItem*>(captured.item.get());
+        if (mesh && mesh->mesh().asset()) {
+            left_out.push_back("what the file of a mesh had beside it: materials, skeletons");
         }
     }
-
-    void add_mesh(const void* identity, const Mesh& mesh) {
-        if (place_of(identity) != kNoIndex) return;
-        if (mesh.asset()) {
-            left_out_.push_back("what the file of a mesh had beside it: materials, skeletons");
-        }
-        put(identity, ItemKind::mesh).mesh = record_of(mesh);
+    for (const auto& object : state->objects) {
+        const Index number = number_of(items, object->item->identity());
+        if (number != kNoIndex) result.objects.push_back({object->name, number, object->look});
     }
+    name_items(result);
+    return result;
+}
 
-    void add_deformation(const CapturedItem& captured) {
-        const auto& content = dynamic_cast<const DeformContent&>(*captured.content);
-        const void* mesh_identity = captured.item->parts().front()->identity();
-        const auto mesh = std::dynamic_pointer_cast<const MeshContent>(state_.find(mesh_identity));
-        const DeformSetup setup = content.setup();
-        if (setup.rest->region().topology().get() != &mesh->topology()) {
-            left_out_.push_back("a deformation whose mesh has another topology by now");
-            return;
-        }
-        DeformRecord record = record_of(setup, *content.shown(), mesh->mesh());
-        record.mesh = place_of(mesh_identity);
-        put(captured.item->identity(), ItemKind::deformation).deformation = std::move(record);
+SceneJson write_record(SceneRecord& record, ListSink& lists) {
+    SceneJson json = SceneJson::object();
+    SceneWriter writer(json, lists);
+    describe_head(writer, record);
+    describe_content(writer, record);
+    return json;
+}
+
+std::string text_of(const SceneJson& json) {
+    return json.dump(1, ' ', false, SceneJson::error_handler_t::replace) + "\n";
+}
+
+// ---- Folders
+
+// Tells the files of a folder from others of the same names.
+std::string mark_of(const std::map<std::string, std::string>& files) {
+    Hasher hasher;
+    for (const auto& [name, bytes] : files) {
+        hasher.add(name);
+        hasher.add(bytes);
     }
+    char text[20];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hasher.value()));
+    return text;
+}
 
-    // A head that is not an object is an item that no object shows.
-    void add_hairstyle(const CapturedItem& captured) {
-        const auto& item = dynamic_cast<const HairstyleItem&>(*captured.item);
-        const auto& content = dynamic_cast<const HairstyleContent&>(*captured.content);
-        HairstyleRecord record = record_of(item.style(), content.inputs());
-        const void* identity = item.head() ? item.head()->identity() : item.identity();
-        const Mesh head = item.head_as_it_was();
-        const bool in_scene = state_.find(identity) && item.is_head_unchanged();
-        const void* key = in_scene ? identity : static_cast<const void*>(&item.style().head());
-        add_mesh(key, head);
-        record.head = place_of(key);
-        put(item.identity(), ItemKind::hairstyle).hairstyle = std::move(record);
+std::vector<std::string> listed_files(const SceneJson& json) {
+    std::vector<std::string> names;
+    const auto files = json.find("files");
+    require(files != json.end() && files->is_array(), "the scene does not list its files",
+            ErrorCode::file_syntax);
+    for (const SceneJson& name : *files) {
+        require(name.is_string(), "the scene's 'files' must be names", ErrorCode::file_syntax);
+        names.push_back(name.get<std::string>());
+        require_inside(names.back());
     }
+    return names;
+}
 
-    void add(const NamedObject& object) {
-        const Index place = place_of(object.item->identity());
-        if (place != kNoIndex) scene_.objects.push_back({object.name, place, object.look});
-    }
-
-    const SceneState& state_;
-    const Context& context_;
-    SceneRecord scene_;
-    std::vector<const void*> identities_;
-    std::vector<std::string> left_out_;
-};
-
-// ---- From records to items
-
-class SceneMaker {
-  public:
-    SceneMaker(ItemMaker& maker, const Context& context) : maker_(maker), context_(context) {}
-
-    void make(SceneRecord record, Scene& scene) {
-        for (ItemRecord& item : record.items) {
-            context_.checkpoint();
-            items_.push_back(made(item));
-            item = {};
-        }
-        for (ObjectRecord& object : record.objects) {
-            const bool known = object.item >= 0 && object.item < count_of(items_);
-            require(known, "an object of the scene shows nothing", ErrorCode::file_syntax);
-            scene.add(object.name, items_[at(object.item)], std::move(object.look));
-        }
-    }
-
-  private:
-    std::shared_ptr<SceneItem> made(ItemRecord& record) {
-        meshes_.emplace_back();
-        switch (record.kind) {
-            case ItemKind::mesh: {
-                Mesh mesh = mesh_of(std::move(record.mesh), context_);
-                meshes_.back() = std::make_shared<const Mesh>(mesh);
-                return maker_.make_mesh(std::move(mesh));
-            }
-            case ItemKind::strands:
-                return maker_.make_strands(strands_of(std::move(record.strands)));
-            case ItemKind::polyline:
-                return maker_.make_polyline(std::move(record.polyline));
-            case ItemKind::deformation: {
-                const Index mesh = record.deformation.mesh;
-                Deformer deformer =
-                    deformer_of(std::move(record.deformation), mesh_at(mesh), context_);
-                return maker_.make_deformation(std::move(deformer), items_[at(mesh)]);
-            }
-            case ItemKind::hairstyle: {
-                const Index head = record.hairstyle.head;
-                Hairstyle style =
-                    hairstyle_of(std::move(record.hairstyle), mesh_at(head), context_);
-                return maker_.make_hairstyle(std::move(style), items_[at(head)]);
-            }
-        }
-        throw Error(ErrorCode::internal, "an item of no kind");
-    }
-
-    const Mesh& mesh_at(Index place) const {
-        const bool known = place >= 0 && place < count_of(items_) && meshes_[at(place)];
-        require(known, "an item of the scene needs a mesh that is not there",
-                ErrorCode::file_syntax);
-        return *meshes_[at(place)];
-    }
-
-    ItemMaker& maker_;
-    const Context& context_;
-    std::vector<std::shared_ptr<SceneItem>> items_;
-    // By item; null for those of other kinds.
-    std::vector<std::shared_ptr<const Mesh>> meshes_;
-};
-
-SceneRecord read_record(std::string_view bytes) {
-    const PartReader parts(bytes);
-    const std::string_view manifest = parts.find(kManifest);
-    // Deep nesting would exhaust the stack of the parser.
-    constexpr int kDeepest = 32;
-    const auto callback = [](int depth, SceneJson::parse_event_t, SceneJson&) {
-        require(depth <= kDeepest, "the scene is nested too deeply", ErrorCode::file_syntax);
-        return true;
-    };
+// The files of the scene that a folder has already.
+std::set<std::string> files_before(const fs::path& folder) {
+    if (!has_in_folder(folder, kManifest)) return {};
     try {
-        const SceneJson json = SceneJson::parse(manifest.begin(), manifest.end(), callback);
-        SceneRecord record;
-        SceneReader reader(json, parts, "");
-        describe(reader, record);
-        return record;
-    } catch (const SceneJson::exception& error) {
-        throw Error(ErrorCode::file_syntax, std::string("the scene's text: ") + error.what());
+        const SceneJson json = parse_part(read_from_folder(folder, kManifest).bytes);
+        const std::vector<std::string> names = listed_files(json);
+        std::set<std::string> files(names.begin(), names.end());
+        files.insert({kManifest, kHistoryFile});
+        return files;
+    } catch (const Error&) {
+        throw Error(ErrorCode::file_write_failed,
+                    display_name(folder / kManifest) +
+                        ": is no scene, so the folder is not replaced; take another folder");
     }
+}
+
+std::map<std::string, std::string> encode_folder(Scene& scene, bool history,
+                                                 std::vector<std::string>& left_out,
+                                                 const Context& context) {
+    SceneRecord record = record_scene(scene, left_out, context);
+    FolderSink lists;
+    lists.take(kManifest);
+    lists.take(kHistoryFile);
+    SceneJson json = write_record(record, lists);
+    auto files = std::move(lists.files());
+    SceneJson& names = json["files"] = SceneJson::array();
+    for (const auto& [name, bytes] : files) names.push_back(name);
+    files[kManifest] = text_of(json);
+    if (!history) return files;
+    PartWriter parts;
+    add_history(scene, mark_of(files), parts, left_out, context);
+    files[kHistoryFile] = std::move(parts).finish();
+    return files;
+}
+
+void save_folder(Scene& scene, const fs::path& folder, bool history,
+                 std::vector<std::string>& left_out, const Context& context) {
+    FolderChange change;
+    change.before = files_before(folder);
+    change.files = encode_folder(scene, history, left_out, context);
+    replace_in_folder(folder, change, context);
+}
+
+bool is_folder(const fs::path& path, SceneForm form) {
+    if (form != SceneForm::automatic) return form == SceneForm::folder;
+    std::error_code error;
+    if (fs::is_directory(path, error) || (!path.empty() && !path.has_filename())) return true;
+    return !fs::exists(path, error) && !path.empty() && !path.has_extension();
+}
+
+// ---- Reading
+
+SceneRecord read_head(const SceneJson& json, ListSource& lists) {
+    SceneRecord record;
+    SceneReader reader(json, lists);
+    describe_head(reader, record);
+    return record;
+}
+
+void make_objects(SceneRecord record, Scene& scene, ItemMaker& maker, const Context& context) {
+    LiveItems live(maker, context);
+    for (std::size_t i = 0; i < record.items.size(); ++i) {
+        live.take({index_of(i), std::move(record.items[i])});
+        record.items[i] = {};
+    }
+    for (ObjectRecord& object : record.objects) {
+        scene.add(object.name, live.item(object.item), std::move(object.look));
+    }
+}
+
+void read_present(const SceneJson& json, ListSource& lists, Scene& scene, ItemMaker& maker,
+                  const Context& context) {
+    SceneRecord record = read_head(json, lists);
+    SceneReader reader(json, lists);
+    describe_content(reader, record);
+    scene.step("load", [&] { make_objects(std::move(record), scene, maker, context); });
+    scene.clear_history();
+}
+
+void take_parameters(const SceneRecord& record, Scene& scene) {
+    for (const auto& [owner, values] : record.parameters) scene.set_parameters(owner, values);
 }
 
 // What an object refuses is a fault of the file.
 [[noreturn]] void refuse_content(const Error& error) {
-    constexpr ErrorCode kOwn[] = {ErrorCode::memory_limit, ErrorCode::cancelled,
-                                  ErrorCode::unsupported, ErrorCode::file_truncated};
+    constexpr ErrorCode kOwn[] = {ErrorCode::memory_limit,    ErrorCode::cancelled,
+                                  ErrorCode::unsupported,     ErrorCode::file_truncated,
+                                  ErrorCode::file_not_found,  ErrorCode::file_is_directory,
+                                  ErrorCode::file_unreadable, ErrorCode::file_empty,
+                                  ErrorCode::face_index,      ErrorCode::unsafe_path};
     const bool own = std::find(std::begin(kOwn), std::end(kOwn), error.code()) != std::end(kOwn);
     throw Error(own ? error.code() : ErrorCode::file_syntax, error.message(), error.elements());
+}
+
+// Runs read(), which fills an empty scene.
+template <typename Read>
+void fill(Scene& scene, const Read& read) {
+    require(scene.objects().empty() && scene.depth() == 0,
+            "a scene is loaded into an empty one; remove its objects and end its steps before");
+    with_memory_errors([&] {
+        try {
+            read();
+        } catch (const Error& error) {
+            refuse_content(error);
+        }
+    });
+}
+
+bool keeps_history(const Scene& scene) {
+    return scene.history().limit > 0;
+}
+
+// The history of a folder, where it has one that is wanted; it belongs to these very files.
+std::optional<FileContent> history_of_folder(const fs::path& folder, const SceneJson& json,
+                                             const Scene& scene, const Context& context) {
+    if (!keeps_history(scene) || !has_in_folder(folder, kHistoryFile)) return std::nullopt;
+    std::map<std::string, std::string> files;
+    for (const std::string& name : listed_files(json)) {
+        files[name] = read_from_folder(folder, name, context).bytes;
+    }
+    files[kManifest] = read_from_folder(folder, kManifest, context).bytes;
+    FileContent content = read_from_folder(folder, kHistoryFile, context);
+    try {
+        const PartReader parts(content.bytes);
+        if (has_history(parts) && history_mark(parts) == mark_of(files)) return content;
+    } catch (const Error& error) {
+        throw Error(error.code(),
+                    display_name(folder / kHistoryFile) + ": " + error.message() +
+                        "; without this file the scene is loaded without its history",
+                    error.elements());
+    }
+    return std::nullopt;
+}
+
+void load_folder(const fs::path& folder, Scene& scene, ItemMaker& maker, const Context& context) {
+    if (!has_in_folder(folder, kManifest)) {
+        throw Error(ErrorCode::file_is_directory,
+                    display_name(folder) + ": is a folder without a scene: it lacks " + kManifest);
+    }
+    const FileContent manifest = read_from_folder(folder, kManifest, context);
+    const SceneJson json = parse_part(manifest.bytes);
+    FolderSource lists(folder, context);
+    const SceneRecord head = read_head(json, lists);
+    if (const auto history = history_of_folder(folder, json, scene, context)) {
+        read_history(PartReader(history->bytes), scene, maker, context);
+    } else {
+        read_present(json, lists, scene, maker, context);
+    }
+    take_parameters(head, scene);
 }
 
 }  // namespace
@@ -289,50 +319,61 @@ std::shared_ptr<SceneItem> ItemMaker::make_hairstyle(Hairstyle style,
     return std::make_shared<HairstyleItem>(std::make_shared<Hairstyle>(std::move(style)), head);
 }
 
-EncodedScene encode_scene(const SceneState& state, const Context& context) {
+EncodedScene encode_scene(Scene& scene, const SceneSaveOptions& options, const Context& context) {
     return with_memory_errors([&] {
-        SceneRecorder recorder(state, context);
-        SceneRecord record = recorder.record();
-        SceneJson json = SceneJson::object();
+        EncodedScene result;
+        SceneRecord record = record_scene(scene, result.left_out, context);
         PartWriter parts;
-        SceneWriter writer(json, parts, "");
-        describe(writer, record);
-        parts.add(kManifest, json.dump(1, ' ', false, SceneJson::error_handler_t::replace));
-        return EncodedScene{std::move(parts).finish(), recorder.left_out()};
+        const SceneJson json = write_record(record, parts);
+        record = {};
+        if (options.history) add_history(scene, "", parts, result.left_out, context);
+        parts.add(kManifest, text_of(json));
+        result.bytes = std::move(parts).finish();
+        return result;
     });
 }
 
 void decode_scene(std::string_view bytes, Scene& scene, ItemMaker& maker, const Context& context) {
-    require(scene.objects().empty() && scene.depth() == 0,
-            "a scene is loaded into an empty one; remove its objects and end its steps before");
-    with_memory_errors([&] {
-        try {
-            SceneRecord record = read_record(bytes);
-            scene.step("load", [&] { SceneMaker(maker, context).make(std::move(record), scene); });
-        } catch (const Error& error) {
-            refuse_content(error);
+    fill(scene, [&] {
+        PartReader parts(bytes);
+        const SceneJson json = parse_part(parts.find(kManifest));
+        const SceneRecord head = read_head(json, parts);
+        if (keeps_history(scene) && has_history(parts)) {
+            read_history(parts, scene, maker, context);
+        } else {
+            read_present(json, parts, scene, maker, context);
         }
-        scene.clear_history();
+        take_parameters(head, scene);
     });
 }
 
-std::vector<std::string> save_scene(Scene& scene, const std::filesystem::path& path,
-                                    const Context& context) {
+std::vector<std::string> save_scene(Scene& scene, const fs::path& path,
+                                    const SceneSaveOptions& options, const Context& context) {
     return with_memory_errors([&] {
+        std::vector<std::string> left_out;
+        if (is_folder(path, options.form)) {
+            save_folder(scene, path, options.history, left_out, context);
+            return left_out;
+        }
         require_folder_of(path);
-        EncodedScene encoded = encode_scene(*scene.state(), context);
+        EncodedScene encoded = encode_scene(scene, options, context);
         write_file_atomically(path, encoded.bytes, context);
         return std::move(encoded.left_out);
     });
 }
 
-void load_scene(const std::filesystem::path& path, Scene& scene, ItemMaker& maker,
-                const Context& context) {
-    const FileContent file = read_file(path, context);
+void load_scene(const fs::path& path, Scene& scene, ItemMaker& maker, const Context& context) {
+    std::error_code error;
+    const bool in_folder = fs::is_directory(path, error);
+    const FileContent file = in_folder ? FileContent{} : read_file(path, context);
     try {
+        if (in_folder) return fill(scene, [&] { load_folder(path, scene, maker, context); });
         decode_scene(file.bytes, scene, maker, context);
-    } catch (const Error& error) {
-        throw Error(error.code(), display_name(path) + ": " + error.message(), error.elements());
+    } catch (const Error& refused) {
+        const std::string name = display_name(in_folder ? path / kManifest : path);
+        const bool named = in_folder && refused.message().starts_with(display_name(path));
+        throw Error(refused.code(), named ? refused.message() : name + ": " + refused.message(),
+                    refused.elements());
     }
 }
 

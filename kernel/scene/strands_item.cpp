@@ -1,6 +1,7 @@
 #include "kernel/scene/strands_item.h"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,13 +25,21 @@ struct StrandFrame {
 
 namespace {
 
+// To the bit: a root without texture coordinates has NaN, which equals nothing.
+template <typename Value>
+bool equal(const std::vector<Value>& a, const std::vector<Value>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Value)) == 0);
+}
+
 template <typename Value>
 bool equal(const StrandValues<Value>& a, const StrandValues<Value>& b) {
-    return a.common == b.common && a.domain == b.domain && a.values == b.values;
+    return equal(std::vector{a.common}, std::vector{b.common}) && a.domain == b.domain &&
+           equal(a.values, b.values);
 }
 
 bool equal(const StrandRoots& a, const StrandRoots& b) {
-    return a.faces == b.faces && a.barycentrics == b.barycentrics && a.uvs == b.uvs;
+    return a.faces == b.faces && equal(a.barycentrics, b.barycentrics) && equal(a.uvs, b.uvs);
 }
 
 bool equal_colors(const std::optional<StrandValues<Eigen::Vector3f>>& a,
@@ -43,7 +52,7 @@ bool equal(const StrandFrame& frame, const Strands& strands) {
     return std::equal(frame.offsets.begin(), frame.offsets.end(), strands.offsets().begin(),
                       strands.offsets().end()) &&
            equal(frame.widths, strands.widths()) &&
-           frame.widths.profile == strands.widths().profile &&
+           equal(frame.widths.profile, strands.widths().profile) &&
            equal(frame.roots, strands.roots()) && frame.groups == strands.groups() &&
            frame.group_names == strands.group_names() && frame.ids == strands.ids() &&
            equal_colors(frame.colors, strands.colors()) &&

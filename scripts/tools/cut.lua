@@ -38,14 +38,15 @@ local function plane_of(self, ev)
         loops = self.params.all and "all" or "nearest" }
 end
 
--- Cuts, and shows both parts instead of the mesh.
-local function cut(scene, one, options)
+-- Cuts, and shows both parts instead of the mesh, with their edge until something else is done.
+local function cut(self, scene, one, options)
     local first, second = assert(one.mesh:cut(options))
     for _, part in ipairs{ first, second } do
         part:remove_region("selected")
         scene:add(meshes.unused_name(scene, one.name), part, { transform = one.place, style = one.style })
     end
     scene:set(one.name, { visible = false })
+    self.edge = { mesh = first, place = one.place, list = first:boundaries() }
 end
 
 -- The mesh that points were clicked on; without the points, where it or its faces are no longer there.
@@ -72,6 +73,7 @@ return lissom.tool{
     },
     points = {},
     press = function(self, ev)
+        self.edge = nil
         local hit = self.params.by == "path" and ev:pick{ kinds = { "vertex", "face" } }
         if not hit or (clicked(self, ev.scene) and not rawequal(hit.mesh, self.mesh)) then return end
         for _, vertex in ipairs(self.points) do
@@ -92,19 +94,19 @@ return lissom.tool{
         self.line, self.lines = nil, nil
         if self.params.by ~= "line" then return end
         local one, plane = plane_of(self, ev)
-        if one then cut(ev.scene, one, { plane = plane }) end
+        if one then cut(self, ev.scene, one, { plane = plane }) end
     end,
     key = function(self, ev)
         if ev.key == "backspace" then table.remove(self.points) end
         if ev.key ~= "enter" or self.line then return end
         local one = clicked(self, ev.scene)
         if self.params.by == "path" and one and #self.points > 1 then
-            cut(ev.scene, one, { path = one.mesh:path{ points = self.points, closed = true } })
+            cut(self, ev.scene, one, { path = one.mesh:path{ points = self.points, closed = true } })
             forget(self)
         elseif self.params.by == "region" then
             one = meshes.subject(ev.scene)
             if not one or #meshes.selection(one.mesh) == 0 then error("nothing is selected", 0) end
-            cut(ev.scene, one, { region = meshes.selection(one.mesh) })
+            cut(self, ev.scene, one, { region = meshes.selection(one.mesh) })
         end
     end,
     draw = function(self, view)
@@ -114,6 +116,8 @@ return lissom.tool{
             lines, place = self.lines.list, self.lines.place
         elseif one and #self.points > 1 then
             lines, place = { one.mesh:path{ points = self.points, closed = #self.points > 2 } }, one.place
+        elseif self.edge and meshes.find(view.scene, self.edge.mesh) then
+            lines, place = self.edge.list, self.edge.place
         end
         for _, line in ipairs(lines) do
             local points = {}
@@ -125,5 +129,5 @@ return lissom.tool{
         end
     end,
     cancel = function(self) self.line = nil; forget(self) end,
-    deactivate = function(self) self.line = nil; forget(self) end,
+    deactivate = function(self) self.line, self.edge = nil, nil; forget(self) end,
 }

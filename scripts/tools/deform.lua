@@ -15,13 +15,10 @@ local meshes = require "tools.support.meshes"
 
 local axes = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
 
--- The handle that the gizmo is at, else the last one; its number, and the list of all.
+-- The handle that the gizmo is at: none while there are but pinned ones; its number, and the list of all.
 local function active(self, scene)
     local list = handles.list(scene)
-    local number = #list
-    for i, one in ipairs(list) do
-        if one.handle == self.handle then number = i end
-    end
+    local number = handles.number(list, self.handle, self.state.pins)
     if list[number] then self.grip:place(list[number].at) end
     return list[number], number, list
 end
@@ -61,9 +58,9 @@ end
 
 local keys = {
     enter = function(self, scene) self.handle = add_handle(self, scene) end,
-    p = function(self, scene, one)
-        add_handle(self, scene)
-        self.handle = one and one.handle
+    p = function(self, scene)
+        self.state.pins = self.state.pins or {}
+        table.insert(self.state.pins, add_handle(self, scene))
     end,
     tab = function(self, _, one, number, list) self.handle = one and list[number % #list + 1].handle end,
     delete = function(_, scene, one) if one then handles.remove(scene, one) end end,
@@ -131,7 +128,7 @@ return lissom.tool{
             assert(one.edit:solve())
             if not self.grip.gizmo:part() then self.grip:release(one.handle:matrix()) end
         elseif not taken and keys[ev.key] and not self.grip.gizmo:part() then
-            keys[ev.key](self, ev.scene, one, number, list)
+            keys[ev.key](self, ev.scene, one or list[#list], number, list)
         end
     end,
     draw = function(self, view)

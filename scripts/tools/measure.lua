@@ -125,7 +125,7 @@ return lissom.tool{
         for _, point in ipairs(points) do view:handle{ at = point, color = color } end
         if not text then return end
         if self.line then view:line{ points = self.line, color = color, width = 3 } end
-        view:label{ at = points[#points], text = text, color = color }
+        view:label{ at = points[#points], text = text }
     end,
     deactivate = function(self) self.points, self.measured = {}, nil end,
 }

@@ -26,7 +26,8 @@ end
 
 -- Shows the result of a join, in place of the one before or of the target.
 local function show(self, scene, join)
-    local mesh, before = merged(self, scene, join), self.result and scene:info(self.result)
+    local mesh, report = merged(self, scene, join)
+    local before = self.result and scene:info(self.result)
     if before then
         scene:remove(self.result)
     else
@@ -34,6 +35,11 @@ local function show(self, scene, join)
         scene:set(join.target.object, { visible = false })
     end
     scene:add(self.result, mesh, { transform = scene:info(join.target.object).transform })
+    -- For the colours of the window; by ids, which a journal can tell.
+    for _, name in ipairs{ "seam", "transition" } do
+        local region = report[name].region
+        if region then mesh:set_region(name, mesh:region{ vertices = region:vertices() }) end
+    end
     self.joins[mesh:hash()] = join
 end
 

@@ -5,6 +5,7 @@
 -- all, d or Escape nothing.
 local lissom = require "lissom"
 local brush = require "tools.support.brush"
+local disk = require "tools.support.disk"
 local meshes = require "tools.support.meshes"
 
 -- What the keys make of the selected vertices.
@@ -90,14 +91,13 @@ ways.disk = {
     press = function(stroke, ev)
         local hit = ev:hit()
         if not hit then return {} end
-        stroke.mesh, stroke.distances = hit.mesh, hit.mesh:distances{ from = hit.vertex }
+        stroke.disk = disk.around(hit.mesh, hit.vertex)
         return { [hit.mesh] = hit.mesh:region{ vertices = { hit.vertex } } }
     end,
     drag = function(stroke, ev)
-        local hit = stroke.mesh and ev:hit()
-        if not hit or not rawequal(hit.mesh, stroke.mesh) then return nil end
-        local distances, radius = stroke.distances, stroke.distances[hit.vertex]
-        return { [hit.mesh] = hit.mesh:region{ where = function(v) return distances[v] <= radius end } }
+        local hit = stroke.disk and ev:hit()
+        if not hit or not rawequal(hit.mesh, stroke.disk.mesh) then return nil end
+        return { [hit.mesh] = stroke.disk:up_to(hit.vertex) }
     end,
 }
 

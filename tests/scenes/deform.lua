@@ -304,6 +304,17 @@ test("a deformation that a script has added without its mesh: f leaves the mesh 
     expect.equal(h.scene:info("bend").kind, "mesh")
 end)
 
+test("a pinned part has no gizmo until it is clicked", function()
+    h:drag{ { -0.5, -2.4, 0.5 }, { 0.5, -2.4, 0.5 } }
+    h:key("p")
+    local at = handles()[1]:center()
+    drag_right(at, 1)
+    expect.near(handles()[1]:center(), at)
+    h:click{ at[1], at[2], 0.5 }
+    drag_right(at, 1)
+    expect.near(handles()[1]:center()[1], at[1] + 1, 1e-9)
+end)
+
 test("tab and clicks choose the handle, delete takes it away, f ends it with its shape", function()
     hold()
     local low, high = handles()[1]:center(), handles()[2]:center()

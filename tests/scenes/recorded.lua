@@ -58,6 +58,14 @@ test("a bar is bent, undone, done again, and bent on by a number", function()
     end)
 end)
 
+test("a part is painted in many strokes, each of which adds to what was there", function()
+    again("deform", one_bar, function(h)
+        h:drag({ { -0.5, -2.4, 0.5 }, { 0.5, -2, 0.5 }, { -0.5, -1, 0.5 } }, {}, 3)
+        h:drag({ { -0.5, 0, 0.5 }, { 0.5, 0.5, 0.5 }, { -0.5, 1, 0.5 } }, { shift = true }, 3)
+        h:key("enter")
+    end)
+end)
+
 test("two cups are merged by two loops and two keys", function()
     again("merge", function() return { small = cup(1, -2, 1), large = cup(-1, 2, 1.5) } end, function(h)
         h:click{ -2, 0.3, math.sqrt(0.91) }

@@ -183,3 +183,19 @@ test("far from the origin and with 40,000 faces", function()
     end
     expect.near(farthest, math.asin(0.5), 0.03)
 end)
+
+test("disks of every radius are those of the distances, on a mesh of two parts as well", function()
+    local disk = require "tools.support.disk"
+    local mesh = lissom.shapes.cactus{ vertices = 2000 }
+    mesh:append(lissom.shapes.box():transform{ translate = { 9, 0, 0 } })
+    local middle, distances = 7, mesh:distances{ from = 7 }
+    local disks = disk.around(mesh, middle)
+    for v = 1, #mesh, 19 do
+        local radius = distances[v]
+        local expected = mesh:region{ where = function(other) return distances[other] <= radius end }
+        expect.equal(disks:up_to(v):vertices(), expected:vertices())
+    end
+    local corners = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }
+    local triangle = lissom.mesh{ positions = corners, faces = { { 1, 2, 3 } } }
+    expect.equal(#disk.around(triangle, 1):up_to(1), 1)
+end)

@@ -602,3 +602,23 @@ test("a source that stays where it was put meets what is nearest, and that is no
         expect.truthy(of_free.joins[1].certainty < 1.5)
     end
 end)
+
+test("the report tells the seam and the transition as regions of the merged mesh", function()
+    local plain, told = lissom.merge{ joins = { join{ { from, to } } } }
+    expect.equal(told.transition.region, nil)
+    local seam = told.seam.region
+    for _, v in ipairs(told.seams[1]:vertices()) do expect.truthy(seam:contains(v)) end
+    expect.truthy(#seam > #told.seams[1] and #seam < plain:vertex_count() / 2)
+    expect.truthy(plain:set_region("seam", seam):region("seam"))
+    local blended, band = lissom.merge{ joins = { join{ { from, to } } },
+        transition = { source = 0.5, target = 1 } }
+    local moved = band.transition.region
+    expect.truthy(#moved > 0 and #moved < blended:vertex_count())
+    -- Elsewhere nothing differs from the merge without a transition.
+    expect.equal(blended:vertex_count(), plain:vertex_count())
+    for v = 1, plain:vertex_count() do
+        local x, y, z = plain:position(v)
+        local p, q, r = blended:position(v)
+        if not moved:contains(v) then expect.truthy(x == p and y == q and z == r) end
+    end
+end)

@@ -160,3 +160,57 @@ test("picks and selections without sense are refused", function()
     expect.error(function() camera:pick(at(0, 0, { kinds = "corner" })) end, "corner")
     expect.equal(camera:pick(at(0, 0, {})), nil)
 end)
+
+test("hair is picked by its strands, where it is seen, and after each change", function()
+    local scene = lissom.scene{}
+    local hair = lissom.strands{ counts = { 3, 2, 2 }, points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 },
+        { 0, -1, 1 }, { 1, -1, 1 }, { 0, 0.2, -1 }, { 1, 0.2, -1 } } }
+    scene:add("hair", hair, { transform = moved(-0.5, 0, 0) })
+    local function look(x, y, more)
+        local options = at(x, y, { scene = scene, kinds = { "polyline", "face" } })
+        for key, value in pairs(more or {}) do options[key] = value end
+        return camera:pick(options)
+    end
+    local hit = look(0.47, 0.5)
+    expect.equal(hit.kind, "polyline")
+    expect.equal(hit.object, "hair")
+    expect.equal(hit.index, 1)
+    expect.equal(hit.segment, 2)
+    expect.near(hit.position, { 0.5, 0.5, 0 })
+    expect.near(hit.pixels, 3)
+    expect.equal(look(0.1, -0.96).index, 2)
+    expect.equal(look(0.1, -0.96, { radius = 3 }), nil)
+    expect.equal(look(0.1, 0.22).index, 3)
+    hair:transform{ translate = { 0, 0.7, 0 } }
+    expect.equal(look(0.1, -0.96), nil)
+    expect.equal(look(0.1, -0.28).index, 2)
+    scene:add("box", box:copy())                        -- before the third, behind the second
+    expect.equal(look(0.1, -0.28).index, 2)
+    expect.equal(look(-0.3, 0.88).index, 3)
+    scene:get("box"):transform{ translate = { 0, 0.7, 0 } }
+    expect.equal(look(-0.3, 0.88).kind, "face")
+    expect.equal(look(-0.3, 0.88, { through = true }).index, 3)
+    scene:set("hair", { visible = false })
+    expect.equal(look(0.1, -0.28, { kinds = "polyline" }), nil)
+end)
+
+test("hair in metres is picked where it is drawn on a head of another unit", function()
+    local head = lissom.shapes.head{ vertices = 3000 }:transform{ scale = 100 }
+    local style = lissom.hairstyle(head, { resolution = 4000 })
+    style:stream{ points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
+        (style:at{ azimuth = 80, elevation = 0, lift = 0.02 }) } }
+    local hair = style:grow{ count = 200, length = 0.2 }
+    local scene = lissom.scene{}
+    scene:add("head", head)
+    scene:add("hair", hair)
+    local view = lissom.frame(head, { view = "left" })
+    local found = 0
+    for i = 1, #hair do
+        local strand = hair:strand(i)
+        local unit, n = style:scalp():unit(), #strand
+        local x, y = view:project({ strand[n - 2] / unit, strand[n - 1] / unit, strand[n] / unit }, size)
+        local hit = view:pick{ scene = scene, x = x, y = y, size = size, kinds = "polyline", radius = 2 }
+        if hit then found = found + 1 end
+    end
+    expect.truthy(found > 40)
+end)

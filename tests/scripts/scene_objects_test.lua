@@ -178,6 +178,43 @@ test("a scene is saved and loaded to the bit, and goes on", function()
     expect.equal(again:info("head").visible, false)
 end)
 
+test("a scene comes back from a folder, with its parameters and its history", function()
+    scene:add("bar", bar)
+    for i = 1, 3 do
+        scene:step("turn " .. i, function()
+            top:rotate{ axis = "z", angle = 10 }
+            assert(edit:solve())
+        end)
+    end
+    scene:undo()
+    scene:set_parameters("bend", { angle = 20, mirror = true, axis = "z" })
+    local path = os.tmpname()
+    os.remove(path)
+    for _, where in ipairs{ path .. "/", path .. ".lissom" } do
+        expect.truthy(rawequal(scene:save(where, { history = true }), scene))
+        local again = assert(lissom.load_scene(where))
+        expect.equal(again:hash(), scene:hash())
+        expect.equal(again:parameters("bend"), { angle = 20, mirror = true, axis = "z" })
+        expect.equal(again:parameters("cut"), nil)
+        expect.equal(again:redo(), "turn 3")
+        expect.equal(again:redo(), nil)
+        local names = {}
+        for name in function() return again:undo() end do table.insert(names, name) end
+        expect.equal(names[1], "turn 3")
+        expect.equal(#names, #scene:history())
+        expect.equal(#assert(lissom.load_scene(where, { history = 0 })):history(), 0)
+    end
+    local file = assert(io.open(path .. "/scene.json"))
+    expect.truthy(file:read("a"):find('"file": "bar.obj"', 1, true))
+    file:close()
+    scene:set_parameters("bend", {})
+    expect.equal(scene:parameters("bend"), nil)
+    expect.error(function() scene:set_parameters("bend", { angle = {} }) end, "booleans, numbers")
+    expect.error(function() scene:set_parameters("bend", { 1 }) end, "names")
+    expect.failure("file_write_failed", scene:save(path .. ".lissom", { form = "folder" }))
+    os.execute("rm -r " .. path .. " " .. path .. ".lissom")
+end)
+
 test("a file that is no scene is refused", function()
     local path = os.tmpname()
     expect.failure("file_empty", lissom.load_scene(path))

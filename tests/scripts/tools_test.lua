@@ -272,7 +272,7 @@ test("a boundary is picked with its loop", function()
 end)
 
 local function read(text)
-    local code = text:gsub('return require%("lissom"%)%.replay', "return ")
+    local code = text:gsub('require%("lissom"%)%.replay', "")
     return assert(load(code))()
 end
 
@@ -407,4 +407,102 @@ test("a tool whose object is removed while it is dragged", function()
     expect.equal(#scene:names(), 0)
     host:undo()
     expect.equal(#scene:names(), 1)
+end)
+
+test("a recording sees by the very same camera", function()
+    local seen = {}
+    local function tool()
+        return lissom.tool{ name = "see", press = function(_, ev)
+            local origin, direction = ev:ray()
+            table.insert(seen, { origin, direction, ev.camera:up(), ev.camera:fov() })
+        end }
+    end
+    local host = host_of(ball_scene()):record():use(tool())
+    for i = 1, 40 do
+        local eye = { math.sin(i), math.cos(3 * i), 2 + math.sin(7 * i) }
+        local up = { math.cos(i), 1, math.sin(2 * i) }
+        host:look(lissom.camera{ eye = eye, up = up, fov = 20 + math.pi * i }, { 800, 600 })
+        host:click{ x = 123, y = 45 + i }
+    end
+    local first = seen
+    seen = {}
+    lissom.replay(read(host:recording()), { scene = ball_scene(), tools = { tool() } })
+    expect.equal(#seen, 40)
+    for i, one in ipairs(seen) do
+        for j = 1, 3 do
+            for axis = 1, 3 do expect.truthy(one[j][axis] == first[i][j][axis]) end
+        end
+        expect.truthy(one[4] == first[i][4])
+    end
+end)
+
+test("a recording looks for its files from its own folder", function()
+    local folder = test.file("recorded")
+    os.execute("mkdir -p '" .. folder .. "'")
+    assert(lissom.shapes.sphere{ segments = 8 }:save(folder .. "/ball.obj"))
+    local function write(name, text)
+        local stream = assert(io.open(folder .. "/" .. name, "w"))
+        stream:write(text)
+        stream:close()
+    end
+    write("grow.lua", [[return require("lissom").tool{ name = "grow",
+        press = function(self, ev) ev.scene:get("ball"):transform{ scale = 2 } end }]])
+    write("events.lua", [[-- What was done with tools; lissom run does it again.
+return (require("lissom").replay{ version = 1, open = { "ball.obj" }, events = {
+    { "tool", "grow.lua" }, { "press", 1, 1 }, { "release", 1, 1 } } })]])
+    local size = assert(lissom.load(folder .. "/ball.obj")):size()
+    for _, scene in ipairs{ lissom.replay(folder .. "/events.lua"), dofile(folder .. "/events.lua") } do
+        expect.near(scene:get("ball"):size(), 2 * size)
+    end
+    os.remove(folder .. "/ball.obj")
+    for _, run in ipairs{ lissom.replay, dofile } do
+        local done, message = pcall(run, folder .. "/events.lua")
+        expect.falsy(done)
+        expect.truthy(message:find("ball.obj", 1, true) and message:find("its own folder", 1, true))
+    end
+end)
+
+test("a scene keeps the parameters of tools, for the next host", function()
+    local scene = ball_scene()
+    host_of(scene, pull()):set{ step = 0.3 }
+    expect.equal(scene:parameters("pull"), { step = 0.3 })
+    local path = os.tmpname()
+    assert(scene:save(path))
+    local next_scene = assert(lissom.load_scene(path))
+    os.remove(path)
+    local tool = pull()
+    local host = host_of(next_scene, tool)
+    expect.near(tool.params.step, 0.3)
+    host:set{ step = 0.1 }                              -- the default
+    expect.equal(next_scene:parameters("pull"), nil)
+    next_scene:set_parameters("pull", { step = 7, gone = "x" })
+    expect.near(host_of(next_scene, pull()).tool.params.step, 0.1)      -- out of range: left out
+end)
+
+test("two hosts of one scene take turns: in the middle of a gesture the other is refused", function()
+    local scene = ball_scene()
+    local start = scene:hash()
+    local one, other = host_of(scene, pull()), host_of(scene, pull())
+    one:press(middle):move{ x = 641, y = 480 }
+    local dragged = scene:hash()
+    local calls = {
+        function() other:press(middle) end, function() other:move(middle) end,
+        function() other:release(middle) end, function() other:key{ key = "x" } end,
+        function() other:set{ step = 0.3 } end, function() other:cancel() end,
+        function() other:undo() end, function() other:redo() end, function() other:use(nil) end,
+        function() other:use(pull()) end, function() other:show("ball", false) end,
+    }
+    local refused = "another host is in the middle of a gesture of 'pull'"
+    for _, call in ipairs(calls) do expect.error(call, refused) end
+    other:recover()
+    expect.equal(scene:hash(), dragged)
+    one:move{ x = 642, y = 480 }:release{ x = 642, y = 480 }
+    expect.truthy(scene:hash() ~= dragged)
+    drag(other, 2)
+    expect.equal(scene:undo(), "pull")
+    expect.equal(scene:undo(), "pull")
+    expect.equal(scene:hash(), start)
+    one:press(middle):cancel()                          -- a gesture that is taken back is over too
+    drag(other, 1)
+    expect.equal(#scene:history(), 2)
 end)

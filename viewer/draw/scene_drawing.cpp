@@ -73,6 +73,7 @@ class SceneDraughtsman {
             for (DrawnLine& line : style_lines(style->style(), marks_of(object))) {
                 add_line(object, std::move(line));
             }
+            add_field(object, field_marks(style->style()));
         } else if (const auto* line = dynamic_cast<const PolylineItem*>(item)) {
             const Polyline& drawn = line->polyline();
             const Color color = color_of(object.look.style.color, kWireColor);
@@ -119,6 +120,20 @@ class SceneDraughtsman {
         StyleMarks marks;
         marks.width = object.look.style.line_width;
         return marks;
+    }
+
+    // Styles of one scene share their legend.
+    void add_field(const NamedObject& object, NamedMarks marks) {
+        for (DrawnLine& line : marks.lines) {
+            for (Vec3& point : line.points) point = object.look.transform(point);
+            drawing_.field.lines.push_back(std::move(line));
+        }
+        for (LegendPart& part : marks.names) {
+            auto& names = drawing_.field.names;
+            if (std::find(names.begin(), names.end(), part) == names.end()) {
+                names.push_back(std::move(part));
+            }
+        }
     }
 
     void add_line(const NamedObject& object, DrawnLine line) {

@@ -5,6 +5,7 @@
 
 #include "kernel/scene/scene_state.h"
 #include "viewer/draw/drawing.h"
+#include "viewer/draw/style_marks.h"
 
 namespace lissom {
 
@@ -13,6 +14,8 @@ struct SceneDrawing {
     std::vector<DrawnStrands> strands = {};
     /// Curves of hairstyles, and free curves.
     std::vector<DrawnLine> lines = {};
+    /// Fields and constraints of hairstyles, for who asks for them.
+    NamedMarks field = {};
 };
 
 /// Draws each visible object where it stands, by its style. A deformation is its mesh with region

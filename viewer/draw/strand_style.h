@@ -19,6 +19,8 @@ struct HairLobe {
     double exponent = 0.0;
     /// Radians by which the reflection leans towards the tip (positive) or the root.
     double shift = 0.0;
+
+    bool operator==(const HairLobe&) const = default;
 };
 
 struct StrandStyle {
@@ -52,6 +54,8 @@ struct StrandStyle {
     double shadow = 1.0;
     /// Part of the way that the scalp goes to the colour of the hair where roots are dense; 0 to 1.
     double scalp_tint = 0.7;
+
+    bool operator==(const StrandStyle&) const = default;
 };
 
 }  // namespace lissom

@@ -12,7 +12,7 @@ namespace lissom {
 namespace {
 
 constexpr Color kStreamColor{0.0, 0.62, 0.74}, kDividingColor{0.80, 0.10, 0.10},
-    kTailColor{0.50, 0.22, 0.72}, kOffColor{0.55, 0.55, 0.57}, kFieldColor{0.16, 0.22, 0.34};
+    kTailColor{0.50, 0.22, 0.72}, kOffColor{0.55, 0.55, 0.57};
 
 // In the order of ConstraintKind.
 constexpr Color kBlue{0.12, 0.36, 0.86}, kRed{0.86, 0.16, 0.12}, kPurple{0.50, 0.22, 0.72},
@@ -136,7 +136,7 @@ class MarkMaker {
         if (here.distance < 0.0 || !(vector.norm() > kLeastSpeed)) return;
         const Vec3 side = normal.cross(vector);
         if (!(side.norm() > 1e-6)) return;
-        add_arrow(point, vector, side.normalized(), full, kFieldColor);
+        add_arrow(point, vector, side.normalized(), full, marks_.field_color);
     }
 
     const Hairstyle& style_;
@@ -144,7 +144,45 @@ class MarkMaker {
     std::vector<DrawnLine> lines_;
 };
 
+struct NamedKind {
+    const char* name;
+    std::array<ConstraintKind, 3> kinds;
+};
+
+constexpr NamedKind kNamedKinds[] = {
+    {"along curves", {ConstraintKind::stream, ConstraintKind::parting, ConstraintKind::spine}},
+    {"ends, partings", {ConstraintKind::stop, ConstraintKind::separation, ConstraintKind::stop}},
+    {"around tails", {ConstraintKind::section, ConstraintKind::section, ConstraintKind::section}},
+    {"into the tie", {ConstraintKind::gather, ConstraintKind::gather, ConstraintKind::gather}},
+    {"along the scalp", {ConstraintKind::scalp, ConstraintKind::scalp, ConstraintKind::scalp}},
+};
+
 }  // namespace
+
+std::vector<LegendPart> style_legend(const Hairstyle& style, const StyleMarks& marks) {
+    std::vector<LegendPart> parts;
+    std::array<bool, kKindColors.size()> drawn{};
+    if (marks.constraints) {
+        for (const StyleConstraint& one : style.constraints()) {
+            if (one.vector.norm() > kLeastSpeed) drawn[static_cast<std::size_t>(one.kind)] = true;
+        }
+    }
+    for (const NamedKind& named : kNamedKinds) {
+        const auto is_drawn = [&](ConstraintKind kind) {
+            return drawn[static_cast<std::size_t>(kind)];
+        };
+        if (std::none_of(named.kinds.begin(), named.kinds.end(), is_drawn)) continue;
+        parts.push_back({named.name, kKindColors[static_cast<std::size_t>(named.kinds[0])]});
+    }
+    if (marks.field) parts.push_back({"field", marks.field_color});
+    return parts;
+}
+
+NamedMarks field_marks(const Hairstyle& style) {
+    StyleMarks marks{.curves = false, .constraints = true, .field_color = {0.43, 0.52, 0.68}};
+    if (style.solved()) marks.field = FieldSlice{};
+    return {style_lines(style, marks), style_legend(style, marks)};
+}
 
 std::vector<DrawnLine> style_lines(const Hairstyle& style, const StyleMarks& marks) {
     return MarkMaker(style, marks).lines();

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "kernel/hair/hairstyle.h"
+#include "viewer/draw/color.h"
 #include "viewer/draw/drawing.h"
+#include "viewer/draw/legend.h"
 
 namespace lissom {
 
@@ -30,6 +32,7 @@ struct StyleMarks {
     bool constraints = false;
     /// Arrows of the field; they are as long as it, and stand outside the head.
     std::optional<FieldSlice> field = std::nullopt;
+    Color field_color{0.16, 0.22, 0.34};
     /// Of curves, in pixels; arrows have a third of it.
     double width = 4.0;
 };
@@ -37,5 +40,18 @@ struct StyleMarks {
 /// The lines of a style that was solved, in the coordinates of its head. Errors: invalid_argument
 /// for a spacing or normal out of range, or one that gives more than a million arrows.
 std::vector<DrawnLine> style_lines(const Hairstyle& style, const StyleMarks& marks = {});
+
+/// What the colours of its arrows stand for.
+std::vector<LegendPart> style_legend(const Hairstyle& style, const StyleMarks& marks);
+
+/// Marks that a picture can show, with names for its legend.
+struct NamedMarks {
+    std::vector<DrawnLine> lines = {};
+    std::vector<LegendPart> names = {};
+};
+
+/// Figure 4.2 of the thesis: the constraints of a style, and where it was solved its field in the
+/// middle of the head, from the front to the back, in a colour that reads on dark and on light.
+NamedMarks field_marks(const Hairstyle& style);
 
 }  // namespace lissom

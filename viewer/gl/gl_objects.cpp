@@ -114,6 +114,21 @@ Texture make_volume(const std::array<Index, 3>& counts, std::span<const std::uin
     return texture;
 }
 
+TextureBuffer make_texture_buffer(std::span<const std::byte> bytes, GLenum format) {
+    TextureBuffer result;
+    GLuint buffer = 0, texture = 0;
+    glGenBuffers(1, &buffer);
+    result.buffer = Buffer(buffer);
+    glBindBuffer(GL_TEXTURE_BUFFER, buffer);
+    glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
+                 GL_STATIC_DRAW);
+    glGenTextures(1, &texture);
+    result.texture = Texture(texture);
+    glBindTexture(GL_TEXTURE_BUFFER, texture);
+    glTexBuffer(GL_TEXTURE_BUFFER, format, buffer);
+    return result;
+}
+
 Framebuffer Framebuffer::texture(Extent extent, GLenum color_format, bool with_depth) {
     Framebuffer result;
     result.extent_ = extent;
@@ -216,6 +231,10 @@ void Program::set(const char* uniform, const Vec3& value) const {
     glUniform3fv(location(uniform), 1, Eigen::Vector3f(value.cast<float>()).data());
 }
 
+void Program::set(const char* uniform, const Vec4& value) const {
+    glUniform4fv(location(uniform), 1, Eigen::Vector4f(value.cast<float>()).data());
+}
+
 void Program::set(const char* uniform, const Mat4& value) const {
     glUniformMatrix4fv(location(uniform), 1, GL_FALSE, Eigen::Matrix4f(value.cast<float>()).data());
 }
@@ -229,6 +248,12 @@ void Program::set_texture(const char* uniform, int unit, GLuint texture) const {
 void Program::set_volume(const char* uniform, int unit, GLuint texture) const {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_3D, texture);
+    set(uniform, unit);
+}
+
+void Program::set_buffer(const char* uniform, int unit, GLuint texture) const {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_BUFFER, texture);
     set(uniform, unit);
 }
 

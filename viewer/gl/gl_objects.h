@@ -58,6 +58,13 @@ Texture make_texture(int width, int height, GLenum format, bool linear = false);
 /// A volume of four bytes a texel, x fastest, that is read clamped, between its texels.
 Texture make_volume(const std::array<Index, 3>& counts, std::span<const std::uint8_t> texels);
 
+/// A buffer whose entries shaders read by their numbers, with a texture of `format` for that.
+struct TextureBuffer {
+    Buffer buffer;
+    Texture texture;
+};
+TextureBuffer make_texture_buffer(std::span<const std::byte> bytes, GLenum format);
+
 /// Size in pixels.
 struct Extent {
     int width = 0;
@@ -108,10 +115,12 @@ class Program {
     void set(const char* uniform, float value) const;
     void set(const char* uniform, const Vec2& value) const;
     void set(const char* uniform, const Vec3& value) const;
+    void set(const char* uniform, const Vec4& value) const;
     void set(const char* uniform, const Mat4& value) const;
     /// Binds `texture` to the unit numbered `unit` and tells the sampler.
     void set_texture(const char* uniform, int unit, GLuint texture) const;
     void set_volume(const char* uniform, int unit, GLuint texture) const;
+    void set_buffer(const char* uniform, int unit, GLuint texture) const;
 
   private:
     GLint location(const char* uniform) const {

@@ -245,23 +245,30 @@ std::shared_ptr<const GpuMarks> Upload::marks(const Overlay& overlay) {
     return result;
 }
 
+// The box around strands, in their metres; that of `before` where it shows the same.
+Box strand_box(const Strands* strands, const Placement& before) {
+    const auto known = before.strand_boxes.find(strands);
+    return known == before.strand_boxes.end() ? bounds(*strands) : known->second;
+}
+
 // The corners of boxes around the strands: they hold all of their points that are finite.
-std::vector<Vec3> corners_of(const std::vector<DrawnStrands>& strands) {
-    std::vector<Vec3> corners;
+void add_strands(const std::vector<DrawnStrands>& strands, const Placement& before,
+                 Placement& result) {
     for (const DrawnStrands& drawn : strands) {
-        const Box box = bounds(*drawn.strands);
+        const Box box = strand_box(drawn.strands.get(), before);
+        result.strand_boxes.emplace(drawn.strands.get(), box);
         for (int i = 0; !box.empty() && i < 8; ++i) {
             const Vec3 corner(i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
                               i & 4 ? box.max.z() : box.min.z());
-            corners.push_back(drawn.transform(corner / drawn.style.unit));
+            result.strand_corners.push_back(drawn.transform(corner / drawn.style.unit));
         }
     }
-    return corners;
 }
 
-Placement place(const Snapshot& snapshot) {
+// `before` is that of the snapshot before, which is still held.
+Placement place(const Snapshot& snapshot, const Placement& before) {
     Placement result;
-    result.strand_corners = corners_of(snapshot.strands);
+    add_strands(snapshot.strands, before, result);
     const auto for_all = [&](const auto& visit) {
         for_each_point(snapshot, visit);
         for (const Vec3& p : result.strand_corners) visit(p);
@@ -314,7 +321,7 @@ void GpuSurface::draw() const {
 
 Uploads GpuScene::update(const Snapshot& snapshot, const Context& context, MovedVertices moved) {
     if (snapshot.revision != 0 && snapshot.revision == shown_.snapshot.revision) return {};
-    Shown next{snapshot, place(snapshot), {}, {}, {}};
+    Shown next{snapshot, place(snapshot, shown_.placement), {}, {}, {}};
     const bool anything = !shown_.surfaces.empty() || !shown_.overlays.empty();
     const double apart = (next.placement.center - shown_.origin).norm();
     const bool same_origin = anything && apart <= kOriginReach * next.placement.size;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -62,6 +63,8 @@ struct Placement {
     double size = 0.0;
     /// Corners of boxes around the strands, in the world.
     std::vector<Vec3> strand_corners;
+    /// Of each of the snapshot's strands, in their metres.
+    std::map<const Strands*, Box> strand_boxes;
 };
 
 /// How the vertices of a mesh that moved are made: as those of a picture, or fast, see

@@ -1,6 +1,9 @@
-/// The shade of hair on surfaces, for their shader. It lies along the axes of the view, so that it
-/// is made anew where the camera moves. Needs a current context, also to end.
+/// The shade of hair on surfaces, for their shader: that of one picture, which lies along the axes
+/// of its view, or that of a window (see gpu_hair.h), for any camera. Needs a current context, also
+/// to end.
 #pragma once
+
+#include <memory>
 
 #include "kernel/core/geometry.h"
 #include "viewer/gl/gl_objects.h"
@@ -12,8 +15,20 @@ namespace lissom {
 struct GpuHairShade {
     /// Key light and light from all around that is left, and how much hair grows; see
     /// StrandShadow::on_meshes. One texel of no hair where there are no strands.
-    gl::Texture volume;
-    /// From view space to the volume's texture coordinates: scale, then offset.
+    std::shared_ptr<const gl::Texture> volume;
+    enum class Kind {
+        /// As above.
+        picture,
+        /// Of HairLight: its moments, and the last byte of the volume.
+        moments,
+        /// The same with the volume's key light.
+        directed,
+    };
+    Kind kind = Kind::picture;
+    /// HairLight::for_meshes; null for pictures.
+    std::shared_ptr<const gl::Texture> moments;
+    /// From view space to the volume's texture coordinates: turned, scale, then offset.
+    Mat3 turn = Mat3::Identity();
     Vec3 scale = Vec3::Zero();
     Vec3 offset = Vec3::Zero();
     /// In view units: between grid points; 0 where there are no strands.
@@ -21,6 +36,9 @@ struct GpuHairShade {
     /// Linear.
     Vec3 scalp_color = Vec3::Zero();
 };
+
+/// Sets scale, offset and step: texels are the points of `grid`.
+void place_shade(GpuHairShade& shade, const ViewGrid& grid);
 
 /// The shade of hair; without strands where `shadow` is null.
 GpuHairShade upload_shade(const StrandShadow* shadow);

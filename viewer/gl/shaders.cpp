@@ -188,9 +188,15 @@ uniform vec2 u_openness_offset;
 uniform float u_wire_width;            // pixels of the target; 0 is none
 uniform vec3 u_wire_color;
 uniform sampler3D u_hair;              // light that strands leave: key, around; hair that grows
-uniform vec3 u_hair_scale;             // from view space to its coordinates
+uniform sampler3D u_hair_moments;
+uniform int u_hair_kind;               // 0: that; of HairLight 1: its moments, 2: with directed light
+uniform mat4 u_hair_turn;              // from view space to its axes
+uniform vec3 u_hair_scale;             // from there to its coordinates
 uniform vec3 u_hair_offset;
 uniform float u_hair_step;             // view units between its texels; 0 without strands
+uniform vec3 u_hair_key;               // along its axes: towards the main light, and up
+uniform vec3 u_hair_up;
+uniform float u_hair_slope;            // of light from all around
 uniform vec3 u_scalp_color;
 out vec4 o_color;
 
@@ -233,15 +239,29 @@ float highlight(vec3 normal, vec3 to_viewer, vec3 direction, float exponent) {
     return max(dot(normal, direction), 0.0) * (exponent + 8.0) / 25.0 * pow(cosine, exponent);
 }
 
-// Key light and light from all around that strands leave, and how much hair grows. Far outside the
-// volume there is no hair.
+vec3 in_hair(vec3 position) {
+    return (mat3(u_hair_turn) * position) * u_hair_scale + u_hair_offset;
+}
+
+// Key light and light from all around that strands leave.
+vec2 hair_light(vec3 at) {
+    if (u_hair_kind == 0) return texture(u_hair, at).rg;
+    vec4 moments = texture(u_hair_moments, at);
+    vec3 slope = 2.0 * moments.gba - 1.0;
+    float key = u_hair_kind == 2 ? texture(u_hair, at).b
+                                 : clamp(moments.r + dot(slope, u_hair_key), 0.0, 1.0);
+    return vec2(key, moments.r + u_hair_slope * dot(slope, u_hair_up));
+}
+
+// The same, and how much hair grows. Far outside the volume there is no hair.
 vec3 hair_at(vec3 position, vec3 normal) {
     if (u_hair_step == 0.0) return vec3(1.0, 1.0, 0.0);
-    vec3 above = (position + 0.75 * u_hair_step * normal) * u_hair_scale + u_hair_offset;
+    vec3 above = in_hair(position + 0.75 * u_hair_step * normal);
     vec3 outside = max(max(-above, above - 1.0), vec3(0.0)) / (u_hair_scale * u_hair_step);
     float fade = clamp(1.0 - length(outside) / 12.0, 0.0, 1.0);
-    vec3 here = texture(u_hair, position * u_hair_scale + u_hair_offset).rgb;
-    return mix(vec3(1.0, 1.0, 0.0), vec3(texture(u_hair, above).rg, here.b), fade);
+    vec4 here = texture(u_hair, in_hair(position));
+    float grows = u_hair_kind == 0 ? here.b : here.a;
+    return mix(vec3(1.0, 1.0, 0.0), vec3(hair_light(above), grows), fade);
 }
 
 // `plain`: how far the light is evened out, so that colours that stand for numbers can be read.

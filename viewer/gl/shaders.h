@@ -30,6 +30,13 @@ extern const char* const kLineFragment;
 extern const char* const kPointVertex;
 extern const char* const kPointFragment;
 
+/// Strands: one strip of triangles through the points of packed strands, two vertices each, which
+/// come from buffers.
+extern const char* const kStrandVertex;
+extern const char* const kStrandFragment;
+/// The output of a picture whose samples were drawn with strands; as `lay_over` filters them.
+extern const char* const kStrandOutputFragment;
+
 /// Averages blocks of pixels, puts them before the background, and converts to sRGB from the top
 /// left.
 extern const char* const kOutputFragment;

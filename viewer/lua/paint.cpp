@@ -64,6 +64,15 @@ void paint_region(Picture& picture, const Region& region) {
     paint_given(picture, region, "the region", set_region);
 }
 
+void require_region(const Picture& picture, std::string_view name) {
+    std::vector<std::string_view> names;
+    for (const DrawnMesh& drawn : picture.meshes) {
+        if (drawn.mesh->find_region(name)) return;
+        for (const auto& [key, value] : drawn.mesh->regions()) names.push_back(key);
+    }
+    lua::refuse_absent("region", name, names);
+}
+
 void paint_handle(Picture& picture, std::string_view name) {
     paint_named(picture, name, add_handle);
 }

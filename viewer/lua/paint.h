@@ -14,6 +14,8 @@ namespace lissom {
 /// no mesh has the name; topology_mismatch where no mesh has the topology.
 void paint_region(Picture& picture, std::string_view name);
 void paint_region(Picture& picture, const Region& region);
+/// Errors: out_of_range where no mesh has a region of this name.
+void require_region(const Picture& picture, std::string_view name);
 void paint_handle(Picture& picture, std::string_view name);
 void paint_handle(Picture& picture, const Region& handle);
 

@@ -15,6 +15,7 @@
 #include "bindings/lua/sketch/camera_object.h"
 #include "kernel/hair/strands/strand_place.h"
 #include "kernel/io/stream/file.h"
+#include "viewer/draw/region_colors.h"
 #include "viewer/draw/scene_drawing.h"
 #include "viewer/draw/style_marks.h"
 #include "viewer/lua/paint.h"
@@ -216,6 +217,23 @@ void paint_regions(const Call& call, Picture& picture) {
     paint_region(picture, call.object<RegionObject>("region")->current());
 }
 
+// The named regions in colours of their own, with a legend.
+void paint_all_regions(const Call& call, Picture& picture) {
+    if (!call.has("regions")) return;
+    std::vector<std::string> names;
+    if (call.kind("regions") == Kind::strings) {
+        for (const char* name : call.strings("regions")) {
+            require_region(picture, name);
+            names.emplace_back(name);
+        }
+        if (names.empty()) return;
+    } else if (!call.boolean("regions")) {
+        return;
+    }
+    picture.legend_parts = color_regions(picture.meshes, names);
+    picture.legend_label = "regions";
+}
+
 void paint_handles(const Call& call, Picture& picture) {
     if (!call.has("handles")) return;
     if (call.kind("handles") == Kind::strings) {
@@ -310,10 +328,20 @@ void add_style(const Call& call, Picture& picture) {
     const StyleMarks marks = read_marks(call, style.scalp());
     if (marks.field) style.solve(call.context());
     const Affine place = place_of(picture, head);
-    for (DrawnLine& line : style_lines(style, marks)) {
-        for (Vec3& point : line.points) point = place(point);
-        picture.marks.lines.push_back(std::move(line));
+    const auto add = [&](std::vector<DrawnLine> lines, std::vector<DrawnLine>& to) {
+        for (DrawnLine& line : lines) {
+            for (Vec3& point : line.points) point = place(point);
+            to.push_back(std::move(line));
+        }
+    };
+    add(style_lines(style, marks), picture.marks.lines);
+    if (call.has("style_marks") && call.boolean("style_marks.legend")) {
+        picture.legend_parts = style_legend(style, marks);
+        picture.legend_label = "field";
     }
+    NamedMarks field = field_marks(style);
+    add(std::move(field.lines), picture.field_marks.lines);
+    picture.field_marks.names = std::move(field.names);
 }
 
 RenderOptions read_options(const Call& call, const SizeRequest& size) {
@@ -347,6 +375,7 @@ Picture compose(const Call& call, const ViewRequest& view, const SizeRequest& si
     add_strands(call, picture);
     add_style(call, picture);
     paint_regions(call, picture);
+    paint_all_regions(call, picture);
     paint_handles(call, picture);
     paint_scalars(call, picture);
     read_scale(call, picture);
@@ -400,6 +429,9 @@ void check_options(const Call& call) {
         if (call.has(option) && call.integer("columns") == 0) {
             call.reject(option, "it needs 'columns'");
         }
+    }
+    if (call.has("regions") && call.has("scalars")) {
+        call.reject("regions", "give either 'regions' or 'scalars'");
     }
     if (call.has("wire_width") && !call.boolean("wire")) {
         call.reject("wire_width", "it needs 'wire = true'");
@@ -563,6 +595,8 @@ std::vector<Parameter> content_options() {
                  .defaults(false),
              boolean("field", "Draws the field as arrows on a plane through the volume.")
                  .defaults(false),
+             boolean("legend", "Says at the right what the colours of arrows stand for.")
+                 .defaults(false),
              vector("point", "A point of the plane.")
                  .in("mesh units")
                  .optional("the center of the head"),
@@ -577,6 +611,12 @@ std::vector<Parameter> content_options() {
                {object("region", "lissom.Region", "A region of a mesh."),
                 string("name", "A region by its name, on every mesh that has it.")},
                "The region of interest, drawn in blue.")
+            .optional(),
+        either("regions",
+               {boolean("all", "All named regions of the meshes."),
+                strings("names", "Some of them, by their names.")},
+               "Named regions, drawn each in a colour of its own, with a legend; where several "
+               "overlap, the smaller.")
             .optional(),
         either("handles",
                {strings("names", "Regions by their names, on every mesh that has them."),

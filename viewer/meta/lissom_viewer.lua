@@ -29,6 +29,7 @@ local lissom = {}
 ---@field curves? boolean Draws the curves. Default: true.
 ---@field constraints? boolean Draws style:constraints() as arrows: along streams, spines and partings blue, where hair ends or parts red, around tails purple, into ties green, those of avoid_scalp grey. Default: false.
 ---@field field? boolean Draws the field as arrows on a plane through the volume. Default: false.
+---@field legend? boolean Says at the right what the colours of arrows stand for. Default: false.
 ---@field point? lissom.Vector A point of the plane. In mesh units. Default: the center of the head.
 ---@field normal? lissom.Vector Of the plane. Default: the head's left.
 ---@field spacing? number Between neighbouring arrows. In metres. Default: a step of the grid.
@@ -52,6 +53,7 @@ local lissom = {}
 ---@field style? lissom.Hairstyle A hairstyle whose curves to draw: streams cyan, dividing curves red, ponytails purple. Without a mesh or strands on its head.
 ---@field style_marks? lissom.RenderOptions.Style_marks What of the style is drawn.
 ---@field region? lissom.Region|string The region of interest, drawn in blue.
+---@field regions? boolean|string[] Named regions, drawn each in a colour of its own, with a legend; where several overlap, the smaller.
 ---@field handles? string[]|lissom.Region[] Handles, drawn in purple; single vertices as balls.
 ---@field boundaries? boolean Draws the open boundaries, each in a colour of its own. Default: false.
 ---@field paths? lissom.Path[] Paths to draw as lines.

@@ -5,8 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "kernel/hair/strands/strand_measures.h"
-#include "kernel/hair/strands/strand_random.h"
+#include "viewer/strands/strand_look.h"
 #include "viewer/strands/strand_raster.h"
 
 namespace lissom {
@@ -107,71 +106,6 @@ class PointNumbers {
     std::vector<std::uint32_t> bases_;
     std::vector<std::vector<Index>> blocks_;
 };
-
-// ---- Tones
-
-// A random number of a cell of space, and a random point in it.
-std::uint64_t cell_bits(const Eigen::Array3i& cell) {
-    return mixed(static_cast<std::uint32_t>(cell.x()), pair_key(cell.y(), cell.z()));
-}
-
-Array3f point_in(const Eigen::Array3i& cell, std::uint64_t bits) {
-    const auto part = [&](int shift) { return (bits >> shift & 0xffff) / 65536.0f; };
-    return cell.cast<float>() + Array3f(part(0), part(16), part(32));
-}
-
-// The cell whose random point is nearest to a root (Worley 1996): its clump. Does not depend on
-// which other strands there are.
-std::uint64_t clump_of(const Vector3f& root, float size) {
-    const Array3f at = root.array() / size;
-    const Eigen::Array3i middle = at.floor().cast<int>();
-    std::uint64_t nearest = 0;
-    float least = std::numeric_limits<float>::infinity();
-    for (int i = 0; i < 27; ++i) {
-        const Eigen::Array3i cell = middle + Eigen::Array3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-        const std::uint64_t bits = cell_bits(cell);
-        const float distance = (point_in(cell, bits) - at).matrix().squaredNorm();
-        if (distance >= least) continue;
-        least = distance;
-        nearest = bits;
-    }
-    return nearest;
-}
-
-float tone(double amount, std::uint64_t bits) {
-    return static_cast<float>(1.0 + amount * signed_random(bits));
-}
-
-struct StrandLook {
-    float tone = 1.0f, shift = 0.0f;
-};
-
-StrandLook look_of(const ViewStrands& drawn, Index strand) {
-    const StrandStyle& style = *drawn.style;
-    const Vector3f root = drawn.strands->root(strand);
-    const std::uint64_t bits = mixed(drawn.strands->id(strand), 0x68616972);
-    StrandLook look;
-    look.tone = tone(style.strand_tone, bits);
-    look.shift = style.shift_jitter * signed_random(mixed(bits));
-    const float size = style.clump_size;
-    if (root.allFinite() && root.cwiseAbs().maxCoeff() < 1e6f * size) {
-        look.tone *= tone(style.clump_tone, mixed(clump_of(root, size)));
-    }
-    return look;
-}
-
-// Smoothly from 0 at `low` to 1 at `high`.
-float smooth_step(float low, float high, float x) {
-    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-    return t * t * (3.0f - 2.0f * t);
-}
-
-// Dark at the root, light at the tip; `t` along the strand.
-float tone_along(const StrandStyle& style, float t) {
-    const float root = static_cast<float>(style.root_tone), tip = style.tip_tone;
-    return root + (1.0f - root) * smooth_step(0.0f, 0.25f, t) +
-           (tip - 1.0f) * smooth_step(0.25f, 1.0f, t);
-}
 
 // ---- Shading
 
@@ -324,25 +258,6 @@ void add_segment(SortedSegments& sorted, const Tiles& tiles, const Segment& segm
         seen = true;
     });
     if (seen) sorted.segments.push_back(segment);
-}
-
-// Widths of a strand's points in view units, as far as they cover.
-void cover_widths(const ViewStrands& drawn, Index strand, std::vector<float>& widths) {
-    const StrandWidths& given = drawn.strands->widths();
-    const Index first = drawn.strands->first_point(strand);
-    const float factor = drawn.scale * drawn.stands_for;
-    if (given.profile.empty()) {
-        widths.resize(drawn.strands->point_count(strand));
-        for (std::size_t i = 0; i < widths.size(); ++i) {
-            widths[i] = given.at(strand, first + index_of(i));
-        }
-    } else {
-        widths_of(*drawn.strands, strand, widths);
-    }
-    for (std::size_t i = 0; i < widths.size(); ++i) {
-        const float clear = drawn.strands->transparency().at(strand, first + index_of(i));
-        widths[i] *= factor * std::clamp(1.0f - clear, 0.0f, 1.0f);
-    }
 }
 
 // A segment as far as it is in front of the near plane.

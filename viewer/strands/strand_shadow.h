@@ -9,33 +9,10 @@
 
 #include "kernel/core/index.h"
 #include "viewer/strands/strand_shading.h"
+#include "viewer/strands/view_grid.h"
 #include "viewer/strands/view_strands.h"
 
 namespace lissom {
-
-/// Points on the corners of cubes, along the axes of view space.
-struct ViewGrid {
-    Eigen::Vector3f origin = Eigen::Vector3f::Zero();
-    float step = 1.0f;
-    std::array<Index, 3> counts{1, 1, 1};
-
-    std::size_t size() const { return at(counts[0]) * counts[1] * counts[2]; }
-    /// x runs fastest.
-    std::size_t index(Index i, Index j, Index k) const {
-        return i + counts[0] * (j + at(counts[1]) * k);
-    }
-};
-
-/// Spreads `amount` over the eight grid points around `position`; nothing outside the grid.
-void splat(const ViewGrid& grid, std::vector<float>& values, const Eigen::Vector3f& position,
-           float amount);
-
-/// The part of a distant light that reaches each grid point: exp(-the extinction summed up along
-/// the way to it), 1 where nothing is in the way. `extinction` is per unit of length. Goes through
-/// the grid plane by plane away from the light, so that the time is linear in the number of points;
-/// shadows become a little softer with every plane.
-std::vector<float> light_through(const ViewGrid& grid, const std::vector<float>& extinction,
-                                 const Eigen::Vector3f& to_light);
 
 /// The light in a drawing with strands.
 class StrandShadow {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernel/mesh/measure/distortion.h"
+#include "viewer/draw/region_colors.h"
 
 namespace lissom::window {
 namespace {
@@ -31,39 +32,11 @@ std::set<std::string> value_names(const Picture& picture) {
     return names;
 }
 
-// Colours of surfaces that are told apart by number; paler after each eight.
-Color part_color(std::size_t number) {
-    constexpr double kPaler = 0.25;
-    const double pale = kPaler * static_cast<double>(1 + number / 8 % 3);
-    return mix(category_color(number), kWhite, pale);
-}
-
 void clear(MeshStyle& style) {
     style.values.clear();
     style.region.reset();
     style.handles.clear();
     style.parts.clear();
-}
-
-// Regions of one name have one colour on all meshes; small ones lie over large ones.
-void color_regions(Picture& picture) {
-    std::map<std::string, Color, std::less<>> colors;
-    for (const DrawnMesh& drawn : picture.meshes) {
-        for (const auto& [name, region] : drawn.mesh->regions()) colors.emplace(name, Color{});
-    }
-    for (auto& [name, color] : colors) {
-        color = part_color(picture.legend_parts.size());
-        picture.legend_parts.push_back({name, color});
-    }
-    for (DrawnMesh& drawn : picture.meshes) {
-        std::vector<DrawnRegion>& parts = drawn.style.parts;
-        for (const auto& [name, region] : drawn.mesh->regions()) {
-            parts.push_back({region, colors.find(name)->second});
-        }
-        std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
-            return a.region.size() > b.region.size();
-        });
-    }
 }
 
 void color_values(Picture& picture, const std::string& name) {
@@ -110,6 +83,16 @@ void color_distortion(Picture& picture, By by, const std::vector<RestShapes::Mes
     picture.range = distortion_range(picture.meshes, by);
 }
 
+// Surfaces keep their colours, which arrows stand out from.
+Picture with_field(Picture picture) {
+    const std::vector<DrawnLine>& lines = picture.field_marks.lines;
+    picture.marks.lines.insert(picture.marks.lines.end(), lines.begin(), lines.end());
+    picture.legend = true;
+    picture.legend_parts = picture.field_marks.names;
+    picture.legend_label = "field";
+    return picture;
+}
+
 bool same_faces(const Mesh& a, const Mesh& b) {
     if (a.shared_topology() == b.shared_topology()) return true;
     const FaceList &f = a.topology().faces(), &g = b.topology().faces();
@@ -127,6 +110,8 @@ std::string label_of(const Coloring& coloring) {
     switch (coloring.by) {
         case By::regions:
             return "regions";
+        case By::field:
+            return "field and constraints";
         case By::values:
             return coloring.attribute;
         case By::stretch:
@@ -142,6 +127,7 @@ std::string label_of(const Coloring& coloring) {
 
 std::vector<Coloring> colorings_of(const Picture& picture) {
     std::vector<Coloring> result{{By::own}};
+    if (!picture.field_marks.lines.empty()) result.push_back({By::field});
     if (picture.meshes.empty()) return result;
     if (has_regions(picture)) result.push_back({By::regions});
     for (const std::string& name : value_names(picture)) result.push_back({By::values, name});
@@ -160,13 +146,14 @@ void RestShapes::see(const Picture& picture) {
 Picture colored(Picture picture, const Coloring& coloring,
                 const std::vector<RestShapes::MeshPtr>& rest, const Context& context) {
     if (coloring.by == By::own) return picture;
+    if (coloring.by == By::field) return with_field(std::move(picture));
     for (DrawnMesh& drawn : picture.meshes) clear(drawn.style);
     picture.range.reset();
     picture.legend = true;
     picture.legend_parts.clear();
     picture.legend_label = label_of(coloring);
     if (coloring.by == By::angle) picture.legend_label += " (degrees)";
-    if (coloring.by == By::regions) color_regions(picture);
+    if (coloring.by == By::regions) picture.legend_parts = color_regions(picture.meshes);
     if (coloring.by == By::values) color_values(picture, coloring.attribute);
     if (is_distortion(coloring)) color_distortion(picture, coloring.by, rest, context);
     return picture;

@@ -1,5 +1,6 @@
 /// Coloring: what gives the meshes of a window their colours, as a person chooses: their own, the
-/// numbers of an attribute, their regions, or how far they are distorted.
+/// numbers of an attribute, their regions, or how far they are distorted; or the field of
+/// hairstyles.
 #pragma once
 
 #include <memory>
@@ -13,8 +14,9 @@ namespace lissom::window {
 
 struct Coloring {
     /// values: an attribute of the vertices. stretch, area, angle: against another shape of the
-    /// same faces, see Distortion.
-    enum class By { own, regions, values, stretch, area, angle };
+    /// same faces, see Distortion. field: their own, with arrows of the field and constraints of
+    /// hairstyles.
+    enum class By { own, regions, values, stretch, area, angle, field };
 
     By by = By::own;
     /// Of By::values.
@@ -29,8 +31,9 @@ bool is_distortion(const Coloring& coloring);
 /// How a list of choices calls it.
 std::string label_of(const Coloring& coloring);
 
-/// What there is to choose from for the meshes of `picture`: their own colours, then regions where
-/// they have any, attributes with one number a vertex, and distortion.
+/// What there is to choose from for the meshes of `picture`: their own colours, the field where
+/// there is one, then regions where they have any, attributes with one number a vertex, and
+/// distortion.
 std::vector<Coloring> colorings_of(const Picture& picture);
 
 /// The shapes that meshes are compared with: for each mesh of a picture the first of the same faces

@@ -7,8 +7,6 @@ namespace {
 
 constexpr Color kDarkBackground{0.17, 0.18, 0.20};
 constexpr Color kLightBackground{0.93, 0.935, 0.94};
-// Points of a strand that is drawn as a line.
-constexpr Index kLinePoints = 12;
 
 bool is_hidden(const DisplaySettings& settings, std::size_t mesh) {
     return mesh < settings.hidden.size() && settings.hidden[mesh];
@@ -46,18 +44,6 @@ Picture visible(const Picture& picture, const DisplaySettings& settings) {
     return result;
 }
 
-DrawnLine line_of(const DrawnStrands& drawn, Index s, const Color& color) {
-    const StrandView strand = drawn.strands->strand(s);
-    const auto last = static_cast<Index>(strand.cols()) - 1;
-    DrawnLine line{{}, false, color, 1.5};
-    const Index count = std::min(kLinePoints, last + 1);
-    for (Index i = 0; i < count; ++i) {
-        const Index at = count > 1 ? i * last / (count - 1) : 0;
-        line.points.push_back(drawn.transform(point_of(strand, at) / drawn.style.unit));
-    }
-    return line;
-}
-
 }  // namespace
 
 Color background_of(const DisplaySettings& settings) {
@@ -75,24 +61,8 @@ Picture displayed(const Picture& picture, const DisplaySettings& settings, const
     return result;
 }
 
-Snapshot quick_snapshot(const Picture& picture, const DisplaySettings& settings, Index most) {
-    Snapshot snapshot = snapshot_of(visible(picture, settings));
-    Index all = 0;
-    for (const DrawnStrands& drawn : snapshot.strands) all += drawn.strands->size();
-    auto lines = std::make_shared<Overlay>();
-    for (const DrawnStrands& drawn : snapshot.strands) {
-        const Index count = drawn.strands->size();
-        const double share = std::min(1.0, 1.0 * most / std::max(all, Index{1}));
-        const auto wanted = static_cast<Index>(share * count);
-        const Color color = drawn.style.color.value_or(kHairColor);
-        // Strands come in an order in which the first of them are spread evenly.
-        for (Index s = 0; s < wanted; ++s) {
-            if (drawn.strands->point_count(s) > 1) lines->lines.push_back(line_of(drawn, s, color));
-        }
-    }
-    snapshot.strands.clear();
-    snapshot.overlays.push_back(std::move(lines));
-    return snapshot;
+Snapshot quick_snapshot(const Picture& picture, const DisplaySettings& settings) {
+    return snapshot_of(visible(picture, settings));
 }
 
 std::optional<Legend> shown_legend(const Picture& picture, const DisplaySettings& settings) {

@@ -30,9 +30,8 @@ Color background_of(const DisplaySettings& settings);
 Picture displayed(const Picture& picture, const DisplaySettings& settings, const Camera& camera,
                   int width, int height);
 
-/// What is drawn while something moves: the same without strands, of which `most` stand for all as
-/// lines.
-Snapshot quick_snapshot(const Picture& picture, const DisplaySettings& settings, Index most);
+/// What is drawn while something moves: the same.
+Snapshot quick_snapshot(const Picture& picture, const DisplaySettings& settings);
 
 /// The legend beside what is shown.
 std::optional<Legend> shown_legend(const Picture& picture, const DisplaySettings& settings);

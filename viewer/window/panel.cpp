@@ -16,7 +16,7 @@
 namespace lissom::window {
 namespace {
 
-constexpr double kWidth = 290.0, kConsoleHeight = 170.0;
+constexpr double kWidth = 290.0, kConsoleHeight = 118.0;
 constexpr double kTextHeight = 15.0;
 // The last lines of the console are drawn.
 constexpr std::size_t kShownLines = 2000;
@@ -60,6 +60,7 @@ void set_colors(bool dark) {
     style.Colors[ImGuiCol_Button] = faded(0.35f);
     style.Colors[ImGuiCol_ButtonHovered] = faded(0.6f);
     style.Colors[ImGuiCol_ButtonActive] = faded(0.8f);
+    style.Colors[ImGuiCol_PlotHistogram] = faded(0.8f);
     style.Colors[ImGuiCol_SliderGrab] = faded(0.9f);
     style.Colors[ImGuiCol_SliderGrabActive] = accent;
     style.Colors[ImGuiCol_CheckMark] = dark ? ImVec4(0.55f, 0.72f, 1.0f, 1.0f) : accent;
@@ -156,6 +157,29 @@ void draw_objects(const std::vector<std::string>& objects, std::vector<bool>& hi
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", objects[i].c_str());
         ImGui::PopID();
     }
+}
+
+constexpr const char* kKeys =
+    "left drag: turn; with a tool: the right button, or alt\n"
+    "shift and drag, or the middle button: move\n"
+    "wheel: nearer, towards the cursor\n"
+    "1 to 7: sides   F: all   O: perspective\n"
+    "W: wire   B: boundaries (without a tool)\n"
+    "Ctrl-Z, Ctrl-Shift-Z: undo, redo\n"
+    "Ctrl-S: save the scene   F12: picture\n"
+    "F5: run again   Esc: stop, or take back\n"
+    "Ctrl-Q: end\n"
+    "Files can be dropped on the window.";
+
+void draw_played(const PlayedPart& part) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%zu of %zu, %.3gx%s", part.done, part.count, part.speed,
+                  part.is_paused ? ", paused" : "");
+    const float fraction =
+        static_cast<float>(part.done) / static_cast<float>(std::max<std::size_t>(part.count, 1));
+    ImGui::ProgressBar(fraction, ImVec2(-1.0f, 0.0f), text);
+    ImGui::TextWrapped("%s is played. Space: pause, . one event, + and -: speed, Esc: stop",
+                       part.name.c_str());
 }
 
 void draw_colors(const PanelContent& content, PanelAnswers& answers) {
@@ -386,7 +410,9 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
     ImGui::Begin("panel", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
-    if (content.busy) {
+    if (content.playing) {
+        draw_played(*content.playing);
+    } else if (content.busy) {
         if (ImGui::Button("stop")) answers.cancel = true;
         ImGui::SameLine();
         ImGui::ProgressBar(static_cast<float>(content.fraction), ImVec2(-1.0f, 0.0f),
@@ -402,8 +428,12 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
         ImGui::SameLine();
         ImGui::TextDisabled("%.0f ms", content.milliseconds);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", content.driver.c_str());
+        ImGui::SameLine();
+        ImGui::TextDisabled("?");
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", kKeys);
     }
     ImGui::Separator();
+    ImGui::BeginDisabled(content.playing.has_value());
     if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
         view_section(content, settings, answers);
     }
@@ -431,6 +461,7 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
             answers.tool.redo = asked.redo;
         }
     }
+    ImGui::EndDisabled();
     ImGui::End();
 }
 

@@ -21,6 +21,14 @@
 
 namespace lissom::window {
 
+/// How far a recording is played.
+struct PlayedPart {
+    std::string name;
+    std::size_t done = 0, count = 0;
+    double speed = 1.0;
+    bool is_paused = false;
+};
+
 /// What the panel shows; its own state is only how it is unfolded.
 struct PanelContent {
     std::vector<std::string> objects;
@@ -30,6 +38,7 @@ struct PanelContent {
     std::vector<ConsoleLine> lines;
     /// How the line of the console may go on; the panel takes it.
     std::optional<Completion> completion;
+    std::optional<PlayedPart> playing;
     bool busy = false;
     std::string stage;
     double fraction = 0.0;

@@ -92,11 +92,20 @@ std::optional<std::size_t> draw_parameters(std::vector<lua::ScriptParameter>& pa
         group = p.group;
         ImGui::PushID(p.name.c_str());
         const std::string label = p.name + (p.unit.empty() ? "" : " (" + p.unit + ")");
-        ImGui::TextUnformatted(label.c_str());
-        help_marker(p);
+        // A box has its name behind it, all else above.
+        const bool is_box = p.type == lua::ParameterType::boolean;
+        if (!is_box) {
+            ImGui::TextUnformatted(label.c_str());
+            help_marker(p);
+        }
         ImGui::SetNextItemWidth(-1.0f);
         if (edit(p)) changed = i;
         help_marker(p);
+        if (is_box) {
+            ImGui::SameLine();
+            ImGui::TextUnformatted(label.c_str());
+            help_marker(p);
+        }
         ImGui::PopID();
     }
     return changed;

@@ -35,6 +35,19 @@ Box bounds_of(const Snapshot& snapshot) {
     return box;
 }
 
+// os.exit, which would end the window and what it holds.
+int refuse_exit(lua_State* L) {
+    return luaL_error(L, "os.exit does not end the window: return, or raise an error");
+}
+
+// Puts `refuse_exit` into the library `os`. Runs inside lua_pcall.
+int guard_exit(lua_State* L) {
+    lua_getglobal(L, "os");
+    lua_pushcfunction(L, refuse_exit);
+    lua_setfield(L, -2, "exit");
+    return 0;
+}
+
 // Adds the files of the modules that the state has loaded to the list at upvalue 1. Runs inside
 // lua_pcall: a script may have put anything in the place of `package`.
 int list_module_files(lua_State* L) {
@@ -91,6 +104,18 @@ bool write_whole(const std::string& path, const std::string& text) {
 
 bool is_script(const std::string& word) {
     return fs::path(word).extension() == ".lua";
+}
+
+bool is_recording(const std::string& word) {
+    if (!is_script(word)) return false;
+    std::ifstream file(word);
+    std::string line;
+    constexpr int kMostComments = 20;
+    for (int i = 0; i < kMostComments && std::getline(file, line); ++i) {
+        if (line.empty() || line.starts_with("--")) continue;
+        return line.starts_with("return (require(\"lissom\").replay{");
+    }
+    return false;
 }
 
 Session::Session(cli::Program& program, std::function<void()> wake, SessionOptions options)
@@ -220,6 +245,19 @@ void Session::set_tool_parameter(const std::string& name, const lua::ParameterVa
     });
 }
 
+std::optional<Playback> Session::take_playback() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(playback_, std::nullopt);
+}
+
+void Session::stop_playing() {
+    if (!plays_.exchange(false)) return;
+    cancel();
+    ToolInput stop;
+    stop.kind = ToolInput::Kind::stop;
+    post(std::move(stop));
+}
+
 std::optional<ToolState> Session::take_tool_state() {
     const std::lock_guard lock(mutex_);
     return std::exchange(tool_state_, std::nullopt);
@@ -270,7 +308,10 @@ bool Session::finish(double seconds) {
 
 void Session::run(const std::vector<std::string>& words) {
     program_.forget_interrupt();
-    if (is_script(words.front())) {
+    plays_ = shows_hand_ = false;
+    if (is_recording(words.front())) {
+        open_recording(words.front());
+    } else if (is_script(words.front())) {
         run_script(words);
     } else {
         load_files(words);
@@ -288,6 +329,8 @@ void Session::open_script(const lua::ScriptArguments& arguments) {
     lua_pushlightuserdata(L, this);
     lua_pushcclosure(L, print, 1);
     lua_setglobal(L, "print");
+    lua_pushcfunction(L, guard_exit);
+    if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
     lua::set_picture_listener(L, &listener_);
     pictures_ = 0;
 }
@@ -341,6 +384,79 @@ void Session::load_files(const std::vector<std::string>& paths) {
     script_ = std::move(script);
 }
 
+// ---- Recordings
+
+// What was there stays where the recording cannot be opened.
+void Session::open_recording(const std::string& path) {
+    {
+        const std::lock_guard lock(mutex_);
+        files_ = {path};
+    }
+    auto script = std::exchange(script_, nullptr);
+    auto bench = std::exchange(bench_, nullptr);
+    open_script({});
+    Playback playback{path, {}};
+    std::vector<std::string> files;
+    if (!succeeds(bench_->open_recording(path, files, playback.times))) {
+        bench_ = std::move(bench);
+        script_ = std::move(script);
+        return;
+    }
+    settle_scene(files, false);
+    event_count_ = playback.times.size();
+    events_played_ = 0;
+    plays_ = shows_hand_ = event_count_ > 0;
+    const std::lock_guard lock(mutex_);
+    playback_ = std::move(playback);
+}
+
+void Session::play(std::size_t event) {
+    if (!plays_ || event >= event_count_) return;
+    PlayedEvent done;
+    cli::ScriptResult result = bench_->play(event, done);
+    if (!done.difference.empty()) tell(LineKind::error, done.difference);
+    if (done.tool) keep_tool(*done.tool);
+    if (result.status != cli::kSuccess) {
+        if (!plays_.exchange(false)) result.message = "a step was stopped and taken back";
+        result.message = "event " + std::to_string(event + 1) + " of " +
+                         std::to_string(event_count_) + ", " + bench_->event_kind(event) + ": " +
+                         result.message;
+        succeeds(result);
+        return let_go();
+    }
+    events_played_ = event + 1;
+    if (event + 1 < event_count_) return;
+    plays_ = false;
+    let_go();
+    if (!bench_->play_differs()) {
+        tell(LineKind::result, "played " + std::to_string(event_count_) +
+                                   " events, which come to the scene that was recorded");
+    }
+}
+
+// A recording that ends early leaves no button down.
+void Session::let_go() {
+    if (!bench_ || !bench_->has_scene() || !bench_->is_held()) return;
+    ToolInput cancel;
+    cancel.kind = ToolInput::Kind::cancel;
+    succeeds(bench_->take(cancel));
+}
+
+// What a recording calls a file: by its place beside or below the recording, else by its whole
+// path.
+std::string Session::told_path(const std::string& path) const {
+    if (options_.record.empty()) return path;
+    std::error_code error;
+    const auto folder_of = [&](const fs::path& file) {
+        return fs::weakly_canonical(fs::absolute(file, error).parent_path(), error);
+    };
+    const fs::path from = folder_of(options_.record);
+    const fs::path whole = folder_of(path) / fs::path(path).filename();
+    const fs::path below = whole.lexically_relative(from);
+    const bool is_below = !below.empty() && *below.begin() != "..";
+    return (is_below ? below : whole).generic_string();
+}
+
 // ---- Tools
 
 // Tells what went wrong; false then.
@@ -357,17 +473,19 @@ bool Session::succeeds(const cli::ScriptResult& result) {
 }
 
 // A scene is there that was not before: it is seen and recorded as `open`, and the tool works on
-// it.
-void Session::settle_scene(const std::vector<std::string>& open) {
+// it unless a recording brings its own.
+void Session::settle_scene(const std::vector<std::string>& open, bool takes_tool) {
     if (bench_->has_scene()) {
         bench_->publish_scene();
         succeeds(bench_->take(look_));
-        const auto record = [&](const char* method, const std::string& path) {
-            if (!path.empty()) succeeds(bench_->record(method, open, options_.load));
+        std::vector<std::string> told;
+        for (const std::string& path : open) told.push_back(told_path(path));
+        const auto record = [&](const char* method, const std::vector<std::string>& files) {
+            succeeds(bench_->record(method, files, options_.load));
         };
-        record("record", options_.record);
-        record("keep_journal", options_.journal);
-        if (!options_.tool.empty()) settle_tool(options_.tool);
+        if (!options_.record.empty()) record("record", told);
+        if (!options_.journal.empty()) record("keep_journal", open);
+        if (!options_.tool.empty() && takes_tool) settle_tool(options_.tool);
         if (pictures_ == 0) return show_scene(true);
     }
     const std::lock_guard lock(mutex_);
@@ -380,11 +498,19 @@ bool Session::settle_tool(const std::string& word) {
              "tools work on a scene: open meshes, or let the script return a scene or meshes");
         return false;
     }
-    const bool done = succeeds(bench_->use(word));
+    const bool done = succeeds(bench_->use(word, word.ends_with(".lua") ? told_path(word) : word));
     const std::vector<fs::path> files = bench_->tool_files(word);
     const std::lock_guard lock(mutex_);
     tool_files_ = files;
     return done;
+}
+
+// A recording has taken it in hand.
+void Session::keep_tool(const std::string& word) {
+    options_.tool = word;
+    const std::vector<fs::path> files = bench_->tool_files(word);
+    const std::lock_guard lock(mutex_);
+    tool_files_ = files;
 }
 
 void Session::take_inputs() {
@@ -397,7 +523,13 @@ void Session::take_inputs() {
         if (input.kind == ToolInput::Kind::look) look_ = input;
         if (!bench_ || !bench_->has_scene()) continue;
         only_hovers = only_hovers && input.kind == ToolInput::Kind::move && !bench_->is_held();
-        succeeds(bench_->take(input));
+        if (input.kind == ToolInput::Kind::play) {
+            play(input.event);
+        } else if (input.kind == ToolInput::Kind::stop) {
+            let_go();
+        } else {
+            succeeds(bench_->take(input));
+        }
     }
     show_scene(!only_hovers);
 }
@@ -408,6 +540,9 @@ void Session::show_scene(bool always) {
     succeeds(bench_->draw());
     try {
         ToolState state = bench_->state();
+        if (shows_hand_) state.hand = bench_->hand();
+        // The last event shows it as well.
+        shows_hand_ = plays_;
         const bool same = state == last_state_;
         if (same && !always) return;
         Picture picture = bench_->picture();

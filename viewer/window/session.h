@@ -49,6 +49,13 @@ struct Completion {
     cli::Completions found;
 };
 
+/// A recording that is ready to be played.
+struct Playback {
+    std::string path;
+    /// Seconds of its events, in their order.
+    std::vector<double> times;
+};
+
 struct SessionOptions {
     /// The tool that is in hand from the first: a file, or the name of one that ships.
     std::string tool = {};
@@ -69,7 +76,8 @@ class Session {
 
     // ---- For the window's thread. All of it returns at once.
 
-    /// Opens mesh files, or runs a script with the words that follow it on its command line.
+    /// Opens mesh files, runs a script with the words that follow it on its command line, or opens
+    /// the scene of a recording, whose events are then to be posted.
     /// What was open before stays in sight until there is something to show.
     void open(const std::vector<std::string>& words);
     /// Runs the script again, or reads the files again, with `words` as the command line of the
@@ -94,6 +102,17 @@ class Session {
     void save_scene(const std::string& path, bool is_recovery = false);
     /// A parameter of the tool has this value.
     void set_tool_parameter(const std::string& name, const lua::ParameterValue& value);
+
+    // ---- Playing
+
+    /// The recording that was opened since the last call.
+    std::optional<Playback> take_playback();
+    /// Whether events of it are taken: until the last, a failure or `stop_playing`.
+    bool is_playing() const { return plays_; }
+    /// Number of events that are done.
+    std::size_t events_played() const { return events_played_; }
+    /// Stops what runs, drops the events that wait, and lets go of what the recording holds.
+    void stop_playing();
 
     bool busy() const { return worker_.busy(); }
     /// What the running operation does, and the fraction done.
@@ -123,8 +142,13 @@ class Session {
     void run_script(const std::vector<std::string>& words);
     bool show_values();
     void load_files(const std::vector<std::string>& paths);
-    void settle_scene(const std::vector<std::string>& open);
+    void open_recording(const std::string& path);
+    void play(std::size_t event);
+    void let_go();
+    std::string told_path(const std::string& path) const;
+    void settle_scene(const std::vector<std::string>& open, bool takes_tool = true);
     bool settle_tool(const std::string& word);
+    void keep_tool(const std::string& word);
     void take_inputs();
     bool succeeds(const cli::ScriptResult& result);
     void show_scene(bool always);
@@ -152,12 +176,18 @@ class Session {
     std::vector<ToolInput> inputs_;
     std::optional<ToolState> tool_state_;
     std::optional<Completion> completion_;
+    std::optional<Playback> playback_;
     std::string stage_;
     double fraction_ = 0.0;
     std::uint64_t number_ = 0;
 
+    std::atomic<bool> plays_{false};
+    std::atomic<std::size_t> events_played_{0};
+
     // The worker's own.
     SessionOptions options_;
+    std::size_t event_count_ = 0;
+    bool shows_hand_ = false;
     std::function<void(const Picture&)> listener_;
     std::unique_ptr<cli::Script> script_;
     std::unique_ptr<ToolBench> bench_;
@@ -171,5 +201,7 @@ class Session {
 
 /// Whether a word of the command line names a script.
 bool is_script(const std::string& word);
+/// Whether it names a script that does nothing but repeat what was recorded.
+bool is_recording(const std::string& word);
 
 }  // namespace lissom::window

@@ -9,6 +9,7 @@
 #include "bindings/lua/core/object.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/scene/scene_object.h"
+#include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tools.h"
 #include "viewer/lua/shown_values.h"
 
@@ -365,12 +366,13 @@ cli::ScriptResult ToolBench::save(const std::string& path, std::string& left_out
 
 // ---- Tools
 
-cli::ScriptResult ToolBench::use(const std::string& word) {
+cli::ScriptResult ToolBench::use(const std::string& word, const std::string& told) {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push_host();
     lua_pushstring(L, word.c_str());
-    cli::ScriptResult result = call("use", 2);
+    lua_pushstring(L, told.c_str());
+    cli::ScriptResult result = call("use", 3);
     lua_settop(L, top);
     return result;
 }
@@ -499,7 +501,8 @@ cli::ScriptResult ToolBench::record(const char* method, const std::vector<std::s
     lua_pushstring(L, method);
     push_paths(L, open);
     push_load_options(L, options);
-    cli::ScriptResult result = call("method", 4);
+    lua_pushboolean(L, 1);
+    cli::ScriptResult result = call("method", 5);
     lua_settop(L, top);
     return result;
 }
@@ -515,6 +518,87 @@ std::optional<std::string> ToolBench::text_of(const char* method) {
     }
     lua_settop(L, top);
     return text;
+}
+
+// ---- Playing
+
+namespace {
+
+// Key of Lua's registry: its address. The recording that is played.
+const char kPlaying = 0;
+
+template <typename Visit>
+void for_each_item(lua_State* L, int list, const Visit& visit) {
+    const std::size_t length = lua_istable(L, list) ? lua::raw_length(L, list) : 0;
+    for (std::size_t i = 0; i < length; ++i) {
+        lua_rawgeti(L, list, static_cast<int>(i) + 1);
+        visit();
+        lua_pop(L, 1);
+    }
+}
+
+}  // namespace
+
+cli::ScriptResult ToolBench::open_recording(const std::string& path,
+                                            std::vector<std::string>& files,
+                                            std::vector<double>& times) {
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    play_differs_ = false;
+    lua_pushstring(L, path.c_str());
+    cli::ScriptResult result = call("open_recording", 1);
+    if (result.status == cli::kSuccess) {
+        for_each_item(L, top + 2, [&] { files.emplace_back(lua_tostring(L, -1)); });
+        for_each_item(L, top + 4, [&] { times.push_back(lua_tonumber(L, -1)); });
+        lua_pushvalue(L, top + 3);
+        lua::raw_set_pointer(L, LUA_REGISTRYINDEX, &kPlaying);
+        result = take_values(top + 1, top + 1);
+    }
+    lua_settop(L, top);
+    return result;
+}
+
+cli::ScriptResult ToolBench::play(std::size_t place, PlayedEvent& done) {
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_host();
+    lua::raw_get_pointer(L, LUA_REGISTRYINDEX, &kPlaying);
+    lua_pushinteger(L, static_cast<lua_Integer>(place) + 1);
+    cli::ScriptResult result = call("play", 3);
+    if (result.status == cli::kSuccess) {
+        lua_settop(L, top + 3);
+        if (lua_type(L, top + 1) == LUA_TSTRING) done.difference = lua_tostring(L, top + 1);
+        play_differs_ = lua_toboolean(L, top + 2) != 0;
+        if (lua_type(L, top + 3) == LUA_TSTRING) done.tool = lua_tostring(L, top + 3);
+    }
+    lua_settop(L, top);
+    return result;
+}
+
+std::string ToolBench::event_kind(std::size_t place) {
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    lua::raw_get_pointer(L, LUA_REGISTRYINDEX, &kPlaying);
+    lua_pushinteger(L, static_cast<lua_Integer>(place) + 1);
+    const bool done = call("event_kind", 2).status == cli::kSuccess;
+    std::string kind = done && lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
+    lua_settop(L, top);
+    return kind;
+}
+
+PlayedHand ToolBench::hand() const {
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    PlayedHand hand;
+    push_host();
+    if (const auto* seen = raw_object<lua::CameraObject>(L, -1, "camera"))
+        hand.camera = seen->camera;
+    const Vec3 size = raw_point(L, top + 1, "size", 2);
+    hand.size = {static_cast<int>(size.x()), static_cast<int>(size.y())};
+    hand.at = {raw_number(L, top + 1, "x", -1.0), raw_number(L, top + 1, "y", -1.0)};
+    hand.is_down = is_held();
+    lua_settop(L, top);
+    return hand;
 }
 
 // ---- What there is to see

@@ -52,6 +52,15 @@ struct ToolObject {
     bool operator==(const ToolObject&) const = default;
 };
 
+/// The hand of a recording that is played: what it saw, and where it is.
+struct PlayedHand {
+    Camera camera;
+    gl::Extent size;
+    /// In pixels of a picture of that size.
+    Vec2 at = Vec2::Zero();
+    bool is_down = false;
+};
+
 /// What the panel says of the scene and the tool.
 struct ToolState {
     bool has_scene = false;
@@ -68,9 +77,19 @@ struct ToolState {
     /// In the world, part of the picture.
     Overlay overlay;
     ToolMarks marks;
+    /// While a recording is played.
+    std::optional<PlayedHand> hand;
 
     /// Whether the same is seen; parameters are not looked at.
     bool operator==(const ToolState& other) const;
+};
+
+/// What an event of a recording has brought.
+struct PlayedEvent {
+    /// Where the scene differs from what was recorded, and did not before.
+    std::string difference;
+    /// The tool that is in hand from now on, as `ToolBench::use` takes it.
+    std::optional<std::string> tool;
 };
 
 class ToolBench {
@@ -93,8 +112,9 @@ class ToolBench {
 
     // ---- Tools
 
-    /// Takes a tool in hand: a file, the name of one that ships, or none where `word` is empty.
-    cli::ScriptResult use(const std::string& word);
+    /// Takes a tool in hand: a file, the name of one that ships, or none where `word` is empty; a
+    /// recording calls it `told`.
+    cli::ScriptResult use(const std::string& word, const std::string& told);
     /// What `word`, the tool in hand, was read from.
     std::vector<std::filesystem::path> tool_files(const std::string& word);
     /// Whether a button is down that the tool knows of.
@@ -118,6 +138,21 @@ class ToolBench {
     /// Their text up to now ("recording", "journal_text"); nothing where none is made.
     std::optional<std::string> text_of(const char* method);
 
+    // ---- Playing
+
+    /// Opens the scene of a recording; `files` are those it was made of, `times` the seconds of its
+    /// events. Errors as those of lissom.replay before the first event.
+    cli::ScriptResult open_recording(const std::string& path, std::vector<std::string>& files,
+                                     std::vector<double>& times);
+    /// Does the event at `place` of the open recording.
+    cli::ScriptResult play(std::size_t place, PlayedEvent& done);
+    /// Whether a difference was found.
+    bool play_differs() const { return play_differs_; }
+    /// What the event at `place` is.
+    std::string event_kind(std::size_t place);
+    /// The hand as the last event left it.
+    PlayedHand hand() const;
+
     // ---- What there is to see
 
     /// Tells by the tool what it shows; then `picture` and `state` can be asked.
@@ -136,7 +171,7 @@ class ToolBench {
     void revive_scene();
 
     cli::Script& script_;
-    bool has_scene_ = false;
+    bool has_scene_ = false, play_differs_ = false;
     /// What a script may have closed, and must not.
     std::shared_ptr<void> scene_;
 };

@@ -2,6 +2,7 @@
 /// up.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,9 @@
 
 namespace lissom::window {
 
+/// `play` is an event of the recording that is open, `stop` lets go of what it holds.
 struct ToolInput {
-    enum class Kind { press, move, release, key, cancel, undo, redo, look };
+    enum class Kind { press, move, release, key, cancel, undo, redo, look, play, stop };
 
     Kind kind = Kind::move;
     /// Pixels from the top left corner of the picture.
@@ -24,6 +26,8 @@ struct ToolInput {
     /// Of look: from where the picture is seen now, and its size.
     Camera camera = {};
     gl::Extent size = {};
+    /// Of play: the place of the event in the recording, from 0.
+    std::size_t event = 0;
 };
 
 /// Adds `input` behind others. A move that follows a move with the same buttons, or a look that

@@ -3,9 +3,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "viewer/window/parameter_widgets.h"
+#include "viewer/window/player.h"
 
 namespace lissom::window {
 namespace {
@@ -34,6 +37,21 @@ bool tool_button(const char* label, float width, bool down) {
     const bool pressed = ImGui::Button(label, ImVec2(width, 0.0f));
     if (down) ImGui::PopStyleColor();
     return pressed;
+}
+
+// The arrow of a hand that is played; filled while a button is down.
+void draw_arrow(ImDrawList& list, const ImVec2& tip, bool is_down) {
+    constexpr std::array<std::pair<float, float>, 4> kCorners{
+        {{0.0f, 0.0f}, {0.0f, 18.0f}, {5.0f, 13.5f}, {12.5f, 12.5f}}};
+    std::array<ImVec2, kCorners.size()> points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i] = ImVec2(tip.x + kCorners[i].first, tip.y + kCorners[i].second);
+    }
+    const ImU32 color = is_down ? IM_COL32(255, 160, 40, 255) : IM_COL32(255, 255, 255, 255);
+    list.AddTriangleFilled(points[0], points[1], points[2], color);
+    list.AddTriangleFilled(points[0], points[2], points[3], color);
+    list.AddPolyline(points.data(), count_of(points), IM_COL32(0, 0, 0, 220), ImDrawFlags_Closed,
+                     1.5f);
 }
 
 }  // namespace
@@ -102,10 +120,17 @@ void draw_marks(const ToolState& state, const Camera& camera, const PictureSize&
     const auto place = [&](double x, double y) {
         return ImVec2(corner.x + static_cast<float>(x), corner.y + static_cast<float>(y));
     };
+    PictureFit fit;
+    if (state.hand) {
+        fit = PictureFit({1.0 * state.hand->size.width, 1.0 * state.hand->size.height}, size);
+    }
     list->PushClipRect(corner, end);
     for (const ToolOutline& outline : state.marks.outlines) {
         std::vector<ImVec2> points;
-        for (const Vec2& p : outline.pixels) points.push_back(place(p.x(), p.y()));
+        for (const Vec2& pixel : outline.pixels) {
+            const Vec2 p = fit(pixel);
+            points.push_back(place(p.x(), p.y()));
+        }
         list->AddPolyline(points.data(), count_of(points), packed(outline.color),
                           outline.closed ? ImDrawFlags_Closed : ImDrawFlags_None,
                           static_cast<float>(outline.width));
@@ -114,8 +139,15 @@ void draw_marks(const ToolState& state, const Camera& camera, const PictureSize&
         const Vec3 at = camera.project(label.at, size);
         if (!(at.z() > 0.0) || !at.allFinite()) continue;
         const ImVec2 p = place(at.x() + 8.0, at.y() - 8.0);
-        list->AddText(ImVec2(p.x + 1.0f, p.y + 1.0f), IM_COL32(0, 0, 0, 180), label.text.c_str());
+        const ImVec2 extent = ImGui::CalcTextSize(label.text.c_str());
+        list->AddRectFilled(ImVec2(p.x - 4.0f, p.y - 2.0f),
+                            ImVec2(p.x + extent.x + 4.0f, p.y + extent.y + 2.0f),
+                            IM_COL32(24, 26, 30, 200), 3.0f);
         list->AddText(p, packed(label.color), label.text.c_str());
+    }
+    if (state.hand) {
+        const Vec2 p = fit(state.hand->at);
+        draw_arrow(*list, place(p.x(), p.y()), state.hand->is_down);
     }
     list->PopClipRect();
 }

@@ -13,12 +13,16 @@
 #include "kernel/core/clock.h"
 #include "kernel/core/error.h"
 #include "kernel/sketch/navigation.h"
+#include "viewer/draw/projection.h"
 #include "viewer/window/colorer.h"
 #include "viewer/window/display.h"
 #include "viewer/window/file_watch.h"
+#include "viewer/window/frame_times.h"
 #include "viewer/window/glfw_window.h"
+#include "viewer/window/hair_maker.h"
 #include "viewer/window/painter.h"
 #include "viewer/window/panel.h"
+#include "viewer/window/player.h"
 #include "viewer/window/presets.h"
 #include "viewer/window/recovery.h"
 #include "viewer/window/screen.h"
@@ -27,25 +31,23 @@
 namespace lissom::window {
 namespace {
 
-// Strands that stand for all while something moves.
-constexpr Index kQuickStrands = 800;
 // Seconds without a change after which a finished picture is drawn.
 constexpr double kRest = 0.15;
+// Seconds that a picture of strands may take where a finished one follows, and where none does.
+constexpr double kLongFill = 3.0, kLongestFill = 60.0;
 // Seconds that a parameter stays as it is before the script runs again.
 constexpr double kParameterRest = 0.08;
 // A frame that takes longer is drawn at half the size from then on.
 constexpr double kSlowFrame = 0.05;
 // Seconds between two copies of a scene.
 constexpr double kCopyEvery = 1.0;
+// Frames in which the driver makes its programs ready: they are not measured.
+constexpr int kFirstFrames = 3;
 // Of a line of the wheel.
 constexpr double kZoomStep = 1.15;
 
-constexpr const char* kHelp =
-    "Drag turns, with shift moves, the wheel comes nearer. 1 to 7: sides, F: all, O: perspective, "
-    "W: wire, B: boundaries, Esc: stop, F5: run again, F12: picture, Ctrl-Z: undo, Ctrl-S: save, "
-    "Ctrl-Q: end. "
-    "With a tool in hand the right button turns, the middle one moves, and keys are the tool's. "
-    "Files can be dropped here.";
+constexpr const char* kWelcome =
+    "Drop meshes, a script or a scene here, or name them on the command line.";
 
 std::string text_of(const lua::ParameterValue& value) {
     if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
@@ -88,9 +90,10 @@ class ViewApp {
           session_(
               program, [] { GlfwWindow::wake(); }, options.session),
           painter_(threads_of(program), [] { GlfwWindow::wake(); }),
+          hair_maker_(threads_of(program), [] { GlfwWindow::wake(); }),
           colorer_([] { GlfwWindow::wake(); }) {
         content_.driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-        content_.lines.push_back({LineKind::message, kHelp});
+        if (options.words.empty()) content_.lines.push_back({LineKind::message, kWelcome});
         content_.tools = shipped_tools();
         offer_recovery();
         if (!options.words.empty()) open(options.words);
@@ -110,6 +113,10 @@ class ViewApp {
     void take(const Input& input);
     void navigate(const Input& input);
     bool give_to_tool(const Input& input);
+    void play();
+    void start_playing(Playback playback);
+    void end_playing();
+    void take_while_playing(const Input& input);
     void tell_camera();
     void press_tool_key(const Input& input);
     void answer_tool(const ToolAnswers& answers);
@@ -132,10 +139,36 @@ class ViewApp {
     void open_editor(const SourcePlace& place);
     void run_with_parameters();
     void frame();
+    template <typename Calls>
+    void drawing(const Calls& calls) {
+        const auto start = Clock::now();
+        const double work = thread_seconds();
+        calls();
+        drawing_.seconds += seconds_since(start);
+        drawing_.busy += thread_seconds() - work;
+    }
     void draw_scene();
+    bool at_rest() const {
+        return seconds_since(last_change_) > kRest && !dragged_ && !tool_drags_ &&
+               frames_owed_ == 0;
+    }
+    void take_hair();
+    void fill_hair();
+    bool hair_is_filled() const {
+        if (hair_maker_.busy()) return false;
+        return screen_.hair().empty() || (filled_ == change_ && !screen_.filling());
+    }
     void ask_for_sharp();
-    void tell(const std::string& text) const {
+    void tell(const std::string& text) {
+        told_since_rest_ = true;
         if (options_.tells) std::cout << text << std::endl;
+    }
+    // Once for each rest after something was seen to happen.
+    void tell_rest() {
+        if (!told_since_rest_ && rested_ == change_) return;
+        tell("at rest");
+        told_since_rest_ = false;
+        rested_ = change_;
     }
     View view() const {
         const Canvas canvas = screen_.beside_legend(panel_.canvas(window_.size()));
@@ -162,6 +195,7 @@ class ViewApp {
     Screen screen_;
     Session session_;
     Painter painter_;
+    HairMaker hair_maker_;
     Colorer colorer_;
     FileWatch watch_, tool_watch_;
     Presets presets_;
@@ -181,10 +215,16 @@ class ViewApp {
     std::string saved_path_;
     // The tool has the drag.
     bool tool_drags_ = false;
+    // The recording that is played, how many of its events were posted, and when that was.
+    std::optional<Player> player_;
+    std::size_t posted_ = 0;
+    Clock::time_point last_play_ = Clock::now();
     Vec2 cursor_ = Vec2::Zero();
 
     // Number of the last change of what is seen, and of the change that a finished picture shows.
     std::uint64_t change_ = 1, asked_ = 0, sharp_ = 0, drawn_ = 0;
+    // Of the change that light in hair was asked for, and that all strands are drawn for.
+    std::uint64_t directed_ = 0, filled_ = 0;
     std::shared_ptr<const Picture> uploaded_;
     DisplaySettings uploaded_settings_;
     Canvas drawn_canvas_;
@@ -194,12 +234,21 @@ class ViewApp {
     int coarseness_ = 1;
     bool wants_picture_ = false;
     bool closes_ = false;
-    bool was_at_rest_ = false;
-    bool has_frame_ = false;
+    bool was_at_rest_ = false, told_since_rest_ = true;
+    std::uint64_t rested_ = 0;
+    FrameTimes times_;
+    int frames_ = 0;
+    // Of the window in the last frame.
+    gl::Extent framed_size_ = {};
+    // This turn's calls that draw, and when its input came at the earliest.
+    Turn drawing_;
+    Clock::time_point heard_ = Clock::now();
 };
 
 void ViewApp::open(const std::vector<std::string>& words) {
     options_.words = words;
+    player_.reset();
+    content_.playing.reset();
     saved_path_.clear();
     session_.open(words);
     presets_ = Presets(is_script(words.front()) ? words.front() : "");
@@ -210,15 +259,31 @@ void ViewApp::open(const std::vector<std::string>& words) {
 
 int ViewApp::run() {
     while (!window_.close_requested() && !closes_) {
-        window_.wait(wait_time());
+        const auto before = Clock::now();
+        const double most = wait_time();
+        window_.wait(most);
+        const auto start = Clock::now();
+        const double work = thread_seconds();
+        drawing_ = {};
+        // Without waiting an event may have come at any time since the last look.
+        heard_ = most > 0.0 ? start : before;
+        // Without input, too.
+        if (!(window_.size() == framed_size_)) frames_owed_ = 2;
         take_inputs();
         take_results();
+        play();
         watch_files();
         run_with_parameters();
         copy_scene();
         if (frames_owed_ > 0 || panel_.owes_frame() || session_.busy()) frame();
+        fill_hair();
         ask_for_sharp();
+        const double all = seconds_since(start);
+        // The driver makes its programs ready in the first frames.
+        if (frames_ <= kFirstFrames) continue;
+        times_.add_turn(all, {all - drawing_.seconds, thread_seconds() - work - drawing_.busy});
     }
+    tell(times_.text());
     painter_.stop();
     keep_unsaved();
     if (!session_.finish(1.0)) {
@@ -278,8 +343,11 @@ void ViewApp::offer_recovery() {
 
 double ViewApp::wait_time() const {
     if (frames_owed_ > 0 || panel_.owes_frame()) return 0.0;
+    if (screen_.filling()) return 0.0;
     if (session_.busy()) return 0.1;
-    if (sharp_ != change_ && settings_.sharp && shown_) return 0.03;
+    if (player_ && !player_->is_paused()) return std::min(player_->wait(), 0.1);
+    const bool sharpens = sharp_ != change_ && settings_.sharp;
+    if (shown_ && (sharpens || !hair_is_filled())) return 0.03;
     return parameters_changed_ ? 0.02 : 0.25;
 }
 
@@ -288,11 +356,13 @@ double ViewApp::wait_time() const {
 void ViewApp::take_inputs() {
     for (const Input& input : window_.inputs().take()) {
         frames_owed_ = 2;
+        times_.add_event(heard_);
         take(input);
     }
 }
 
 void ViewApp::take(const Input& input) {
+    if (player_) return take_while_playing(input);
     const bool is_key = input.kind == Input::Kind::key_down || input.kind == Input::Kind::key_up ||
                         input.kind == Input::Kind::text;
     if (input.kind == Input::Kind::drop) return open(input.files);
@@ -313,6 +383,65 @@ void ViewApp::take(const Input& input) {
         own.at -= Vec2(canvas.x, canvas.y);
         if (!give_to_tool(own)) navigate(own);
     }
+}
+
+// ---- Playing. The hand waits meanwhile, but for the keys that have to do with it.
+
+void ViewApp::take_while_playing(const Input& input) {
+    using Kind = Input::Kind;
+    if (input.kind == Kind::drop) return open(input.files);
+    if (input.kind == Kind::move || input.kind == Kind::release) return panel_.feed(input);
+    if (input.kind == Kind::text && input.character == U'.') player_->step();
+    if (input.kind == Kind::text && input.character == U'+') player_->change_speed(2.0);
+    if (input.kind == Kind::text && input.character == U'-') player_->change_speed(0.5);
+    if (input.kind != Kind::key_down) return;
+    if (input.key == Key::space) player_->pause_or_go_on();
+    if (input.key == Key::f12) wants_picture_ = true;
+    if (input.modifiers.ctrl && input.character == U'Q') closes_ = true;
+    if (input.key != Key::escape) return;
+    content_.lines.push_back({LineKind::message, "stopped after event " +
+                                                     std::to_string(session_.events_played()) +
+                                                     " of " + std::to_string(player_->count())});
+    session_.stop_playing();
+}
+
+void ViewApp::start_playing(Playback playback) {
+    content_.playing = {.name = std::filesystem::path(playback.path).filename().string(),
+                        .count = playback.times.size()};
+    tell("playing " + std::to_string(playback.times.size()));
+    player_.emplace(std::move(playback.times), options_.speed);
+    posted_ = 0;
+    last_play_ = Clock::now();
+    dragged_.reset();
+    tool_drags_ = false;
+}
+
+// Tools see what the hand sees again.
+void ViewApp::end_playing() {
+    player_.reset();
+    content_.playing.reset();
+    frames_owed_ = 2;
+    tell("played");
+    tell_camera();
+}
+
+// Posts the events that are due once those before them are done.
+void ViewApp::play() {
+    if (auto playback = session_.take_playback()) start_playing(std::move(*playback));
+    if (!player_) return;
+    if (!session_.is_playing()) return end_playing();
+    if (session_.events_played() < posted_) return;
+    const std::size_t due =
+        player_->advance(seconds_since(std::exchange(last_play_, Clock::now())));
+    for (; posted_ < due; ++posted_) {
+        ToolInput event;
+        event.kind = ToolInput::Kind::play;
+        event.event = posted_;
+        session_.post(std::move(event));
+    }
+    content_.playing->done = session_.events_played();
+    content_.playing->speed = player_->speed();
+    content_.playing->is_paused = player_->is_paused();
 }
 
 void ViewApp::navigate(const Input& input) {
@@ -392,6 +521,7 @@ void ViewApp::press_tool_key(const Input& input) {
 }
 
 void ViewApp::tell_camera() {
+    if (player_) return;
     ToolInput event;
     event.kind = ToolInput::Kind::look;
     event.camera = camera_;
@@ -421,6 +551,14 @@ void ViewApp::take_tool_state(ToolState state) {
     }
     content_.tool = std::move(state);
     frames_owed_ = 2;
+    if (!content_.tool.hand) return;
+    // What the recorded hand saw; the last of it may come after the end.
+    const gl::Extent seen = content_.tool.hand->size;
+    camera_ =
+        fitted(content_.tool.hand->camera, {1.0 * seen.width, 1.0 * seen.height}, view().size);
+    camera_is_placed_ = true;
+    moved();
+    tell_camera();
 }
 
 void ViewApp::look_from(StandardView side) {
@@ -480,6 +618,7 @@ void ViewApp::take_results() {
         if (!colored->error.empty()) content_.lines.push_back({LineKind::error, colored->error});
         show(std::move(colored->shown));
     }
+    take_hair();
     if (auto result = painter_.take(); result && result->number == change_) {
         sharp_ = change_;
         if (result->error.empty()) screen_.take(result->image);
@@ -532,7 +671,7 @@ void ViewApp::take_parameters(std::vector<lua::ScriptParameter> declared) {
 void ViewApp::watch_files() {
     if (!session_.busy()) watch_.set(session_.files());
     tool_watch_.set(session_.tool_files());
-    if (tool_watch_.changed(Clock::now())) {
+    if (tool_watch_.changed(Clock::now()) && !player_) {
         tell("tool changed");
         session_.read_tool_again();
     }
@@ -625,7 +764,9 @@ void ViewApp::draw_scene() {
     const bool resized = !(canvas == drawn_canvas_);
     const bool other_settings = !(uploaded_settings_ == settings_);
     if (shown_ && (uploaded_ != shown_->picture || other_settings)) {
-        screen_.update(quick_snapshot(*shown_->picture, settings_, kQuickStrands));
+        const Snapshot snapshot = quick_snapshot(*shown_->picture, settings_);
+        screen_.update(snapshot);
+        hair_maker_.make(snapshot);
         uploaded_ = shown_->picture;
         uploaded_settings_ = settings_;
     }
@@ -635,16 +776,17 @@ void ViewApp::draw_scene() {
             ++change_;
             tell_camera();
         }
-        screen_.draw(camera_, canvas, background_of(settings_), coarseness_);
+        drawing([&] { screen_.draw(camera_, canvas, background_of(settings_), coarseness_); });
         drawn_ = change_;
         drawn_canvas_ = canvas;
     }
-    screen_.show(canvas, window_.size().height);
+    drawing([&] { screen_.show(canvas, window_.size().height); });
 }
 
 void ViewApp::frame() {
     if (frames_owed_ > 0) --frames_owed_;
     const gl::Extent size = window_.size();
+    framed_size_ = size;
     if (size.width == 0 || size.height == 0) return;
     const auto start = Clock::now();
     const std::uint64_t before = drawn_;
@@ -662,10 +804,14 @@ void ViewApp::frame() {
     glViewport(0, 0, size.width, size.height);
     const PanelAnswers answers = panel_.draw(content_, settings_, size, seconds_since(last_frame_));
     last_frame_ = Clock::now();
-    window_.show();
-    glFinish();
-    if (!std::exchange(has_frame_, true)) tell("first frame");
+    drawing([&] {
+        window_.show();
+        glFinish();
+    });
+    if (frames_ == 0) tell("first frame");
+    ++frames_;
     if (drawn_ != before) {
+        times_.add_frame(Clock::now());
         content_.milliseconds = 1e3 * seconds_since(start);
         coarseness_ = content_.milliseconds > 1e3 * kSlowFrame ? 2 : coarseness_;
     }
@@ -673,16 +819,56 @@ void ViewApp::frame() {
     answer(answers);
 }
 
-// Draws a finished picture once nothing moves.
+// ---- What is drawn once nothing moves
+
+void ViewApp::take_hair() {
+    if (auto made = hair_maker_.take()) {
+        std::string wrong = made->error;
+        try {
+            screen_.set_hair(made->hair);
+        } catch (const Error& error) {
+            wrong = error.message();
+            screen_.set_hair({});
+        }
+        if (!wrong.empty()) content_.lines.push_back({LineKind::error, wrong});
+        moved();
+    }
+    auto directed = hair_maker_.take_directed();
+    if (!directed || directed->number != change_) return;
+    if (directed->light != screen_.hair().light()) return;
+    screen_.direct_light(directed->bytes);
+    screen_.begin_fill(camera_, panel_.canvas(window_.size()), background_of(settings_),
+                       settings_.sharp ? kLongFill : kLongestFill);
+    filled_ = change_;
+}
+
+// One slice of the strands; events are looked for before the next.
+void ViewApp::fill_hair() {
+    if (!at_rest()) {
+        if (directed_ != change_) hair_maker_.stop_directing();
+        return;
+    }
+    if (filled_ == change_) {
+        if (!screen_.fill()) return;
+        tell("filled");
+        frames_owed_ = 1;
+        return;
+    }
+    const bool ready = !screen_.hair().empty() && !hair_maker_.busy() && drawn_ == change_;
+    if (!ready || directed_ == change_) return;
+    const Mat4 turn = view_matrix(camera_, Vec3::Zero());
+    hair_maker_.direct(screen_.hair().light(), turn.topLeftCorner<3, 3>(), change_);
+    directed_ = change_;
+}
+
+// Draws a finished picture.
 void ViewApp::ask_for_sharp() {
-    const bool at_rest =
-        seconds_since(last_change_) > kRest && !dragged_ && !tool_drags_ && frames_owed_ == 0;
-    if (!at_rest) {
+    if (!at_rest()) {
         if (asked_ != change_) painter_.stop();
         was_at_rest_ = false;
         return;
     }
-    const bool wanted = shown_ && (settings_.sharp || wants_picture_);
+    const bool wanted = shown_ && ((settings_.sharp && hair_is_filled()) || wants_picture_);
     if (wanted && (asked_ != change_ || wants_picture_)) {
         const Canvas canvas = panel_.canvas(window_.size());
         painter_.draw(std::make_shared<const Picture>(displayed(
@@ -691,8 +877,9 @@ void ViewApp::ask_for_sharp() {
         asked_ = change_;
         sharp_ = 0;
     }
-    const bool done = (!wanted || sharp_ == change_) && !session_.busy() && !colorer_.busy();
-    if (done && !was_at_rest_) tell("at rest");
+    const bool done =
+        (!wanted || sharp_ == change_) && hair_is_filled() && !session_.busy() && !colorer_.busy();
+    if (done && !was_at_rest_) tell_rest();
     was_at_rest_ = done;
 }
 

@@ -16,6 +16,8 @@ struct ViewOptions {
     /// The tool in hand, and where to record what it does.
     SessionOptions session = {};
     int width = 1280, height = 800;
+    /// Of a recording, in multiples of its own.
+    double speed = 1.0;
     /// Writes a line to the standard output for each thing that the window has done, for tests:
     /// "shown 1", "at rest", "picture x.png".
     bool tells = false;

@@ -33,18 +33,18 @@ int view(Program& program, const std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         own.push_back(words[i]);
         const bool is_value = i > 0 && takes_value(words[i - 1]);
-        if (is_value || !window::is_script(words[i])) continue;
+        if (is_value || !window::is_script(words[i]) || window::is_recording(words[i])) continue;
         options.words.assign(words.begin() + index_of(i) + 1, words.end());
         break;
     }
     CLI::App app(
         "Shows meshes, or what a script draws or returns, in a window. Words after a script are "
-        "the "
-        "script's; its parameters become sliders, and it runs again when its file changes.",
+        "the script's; its parameters become sliders, and it runs again when its file changes. A "
+        "file written by --record is played.",
         "lissom view");
     std::vector<std::string> files;
     std::string size = "1280x800";
-    app.add_option("FILE", files, "Mesh files, or one script");
+    app.add_option("FILE", files, "Mesh files, one script, or one recording");
     app.add_option("--size", size, "Width and height of the window (default: 1280x800)")
         ->check(check_size);
     app.add_option("--tool", options.session.tool,
@@ -53,6 +53,11 @@ int view(Program& program, const std::vector<std::string>& words) {
                    "Write what is done with tools to this file, a script that does it again");
     app.add_option("--journal", options.session.journal,
                    "Write the calls that tools make to this file, a script to read and change");
+    CLI::Option* speed =
+        app.add_option(
+               "--speed", options.speed,
+               "How fast a recording is played, 0.02 to 60 times its own speed (default: 1)")
+            ->check(CLI::Range(0.02, 60.0));
     std::string up;
     app.add_option("--up", up, "Up axis of the mesh files")->check(CLI::IsMember({"y", "z"}));
     app.add_option("--unit", options.session.load.unit,
@@ -66,6 +71,14 @@ int view(Program& program, const std::vector<std::string>& words) {
     std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height);
     if (files.size() > 1 && window::is_script(files.back())) {
         return program.fail("lissom view: give either meshes or one script", kUsage);
+    }
+    const bool plays = files.size() == 1 && window::is_recording(files.front());
+    if (speed->count() > 0 && !plays) {
+        return program.fail("lissom view: --speed is for a recording", kUsage);
+    }
+    if (plays && !options.session.tool.empty()) {
+        return program.fail("lissom view: a recording brings its own tools: leave out --tool",
+                            kUsage);
     }
     flags.apply(options.session.load);
     if (!up.empty()) options.session.load.up = up == "y" ? UpAxis::y : UpAxis::z;

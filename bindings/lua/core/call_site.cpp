@@ -1,9 +1,11 @@
 #include "bindings/lua/core/call_site.h"
-#include "bindings/lua/core/call_rest.h"
 
 #include <cstring>
 #include <string>
 #include <vector>
+
+#include "bindings/lua/core/call_rest.h"
+#include "kernel/core/index.h"
 
 namespace lissom::lua {
 namespace {

@@ -177,6 +177,15 @@ void close_provenance(void* object) {
     from.faces = {};
 }
 
+// The seams with their neighbours.
+Region seam_region(const MergeResult& result) {
+    std::vector<Index> vertices;
+    for (const std::vector<Index>& seam : result.seams) {
+        vertices.insert(vertices.end(), seam.begin(), seam.end());
+    }
+    return Region(result.mesh.shared_topology(), std::move(vertices)).grown(1);
+}
+
 constexpr const char* kMerged = R"(local ball = lissom.shapes.sphere{ segments = 24 }
 local half = ball:cut{ plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } } }
 local other = half:copy():transform{ rotate = { axis = "x", angle = 180 }, scale = 3 }
@@ -192,9 +201,13 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     const auto provenance = call.create<ProvenanceObject>();
     const auto source = call.create<RegionObject>();
     const auto target = call.create<RegionObject>();
+    const auto sewn = call.create<RegionObject>();
+    const auto band = call.create<RegionObject>();
     auto& owner = call.hold<std::shared_ptr<MeshObject>>();
     auto& seams = call.hold<std::vector<Path>>();
     const bool done = call.attempt_quick([&] {
+        Region at_seam = seam_region(result);
+        Region in_band(result.mesh.shared_topology(), result.report.transition.moved);
         for (std::vector<Index>& seam : result.seams) {
             seams.emplace_back(result.mesh.shared_topology(), std::move(seam), true);
         }
@@ -204,6 +217,8 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
         mesh.set(owner);
         source.set(std::make_shared<RegionObject>(owner, std::move(from_source)));
         target.set(std::make_shared<RegionObject>(owner, std::move(from_target)));
+        sewn.set(std::make_shared<RegionObject>(owner, std::move(at_seam)));
+        band.set(std::make_shared<RegionObject>(owner, std::move(in_band)));
         const auto from = std::make_shared<ProvenanceObject>();
         from->vertices = std::move(result.provenance.vertices);
         from->faces = std::move(result.provenance.faces);
@@ -211,7 +226,7 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
         provenance.set(from);
     });
     if (!done) return call.fail();
-    const int first = lua_gettop(call.lua()) - 5;
+    const int first = lua_gettop(call.lua()) - 7;
     call.charge(mesh);
     call.charge(provenance);
     lua_pushvalue(call.lua(), first);
@@ -227,8 +242,14 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     push_flips(call, result.report);
     call.set_field("flipped");
     push_seam(call, result.report.seam);
+    lua_pushvalue(call.lua(), first + 4);
+    call.set_field("region");
     call.set_field("seam");
     push_transition(call, result.report.transition);
+    if (!result.report.transition.source.empty()) {
+        lua_pushvalue(call.lua(), first + 5);
+        call.set_field("region");
+    }
     call.set_field("transition");
     if (!result.report.transition.source.empty()) {
         call.set_field("transition_kept", call.push(result.report.transition.kept));
@@ -306,7 +327,9 @@ std::vector<Record> merge_records() {
           {"integer", "collar_removed", "Faces that collars took the place of."},
           {"integer", "collar_added", "Triangles of the collars."},
           {"lissom.SeamQuality", "before", "Before collars and smoothing."},
-          {"lissom.SeamQuality", "after", "As it is."}}},
+          {"lissom.SeamQuality", "after", "As it is."},
+          {"lissom.Region", "region",
+           "The vertices of the seams and their neighbours: mesh:set_region shows them by name."}}},
         {"lissom.JoinReport",
          "What was found at one join; angles in degrees.",
          {{"integer", "source_size", "Vertices of the source's boundary as it was joined."},
@@ -336,7 +359,7 @@ std::vector<Record> merge_records() {
           {"lissom.SeamReport", "seam", "What was done to sew, and how well."},
           {"table[]", "transition",
            "For each seam source and target: width, vertices, and flipped and unmapped ones, of "
-           "its bands."},
+           "its bands; its field `region` has the vertices that they moved."},
           {"number|nil", "transition_kept",
            "The part of the way that the bands of a transition went: 0 where it was left out, "
            "since it would have folded the surface."},

@@ -217,6 +217,7 @@
 ---@field collar_added integer Triangles of the collars.
 ---@field before lissom.SeamQuality Before collars and smoothing.
 ---@field after lissom.SeamQuality As it is.
+---@field region lissom.Region The vertices of the seams and their neighbours: mesh:set_region shows them by name.
 
 ---What was found at one join; angles in degrees.
 ---@class lissom.JoinReport
@@ -240,7 +241,7 @@
 ---@field loose_parts integer Parts of the source without a joined boundary: in the free configuration they move along with what is nearest.
 ---@field flipped table source and targets: what was inside out and has been turned over.
 ---@field seam lissom.SeamReport What was done to sew, and how well.
----@field transition table[] For each seam source and target: width, vertices, and flipped and unmapped ones, of its bands.
+---@field transition table[] For each seam source and target: width, vertices, and flipped and unmapped ones, of its bands; its field `region` has the vertices that they moved.
 ---@field transition_kept number|nil The part of the way that the bands of a transition went: 0 where it was left out, since it would have folded the surface.
 ---@field intersections integer[][] Pairs of faces that run through one another and come from faces that did not.
 ---@field seams lissom.Path[] The seams on the merged mesh.
@@ -330,7 +331,7 @@
 ---@field kind string point, polyline, vertex, boundary, edge or face.
 ---@field object string? Its name in the scene, where one was given.
 ---@field mesh lissom.Mesh? The mesh of a surface.
----@field index integer Number of the point, vertex or face; of the loop in mesh:boundaries(); of the curve in its hairstyle.
+---@field index integer Number of the point, vertex, face or strand; of the loop in mesh:boundaries(); of the curve in its hairstyle.
 ---@field position lissom.Vector The point in the world.
 ---@field normal lissom.Vector? Unit normal in the world; at vertices and edges the mean of the faces around.
 ---@field face integer? The face at the point.
@@ -2108,11 +2109,30 @@ function Scene:clear_history() end
 ---@return lissom.Elements? elements # The elements concerned.
 function Scene:hash() end
 
----Writes the scene into one file: objects with their looks, regions, handles and curves, to the bit, but not its history. The file is an uncompressed tar archive.
----@param path string The file, usually with the extension .lissom.
----@return lissom.Scene scene # The scene itself; nil, message, code where the file could not be written.
+---@class lissom.Scene.SaveOptions
+---@field form? "automatic"|"file"|"folder" What to write, whatever the path looks like. Default: automatic.
+---@field history? boolean Keeps the steps too: in a folder as its file history.tar, in which steps share what they have in common. Default: false.
+
+---Writes the scene, whole or not at all: objects with their looks, regions, handles, curves and parameters, to the bit. A file is an uncompressed tar archive. A folder is for looking at and for version control: scene.json describes the scene, meshes and strands are OBJ files under the names of the objects, lists of numbers are text, and only what has changed is written; other files in it stay.
+---@param path string A file, usually with the extension .lissom, or a folder: one that is there, ends with "/", or has no extension and is new.
+---@param options? lissom.Scene.SaveOptions
+---@return lissom.Scene scene # The scene itself; nil, message, code where it could not be written.
 ---@return string[] left_out # What had no place in the file, a sentence each: materials and skeletons of meshes.
-function Scene:save(path) end
+function Scene:save(path, options) end
+
+---Keeps values of a tool or script with the scene: they are saved with it. They are no part of its history nor of its hash. A lissom.tool_host does this with the parameters of its tools.
+---@param owner string Whose they are: the name of the tool or script.
+---@param values table|lissom.Params What is kept in place of what was.
+---@return lissom.Scene scene # The scene itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Scene:set_parameters(owner, values) end
+
+---The values that are kept for a tool or script.
+---@param owner string Whose they are: the name of the tool or script.
+---@return table|nil values # By name; nil where there are none.
+function Scene:parameters(owner) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Scene:close() end
@@ -2218,7 +2238,7 @@ function Camera:unproject(pixel, size) end
 function Camera:ray(x, y, size) end
 
 ---@class lissom.Camera.PickOptions
----@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, and the curves of hairstyles. Hair itself is not looked at.
+---@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, the curves of hairstyles, and for polylines the strands of hair.
 ---@field mesh? lissom.Mesh A mesh that stands where its positions say.
 ---@field meshes? lissom.Mesh[] Several such meshes.
 ---@field x number Pixels from the left edge of the picture.
@@ -2240,7 +2260,7 @@ function Camera:ray(x, y, size) end
 function Camera:pick(options) end
 
 ---@class lissom.Camera.Pick_allOptions
----@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, and the curves of hairstyles. Hair itself is not looked at.
+---@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, the curves of hairstyles, and for polylines the strands of hair.
 ---@field mesh? lissom.Mesh A mesh that stands where its positions say.
 ---@field meshes? lissom.Mesh[] Several such meshes.
 ---@field x number Pixels from the left edge of the picture.
@@ -2267,7 +2287,7 @@ function Camera:pick_all(options) end
 ---@field radius? number Of the disk. In pixels. Default: 20.
 
 ---@class lissom.Camera.SelectOptions
----@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, and the curves of hairstyles. Hair itself is not looked at.
+---@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, the curves of hairstyles, and for polylines the strands of hair.
 ---@field mesh? lissom.Mesh A mesh that stands where its positions say.
 ---@field meshes? lissom.Mesh[] Several such meshes.
 ---@field rectangle? number[][] Two opposite corners, {{x, y}, {x, y}}.
@@ -2695,10 +2715,10 @@ function lissom.load_strands(path, options) end
 function lissom.strands(options) end
 
 ---@class lissom.Load_sceneOptions
----@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten where it would be more. In bytes. Default: 536870912.
+---@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten where it would be more. 0: it has none. In bytes. Default: 536870912.
 
----Reads a scene that scene:save has written.
----@param path string The file.
+---Reads a scene that scene:save has written, with its parameters, and with its history where that was saved. What was edited in a folder by hand is read as it is then, without the history.
+---@param path string The file or the folder.
 ---@param options? lissom.Load_sceneOptions
 ---@return lissom.Scene scene # A scene with the same hash; nil, message, code where there is none.
 ---@return string? message # What is wrong, where the first result is nil.
@@ -2707,7 +2727,7 @@ function lissom.strands(options) end
 function lissom.load_scene(path, options) end
 
 ---@class lissom.SceneOptions
----@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten where it would be more. In bytes. Default: 536870912.
+---@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten where it would be more. 0: it has none. In bytes. Default: 536870912.
 
 ---Makes an empty scene.
 ---@param options? lissom.SceneOptions
@@ -2798,7 +2818,7 @@ function lissom.tool_host(options) end
 ---@field scene? lissom.Scene The scene to work on; else the files that the recording names are opened.
 ---@field tools? table Tools by which those of the same names are replaced: a list. Default: none.
 
----Does again what was recorded, and compares the hash of the scene before it, after each step and at the end. A recording is a script that calls this.
+---Does again what was recorded, and compares the hash of the scene before it, after each step and at the end. A recording is a script that calls this; the files that it names are looked for from its own folder.
 ---@param recording string|table What was recorded.
 ---@param options? lissom.ReplayOptions
 ---@return lissom.Scene scene # The scene as it is then.

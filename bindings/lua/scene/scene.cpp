@@ -445,7 +445,7 @@ assert(other:hash() == scene:hash()))"}};
 Parameter history_option() {
     return number("history",
                   "Memory that its history may take beside one copy of the present content; the "
-                  "oldest steps are forgotten where it would be more.")
+                  "oldest steps are forgotten where it would be more. 0: it has none.")
         .in("bytes")
         .between(0, 1e15)
         .defaults(static_cast<double>(SceneOptions{}.history_bytes));
@@ -458,7 +458,7 @@ Type scene_type() {
                       {"__tostring", scene_text, "tostring(scene)", "its size"}};
     type.methods = object_methods();
     for (Function& method : step_methods()) type.methods.push_back(std::move(method));
-    type.methods.push_back(scene_save_method());
+    for (Function& method : scene_file_methods()) type.methods.push_back(std::move(method));
     return type;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "bindings/lua/core/call.h"
 #include "bindings/lua/mesh/mesh_object.h"
@@ -54,8 +55,8 @@ std::unique_ptr<ItemMaker> script_item_maker();
 
 /// The option history= of what makes a scene.
 Parameter history_option();
-/// scene:save and lissom.load_scene.
-Function scene_save_method();
+/// scene:save, scene:parameters, scene:set_parameters and lissom.load_scene.
+std::vector<Function> scene_file_methods();
 Function load_scene_function();
 
 /// Options transform=, visible=, style={...} of an object in a scene.

@@ -66,7 +66,8 @@ void push_ends(const Call& call, const PickTargets& targets, const PickHit& hit)
     call.set_field("ends", call.push_ids(ends));
 }
 
-int push_hit(const Call& call, const PickTargets& targets, const PickHit& hit) {
+int push_hit(const Call& call, const PickTargets& targets, const PickHit& found) {
+    const PickHit hit = targets.known(found);
     lua_createtable(call.lua(), 0, 14);
     call.set_field("kind", call.push(kKindNames[static_cast<std::size_t>(hit.kind)]));
     targets.push_fields(call, hit.object);
@@ -100,6 +101,9 @@ bool find(Call& call, PickTargets& targets, std::vector<PickHit>& hits, std::siz
         }
         const View view{camera->camera, size};
         const Vec2 cursor(call.number("x"), call.number("y"));
+        if (flags[static_cast<std::size_t>(PickKind::polyline)]) {
+            targets.add_hair(call, view, cursor, call.number("radius"));
+        }
         hits = pick_all(targets.scene(), view, cursor, pick_options(call, flags), most);
     });
 }
@@ -197,8 +201,8 @@ std::vector<Record> pick_records() {
           {"string?", "object", "Its name in the scene, where one was given."},
           {"lissom.Mesh?", "mesh", "The mesh of a surface."},
           {"integer", "index",
-           "Number of the point, vertex or face; of the loop in mesh:boundaries(); of the curve in "
-           "its hairstyle."},
+           "Number of the point, vertex, face or strand; of the loop in mesh:boundaries(); of the "
+           "curve in its hairstyle."},
           {"lissom.Vector", "position", "The point in the world."},
           {"lissom.Vector?", "normal",
            "Unit normal in the world; at vertices and edges the mean of the faces around."},

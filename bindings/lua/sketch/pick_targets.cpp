@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "bindings/lua/scene/scene_object.h"
+#include "kernel/hair/strands/strand_place.h"
 #include "kernel/scene/hairstyle_item.h"
 #include "kernel/scene/polyline_item.h"
+#include "kernel/scene/strands_item.h"
 
 namespace lissom::lua {
 namespace {
@@ -69,6 +71,47 @@ void PickTargets::add_lines(PolylineSet lines, std::string name, const Affine& p
     targets_.push_back({std::move(name), nullptr});
 }
 
+// As they are drawn: in metres, where no mesh tells another unit.
+double PickTargets::unit_of(const Strands& strands) const {
+    for (const Target& target : targets_) {
+        if (!target.mesh) continue;
+        if (const auto unit = unit_of_roots(strands, target.mesh->mesh)) return *unit;
+    }
+    return 1.0;
+}
+
+void PickTargets::add_hair(const Call& call, const View& view, const Vec2& cursor, double radius) {
+    if (!call.has("scene")) return;
+    for (const auto& object : call.object<SceneObject>("scene")->scene.objects()) {
+        const auto* item = dynamic_cast<const StrandsItem*>(object->item.get());
+        if (!item || !object->look.visible) continue;
+        const Strands& strands = item->strands();
+        Affine place = object->look.transform;
+        place.linear /= unit_of(strands);
+        std::vector<LineRun> runs = lines_near(strands.points(), strands.offsets(), place, view,
+                                               cursor, radius, call.context());
+        if (runs.empty()) continue;
+        std::vector<Vec3> points;
+        std::vector<Index> offsets{0};
+        for (const LineRun& run : runs) {
+            const StrandView strand = strands.strand(run.line);
+            for (Index k = run.first; k <= run.last; ++k) points.push_back(point_of(strand, k));
+            offsets.push_back(count_of(points));
+        }
+        add_lines({std::move(points), std::move(offsets)}, object->name, place);
+        targets_.back().runs = std::move(runs);
+    }
+}
+
+PickHit PickTargets::known(PickHit hit) const {
+    const std::vector<LineRun>& runs = targets_[at(hit.object)].runs;
+    if (runs.empty()) return hit;
+    const LineRun& run = runs[at(hit.index)];
+    hit.index = run.line;
+    hit.segment += run.first;
+    return hit;
+}
+
 void PickTargets::add_points(std::span<const Vec3> points, bool on_top) {
     points_.push_back(std::make_unique<PointSet>(std::vector<Vec3>(points.begin(), points.end())));
     scene_.add(*points_.back(), {.on_top = on_top});
@@ -94,8 +137,8 @@ void PickTargets::push_fields(const Call& call, Index object) const {
 
 std::vector<Parameter> target_options() {
     return {object("scene", "lissom.Scene",
-                   "Its visible objects, where they stand: meshes, deformations, free curves, and "
-                   "the curves of hairstyles. Hair itself is not looked at.")
+                   "Its visible objects, where they stand: meshes, deformations, free curves, the "
+                   "curves of hairstyles, and for polylines the strands of hair.")
                 .optional(),
             object("mesh", "lissom.Mesh", "A mesh that stands where its positions say.").optional(),
             objects("meshes", "lissom.Mesh", "Several such meshes.").optional()};

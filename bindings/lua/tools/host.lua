@@ -1,6 +1,6 @@
 -- The host of tools: calls a tool's functions with what a hand does, each in a step of the scene. What is
 -- returned is what the binding calls; its reference is in tools.cpp.
-local lissom, hear, guard = ...
+local lissom, hear, guard, now = ...
 
 local Tool, Event, View, Host = { __name = "lissom.Tool" }, {}, {}, { __name = "lissom.ToolHost" }
 Tool.__tostring = function(tool) return "lissom.Tool: " .. rawget(tool, "name") end
@@ -114,8 +114,17 @@ end
 
 -- ---- Steps. A gesture, from press to release, is one; whatever else a tool does is one of its own.
 
+-- By scene: the host whose step is open. Hosts of one scene take turns.
+local holders = setmetatable({}, { __mode = "kv" })
+
+local function other_holder(host)
+    local holder = holders[host.scene]
+    return holder ~= host and holder or nil
+end
+
 function Host:begin()
     self.depth = self.scene:depth()
+    holders[self.scene] = self
     self.scene:begin(self.tool.name)
     self.guarded = guard(self.scene, self.scene:depth())
     if self.journal then self.journal:begin_step() end
@@ -137,7 +146,10 @@ end
 function Host:take_back()
     local depth = self.depth
     self.depth, self.held = nil, nil
-    if depth then guard(self.scene, self.guarded) end
+    if depth then
+        holders[self.scene] = nil
+        guard(self.scene, self.guarded)
+    end
     while depth and self.scene:depth() > depth do self.scene:rollback() end
 end
 
@@ -181,7 +193,7 @@ function Host:commit()
     if self.scene:depth() ~= self.depth + 1 then
         self:fail("the tool '" .. self.tool.name .. "' began or ended a step; its host does that")
     end
-    self.depth = nil
+    self.depth, holders[self.scene] = nil, nil
     guard(self.scene, self.guarded)
     local changed = self.scene:commit()
     if self.journal then self.journal:end_step(self.tool.name, changed) end
@@ -198,6 +210,7 @@ end
 
 -- What a broken-off call left: a script that was stopped from outside leaves its step open.
 function Host:recover()
+    if other_holder(self) then return self end          -- the open step is not this host's
     local broken = self.working or self.held or self.scene:depth() > self.base
     self:end_work()
     self:take_back()
@@ -211,6 +224,11 @@ end
 
 function Host:ready()
     if self.working then error("a function of the tool runs, or was stopped; see recover", 3) end
+    local other = other_holder(self)
+    if other then
+        error("another host is in the middle of a gesture of '" .. other.tool.name ..
+            "' on this scene; release or cancel that before [invalid_argument]", 3)
+    end
 end
 
 -- ---- Prompts of tools that run as coroutines
@@ -285,6 +303,26 @@ end
 
 -- ---- What a hand does
 
+-- The scene keeps the values of a tool's parameters that are not their defaults.
+function Host:keep_parameters()
+    local values = {}
+    for _, p in ipairs(self.tool.params:schema()) do
+        if p.value ~= p.default then values[p.name] = p.value end
+    end
+    self.scene:set_parameters(self.tool.name, values)
+end
+
+-- A tool takes the values that the scene keeps for it; what it has been given meanwhile goes first.
+function Host:take_parameters()
+    local kept = self.scene:parameters(self.tool.name)
+    if not kept then return end
+    for _, p in ipairs(self.tool.params:schema()) do
+        if kept[p.name] ~= nil and p.value == p.default then
+            pcall(function() self.tool.params[p.name] = kept[p.name] end)
+        end
+    end
+end
+
 -- `word` is what a recording calls the tool, where that is not its name.
 function Host:use(tool, word)
     self:ready()
@@ -295,6 +333,8 @@ function Host:use(tool, word)
     self.tool = tool
     self.hover = nil
     if tool then
+        self:take_parameters()
+        self:keep_parameters()
         self:note{ "tool", word or tool.name }
         for _, p in ipairs(tool.params:schema()) do
             if p.value ~= p.default then self:note{ "set", { [p.name] = p.value } } end
@@ -321,15 +361,24 @@ local function checked_size(size)
     return { size[1], size[2] }
 end
 
+-- Sees the scene by a camera of these numbers, to which the same numbers in a recording lead again.
+function Host:look_by(numbers)
+    self:ready()
+    self.size = checked_size(numbers.size)
+    self.camera = lissom.camera{ eye = numbers.eye, target = numbers.target, up = numbers.up,
+        fov = numbers.fov, ortho = numbers.ortho }
+    self.numbers = { eye = numbers.eye, target = numbers.target, up = numbers.up, fov = numbers.fov,
+        ortho = numbers.ortho, size = self.size }
+    self:note{ "look", self.numbers }
+    return self
+end
+
 function Host:look(camera, size)
     self:ready()
     if type(camera) ~= "userdata" then error("look takes a camera", 2) end
     local numbers = camera_numbers(camera)
-    size = checked_size(size or self.size)
-    self.camera, self.size = lissom.camera(numbers), size
-    numbers.size = self.size
-    self:note{ "look", numbers }
-    return self
+    numbers.size = checked_size(size or self.size)
+    return self:look_by(numbers)
 end
 
 local function mouse_note(kind, event)
@@ -419,6 +468,7 @@ function Host:set(values)
     table.sort(names)
     for _, name in ipairs(names) do
         self.tool.params[name] = values[name]
+        self:keep_parameters()
         self:note{ "set", { [name] = values[name] } }
         local event = self:event("changed")
         event.parameter = name

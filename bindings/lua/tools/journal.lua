@@ -141,10 +141,19 @@ local function target(call)
     return tostring(call.arguments[1]) .. " " .. what .. tostring(call.arguments[2])
 end
 
--- What each call of a group works on, and whether all of it is replaced first of all.
+-- What a call reads that another replaces: a region by its name.
+local function source(call)
+    local reads = call.kind == "lissom.Mesh" and call.name == "region" and type(call.arguments[2]) == "string"
+    return reads and tostring(call.arguments[1]) .. " region" .. call.arguments[2] or nil
+end
+
+-- What each call of a group works on, where all of it is replaced first of all; and what of that is not read
+-- before, so that groups before this one leave nothing of it.
 local function targets(group)
-    local replaced, all = {}, {}
+    local replaced, all, read = {}, {}, {}
     for _, call in ipairs(group) do
+        local from = source(call)
+        if from and not replaced[from] then read[from] = true end
         if call.changes then
             local key = target(call) or (call.kind == "lissom.Handle" and call.arguments[1])
             if not key then return nil end
@@ -153,18 +162,21 @@ local function targets(group)
             all[key] = true
         end
     end
-    return all
+    local renewed = {}
+    for key in pairs(all) do renewed[key] = not read[key] or nil end
+    return all, renewed
 end
 
 local function told_groups(groups)
     local kept, later = {}, nil
     for i = #groups, 1, -1 do
         local group = groups[i]
-        local own = group.drag and targets(group)
+        local own, renewed
+        if group.drag then own, renewed = targets(group) end
         local replaced = own and later
         for key in pairs(own or {}) do replaced = replaced and later[key] end
         if not replaced then table.insert(kept, 1, group) end
-        if own and not later then later = own end
+        if own and not later then later = renewed end
         if not group.drag then later = nil end
     end
     return kept
@@ -361,7 +373,7 @@ end]]
 
 local function opening_lines(open, load)
     if not open then return { "local scene = ...      -- the scene that this was done to" } end
-    if #open == 1 and open[1]:match("%.lissom$") then
+    if #open == 1 and is_scene_path(open[1]) then
         return { string.format("local scene = assert(lissom.load_scene(%q))", open[1]) }
     end
     if #open == 1 and open[1]:match("%.lua$") then

@@ -1,10 +1,15 @@
 -- ---- Recordings: what a hand did, as a script that does it again.
 
--- Adds an event to the recording, if one is made.
+-- Seconds between looks, or hovers, that are all kept where times are.
+local shortest = 0.05
+
+-- Adds an event to the recording, if one is made; with its time in seconds where that is measured.
 function Host:note(event)
     if not self.log then return end
-    local last = self.log[#self.log]
+    event.t = self.begun and math.floor(1000 * (now() - self.begun) + 0.5) / 1000 or nil
+    local last, before = self.log[#self.log], self.log[#self.log - 1]
     local replaces = last and last[1] == event[1] and not last.hash and not self.held
+    if event.t then replaces = replaces and before and event.t - before.t < shortest end
     if replaces and (event[1] == "look" or event[1] == "move") then table.remove(self.log) end
     table.insert(self.log, event)
 end
@@ -13,7 +18,7 @@ end
 function Host:forget_failed(held)
     if not self.log then return end
     while held and #self.log > 0 and self.log[#self.log][1] ~= "press" do table.remove(self.log) end
-    if #self.log > 0 then self.log[#self.log] = { "cancel" } end
+    if #self.log > 0 then self.log[#self.log] = { "cancel", t = self.log[#self.log].t } end
 end
 
 -- A gesture or an event that was broken off is not in the recording.
@@ -42,17 +47,16 @@ function Host:mark(changed)
 end
 
 -- Begins a recording; `open` names the files of the scene, where it is as they were opened with the
--- options `load` of lissom.load.
-function Host:record(open, load)
+-- options `load` of lissom.load. Its events have times where it is `timed`.
+function Host:record(open, load, timed)
     self:ready()
     if self.tool then error("record before a tool is used: its state is not in a recording", 2) end
     self.known_hash = self.scene:hash()
     self.opened = { open = open and #open > 0 and open or nil, hash = self.scene:hash() }
     self.opened.load = self.opened.open and load and next(load) and load
     self.log = {}
-    local numbers = camera_numbers(self.camera)
-    numbers.size = self.size
-    self:note{ "look", numbers }
+    self.begun = timed and now() or nil
+    self:note{ "look", self.numbers }
     return self
 end
 
@@ -87,7 +91,7 @@ function Host:recording()
     if not self.log then error("nothing is recorded; see record", 2) end
     if self.held then error("a gesture is not finished: release the button first", 2) end
     local lines = { "-- What was done with tools; lissom run does it again." }
-    table.insert(lines, 'return require("lissom").replay{')
+    table.insert(lines, 'return (require("lissom").replay{')
     table.insert(lines, "    version = 1,")
     if self.opened.open then table.insert(lines, "    open = " .. text_of(self.opened.open) .. ",") end
     if self.opened.load then table.insert(lines, "    load = " .. text_of(self.opened.load) .. ",") end
@@ -96,7 +100,7 @@ function Host:recording()
     for _, event in ipairs(self.log) do table.insert(lines, "        " .. text_of(event) .. ",") end
     table.insert(lines, "    },")
     table.insert(lines, '    after = "' .. self.scene:hash() .. '",')
-    table.insert(lines, "}\n")
+    table.insert(lines, "})\n")
     return table.concat(lines, "\n")
 end
 
@@ -121,8 +125,8 @@ end
 
 local function new_host(scene, camera, size)
     size = type(size) == "number" and { size, size } or size or { 1280, 960 }
-    return setmetatable({ scene = scene, camera = camera, size = checked_size(size), typed = "",
-        base = scene:depth() }, Host)
+    local host = setmetatable({ scene = scene, typed = "", base = scene:depth() }, Host)
+    return host:look(camera, checked_size(size))
 end
 
 local function type_of(value)
@@ -176,11 +180,20 @@ local function run_script(path)
     return host.scene
 end
 
--- The scene of mesh files, of one .lissom file or of one script; options are those of lissom.load.
+-- Whether a path is what scene:save wrote: a .lissom file, or a folder.
+local function is_scene_path(path)
+    if path:match("%.lissom$") then return true end
+    local description = io.open(path .. "/scene.json", "rb")
+    if description then description:close() end
+    return description ~= nil
+end
+
+-- The scene of mesh files, of one saved scene or of one script; options are those of lissom.load.
 local function open_scene(paths, options)
     if #paths == 1 and paths[1]:match("%.lua$") then return run_script(paths[1]) end
-    local is_scene = #paths == 1 and paths[1]:match("%.lissom$")
-    if is_scene then return loaded_or_error(lissom.load_scene(paths[1])) end
+    if #paths == 1 and is_scene_path(paths[1]) then
+        return loaded_or_error(lissom.load_scene(paths[1]))
+    end
     local scene = lissom.scene{}
     for _, path in ipairs(paths) do
         scene:add(free_name(scene, stem(path)), loaded_or_error(lissom.load(path, options)))
@@ -213,26 +226,42 @@ end
 
 -- ---- Replaying
 
-local function tool_for(word, given)
+local function folder_of(path) return path:match("^(.*[/\\])") or "" end
+
+-- Where a file is that a recording in `folder` names.
+local function place_of(path, folder)
+    if not path:match("^[/\\]") and not path:match("^%a:") then path = folder .. path end
+    if not io then return path end
+    local file, reason = io.open(path, "rb")
+    if not file then
+        error("the recording needs a file that cannot be opened: " .. reason ..
+            " (paths in a recording begin at its own folder)", 0)
+    end
+    file:close()
+    return path
+end
+
+local function tool_place(word, folder) return word:match("%.lua$") and place_of(word, folder) or word end
+
+-- A tool that takes the place of one of the same name has its state, as in a window.
+local function tool_for(host, word, given, folder)
     for _, tool in ipairs(given or {}) do
         if tool.name == word then
             for _, p in ipairs(tool.params:schema()) do tool.params[p.name] = p.default end
             return tool
         end
     end
-    return load_tool(word)
+    local tool = load_tool(tool_place(word, folder))
+    if host.tool and host.tool.name == tool.name then tool.state = host.tool.state end
+    return tool
 end
 
-local function look(host, numbers)
-    local camera = { eye = numbers.eye, target = numbers.target, up = numbers.up, fov = numbers.fov,
-        ortho = numbers.ortho }
-    return host:look(lissom.camera(camera), numbers.size)
-end
+local function look(host, numbers) return host:look_by(numbers) end
 
 local player = {
     look = function(host, event) look(host, event[2]) end,
-    tool = function(host, event, tools)
-        local tool = event[2] and tool_for(event[2], tools)
+    tool = function(host, event, tools, folder)
+        local tool = event[2] and tool_for(host, event[2], tools, folder)
         host:use(tool, event[2])
     end,
     set = function(host, event) host:set(event[2]) end,
@@ -272,39 +301,109 @@ local function recording_of(path)
     return recorded
 end
 
-local function same_or_error(scene, wanted, what)
-    if wanted and scene:hash() ~= wanted then
-        error(string.format("the recording differs %s: the scene has the hash %s, recorded was %s", what,
-            scene:hash(), wanted), 0)
-    end
+local function difference(scene, wanted, what)
+    local hash = wanted and scene:hash()
+    if hash == wanted then return nil end
+    return string.format("the recording differs %s: the scene has the hash %s, recorded was %s", what, hash,
+        wanted)
 end
 
-local function replay(recorded, options)
-    if type(recorded) == "string" then recorded = recording_of(recorded) end
+local function same_or_error(scene, wanted, what)
+    local text = difference(scene, wanted, what)
+    if text then error(text, 0) end
+end
+
+local function check_recording(recorded)
     if recorded.version ~= 1 then
         error("this program reads recordings of version 1; this one has " .. tostring(recorded.version), 0)
     end
     if type(recorded.events) ~= "table" then error("a recording has a list of events", 0) end
-    local scene = options.scene
-    if not scene then
-        if not recorded.open then error("the recording names no files: give it a scene (scene=)", 0) end
-        scene = open_scene(recorded.open, recorded.load)
-    end
-    same_or_error(scene, recorded.before, "before its first event: it was made with another scene or mesh")
-    local host = new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
     for i, event in ipairs(recorded.events) do
-        local play = type(event) == "table" and player[event[1]]
-        if not play then error("event " .. i .. " of the recording is of no known kind", 0) end
-        play(host, event, options.tools)
-        same_or_error(scene, event.hash, "at event " .. i .. ", " .. event[1])
+        if type(event) ~= "table" or not player[event[1]] then
+            error("event " .. i .. " of the recording is of no known kind", 0)
+        end
+    end
+end
+
+-- The scene before the first event, made of the files that the recording names.
+local function recorded_scene(recorded, folder)
+    if type(recorded.open) ~= "table" then
+        error("the recording names no files: give it a scene (scene=)", 0)
+    end
+    local paths = {}
+    for _, path in ipairs(recorded.open) do table.insert(paths, place_of(tostring(path), folder)) end
+    return open_scene(paths, recorded.load), paths
+end
+
+local function check_beginning(recorded, scene)
+    same_or_error(scene, recorded.before, "before its first event: it was made with another scene or mesh")
+end
+
+-- Does an event; says where the scene differs then.
+local function play_event(host, recorded, i, tools, folder)
+    local event = recorded.events[i]
+    player[event[1]](host, event, tools, folder)
+    return difference(host.scene, event.hash, "at event " .. i .. ", " .. event[1])
+end
+
+local function replay(recorded, options)
+    local folder = options.folder
+    if type(recorded) == "string" then
+        folder = folder_of(recorded)
+        recorded = recording_of(recorded)
+    end
+    check_recording(recorded)
+    local scene = options.scene or recorded_scene(recorded, folder)
+    check_beginning(recorded, scene)
+    local host = new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
+    for i in ipairs(recorded.events) do
+        local text = play_event(host, recorded, i, options.tools, folder)
+        if text then error(text, 0) end
     end
     host:use(nil)
     same_or_error(scene, recorded.after, "at its end")
     return scene
 end
 
+-- ---- Playing a recording in a window, event by event
+
+-- Seconds between events that have no times.
+local usual_step = 1 / 60
+
+-- The scene of a recording's beginning, the files that it was opened from, what `play` takes, and the times
+-- of the events.
+local function open_recording(path)
+    local recorded, folder = recording_of(path), folder_of(path)
+    check_recording(recorded)
+    local scene, paths = recorded_scene(recorded, folder)
+    check_beginning(recorded, scene)
+    local times, last = {}, 0
+    for i, event in ipairs(recorded.events) do
+        local time = type(event.t) == "number" and event.t or last + usual_step
+        last = time > last and time or last
+        times[i] = last
+    end
+    return scene, paths, { recorded = recorded, folder = folder }, times
+end
+
+-- Does an event. Returns the first difference where this event brings it, whether there is any, and the tool
+-- that it takes in hand.
+local function play(host, playing, i)
+    local recorded = playing.recorded
+    local event = recorded.events[i]
+    local text = play_event(host, recorded, i, nil, playing.folder)
+    if i == #recorded.events and not text then text = difference(host.scene, recorded.after, "at its end") end
+    local is_first = text and not playing.differs
+    playing.differs = playing.differs or text ~= nil
+    local tool = event[1] == "tool" and (event[2] and tool_place(event[2], playing.folder) or "") or nil
+    return is_first and text or nil, playing.differs, tool
+end
+
+-- What an event is, for messages.
+local function event_kind(playing, i) return playing.recorded.events[i][1] end
+
 local function make_host(options)
-    local host = new_host(options.scene, lissom.camera(camera_numbers(options.camera)), options.size)
+    local host = new_host(options.scene, options.camera, options.size)
     if options.tool then host:use(options.tool) end
     return host
 end

@@ -2,6 +2,7 @@
 #include "bindings/lua/tools/tools.h"
 
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tool_text.h"
+#include "kernel/core/clock.h"
 
 namespace lissom::lua {
 namespace {
@@ -44,6 +46,12 @@ int guard_step(lua_State* L) {
     return 1;
 }
 
+// Seconds on a clock that only runs forwards.
+int push_seconds(lua_State* L) {
+    lua_pushnumber(L, std::chrono::duration<double>(Clock::now().time_since_epoch()).count());
+    return 1;
+}
+
 // Runs the text and keeps what it returns.
 void load_tool_functions(lua_State* L) {
     Piece piece;
@@ -56,7 +64,8 @@ void load_tool_functions(lua_State* L) {
     open(L, find_state(L)->host);
     lua_pushcfunction(L, hear_calls);
     lua_pushcfunction(L, guard_step);
-    lua_call(L, 3, 1);
+    lua_pushcfunction(L, push_seconds);
+    lua_call(L, 4, 1);
     lua_pushvalue(L, -1);
     raw_set_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
 }
@@ -124,11 +133,29 @@ int make_host(Call& call) {
     return finish_tool_call(call, 1);
 }
 
+// Pushes the folder of the script that has called, with its separator; empty where that is no file.
+void push_script_folder(lua_State* L) {
+    constexpr int kDeepest = 10;
+    lua_Debug frame;
+    for (int level = 1; level < kDeepest && lua_getstack(L, level, &frame) != 0; ++level) {
+        lua_getinfo(L, "S", &frame);
+        if (std::strcmp(frame.what, "C") == 0) continue;
+        const char* path = frame.source + 1;
+        const char* end = path + std::strlen(path);
+        while (frame.source[0] == '@' && end != path && !std::strchr("/\\", end[-1])) --end;
+        lua_pushlstring(L, path, frame.source[0] == '@' ? static_cast<std::size_t>(end - path) : 0);
+        return;
+    }
+    lua_pushliteral(L, "");
+}
+
 int replay(Call& call) {
     lua_State* L = call.lua();
     push_tool_function(L, "replay");
     lua_pushvalue(L, 1);
-    lua_createtable(L, 0, 2);
+    lua_createtable(L, 0, 3);
+    push_script_folder(L);
+    lua_setfield(L, -2, "folder");
     for (const char* name : {"scene", "tools"}) {
         if (!call.has(name)) continue;
         lua_getfield(L, 2, name);
@@ -347,8 +374,10 @@ host:click{ x = 640, y = 480 }
 assert(scene:hash() ~= before and host:undo() == "push" and scene:hash() == before))"},
         {.name = "replay",
          .body = replay,
-         .summary = "Does again what was recorded, and compares the hash of the scene before it, "
-                    "after each step and at the end. A recording is a script that calls this.",
+         .summary =
+             "Does again what was recorded, and compares the hash of the scene before it, "
+             "after each step and at the end. A recording is a script that calls this; the files "
+             "that it names are looked for from its own folder.",
          .arguments = {either("recording",
                               {string("file", "A file of a recording."),
                                table("table", "What such a file calls lissom.replay with.")},

@@ -3,7 +3,8 @@
 -- The modules that the tool loaded last has brought along.
 local tool_modules = {}
 
-local function use(host, word)
+-- `told` is what a recording calls the tool.
+local function use(host, word, told)
     if word == "" then return host:use(nil) end
     local old, kept = host.tool, {}
     for _, name in ipairs(tool_modules) do
@@ -26,7 +27,7 @@ local function use(host, word)
             if p.value ~= p.default then pcall(function() tool.params[p.name] = p.value end) end
         end
     end
-    return host:use(tool, word)
+    return host:use(tool, told or word)
 end
 
 -- The files that the present tool was read from.
@@ -65,4 +66,4 @@ local function method(host, name, ...) return host[name](host, ...) end
 
 return { tool = make_tool, host = make_host, replay = replay, open = open_scene, load_tool = load_tool,
     host_of = host_of, look = look, use = use, tool_files = tool_files, draw = draw, holds = holds,
-    save = save, method = method }
+    save = save, method = method, open_recording = open_recording, play = play, event_kind = event_kind }

@@ -1,5 +1,6 @@
 #include "kernel/deform/patch/ties.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
 
@@ -109,6 +110,10 @@ void TieRows::subtract_from(std::span<const Vec4> positions, const std::vector<I
     }
 }
 
+struct TieRows::Factor {
+    Eigen::LDLT<Eigen::MatrixXd> of;
+};
+
 void TieRows::prepare(
     Index unknowns,
     const std::function<void(std::span<const double>, std::span<double>, Index)>& solve) {
@@ -128,7 +133,12 @@ void TieRows::prepare(
     for (Index n = 0; n < count; ++n) {
         for (const auto& [row, c] : hard[n]->free) schur.row(n) += c * response_.row(row);
     }
-    schur_.emplace(schur);
+    schur_ = std::make_shared<const Factor>(Factor{Eigen::LDLT<Eigen::MatrixXd>(schur)});
+}
+
+void TieRows::take_off(const Eigen::VectorXd& miss, std::span<double> x) const {
+    Eigen::Map<Eigen::VectorXd>(x.data(), response_.rows()).noalias() -=
+        response_ * schur_->of.solve(miss);
 }
 
 std::size_t TieRows::response_bytes(const Ties& ties, Index unknowns) {

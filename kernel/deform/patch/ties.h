@@ -3,11 +3,10 @@
 /// anchor. Private to kernel/deform.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -87,8 +86,7 @@ class TieRows {
                 miss[n++] = sum;
             }
             if (miss.isZero(0.0)) return;
-            Eigen::Map<Eigen::VectorXd>(x.data(), response_.rows()).noalias() -=
-                response_ * schur_->solve(miss);
+            take_off(miss, x);
         }
     }
 
@@ -109,9 +107,15 @@ class TieRows {
         return sum;
     }
 
+    /// Takes off `x` what the hard ties miss.
+    void take_off(const Eigen::VectorXd& miss, std::span<double> x) const;
+
+    struct Factor;
+
     std::vector<Tie> ties_;
     Eigen::MatrixXd response_;
-    std::optional<Eigen::LDLT<Eigen::MatrixXd>> schur_;
+    /// Of what the hard ties answer to each other.
+    std::shared_ptr<const Factor> schur_;
 };
 
 /// Of the hard ties, those whose rows over unknown vertices the ties before them determine.

@@ -2,6 +2,7 @@
 /// private to kernel/scene.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,18 @@
 
 namespace lissom {
 
+// ---- What files are called after
+
+inline std::string label_of(const Attribute& attribute) {
+    return attribute.name;
+}
+inline std::string label_of(const LabelRecord& labels) {
+    return labels.kind;
+}
+inline std::string label_of(const RegionRecord& region) {
+    return region.name;
+}
+
 // ---- Meshes
 
 template <typename Archive>
@@ -35,7 +48,8 @@ void describe(Archive& a, Attribute& attribute) {
     a.choice("domain", attribute.domain, kDomains);
     a.integer("width", attribute.width);
     a.choice("type", attribute.type, kTypes);
-    a.list("values", attribute.values);
+    a.list("values", attribute.values,
+           static_cast<std::size_t>(std::max(attribute.width, Index{1})));
 }
 
 template <typename Archive>
@@ -57,9 +71,11 @@ void describe_finding(Archive& a, Finding& finding) {
 
 template <typename Archive>
 void describe(Archive& a, MeshRecord& mesh) {
-    a.list("positions", mesh.positions);
-    a.list("offsets", mesh.offsets);
-    a.list("corners", mesh.corners);
+    if (!a.surface(mesh.positions, mesh.offsets, mesh.corners)) {
+        a.list("positions", mesh.positions);
+        a.list("offsets", mesh.offsets);
+        a.list("corners", mesh.corners);
+    }
     a.objects("attributes", mesh.attributes, [](Archive& b, Attribute& x) { describe(b, x); });
     a.objects("labels", mesh.labels, [](Archive& b, LabelRecord& record) {
         b.text("kind", record.kind);
@@ -91,8 +107,10 @@ void describe_values(Archive& a, StrandValues<Value>& values) {
 template <typename Archive>
 void describe(Archive& a, StrandsRecord& strands) {
     if (Archive::kReads) strands.offsets.clear();
-    a.list("points", strands.points);
-    a.list("offsets", strands.offsets);
+    if (!a.lines(strands.points, strands.offsets)) {
+        a.list("points", strands.points);
+        a.list("offsets", strands.offsets);
+    }
     a.object("widths", [&](Archive& b) {
         describe_values(b, strands.widths);
         b.list("profile", strands.widths.profile);

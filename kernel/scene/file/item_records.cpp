@@ -1,6 +1,7 @@
 #include "kernel/scene/file/item_records.h"
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -67,6 +68,19 @@ Mesh rest_mesh(const RestShape& rest, const Mesh& mesh) {
     return result;
 }
 
+std::shared_ptr<ShownResult> shown_of(DeformRecord& record) {
+    auto shown = std::make_shared<ShownResult>();
+    shown->positions = std::move(record.shown);
+    shown->gradients = std::move(record.gradients);
+    shown->turns_without_faces = std::move(record.turns_without_faces);
+    return shown;
+}
+
+bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
+}
+
 // ---- Hairstyles
 
 // Visits the tilts of the dividing curves.
@@ -106,6 +120,18 @@ std::shared_ptr<const Scalp> scalp_of(const ScalpRecord& record, const Mesh& hea
     return std::make_shared<const Scalp>(head, options, context);
 }
 
+// Puts the tilts back to the bit.
+StyleContent style_content_of(const HairstyleRecord& record) {
+    StyleContent content = decode_style(record.style);
+    std::size_t next = 0;
+    for_each_tilt(content.curves, [&](DividingOptions::Tilt& tilt) {
+        require_valid(next + 2 <= record.tilts.size(), "a hairstyle of the scene lacks a tilt");
+        tilt = {record.tilts[next], record.tilts[next + 1]};
+        next += 2;
+    });
+    return content;
+}
+
 StyleInputs inputs_of(const HairstyleRecord& record, std::vector<StyleCurve> curves) {
     const std::size_t steps = record.step_points.size();
     require_valid(record.ids.size() == curves.size() && record.edits.size() == curves.size() &&
@@ -143,9 +169,14 @@ MeshRecord record_of(const Mesh& mesh) {
     return record;
 }
 
-Mesh mesh_of(MeshRecord record, const Context& context) {
+Mesh mesh_of(MeshRecord record, const Context& context,
+             const std::shared_ptr<const Topology>& known) {
     FaceList faces = faces_of(record);
-    Mesh mesh(std::move(record.positions), std::move(faces), context);
+    const bool same = known && known->vertex_count() == count_of(record.positions) &&
+                      known->faces().offsets == faces.offsets &&
+                      known->faces().vertices == faces.vertices;
+    Mesh mesh = same ? Mesh(std::move(record.positions), known)
+                     : Mesh(std::move(record.positions), std::move(faces), context);
     add_all(mesh, std::move(record.attributes));
     for (LabelRecord& labels : record.labels) {
         require_labels(labels);
@@ -221,12 +252,25 @@ Deformer deformer_of(DeformRecord record, const Mesh& mesh, const Context& conte
     require_complete_attributes(at_rest);
     Deformer deformer(at_rest, region, record.options, context);
     deformer.restore(setup_of(record.description, deformer.setup().rest));
-    auto shown = std::make_shared<ShownResult>();
-    shown->positions = std::move(record.shown);
-    shown->gradients = std::move(record.gradients);
-    shown->turns_without_faces = std::move(record.turns_without_faces);
-    deformer.show(std::move(shown));
+    deformer.show(shown_of(record));
     return deformer;
+}
+
+std::pair<DeformSetup, std::shared_ptr<const ShownResult>> setup_of(DeformRecord record,
+                                                                    const Deformer& deformer) {
+    std::shared_ptr<const RestShape> rest = deformer.setup().rest;
+    require_valid(record.region == region_of(*rest).vertices() &&
+                      record.rest.size() == record.region.size() &&
+                      record.shown.size() == record.region.size() &&
+                      record.gradients.size() == record.region.size(),
+                  "the shapes of a deformation of the scene do not fit its region");
+    if (!same_bits(record.rest, positions_of(*rest))) {
+        DeformFrame frame = rest_frame(*rest);
+        frame.positions = std::move(record.rest);
+        rest = rebased(*rest, frame);
+    }
+    DeformSetup setup = setup_of(record.description, std::move(rest));
+    return {std::move(setup), shown_of(record)};
 }
 
 HairstyleRecord record_of(const Hairstyle& style, const StyleInputs& inputs) {
@@ -252,14 +296,12 @@ HairstyleRecord record_of(const Hairstyle& style, const StyleInputs& inputs) {
     return record;
 }
 
-Hairstyle hairstyle_of(HairstyleRecord record, const Mesh& head, const Context& context) {
-    StyleContent content = decode_style(record.style);
-    std::size_t next = 0;
-    for_each_tilt(content.curves, [&](DividingOptions::Tilt& tilt) {
-        require_valid(next + 2 <= record.tilts.size(), "a hairstyle of the scene lacks a tilt");
-        tilt = {record.tilts[next], record.tilts[next + 1]};
-        next += 2;
-    });
+StyleInputs inputs_of(const HairstyleRecord& record) {
+    return inputs_of(record, style_content_of(record).curves);
+}
+
+Hairstyle hairstyle_of(const HairstyleRecord& record, const Mesh& head, const Context& context) {
+    StyleContent content = style_content_of(record);
     Hairstyle style(head, scalp_of(record.scalp, head, context), content.options, context);
     style.restore(inputs_of(record, std::move(content.curves)));
     return style;

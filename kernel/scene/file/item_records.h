@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -18,6 +20,7 @@
 #include "kernel/mesh/attributes.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/report.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 
@@ -94,8 +97,10 @@ struct HairstyleRecord {
 };
 
 MeshRecord record_of(const Mesh& mesh);
-/// Errors of these: file_syntax; those of the objects' constructors and setters.
-Mesh mesh_of(MeshRecord record, const Context& context);
+/// Errors of these: file_syntax; those of the objects' constructors and setters. The mesh has the
+/// very topology `known`, which may be null, where its faces are the same.
+Mesh mesh_of(MeshRecord record, const Context& context,
+             const std::shared_ptr<const Topology>& known = nullptr);
 
 StrandsRecord record_of(const Strands& strands);
 Strands strands_of(StrandsRecord record);
@@ -103,8 +108,12 @@ Strands strands_of(StrandsRecord record);
 /// `mesh` is the one that is deformed, in its present shape.
 DeformRecord record_of(const DeformSetup& setup, const ShownResult& shown, const Mesh& mesh);
 Deformer deformer_of(DeformRecord record, const Mesh& mesh, const Context& context);
+/// What it asks of `deformer`, which has the same region, and shows of it.
+std::pair<DeformSetup, std::shared_ptr<const ShownResult>> setup_of(DeformRecord record,
+                                                                    const Deformer& deformer);
 
 HairstyleRecord record_of(const Hairstyle& style, const StyleInputs& inputs);
-Hairstyle hairstyle_of(HairstyleRecord record, const Mesh& head, const Context& context);
+Hairstyle hairstyle_of(const HairstyleRecord& record, const Mesh& head, const Context& context);
+StyleInputs inputs_of(const HairstyleRecord& record);
 
 }  // namespace lissom

@@ -93,6 +93,11 @@ void PartWriter::add(std::string_view name, std::string_view bytes) {
     bytes_.resize(padded(bytes_.size()));
 }
 
+SceneJson PartWriter::put(const ListPlace& place, std::string_view bytes, ListForm) {
+    add(place.path, bytes);
+    return nullptr;
+}
+
 // Two empty records end an archive.
 std::string PartWriter::finish() && {
     bytes_.resize(bytes_.size() + 2 * kRecord);
@@ -116,6 +121,10 @@ PartReader::PartReader(std::string_view archive) {
         parts_.insert_or_assign(std::string(text_in(header, kName)), archive.substr(at, size));
         at += padded(size);
     }
+}
+
+std::string_view PartReader::get(const std::string& path, const SceneJson*, ListForm) {
+    return find(path);
 }
 
 std::string_view PartReader::find(std::string_view name) const {

@@ -7,13 +7,19 @@
 #include <string>
 #include <string_view>
 
+#include "kernel/scene/file/list_store.h"
+
 namespace lissom {
 
-class PartWriter {
+/// Lists are parts under their paths; the JSON says nothing of them.
+class PartWriter : public ListSink {
   public:
+    SceneJson put(const ListPlace& place, std::string_view bytes, ListForm form) override;
     /// `name` has at most 99 bytes. Errors: file_too_large for 8 GiB or more, which the format
     /// cannot tell.
     void add(std::string_view name, std::string_view bytes);
+    /// Adds all parts of another.
+    void append(const PartWriter& other) { bytes_ += other.bytes_; }
     /// The archive.
     std::string finish() &&;
 
@@ -22,13 +28,15 @@ class PartWriter {
 };
 
 /// The parts of an archive in memory, which must outlive it.
-class PartReader {
+class PartReader : public ListSource {
   public:
+    std::string_view get(const std::string& path, const SceneJson* entry, ListForm form) override;
     /// Errors: file_syntax where it is none or a part is damaged; file_truncated.
     explicit PartReader(std::string_view archive);
 
     /// The bytes of a part. Errors: file_truncated where it is missing.
     std::string_view find(std::string_view name) const;
+    bool has(std::string_view name) const { return parts_.contains(name); }
 
   private:
     std::map<std::string, std::string_view, std::less<>> parts_;

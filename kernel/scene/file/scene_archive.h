@@ -8,22 +8,28 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "kernel/core/error.h"
 #include "kernel/core/geometry.h"
-#include "kernel/scene/file/part_archive.h"
+#include "kernel/scene/file/list_store.h"
+#include "kernel/scene/scene_parameters.h"
 
 namespace lissom {
 
-using SceneJson = nlohmann::ordered_json;
+/// What people call a record of a list, for names of files; empty for its place in the list.
+template <typename T>
+std::string label_of(const T&) {
+    return {};
+}
 
 /// Numbers of an element of a list: 3 for a Vec3, 1 for a number.
 template <typename T>
@@ -38,6 +44,13 @@ struct ListElement<T> {
     using Scalar = typename T::Scalar;
 };
 
+/// The form of a list whose elements have `width` numbers, or 0: those of their type.
+template <typename T>
+ListForm list_form(std::size_t width) {
+    using Scalar = typename ListElement<T>::Scalar;
+    return {number_type<Scalar>(), width ? width : sizeof(T) / sizeof(Scalar)};
+}
+
 static_assert(std::endian::native == std::endian::little,
               "lists of numbers are written as they lie in memory");
 
@@ -45,8 +58,8 @@ class SceneWriter {
   public:
     static constexpr bool kReads = false;
 
-    SceneWriter(SceneJson& json, PartWriter& parts, std::string path)
-        : json_(json), parts_(parts), path_(std::move(path)) {}
+    SceneWriter(SceneJson& json, ListSink& lists, ListPlace place = {})
+        : json_(json), lists_(lists), place_(std::move(place)) {}
 
     void flag(const char* key, bool& value) { json_[key] = value; }
     void integer(const char* key, Index& value) { json_[key] = value; }
@@ -69,14 +82,35 @@ class SceneWriter {
     void few(const char* key, std::vector<T>& values) {
         json_[key] = values;
     }
+    /// A list of elements of their type, or of `width` numbers an element.
     template <typename T>
-    void list(const char* key, std::vector<T>& values) {
-        parts_.add(path_ + key,
-                   {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+    void list(const char* key, std::vector<T>& values, std::size_t width = 0) {
+        const std::string_view bytes(reinterpret_cast<const char*>(values.data()),
+                                     values.size() * sizeof(T));
+        keep(key, lists_.put(place_of(key), bytes, list_form<T>(width)));
+    }
+    /// False where the store has no files of models: then they are lists.
+    bool surface(std::vector<Vec3>& positions, std::vector<Index>& offsets,
+                 std::vector<Index>& corners) {
+        return keep("model",
+                    lists_.put_model(place_.label, {positions, {}, offsets, corners, false}));
+    }
+    bool lines(std::vector<float>& points, std::vector<Index>& offsets) {
+        return keep("model", lists_.put_model(place_.label, {{}, points, offsets, {}, true}));
+    }
+    void parameters(const char* key, ParametersByOwner& all) {
+        SceneJson& json = json_[key] = SceneJson::object();
+        for (const auto& [owner, values] : all) {
+            SceneJson& of_owner = json[owner] = SceneJson::object();
+            for (const auto& [name, value] : values) {
+                SceneJson& kept = of_owner[name];
+                std::visit([&](const auto& x) { kept = x; }, value);
+            }
+        }
     }
     template <typename Describe>
     void object(const char* key, const Describe& describe) {
-        SceneWriter inner(json_[key] = SceneJson::object(), parts_, path_ + key + "/");
+        SceneWriter inner(json_[key] = SceneJson::object(), lists_, inner_place(key, key));
         describe(inner);
     }
     template <typename T, typename Describe>
@@ -88,15 +122,29 @@ class SceneWriter {
         SceneJson& array = json_[key] = SceneJson::array();
         for (std::size_t i = 0; i < values.size(); ++i) {
             array.push_back(SceneJson::object());
-            SceneWriter inner(array.back(), parts_, path_ + key + "/" + std::to_string(i) + "/");
+            const std::string number = std::to_string(i), label = label_of(values[i]);
+            const std::string begin = std::string(key) + "/";
+            SceneWriter inner(
+                array.back(), lists_,
+                inner_place(begin + number, begin + (label.empty() ? number : label)));
             describe(inner, values[i]);
         }
     }
 
   private:
+    ListPlace place_of(const char* key) const { return {place_.path + key, place_.label + key}; }
+    ListPlace inner_place(const std::string& path, const std::string& label) const {
+        return {place_.path + path + "/", place_.label + label + "/"};
+    }
+    bool keep(const char* key, SceneJson entry) {
+        if (entry.is_null()) return false;
+        json_[key] = std::move(entry);
+        return true;
+    }
+
     SceneJson& json_;
-    PartWriter& parts_;
-    std::string path_;
+    ListSink& lists_;
+    ListPlace place_;
 };
 
 /// Errors of all: file_syntax, naming the value; file_truncated for a list that is missing.
@@ -104,8 +152,8 @@ class SceneReader {
   public:
     static constexpr bool kReads = true;
 
-    SceneReader(const SceneJson& json, const PartReader& parts, std::string path)
-        : json_(json), parts_(parts), path_(std::move(path)) {
+    SceneReader(const SceneJson& json, ListSource& lists, std::string path = {})
+        : json_(json), lists_(lists), path_(std::move(path)) {
         if (!json.is_object()) refuse("", "an object {...}");
     }
 
@@ -161,17 +209,39 @@ class SceneReader {
         }
     }
     template <typename T>
-    void list(const char* key, std::vector<T>& values) {
-        const std::string_view bytes = parts_.find(path_ + key);
+    void list(const char* key, std::vector<T>& values, std::size_t width = 0) {
+        const auto entry = json_.find(key);
+        const std::string_view bytes =
+            lists_.get(path_ + key, entry == json_.end() ? nullptr : &*entry, list_form<T>(width));
         if (bytes.size() % sizeof(T) != 0) refuse(key, "a list of whole elements");
         values.resize(bytes.size() / sizeof(T));
         if (bytes.empty()) return;
         using Scalar = typename ListElement<T>::Scalar;
         std::memcpy(reinterpret_cast<Scalar*>(values.data()), bytes.data(), bytes.size());
     }
+    bool surface(std::vector<Vec3>& positions, std::vector<Index>& offsets,
+                 std::vector<Index>& corners) {
+        if (!json_.contains("model")) return false;
+        lists_.get_surface(at("model"), positions, offsets, corners);
+        return true;
+    }
+    bool lines(std::vector<float>& points, std::vector<Index>& offsets) {
+        if (!json_.contains("model")) return false;
+        lists_.get_lines(at("model"), points, offsets);
+        return true;
+    }
+    /// None where they are missing.
+    void parameters(const char* key, ParametersByOwner& all) {
+        if (!json_.contains(key)) return;
+        for (const auto& [owner, values] : members(at(key), key)) {
+            for (const auto& [name, value] : members(values, key)) {
+                all[owner][name] = parameter(key, value);
+            }
+        }
+    }
     template <typename Describe>
     void object(const char* key, const Describe& describe) {
-        SceneReader inner(at(key), parts_, path_ + key + "/");
+        SceneReader inner(at(key), lists_, path_ + key + "/");
         describe(inner);
     }
     template <typename T, typename Describe>
@@ -184,7 +254,7 @@ class SceneReader {
     void objects(const char* key, std::vector<T>& values, const Describe& describe) {
         const SceneJson& found = array(key);
         for (std::size_t i = 0; i < found.size(); ++i) {
-            SceneReader inner(found[i], parts_, path_ + key + "/" + std::to_string(i) + "/");
+            SceneReader inner(found[i], lists_, path_ + key + "/" + std::to_string(i) + "/");
             describe(inner, values.emplace_back());
         }
     }
@@ -199,6 +269,15 @@ class SceneReader {
         if (found == json_.end()) refuse(key, "there");
         return *found;
     }
+    const SceneJson::object_t& members(const SceneJson& json, const char* key) const {
+        if (!json.is_object()) refuse(key, "an object {...}");
+        return json.get_ref<const SceneJson::object_t&>();
+    }
+    SceneParameter parameter(const char* key, const SceneJson& json) const {
+        if (json.is_boolean()) return json.get<bool>();
+        if (json.is_string()) return json.get<std::string>();
+        return finite(key, json);
+    }
     const SceneJson& array(const char* key) const {
         const SceneJson& found = at(key);
         if (!found.is_array()) refuse(key, "a list");
@@ -210,7 +289,7 @@ class SceneReader {
     }
 
     const SceneJson& json_;
-    const PartReader& parts_;
+    ListSource& lists_;
     std::string path_;
 };
 

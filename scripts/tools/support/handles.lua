@@ -20,6 +20,23 @@ function handles.list(scene)
     return list
 end
 
+local function is_one_of(list, handle)
+    for _, one in ipairs(list or {}) do
+        if one == handle then return true end
+    end
+    return false
+end
+
+--- Place in a list of the `chosen` handle, else of the last one that is not among the pins; 0 for none.
+function handles.number(list, chosen, pins)
+    local number = 0
+    for i, one in ipairs(list) do
+        if one.handle == chosen then return i end
+        if not is_one_of(pins, one.handle) then number = i end
+    end
+    return number
+end
+
 --- The deformation of a mesh that is in the scene, else a new one: of what is within a distance around a
 -- region; of the parts of the mesh that it lies on, where the distance is 0.
 function handles.deformation(scene, one, region, reach)

@@ -1,6 +1,8 @@
 #include "kernel/io/gltf/mesh/transform.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <cmath>
 
 namespace lissom {

@@ -1,5 +1,7 @@
 #include "viewer/draw/style_marks.h"
 
+#include <algorithm>
+
 #include "kernel/mesh/shapes/head.h"
 #include "tests/unit/support.h"
 
@@ -84,4 +86,27 @@ TEST_CASE("style marks: the field is drawn on its plane, outside the head") {
     CHECK(test::error_of([&] { style_lines(style, marks); }).code() == ErrorCode::invalid_argument);
     marks.field = FieldSlice{Vec3::Zero(), Vec3::UnitX(), 1e-6};
     CHECK(test::error_of([&] { style_lines(style, marks); }).code() == ErrorCode::invalid_argument);
+}
+
+TEST_CASE("style marks: a legend names the colours that are drawn, and no others") {
+    const Mesh head = make_head({.vertices = 3000});
+    Hairstyle style = styled(head);
+    const auto names = [&](const StyleMarks& marks) {
+        std::string text;
+        for (const LegendPart& part : style_legend(style, marks)) text += part.name + "; ";
+        return text;
+    };
+    CHECK(names(only(true, false)).empty());
+    CHECK(names(only(false, true)) == "along curves; ends, partings; around tails; into the tie; ");
+    NamedMarks marks = field_marks(style);
+    CHECK(marks.names.back().name == "field");
+    const auto is_field = [&](const DrawnLine& line) {
+        return line.color == marks.names.back().color;
+    };
+    CHECK(std::count_if(marks.lines.begin(), marks.lines.end(), is_field) > 100);
+    // A field that is behind its curves is not shown.
+    style.remove(style.curves()[2]);
+    marks = field_marks(style);
+    REQUIRE(marks.names.size() == 2);
+    CHECK(marks.names.back().name == "ends, partings");
 }

@@ -201,6 +201,8 @@ TEST_CASE("every option of a picture changes it") {
           "wire = true",
           "region = mesh:region('top'):grow(1)",
           "region = mesh:region{ all = true }",
+          "regions = true",
+          "regions = { 'top' }",
           "handles = { 'top' }",
           "handles = { mesh:region{ where = function(_, _, _, z) return z > 0.4 end } }",
           "boundaries = true",
@@ -218,6 +220,9 @@ TEST_CASE("every option of a picture changes it") {
     CHECK(picture("scalars = heights, range = { 0, 9 }") != scaled);
     CHECK(picture("scalars = heights, legend = false") != scaled);
     CHECK(picture("scalars = heights, label = 'y'") != scaled);
+    CHECK(picture("regions = true") != picture("regions = { 'top' }"));
+    CHECK(picture("regions = false") == plain);
+    CHECK(lua.run("lissom.render{ mesh = mesh, regions = { 'tip' }, file = 'no.png' }") != "");
     CHECK(picture("boundaries = true, line_width = 9") != picture("boundaries = true"));
 }
 

@@ -109,6 +109,21 @@ TEST_CASE("coloring: regions of one name have one colour, small ones over large 
     CHECK(legend_of(result)->parts == result.legend_parts);
 }
 
+TEST_CASE("coloring: the field of hairstyles is shown where there is one") {
+    Picture picture = picture_of({box_with_values()});
+    CHECK_FALSE(has(colorings_of(picture), {By::field}));
+    picture.meshes[0].style.color = {1.0, 0.0, 0.0};
+    picture.marks.lines.resize(1);
+    picture.field_marks = {std::vector<DrawnLine>(3), {{"field", {0.0, 0.0, 1.0}}}};
+    REQUIRE(has(colorings_of(picture), {By::field}));
+    const Picture result = colored(picture, {By::field}, {});
+    CHECK(result.marks.lines.size() == 4);
+    CHECK(result.meshes[0].style.color == picture.meshes[0].style.color);
+    REQUIRE(legend_of(result));
+    CHECK(legend_of(result)->parts == picture.field_marks.names);
+    CHECK(colored(picture, {}, {}).marks.lines.size() == 1);
+}
+
 TEST_CASE("coloring: shapes are compared with the first of the same faces") {
     RestShapes rest;
     const Picture first = picture_of({make_box()});

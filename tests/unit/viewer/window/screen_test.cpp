@@ -16,14 +16,14 @@ TEST_CASE("screen: a camera that moves sends nothing, a mesh that moves its vert
     Picture picture;
     // Quads: their diagonals would change with the shape.
     picture.meshes = {{std::make_shared<const Mesh>(make_sphere())}};
-    CHECK(screen.update(quick_snapshot(picture, {}, 0)).colors > 0);
+    CHECK(screen.update(quick_snapshot(picture, {})).colors > 0);
     screen.draw(test::front_camera(4.0), {0, 0, 80, 60}, kWhite, 1);
-    CHECK(screen.update(quick_snapshot(picture, {}, 0)).bytes() == 0);
+    CHECK(screen.update(quick_snapshot(picture, {})).bytes() == 0);
     for (const double factor : {1.2, 1.4}) {
         Mesh moved = *picture.meshes[0].mesh;
         for (Vec3& p : moved.edit_positions()) p.x() *= factor;
         picture.meshes[0].mesh = std::make_shared<const Mesh>(moved);
-        const Uploads uploads = screen.update(quick_snapshot(picture, {}, 0));
+        const Uploads uploads = screen.update(quick_snapshot(picture, {}));
         CHECK(uploads.vertices > 0);
         CHECK(uploads.bytes() == uploads.vertices);
     }

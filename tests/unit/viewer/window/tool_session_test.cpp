@@ -1,6 +1,8 @@
 // Tools of a session: what a hand does reaches them in order, becomes steps, and can be repeated.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -93,6 +95,24 @@ struct ToolHost : test::SessionHost {
     std::optional<Shown> last;
     ToolState known;
 };
+
+ToolInput played(std::size_t event) {
+    ToolInput made;
+    made.kind = Kind::play;
+    made.event = event;
+    return made;
+}
+
+// Opens a recording and plays all of it; the number of its events.
+std::size_t play_all(test::SessionHost& host, const std::string& record) {
+    host.session.open({record});
+    host.wait();
+    const auto playback = host.session.take_playback();
+    if (!playback) return 0;
+    for (std::size_t i = 0; i < playback->times.size(); ++i) host.session.post(played(i));
+    host.wait();
+    return playback->times.size();
+}
 
 std::string host_tool(const test::ProgramFolder& folder) {
     return folder.write("pull.lua", kPull);
@@ -337,10 +357,131 @@ TEST_CASE("session: what is recorded is a script that comes to the same scene") 
     after = host.shown();
     CHECK(host.lines.empty());
     REQUIRE(content_of(record).find("replay") != std::string::npos);
+    const std::size_t events = play_all(host, record);
+    CHECK(events > 8);
+    CHECK(host.session.events_played() == events);
+    CHECK_FALSE(host.session.is_playing());
+    REQUIRE(host.lines.size() == 1);
+    CHECK(host.says(LineKind::result, "come to the scene that was recorded"));
+    CHECK(host.shown() == after);
+    // Not as a recording, but as the script that it is.
+    const std::string copied = "require('os') " + content_of(record);
+    host.session.open({outside.write("script.lua", copied)});
+    host.wait();
+    CHECK(host.lines.size() == 1);
+    CHECK(host.shown() == after);
+}
+
+TEST_CASE("session: events are recorded with their times, and played one by one") {
+    test::ProgramFolder outside;
+    const std::string record = outside.path("events.lua");
+    ToolHost recorder({.record = record});
+    recorder.open(host_tool(outside));
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    recorder.drag(3);
+    ToolHost host;
     host.session.open({record});
     host.wait();
+    const auto playback = host.session.take_playback();
+    REQUIRE(playback);
+    const std::vector<double>& times = playback->times;
+    CHECK(std::is_sorted(times.begin(), times.end()));
+    CHECK(times.back() >= 0.06);
+    CHECK(times.back() < 60.0);
+    // The hand of the recording is seen with its button down; two moves that wait are two.
+    std::size_t i = 0;
+    while (!(host.state().hand && host.state().hand->is_down)) {
+        REQUIRE(i < times.size());
+        host.session.post(played(i++));
+        host.wait();
+    }
+    CHECK(host.state().hand->size.width == 640);
+    CHECK(host.state().hand->at == Vec2(320.0, 240.0));
+    const std::vector<Vec3> before = host.shown();
+    host.session.post(played(i));
+    host.session.post(played(i + 1));
+    host.wait();
+    CHECK(host.session.events_played() == i + 2);
+    CHECK(host.shown() != before);
+    // Stopped there, nothing is held any more, and a hand goes on.
+    host.session.stop_playing();
+    host.session.post(played(i + 2));
+    host.wait();
+    CHECK_FALSE(host.session.is_playing());
+    CHECK(host.session.events_played() == i + 2);
+    CHECK(host.shown() == before);
+    CHECK(host.state().place == 0);
+    CHECK(host.state().tool == "pull");
+    host.drag(1);
+    CHECK(host.state().place == 1);
     CHECK(host.lines.empty());
-    CHECK(host.shown() == after);
+}
+
+TEST_CASE("session: the first difference of a recording is told, and it is played on") {
+    test::ProgramFolder outside;
+    const std::string record = outside.path("events.lua");
+    const std::string tool = host_tool(outside);
+    ToolHost recorder({.record = record});
+    recorder.open(tool);
+    recorder.drag(1);
+    recorder.drag(1);
+    std::string other = kPull;
+    other.replace(other.find("z + self"), 8, "z - self");
+    outside.write("pull.lua", other);
+    test::SessionHost again;
+    const std::size_t events = play_all(again, record);
+    CHECK(again.session.events_played() == events);
+    REQUIRE(again.lines.size() == 1);
+    CHECK(again.says(LineKind::error, "the recording differs at event "));
+    CHECK(again.says(LineKind::error, ", release: the scene has the hash "));
+    // An error of a tool ends it, and names the event.
+    outside.write("pull.lua", "return require('lissom').tool{ name = 'pull', press = error }");
+    again.lines.clear();
+    CHECK(play_all(again, record) == events);
+    CHECK(again.session.events_played() < events);
+    CHECK(again.says(LineKind::error, "event "));
+    CHECK(again.says(LineKind::error, ", press: "));
+    CHECK_FALSE(again.session.is_playing());
+}
+
+TEST_CASE("session: a recording finds what lies beside it, and says what it lacks") {
+    test::ProgramFolder outside;
+    std::filesystem::create_directory(outside.path("models"));
+    save_mesh(make_sphere(), outside.path("models/ball.obj"));
+    host_tool(outside);
+    const std::string record = outside.path("events.lua");
+    {
+        test::SessionHost host({.tool = outside.path("pull.lua"), .record = record});
+        host.session.open({outside.path("models/ball.obj")});
+        host.wait();
+        ToolInput look = input(Kind::look);
+        look.camera = Camera({.eye = {0.0, 0.0, 5.0}});
+        look.size = {640, 480};
+        host.session.post(look);
+        host.session.post(input(Kind::press));
+        host.session.post(input(Kind::release));
+        host.wait();
+        CHECK(host.lines.empty());
+    }
+    const std::string text = content_of(record);
+    CHECK(text.find("open = { \"models/ball.obj\" }") != std::string::npos);
+    CHECK(text.find("{ \"tool\", \"pull.lua\"") != std::string::npos);
+    // All of it is moved.
+    test::ProgramFolder moved;
+    std::filesystem::copy(outside.path(""), moved.path(""),
+                          std::filesystem::copy_options::recursive);
+    test::SessionHost again;
+    CHECK(play_all(again, moved.path("events.lua")) > 3);
+    CHECK(again.says(LineKind::result, "come to the scene that was recorded"));
+    std::filesystem::remove(moved.path("pull.lua"));
+    again.lines.clear();
+    play_all(again, moved.path("events.lua"));
+    CHECK(again.says(LineKind::error, "pull.lua"));
+    std::filesystem::remove(moved.path("models/ball.obj"));
+    again.lines.clear();
+    CHECK(play_all(again, moved.path("events.lua")) == 0);
+    CHECK(again.says(LineKind::error, "the recording needs a file that cannot be opened"));
+    CHECK(again.says(LineKind::error, "models/ball.obj"));
 }
 
 TEST_CASE("session: a journal is a script of calls that comes to the same scene") {
@@ -378,13 +519,26 @@ TEST_CASE("session: a recording of a script's scene runs that script") {
     const std::vector<Vec3> after = host.shown();
     CHECK(host.lines.empty());
     test::SessionHost again;
-    again.session.open({record});
-    again.wait();
-    CHECK(again.lines.empty());
+    CHECK(play_all(again, record) > 5);
+    CHECK(again.lines.size() == 1);
+    CHECK(again.says(LineKind::result, "come to the scene that was recorded"));
     const auto shown = again.session.take_shown();
     REQUIRE(shown);
     const auto positions = shown->picture->meshes.at(0).mesh->positions();
     CHECK(std::vector<Vec3>(positions.begin(), positions.end()) == after);
+}
+
+TEST_CASE("session: a tool or a script cannot end the window") {
+    test::ProgramFolder outside;
+    ToolHost host;
+    host.open(outside.write("end.lua",
+                            "return require('lissom').tool{ name = 'end',\n"
+                            "press = function() os.exit(true) end }"));
+    host.session.post(input(Kind::press));
+    host.wait();
+    CHECK(host.says(LineKind::error, "end.lua:2: os.exit does not end the window"));
+    host.run("os.exit()");
+    CHECK(host.says(LineKind::error, "script.lua:1: os.exit does not end the window"));
 }
 
 TEST_CASE("session: a storm of Escapes leaves no step open") {

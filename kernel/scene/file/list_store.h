@@ -1,0 +1,79 @@
+/// Where the lists of numbers of a scene file go, which its JSON does not hold: one interface for
+/// archives, folders and histories; private to kernel/scene.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+
+namespace lissom {
+
+using SceneJson = nlohmann::ordered_json;
+
+enum class NumberType { float32, float64, int32, uint32, int64 };
+
+/// What one list holds: numbers of one type, `width` for each element.
+struct ListForm {
+    NumberType type = NumberType::float64;
+    std::size_t width = 1;
+};
+
+template <typename Number>
+constexpr NumberType number_type() {
+    if (std::is_same_v<Number, float>) return NumberType::float32;
+    if (std::is_same_v<Number, double>) return NumberType::float64;
+    if (std::is_same_v<Number, std::uint32_t>) return NumberType::uint32;
+    return sizeof(Number) == 8 ? NumberType::int64 : NumberType::int32;
+}
+
+std::size_t bytes_of(NumberType type);
+
+/// Where a list stands: in the file ("items/0/positions"), and what people call it
+/// ("items/head/positions").
+struct ListPlace {
+    std::string path, label;
+};
+
+/// A surface or a set of lines: `offsets` tell where the corners of each element begin.
+struct ModelView {
+    std::span<const Vec3> positions;
+    std::span<const float> points;
+    std::span<const Index> offsets;
+    /// Empty for lines, which run through `points` one after the other.
+    std::span<const Index> corners;
+    bool lines = false;
+};
+
+class ListSink {
+  public:
+    virtual ~ListSink();
+    /// Keeps a list. Returns what the JSON says of it; null for nothing.
+    virtual SceneJson put(const ListPlace& place, std::string_view bytes, ListForm form) = 0;
+    /// Keeps a model as a file of its own, and returns what the JSON says of it; null where the
+    /// store has no such files, so that it is lists as all else.
+    virtual SceneJson put_model(const std::string& label, const ModelView& model);
+};
+
+/// Errors: file_syntax, file_truncated.
+class ListSource {
+  public:
+    virtual ~ListSource();
+    /// The bytes of a list; `entry` is what the JSON says of it, or null. They are valid until the
+    /// next call.
+    virtual std::string_view get(const std::string& path, const SceneJson* entry,
+                                 ListForm form) = 0;
+    /// The surface or the lines of a model.
+    virtual void get_surface(const SceneJson& entry, std::vector<Vec3>& positions,
+                             std::vector<Index>& offsets, std::vector<Index>& corners);
+    virtual void get_lines(const SceneJson& entry, std::vector<float>& points,
+                           std::vector<Index>& offsets);
+};
+
+}  // namespace lissom

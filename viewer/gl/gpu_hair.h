@@ -1,0 +1,121 @@
+/// GpuHair: strands on the graphics card, for a window: any number of the first of an even order
+/// can be drawn, from any side, and nothing is sent while the camera moves. All of it needs a
+/// current context, also to end.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "viewer/draw/view_parameters.h"
+#include "viewer/gl/gl_objects.h"
+#include "viewer/gl/hair_shade.h"
+#include "viewer/strands/hair_light.h"
+#include "viewer/strands/packed_strands.h"
+
+namespace lissom {
+
+/// Strands of a drawing, ready to be drawn.
+struct HairPart {
+    DrawnStrands drawn;
+    std::shared_ptr<const PackedStrands> packed;
+};
+
+/// All strands of a drawing, and their light; `light` is null where there are none.
+struct Hair {
+    std::vector<HairPart> parts;
+    std::shared_ptr<const HairLight> light;
+};
+
+/// Strands from the `begin`-th to before the `end`-th, as shares of them all: with several parts,
+/// of each the same share.
+struct HairRange {
+    double begin = 0.0, end = 1.0;
+    /// So many stand for all: they are so much wider. A share as well.
+    double of = 1.0;
+    /// With the few points of strands that are there for moving pictures, where they suffice.
+    bool few_points = false;
+};
+
+/// How the strands are seen.
+struct HairView {
+    /// Of the picture; the projection may be that of a part of it.
+    ViewParameters parameters;
+    Mat4 projection = Mat4::Identity();
+    /// The point of the world that is at zero in picture space.
+    Vec3 origin = Vec3::Zero();
+    /// Strands are at least so wide, in view units, at depth 1 with perspective.
+    double thinnest = 0.0;
+};
+
+class GpuHair {
+  public:
+    GpuHair();
+
+    /// Becomes `hair`; sends what is new in it and frees what is not in it any more. Bytes sent.
+    /// Errors: memory_limit.
+    std::size_t update(const Hair& hair);
+    /// From now on light comes from where it does for one camera: `light` is HairLight::directed of
+    /// the light that is shown; nothing where there is none. Bytes sent.
+    std::size_t direct(std::span<const std::uint8_t> light);
+    /// From now on light comes from where it does for any camera, by its moments.
+    void undirect() { directed_ = false; }
+
+    bool empty() const { return size_ == 0; }
+    /// Strands that are drawn in all, and those that few points are there for.
+    Index size() const { return size_; }
+    double few() const { return few_; }
+    /// Whether all strands are there, not few alone.
+    bool complete() const { return complete_; }
+    /// Metres in the world of the widest strand when a share `of` of them is drawn.
+    double width(double of) const;
+    /// Of the space that the light is known in.
+    Vec3 middle() const;
+    const std::shared_ptr<const HairLight>& light() const { return light_; }
+
+    /// The shade on meshes.
+    GpuHairShade shade(const HairView& view) const;
+    /// Draws into what is bound, against its depths.
+    void draw(const HairView& view, const HairRange& range) const;
+
+  private:
+    // Whole strands, as many as one buffer holds.
+    struct Page {
+        gl::TextureBuffer points, shifts;
+        Index first = 0, last = 0;
+        Index base = 0;
+    };
+    struct Ribbons {
+        std::vector<Page> pages;
+        std::vector<Index> offsets{0};
+
+        Index size() const { return count_of(offsets) - 1; }
+    };
+    struct Part {
+        HairPart source;
+        std::shared_ptr<const Ribbons> all, few;
+    };
+
+    std::shared_ptr<const Ribbons> send(const PackedRibbons& packed, std::size_t& sent) const;
+    std::size_t update_light(std::shared_ptr<const HairLight> light);
+    void count();
+    void use(const HairView& view) const;
+    void use(const Part& part, const HairView& view, double widening) const;
+    static Index count_of_part(const Part& part, double share);
+    static Index total(const Part& part);
+
+    gl::Program program_;
+    gl::VertexArray no_vertices_;
+    Index most_points_ = 0;
+    std::vector<Part> parts_;
+    std::shared_ptr<const HairLight> light_;
+    std::shared_ptr<const gl::Texture> volume_, for_strands_, for_meshes_;
+    GpuHairShade no_hair_;
+    Index size_ = 0;
+    double few_ = 0.0;
+    bool complete_ = false;
+    bool directed_ = false;
+};
+
+}  // namespace lissom

@@ -1,0 +1,60 @@
+/// The light in hair for any camera. The lights are those of the camera, so that they go around the
+/// hair when it turns: what is kept is how much light reaches each place from all around.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "viewer/draw/snapshot.h"
+#include "viewer/strands/strand_extinction.h"
+
+namespace lissom {
+
+/// Light from all around that is left at each grid point, as a linear function of the direction
+/// that it comes from: m + d . g, as four bytes (m and (g + 1) / 2, each times 255). The mean of
+/// directions with any weights that are linear in them is exact; one direction alone is softened.
+using LightMoments = std::vector<std::uint8_t>;
+
+class HairLight {
+  public:
+    /// Of the strands and meshes of `snapshot`, in its world about `origin`. Errors: those of
+    /// view_strands; memory_limit; cancelled.
+    HairLight(const Snapshot& snapshot, const Vec3& origin, const LightDetail& detail = {},
+              const Context& context = {});
+
+    /// Along the axes of the world, about `origin`.
+    const ViewGrid& grid() const { return grid_; }
+    const Vec3& origin() const { return origin_; }
+    /// What strands and meshes let through, for strands; and strands alone, for meshes.
+    const LightMoments& for_strands() const { return for_strands_; }
+    const LightMoments& for_meshes() const { return for_meshes_; }
+    /// Linear colour that scalps take where hair grows.
+    const Eigen::Array3f& scalp_color() const { return scalp_color_; }
+
+    /// Four bytes a grid point for a camera that turns the world by `to_view`: key and rim light
+    /// for strands, key light for meshes, and how much hair grows there. As StrandShadow has them.
+    std::vector<std::uint8_t> directed(const Mat3& to_view, const Context& context = {}) const;
+    /// The last of these four, the others 0.
+    std::vector<std::uint8_t> undirected() const;
+
+  private:
+    LightMoments moments(const std::vector<float>& extinction) const;
+
+    ViewGrid grid_;
+    Vec3 origin_;
+    std::vector<float> hair_, everything_;
+    std::vector<std::uint8_t> tint_;
+    LightMoments for_strands_, for_meshes_;
+    Eigen::Array3f scalp_color_;
+    MemoryCharge charge_;
+};
+
+/// The part of the light that comes from `direction`, of unit length, by its moments.
+float light_from(const std::uint8_t* moments, const Eigen::Vector3f& direction);
+/// The part of the light from all around that is left, where `up` is up.
+float ambient_light(const std::uint8_t* moments, const Eigen::Vector3f& up);
+/// Weight of the directed part in that: so much brighter than the middle is the sky.
+float ambient_slope();
+
+}  // namespace lissom

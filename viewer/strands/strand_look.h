@@ -1,0 +1,27 @@
+/// What tells strands apart: tones at random, and widths.
+#pragma once
+
+#include <vector>
+
+#include "viewer/strands/view_strands.h"
+
+namespace lissom {
+
+struct StrandLook {
+    /// Factor of the colour.
+    float tone = 1.0f;
+    /// Radians by which its reflections lean more.
+    float shift = 0.0f;
+};
+
+/// Of a strand, at random by its id and its clump: whichever other strands there are.
+StrandLook look_of(const ViewStrands& drawn, Index strand);
+
+/// Factor of the colour along a strand, dark at the root and light at the tip; `t` 0 to 1.
+float tone_along(const StrandStyle& style, float t);
+
+/// Widths of a strand's points in view units, as far as they cover: less where they are
+/// transparent.
+void cover_widths(const ViewStrands& drawn, Index strand, std::vector<float>& widths);
+
+}  // namespace lissom
