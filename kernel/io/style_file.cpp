@@ -8,6 +8,7 @@
 
 #include "kernel/core/memory_error.h"
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/read_error.h"
 #include "kernel/io/stream/text_writer.h"
 
 namespace lissom {
@@ -378,10 +379,7 @@ StyleContent decode_style(std::string_view bytes) {
     try {
         return content_from(StyleJson::parse(bytes.begin(), bytes.end(), callback));
     } catch (const StyleJson::exception& error) {
-        // "[json.exception.parse_error.101] parse error at line 3, column 1: ..."
-        const std::string text = error.what();
-        const std::size_t end = text.find("] ");
-        refuse("style", end == std::string::npos ? text : text.substr(end + 2));
+        refuse("style", without_tag(error.what()));
     }
 }
 

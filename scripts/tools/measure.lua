@@ -56,7 +56,7 @@ local function surface(self, p, ones)
         return string.format("%.4g over the surface", straight), { p[1], p[2] }
     end
     local copy = in_world(ones[1])
-    local distances = copy:distances{ from = { point = p[1] } }
+    local distances = copy:distances{ from = { point = p[1] }, method = "front" }
     local length = mean(self.points[2], function(v) return distances[v] end)
     if not (length < math.huge) then return "two parts" end
     local from, to, line = copy:nearest(p[1]).vertex, copy:nearest(p[2]).vertex, { p[1], p[2] }

@@ -4,6 +4,8 @@
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/sources.h"
 #include "kernel/mesh/measure/distortion.h"
+#include "kernel/mesh/query/distances.h"
+#include "kernel/mesh/query/front_distances.h"
 
 namespace lissom::lua {
 namespace {
@@ -47,29 +49,45 @@ int pick(Call& call) {
     return 1;
 }
 
-std::vector<double> from_vertices(const Call& call, MeshObject& mesh, const SourceSpec& sources,
-                                  bool along_edges) {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    if (along_edges) return edge_distances(mesh.mesh, sources.vertices, kFar, call.context());
-    return mesh.heat(call.context()).from(sources.vertices, call.context());
+// The choices of the option `method`, in their order.
+enum class DistanceMethod { heat, front, edges };
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+std::vector<double> from_vertices(const Call& call, MeshObject& mesh,
+                                  std::span<const Index> sources) {
+    switch (DistanceMethod(call.integer("method"))) {
+        case DistanceMethod::heat:
+            return mesh.heat(call.context()).from(sources, call.context());
+        case DistanceMethod::front:
+            return front_distances(mesh.mesh, sources, kFar, call.context());
+        case DistanceMethod::edges:
+            break;
+    }
+    return edge_distances(mesh.mesh, sources, kFar, call.context());
 }
 
-std::vector<double> from_point(const Call& call, MeshObject& mesh, const SourceSpec& sources,
-                               bool along_edges) {
-    const SurfacePoint point = sources.nearest(mesh, call.context());
-    if (along_edges) return edge_distances(mesh.mesh, point, call.context());
-    return mesh.heat(call.context()).from_point(point, call.context());
+std::vector<double> from_point(const Call& call, MeshObject& mesh, const SurfacePoint& point) {
+    switch (DistanceMethod(call.integer("method"))) {
+        case DistanceMethod::heat:
+            return mesh.heat(call.context()).from_point(point, call.context());
+        case DistanceMethod::front:
+            return front_distances(mesh.mesh, point, kFar, call.context());
+        case DistanceMethod::edges:
+            break;
+    }
+    return edge_distances(mesh.mesh, point, call.context());
 }
 
 int distances(Call& call) {
     const auto mesh = call.self<MeshObject>();
-    const bool along_edges = call.integer("method") == 1;
     const SourceSpec sources = read_sources(call, "from");
     const auto result = call.create<BufferObject>();
     const bool done = call.attempt([&] {
         auto buffer = std::make_shared<BufferObject>();
-        buffer->values = sources.is_point ? from_point(call, *mesh, sources, along_edges)
-                                          : from_vertices(call, *mesh, sources, along_edges);
+        buffer->values = sources.is_point
+                             ? from_point(call, *mesh, sources.nearest(*mesh, call.context()))
+                             : from_vertices(call, *mesh, sources.vertices);
         result.set(std::move(buffer));
     });
     if (!done) return call.fail();
@@ -143,9 +161,12 @@ assert(math.abs(hit.position[3] - 0.5) < 1e-12))"},
              .summary =
                  "Distance of every vertex over the surface to the nearest of the given vertices, "
                  "or to a point; infinite where there is no way.",
-             .options = {source_option(), choice("method", {"heat", "edges"},
-                                                 "Geodesic by the heat method, or along edges.")
-                                              .defaults("heat")},
+             .options = {source_option(),
+                         choice("method", {"heat", "front", "edges"},
+                                "Geodesic by the heat method, which prepares a mesh once and is "
+                                "fast from then on; geodesic by an advancing front, which needs "
+                                "no preparation; or along edges.")
+                             .defaults("heat")},
              .results = {{"lissom.Buffer", "distances", "One number a vertex."}},
              .errors = {ErrorCode::out_of_range, ErrorCode::invalid_argument, ErrorCode::mesh_empty,
                         ErrorCode::memory_limit, ErrorCode::cancelled},

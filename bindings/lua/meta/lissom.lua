@@ -670,7 +670,7 @@ function Mesh:pick(origin, direction) end
 
 ---@class lissom.Mesh.DistancesOptions
 ---@field from integer|lissom.Region|table Where distances start: a vertex, a region, a list of vertices, or a point {x, y, z}, of which the nearest on the surface counts, also as Mesh:nearest and Mesh:pick return it. Three whole numbers above 0 may be vertices or a point: write { vertices = {a, b, c} } or { point = {x, y, z} }.
----@field method? "heat"|"edges" Geodesic by the heat method, or along edges. Default: "heat".
+---@field method? "heat"|"front"|"edges" Geodesic by the heat method, which prepares a mesh once and is fast from then on; geodesic by an advancing front, which needs no preparation; or along edges. Default: "heat".
 
 ---Distance of every vertex over the surface to the nearest of the given vertices, or to a point; infinite where there is no way.
 ---@param options lissom.Mesh.DistancesOptions

@@ -74,4 +74,10 @@ std::string in_quotes(std::string_view text) {
     return "'" + shown + (at < text.size() ? "...'" : "'");
 }
 
+std::string without_tag(std::string_view message) {
+    const std::size_t end = message.find("] ");
+    const bool tagged = message.starts_with('[') && end != std::string_view::npos;
+    return std::string(tagged ? message.substr(end + 2) : message);
+}
+
 }  // namespace lissom

@@ -41,4 +41,8 @@ std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::strin
 /// The beginning of `text` in quotes: valid UTF-8, with '?' for what cannot be printed.
 std::string in_quotes(std::string_view text);
 
+/// What a parser of JSON says, without the name and number of its own that it puts before it:
+/// "[json.exception.parse_error.101] parse error at line 3".
+std::string without_tag(std::string_view message);
+
 }  // namespace lissom

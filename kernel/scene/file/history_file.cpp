@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/io/stream/read_error.h"
 #include "kernel/scene/file/block_lists.h"
 #include "kernel/scene/file/scene_archive.h"
 #include "kernel/scene/file/scene_records.h"
@@ -183,7 +184,7 @@ SceneJson parse_part(std::string_view text) {
     try {
         return SceneJson::parse(text.begin(), text.end(), callback);
     } catch (const SceneJson::exception& error) {
-        throw Error(ErrorCode::file_syntax, std::string("the scene's text: ") + error.what());
+        throw Error(ErrorCode::file_syntax, "the scene's text: " + without_tag(error.what()));
     }
 }
 

@@ -7,7 +7,7 @@ local rings = 1024
 
 --- The disks around a vertex of a mesh.
 function disk.around(mesh, vertex)
-    local distances, farthest, near = mesh:distances{ from = vertex }, 0, {}
+    local distances, farthest, near = mesh:distances{ from = vertex, method = "front" }, 0, {}
     for v = 1, #distances do
         local distance = distances[v]
         if distance > farthest and distance < math.huge then farthest = distance end

@@ -14,12 +14,6 @@ namespace {
 constexpr std::size_t kLeastBudget = std::size_t{1} << 20;
 constexpr std::size_t kElementsPerByte = 16;
 
-// The parser puts a name and number of its own before its messages, in brackets.
-std::string without_tag(const std::string& message) {
-    const std::size_t end = message.find("] ");
-    return message.starts_with('[') && end != std::string::npos ? message.substr(end + 2) : message;
-}
-
 // Some programs write whole numbers as 4.0, which JSON does not tell from 4.
 void restore_integers(Json& json) {
     constexpr double kLargest = 9007199254740992.0;
