@@ -188,7 +188,7 @@ test("disks of every radius are those of the distances, on a mesh of two parts a
     local disk = require "tools.support.disk"
     local mesh = lissom.shapes.cactus{ vertices = 2000 }
     mesh:append(lissom.shapes.box():transform{ translate = { 9, 0, 0 } })
-    local middle, distances = 7, mesh:distances{ from = 7 }
+    local middle, distances = 7, mesh:distances{ from = 7, method = "front" }
     local disks = disk.around(mesh, middle)
     for v = 1, #mesh, 19 do
         local radius = distances[v]

@@ -155,6 +155,11 @@ void Call::reject(const char* path, const char* text) const {
     raise(lua_pushfstring(L_, "bad %s '%s' of '%s' (%s)", kind, path, name_, text));
 }
 
+bool Call::holds(const char* path, const char* type_name) const {
+    const auto* holder = static_cast<const Holder*>(value(path).data);
+    return std::strcmp(holder->type_name, type_name) == 0;
+}
+
 Holder* Call::push_holder(const char* type_name) const {
     auto* holder = static_cast<Holder*>(new_userdata(L_, sizeof(Holder)));
     new (holder) Holder(type_name);

@@ -105,6 +105,11 @@ class Call {
     Ref<T> object(const char* path) const {
         return Ref<T>(static_cast<Holder*>(const_cast<void*>(value(path).data)));
     }
+    /// Whether an object of this type was given, of those that the parameter accepts.
+    template <typename T>
+    bool is_object(const char* path) const {
+        return kind(path) == Kind::object && holds(path, T::kTypeName);
+    }
     /// Number of objects in a list, and each of them.
     std::size_t object_count(const char* path) const { return value(path).size; }
     template <typename T>
@@ -231,6 +236,7 @@ class Call {
 
     const Value& value(const char* path) const;
     Holder* push_holder(const char* type_name) const;
+    bool holds(const char* path, const char* type_name) const;
     void* push_held(std::size_t bytes, void (*destroy)(void*)) const;
     bool push_remembered(const void* object) const;
     void push_elements() const;

@@ -38,6 +38,7 @@ Type whole_camera_type() {
     Type camera = camera_type();
     add(camera.methods, pick_methods_of_camera());
     camera.methods.push_back(select_method_of_camera());
+    camera.methods.push_back(stroke_method_of_camera());
     return camera;
 }
 
@@ -78,6 +79,7 @@ Library kernel_library() {
     add(library.records, strand_records());
     add(library.records, scene_records());
     add(library.records, pick_records());
+    add(library.records, stroke_records());
     add(library.records, gizmo_records());
     add(library.records, tool_records());
     return library;

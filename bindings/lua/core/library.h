@@ -60,6 +60,8 @@ Type camera_type();
 std::vector<Function> camera_functions();
 std::vector<Function> pick_methods_of_camera();
 Function select_method_of_camera();
+Function stroke_method_of_camera();
+std::vector<Record> stroke_records();
 std::vector<Record> pick_records();
 Type gizmo_type();
 std::vector<Function> gizmo_functions();

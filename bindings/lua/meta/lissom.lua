@@ -351,6 +351,15 @@
 ---@field region lissom.Region The selected vertices, or those of the selected faces.
 ---@field faces integer[] The selected faces; empty where vertices were asked for.
 
+---A line that a hand drew, at even steps.
+---@class lissom.DrawnStroke
+---@field points lissom.Vector[] In the world; empty where it is on nothing.
+---@field pixels number[][] On the picture, {x, y}.
+---@field corners integer[] Places of the points that are corners.
+---@field times number[] Of each point.
+---@field pressures number[] Of each point.
+---@field click boolean Whether the pen only touched the picture.
+
 ---What a drag means. `matrix` is all of it, as handle:set_matrix takes it; mesh:transform takes its parts where the axes are the world's.
 ---@class lissom.GizmoMotion
 ---@field kind string move, rotate or scale.
@@ -2305,6 +2314,31 @@ function Camera:pick_all(options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function Camera:select(options) end
+
+---@class lissom.Camera.StrokeOptions.Plane
+---@field point lissom.Vector A point of the plane.
+---@field normal lissom.Vector Its normal; any length.
+
+---@class lissom.Camera.StrokeOptions
+---@field points number[][] Where the pen was.
+---@field times? number[] Seconds, one for each point; they tell a click.
+---@field pressures? number[] 0 to 1, one for each point.
+---@field on? lissom.Scalp|lissom.Mesh What is drawn on. Default: only on the picture.
+---@field plane? lissom.Camera.StrokeOptions.Plane The plane that is drawn on.
+---@field depth? "envelope"|"last" On a scalp: in front of all of the head, changing gently; or as deep as the scalp, and beyond it as deep as it was left (section 4.5). Default: "envelope".
+---@field lift? number How far in front of the surface; of a scalp in metres of an average head. Default: 0.02 on a scalp by the envelope, else 0.
+---@field smoothing? number As a multiple of what suits a mouse; 0 keeps every wiggle. Default: 1.
+---@field spacing? number Between two points of the result. In pixels. Default: 4.
+---@field scale? number Pixels of the picture to a logical one, on dense screens. Default: 1.
+---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+
+---A line that a hand drew on the picture, as it was meant: without hooks at its ends, fair between its corners, and put into the world by a rule of depth. On a scalp it is the course of a stream curve, in front of the head wherever it goes; beyond the silhouette its depth is a guess, to be drawn again from another view.
+---@param options lissom.Camera.StrokeOptions
+---@return lissom.DrawnStroke stroke # The line.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Camera:stroke(options) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Camera:close() end
