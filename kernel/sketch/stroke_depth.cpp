@@ -196,10 +196,11 @@ std::vector<Vec3> stroke_on_plane(std::span<const Vec2> stroke, const View& view
         const Ray ray = view.ray(stroke[i]);
         const double along = (point - ray.origin).dot(normal) / ray.direction.dot(normal);
         if (!std::isfinite(along) || along < 0.0) {
-            throw Error(ErrorCode::invalid_argument,
-                        "point " + std::to_string(i + 1) +
-                            " of the stroke does not meet the plane in front of the camera; look "
-                            "at the plane less flatly");
+            throw Error(
+                ErrorCode::invalid_argument,
+                "point " + std::to_string(i + 1) +
+                    " of the stroke does not meet the plane in front of the camera; look at "
+                    "it less flatly, or from where it is in front");
         }
         points.emplace_back(ray.origin + along * ray.direction);
     }

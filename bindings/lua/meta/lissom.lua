@@ -353,11 +353,11 @@
 
 ---A line that a hand drew, at even steps.
 ---@class lissom.DrawnStroke
----@field points lissom.Vector[] In the world; empty where it is on nothing.
+---@field points lissom.Vector[] In the world, one for each pixel; empty where it is on nothing. Over a scalp by the envelope they begin where the hair does: the pixels before that have none, or a point comes before the first.
 ---@field pixels number[][] On the picture, {x, y}.
----@field corners integer[] Places of the points that are corners.
----@field times number[] Of each point.
----@field pressures number[] Of each point.
+---@field corners integer[] Places in `pixels` of what is a corner.
+---@field times number[] Of each pixel.
+---@field pressures number[] Of each pixel.
 ---@field click boolean Whether the pen only touched the picture.
 
 ---What a drag means. `matrix` is all of it, as handle:set_matrix takes it; mesh:transform takes its parts where the axes are the world's.

@@ -65,6 +65,8 @@ std::vector<Vec3> over_scalp(const Call& call, const Scalp& scalp, const Stroke&
     }
     EnvelopeOptions options;
     options.metre = metre;
+    options.averages *= call.number("scale");
+    options.snap *= call.number("scale");
     if (call.has("lift")) options.lift = call.number("lift");
     return stroke_over_head(stroke.points, view, head, options, call.context());
 }
@@ -178,14 +180,18 @@ assert(math.abs(line.points[1][3] - 0.5) < 1e-9))"};
 }
 
 std::vector<Record> stroke_records() {
-    return {{"lissom.DrawnStroke",
-             "A line that a hand drew, at even steps.",
-             {{"lissom.Vector[]", "points", "In the world; empty where it is on nothing."},
-              {"number[][]", "pixels", "On the picture, {x, y}."},
-              {"integer[]", "corners", "Places of the points that are corners."},
-              {"number[]", "times", "Of each point."},
-              {"number[]", "pressures", "Of each point."},
-              {"boolean", "click", "Whether the pen only touched the picture."}}}};
+    return {
+        {"lissom.DrawnStroke",
+         "A line that a hand drew, at even steps.",
+         {{"lissom.Vector[]", "points",
+           "In the world, one for each pixel; empty where it is on nothing. Over a scalp by the "
+           "envelope they begin where the hair does: the pixels before that have none, or a "
+           "point comes before the first."},
+          {"number[][]", "pixels", "On the picture, {x, y}."},
+          {"integer[]", "corners", "Places in `pixels` of what is a corner."},
+          {"number[]", "times", "Of each pixel."},
+          {"number[]", "pressures", "Of each pixel."},
+          {"boolean", "click", "Whether the pen only touched the picture."}}}};
 }
 
 }  // namespace lissom::lua
