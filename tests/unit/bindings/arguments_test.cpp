@@ -80,6 +80,7 @@ function fresh()
         ["lissom.Strands"] = strands, ["lissom.Scalp"] = scalp, ["lissom.Hairstyle"] = style,
         ["lissom.Curve"] = curve, ["lissom.Merging"] = merging, ["lissom.Provenance"] = provenance,
         ["lissom.Scene"] = scene, ["lissom.Camera"] = camera, ["lissom.Gizmo"] = gizmo,
+        ["lissom.Support"] = curve:support{ camera = camera },
         ["lissom.Polyline"] = lissom.polyline{ points = { { 0, 0, 0 }, { 0, 1, 0 } } } }
 end
 )";
