@@ -150,4 +150,38 @@ function hair.draw(view, one, chosen)
     end
 end
 
+--- The stream after another one in a list; the first behind the last and for none.
+function hair.after(list, curve)
+    for i, one in ipairs(list) do
+        if one == curve then return list[i % #list + 1] end
+    end
+    return list[1]
+end
+
+--- The place that hair.nearest has found, or the first point where it is near that: there a curve is held by
+-- its root.
+function hair.snapped(near, points)
+    if near.segment ~= 1 or near.along > 0.5 then return near.point end
+    near.along = 0
+    return points[1]
+end
+
+--- Draws a supporting surface.
+function hair.draw_support(view, one, support)
+    local edges = { support:edges() }
+    for _, edge in ipairs(edges) do
+        for i, point in ipairs(edge) do edge[i] = matrices.point(one.place, point) end
+    end
+    view:surface{ from = edges[1], to = edges[2], color = "#f0c040", opacity = 0.22 }
+    for _, edge in ipairs(edges) do view:line{ points = edge, color = "#f0c040", width = 1 } end
+end
+
+--- Says something at the cursor.
+function hair.say(view, text)
+    local origin, direction = view.camera:ray(view.cursor[1] + 12, view.cursor[2] - 12, view.size)
+    local at = {}
+    for axis = 1, 3 do at[axis] = origin[axis] + direction[axis] end
+    view:label{ at = at, text = text }
+end
+
 return hair
