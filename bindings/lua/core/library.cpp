@@ -82,6 +82,7 @@ Library kernel_library() {
     add(library.records, cut_records());
     add(library.records, merge_records());
     add(library.records, hairstyle_records());
+    add(library.records, curve_records());
     add(library.records, strand_records());
     add(library.records, scene_records());
     add(library.records, pick_records());

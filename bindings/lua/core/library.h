@@ -42,6 +42,7 @@ std::vector<Function> shape_functions();
 Type scalp_type();
 std::vector<Function> scalp_functions();
 Type curve_type();
+std::vector<Record> curve_records();
 Type hairstyle_type();
 std::vector<Function> hairstyle_functions();
 std::vector<Record> hairstyle_records();

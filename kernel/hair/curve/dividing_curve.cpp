@@ -151,6 +151,18 @@ class Divider {
 
 }  // namespace
 
+DividingOptions with_lengths(DividingOptions options, double step) {
+    const Rule rule(options, step);
+    options.sigma = rule.sigma;
+    options.height = rule.height;
+    options.reach = rule.reach;
+    options.thickness = rule.thickness;
+    options.wall_width = rule.wall_width;
+    options.wall_height = rule.wall_height;
+    options.ramp = rule.ramp;
+    return options;
+}
+
 DividingLine::DividingLine(std::span<const Vec3> points, std::span<const Vec3> normals) {
     require_curve(points);
     require(points.size() == normals.size(), "a dividing curve needs one normal for each point");
