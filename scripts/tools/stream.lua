@@ -1,7 +1,7 @@
 --- Draws stream curves, which hair follows, and edits them by hint strokes.
 --
--- by draw: a stroke that begins on the scalp is a new stream. With a stream chosen by a click, or begun at one,
--- it is a hint: across the stream it cuts, from it to elsewhere it goes on there, from it back to it it takes
+-- by draw: a stroke that begins on the scalp is a new stream. With a stream chosen by a click, or begun at
+-- one, it is a hint: across the stream it cuts, from it to elsewhere it goes on there, from it back to it it takes
 -- the place of the part between. What it is taken for stands at the cursor; Alt takes the next reading. Seen
 -- from far beside the view that streams were drawn in (v: from now on this one) hints change the depth: they
 -- are drawn on the surface that is shown.
@@ -9,7 +9,7 @@
 -- Keys: tab chooses the next stream, delete removes it, m adds its mirror image.
 local curves = require "tools.support.curves"
 local hair = require "tools.support.hair"
-local vectors = require "vectors"
+local stream_hands = require "tools.support.stream_hands"
 
 local draft_share = 0.1         -- of the strands, while the button is down
 
@@ -18,78 +18,6 @@ local function chosen(self, one)
         if curve == self.curve then return curve end
     end
     return nil
-end
-
--- Puts the held stream and its mirror image at these points, or where they were.
-local function put(self, one, points)
-    self.target:set_points(points)
-    if self.twin then self.twin:set_points(curves.mirrored(one.scalp, points)) end
-end
-
-local function put_back(self, one)
-    if self.target then put(self, one, self.before) end
-    for _, curve in ipairs(self.drafts or {}) do curve:remove() end
-    self.drafts, self.support = nil, nil
-end
-
-local hands = {}
-
--- Does what the stroke so far means, and says what that is.
-function hands.draw(self, one, ev, camera)
-    local given = { points = self.pixels, size = ev.size }
-    local names = self.target and curves.readings(self.target, camera, ev.size, camera:stroke(given).pixels)
-    names = names or {}
-    table.insert(names, "stream")
-    local name = names[self.turn % #names + 1]
-    if name ~= "stream" then
-        self.support = curves.support(self.target, self.params.surface, camera, self.state.viewpoint)
-        given.on = self.support
-        curves.apply(self.target, name, camera:stroke(given).points)
-        put(self, one, self.target:points())
-    else
-        given.on = one.scalp
-        local points = camera:stroke(given).points
-        self.drafts = { assert(one.style:stream{ points = points }) }
-        if self.params.symmetric then
-            self.drafts[2] = assert(one.style:stream{ points = curves.mirrored(one.scalp, points) })
-        end
-    end
-    return name .. (#names > 1 and "  (Alt: " .. names[(self.turn + 1) % #names + 1] .. ")" or "")
-end
-
-function hands.pull(self, one, ev, camera)
-    if not self.target then error("begin at a stream", 0) end
-    local _, _, depth = camera:project(self.near.point, ev.size)
-    local there = camera:unproject(ev.x, ev.y, depth, ev.size)
-    if self.place == 0 then
-        local hit = one.scalp:head():pick(camera:ray(ev.x, ev.y, ev.size))
-        if not hit then error("the root stays on the head", 0) end
-        there = hit.position
-    end
-    local by, reach = vectors.plus(there, self.near.point, -1), self.params.reach * one.scalp:scale()
-    put(self, one, curves.pulled(self.before, self.place, by, reach))
-    return self.place == 0 and "root" or "pull"
-end
-
-function hands.rub(self, one, ev, camera)
-    if not self.target then error("begin at a stream", 0) end
-    local points, reach = self.before, self.params.reach * one.scalp:scale()
-    for _, pixel in ipairs(self.pixels) do
-        local near = hair.nearest(points, camera, ev.size, pixel[1], pixel[2])
-        if near and near.pixels < 30 then points = curves.rubbed(points, near.point, reach) end
-    end
-    put(self, one, points)
-    return "rub"
-end
-
--- The hand's work so far, anew from what was before; what is wrong with it is told, not raised.
-local function follow(self, one, ev, share)
-    put_back(self, one)
-    local done, said = pcall(hands[self.params.by], self, one, ev, hair.camera(ev.camera, one))
-    if not done then put_back(self, one) end
-    hair.grow(ev.scene, one, share)
-    self.said = tostring(said)
-    return done
 end
 
 local function let_go(self)
@@ -124,12 +52,16 @@ return require("lissom").tool{
         local under, near = hair.curve_at(ev, one, { kind = "stream", preferred = chosen(self, one) })
         self.under, self.near, self.target = under, near, under or chosen(self, one)
         self.pixels, self.turn, self.alt = { { ev.x, ev.y } }, 0, ev.alt
-        if self.params.by ~= "draw" then self.target = under end
+        if self.params.by ~= "draw" and not under and self.target then
+            near = hair.nearest(self.target:course(), hair.camera(ev.camera, one), ev.size, ev.x, ev.y)
+            self.near = near
+            if not near or near.pixels > 20 then self.target = nil end
+        end
         if not self.target then return end
         self.twin = self.params.symmetric and curves.partner(one, self.target) or nil
         self.before = self.target:points()
-        if under and self.params.by ~= "draw" then
-            self.before = under:course()
+        if self.params.by ~= "draw" then
+            self.before = self.target:course()
             near.point = hair.snapped(near, self.before)
             self.place = curves.place(self.before, near)
         end
@@ -140,13 +72,13 @@ return require("lissom").tool{
         if ev.alt and not self.alt then self.turn = self.turn + 1 end
         self.alt = ev.alt
         table.insert(self.pixels, { ev.x, ev.y })
-        if #self.pixels > 2 then follow(self, one, ev, draft_share) end
+        if #self.pixels > 2 then stream_hands.follow(self, one, ev, draft_share) end
     end,
     release = function(self, ev)
         local one = self.pixels and hair.find(ev.scene, self.params)
         if one and #self.pixels < 3 then
             self.curve = self.under
-        elseif one and not follow(self, one, ev) then
+        elseif one and not stream_hands.follow(self, one, ev) then
             error(self.said, 0)
         elseif one and self.drafts then
             self.state.viewpoint = hair.camera(ev.camera, one)
