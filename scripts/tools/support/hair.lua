@@ -2,6 +2,7 @@
 -- an object "<name of the style> hair" beside it.
 local lissom = require "lissom"
 local matrices = require "matrices"
+local vectors = require "vectors"
 
 local hair = {}
 
@@ -89,6 +90,18 @@ function hair.nearest(points, camera, size, x, y)
     return best
 end
 
+--- How far a point is from a line of the same space.
+function hair.distance(points, point)
+    local nearest = math.huge
+    for i = 1, #points - 1 do
+        local side, from = vectors.plus(points[i + 1], points[i], -1), vectors.plus(point, points[i], -1)
+        local t = vectors.dot(from, side) / math.max(vectors.dot(side, side), 1e-30)
+        local off = vectors.plus(from, side, -math.max(0, math.min(1, t)))
+        nearest = math.min(nearest, vectors.length(off))
+    end
+    return nearest
+end
+
 -- Whether the head hides a point.
 local function is_hidden(one, camera, size, point)
     local x, y, depth = camera:project(point, size)
@@ -138,15 +151,28 @@ function hair.grow(scene, one, share)
     return strands
 end
 
+--- Whether what was drawn is a click: all of it within 6 pixels.
+function hair.is_click(pixels)
+    for _, pixel in ipairs(pixels) do
+        if math.abs(pixel[1] - pixels[1][1]) + math.abs(pixel[2] - pixels[1][2]) > 6 then return false end
+    end
+    return true
+end
+
+--- Draws a line of the head's own space; `options` are those of view:line.
+function hair.line(view, one, points, options)
+    local line = { points = {}, color = options.color, width = options.width, closed = options.closed }
+    for i, point in ipairs(points) do line.points[i] = matrices.point(one.place, point) end
+    view:line(line)
+end
+
 local colors = { stream = "#28b0c8", dividing = "#e04038", ponytail = "#b060d0" }
 
 --- Draws the curves of a style, the chosen one wider.
 function hair.draw(view, one, chosen)
     for _, curve in ipairs(one.style:curves()) do
-        local points = {}
-        for i, point in ipairs(curve:course()) do points[i] = matrices.point(one.place, point) end
         local color = curve:enabled() and colors[curve:kind()] or "#909090"
-        view:line{ points = points, color = color, width = curve == chosen and 5 or 2 }
+        hair.line(view, one, curve:course(), { color = color, width = curve == chosen and 5 or 2 })
     end
 end
 
