@@ -268,7 +268,7 @@ Type support_type() {
                      .summary = "Where a ray meets it first.",
                      .arguments = {vector("origin", "Start of the ray."),
                                    vector("direction", "Its direction; any length.")},
-                     .results = {{"lissom.SupportPoint|nil", "hit", "nil where it does not."}},
+                     .results = {{"lissom.SupportPoint?", "hit", "nil where it does not."}},
                      .example = support_setup() + R"(local hit = support:pick(camera:ray(640, 480))
 assert(hit == nil or hit.distance > 0))"}},
         .operators = {{"__tostring", support_text, "tostring(support)", "its kind"}}};
