@@ -123,7 +123,7 @@ std::vector<Function> tilt_methods() {
          .errors = {ErrorCode::not_finite, ErrorCode::invalid_argument, ErrorCode::out_of_range,
                     ErrorCode::handle_removed, ErrorCode::memory_limit},
          .example =
-             hint_example() + "local tilt = parting:add_hint(hint)\nassert(tilt.left.pieces > 0)"},
+             hint_example() + "local tilt = parting:add_hint(hint)\nassert(tilt.right.pieces > 0)"},
         {.name = "hints",
          .body = curve_hints,
          .summary = "The hints of a dividing curve.",

@@ -270,6 +270,24 @@
 ---@field grid_points integer Points of the grid.
 ---@field step number Distance of neighbouring grid points, in metres of an average head.
 
+---The tilts of a dividing curve.
+---@class lissom.CurveTilt
+---@field left lissom.SideTilt As seen along the curve from outside.
+---@field right lissom.SideTilt The other side.
+
+---The tilt of one side of a dividing curve, in degrees.
+---@class lissom.SideTilt
+---@field start number At the curve's first point.
+---@field finish number At its last point.
+---@field pieces integer Pieces of hints, about 0.003 metres long, that told it.
+---@field error number By how much these differ from it (root of mean square).
+
+---The ring around the beginning of a ponytail.
+---@class lissom.HairTie
+---@field center number[] In mesh units.
+---@field direction number[] Of the spine there, away from the head; of length 1.
+---@field radius number In metres of an average head.
+
 ---Measures of strands.
 ---@class lissom.StrandStats
 ---@field strands integer Number of strands.
@@ -1484,8 +1502,8 @@ function Hairstyle:dividing(options) end
 ---@field spine lissom.Vector[] From the tie to the tip of the tail. In mesh units.
 ---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
 ---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
----@field section? lissom.Vector[] A closed curve around the spine: the tie is as wide, and stands there.
----@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, from their beginning to their end.
+---@field section? lissom.Vector[] A closed curve around the spine, seen from anywhere: the tie stands there, and is as wide as it is across the spine.
+---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, where both are, whichever way they run.
 ---@field share? number Without profiles: how much of the spine has cross sections. Default: 0.7.
 ---@field fullness? number Without profiles: the tail swells to 1 + fullness radii. Default: 1.
 ---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
@@ -1630,8 +1648,8 @@ function Curve:set_points(points) end
 ---@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps.
 ---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024.
 ---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
----@field section? lissom.Vector[] A closed curve around the spine: the tie is as wide, and stands there.
----@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, from their beginning to their end.
+---@field section? lissom.Vector[] A closed curve around the spine, seen from anywhere: the tie stands there, and is as wide as it is across the spine.
+---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, where both are, whichever way they run.
 ---@field share? number Without profiles: how much of the spine has cross sections. Default: 0.7.
 ---@field fullness? number Without profiles: the tail swells to 1 + fullness radii. Default: 1.
 ---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
@@ -1716,6 +1734,42 @@ function Curve:concatenate(hint, options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function Curve:insert(hint, options) end
+
+---By how much hair on both sides of a dividing curve is turned towards the curve's end, as the options say or as the hints do.
+---@return lissom.CurveTilt tilt # Of both sides.
+function Curve:tilt() end
+
+---A stroke beside a dividing curve that says which way hair flows away from it. The curve keeps its hints, and all hints on a side tell its tilt together; one alone means an even tilt. To set the tilt by numbers takes them out.
+---@param hint lissom.Vector[] A polyline away from the curve, at most 0.03 metres of an average head beside it. In mesh units.
+---@return lissom.CurveTilt tilt # What the curve has now.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Curve:add_hint(hint) end
+
+---The hints of a dividing curve.
+---@return number[][][] hints # A list of points {x, y, z} each, in mesh units.
+function Curve:hints() end
+
+---Takes the hints of a dividing curve out: its tilts are those of its options.
+---@return lissom.Curve curve # The curve itself.
+function Curve:remove_hints() end
+
+---Its options as they act, by the names and in the units of `set`: also those that were not given, and those that follow from what was drawn.
+---@return table options # A table of its own.
+function Curve:options() end
+
+---Where a ponytail is tied.
+---@return lissom.HairTie tie # Its first cross section.
+function Curve:tie() end
+
+---The curve that was drawn around the spine of a ponytail.
+---@return number[][] points # In mesh units; none where there is none.
+function Curve:section() end
+
+---The curves that were drawn along a ponytail, as `set` takes them.
+---@return number[][][] profiles # Two lists of points in mesh units, each empty where there is none.
+function Curve:profiles() end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Curve:close() end
