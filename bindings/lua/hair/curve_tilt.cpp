@@ -122,8 +122,8 @@ std::vector<Function> tilt_methods() {
          .results = {{"lissom.CurveTilt", "tilt", "What the curve has now."}},
          .errors = {ErrorCode::not_finite, ErrorCode::invalid_argument, ErrorCode::out_of_range,
                     ErrorCode::handle_removed, ErrorCode::memory_limit},
-         .example = hint_example() + "local tilt = parting:add_hint(hint)\nassert(tilt.left.pieces "
-                                     "+ tilt.right.pieces > 0)"},
+         .example =
+             hint_example() + "local tilt = parting:add_hint(hint)\nassert(tilt.right.pieces > 0)"},
         {.name = "hints",
          .body = curve_hints,
          .summary = "The hints of a dividing curve.",

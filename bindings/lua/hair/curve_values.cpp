@@ -98,25 +98,81 @@ int curve_tie(Call& call) {
     return 1;
 }
 
+// Finds the options of a ponytail and the scalp that its points lie over.
+bool find_tail(Call& call, const PonytailOptions*& options, const Scalp*& scalp) {
+    const auto curve = call.self<CurveObject>();
+    return call.attempt_quick([&] {
+        const Hairstyle& style = curve->owner->style();
+        (void)style.tie(curve->id);
+        options = &std::get<Ponytail>(style.curve(curve->id).shape).options;
+        scalp = &style.scalp();
+    });
+}
+
+int push_in_mesh_units(const Call& call, const Scalp& scalp, const std::vector<Vec3>& metres) {
+    lua_createtable(call.lua(), count_of(metres), 0);
+    for (std::size_t i = 0; i < metres.size(); ++i) {
+        call.push_vector(scalp.from_metres(metres[i]));
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+    return 1;
+}
+
+int curve_section(Call& call) {
+    const PonytailOptions* options = nullptr;
+    const Scalp* scalp = nullptr;
+    if (!find_tail(call, options, scalp)) return call.fail();
+    return push_in_mesh_units(call, *scalp, options->section);
+}
+
+int curve_profiles(Call& call) {
+    const PonytailOptions* options = nullptr;
+    const Scalp* scalp = nullptr;
+    if (!find_tail(call, options, scalp)) return call.fail();
+    lua_createtable(call.lua(), 2, 0);
+    for (int side = 0; side < 2; ++side) {
+        push_in_mesh_units(call, *scalp, options->profiles[side]);
+        lua_rawseti(call.lua(), -2, side + 1);
+    }
+    return 1;
+}
+
+std::string tail_example() {
+    return kStyle + R"(local tie = style:at{ azimuth = 180, elevation = 25, lift = 0.02 }
+local tail = style:ponytail{ spine = { tie, { tie[1], tie[2] - 0.1, tie[3] - 0.05 } } }
+)";
+}
+
 }  // namespace
 
 std::vector<Function> option_methods() {
-    return {
-        {.name = "options",
-         .body = curve_options,
-         .summary = "Its options as they act, by the names and in the units of `set`: also "
-                    "those that were not given, and those that follow from what was drawn.",
-         .results = {{"table", "options", "A table of its own."}},
-         .errors = {ErrorCode::handle_removed},
-         .example = kParting + "assert(parting:options().separation == 0.3)"},
-        {.name = "tie",
-         .body = curve_tie,
-         .summary = "Where a ponytail is tied.",
-         .results = {{"lissom.HairTie", "tie", "Its first cross section."}},
-         .errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed},
-         .example = kStyle + R"(local tie = style:at{ azimuth = 180, elevation = 25, lift = 0.02 }
-local tail = style:ponytail{ spine = { tie, { tie[1], tie[2] - 0.1, tie[3] - 0.05 } } }
-assert(tail:tie().radius > 0))"}};
+    const std::vector<ErrorCode> errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed};
+    return {{.name = "options",
+             .body = curve_options,
+             .summary = "Its options as they act, by the names and in the units of `set`: also "
+                        "those that were not given, and those that follow from what was drawn.",
+             .results = {{"table", "options", "A table of its own."}},
+             .errors = {ErrorCode::handle_removed},
+             .example = kParting + "assert(parting:options().separation == 0.3)"},
+            {.name = "tie",
+             .body = curve_tie,
+             .summary = "Where a ponytail is tied.",
+             .results = {{"lissom.HairTie", "tie", "Its first cross section."}},
+             .errors = errors,
+             .example = tail_example() + "assert(tail:tie().radius > 0)"},
+            {.name = "section",
+             .body = curve_section,
+             .summary = "The curve that was drawn around the spine of a ponytail.",
+             .results = {{"number[][]", "points", "In mesh units; none where there is none."}},
+             .errors = errors,
+             .example = tail_example() + "assert(#tail:section() == 0)"},
+            {.name = "profiles",
+             .body = curve_profiles,
+             .summary = "The curves that were drawn along a ponytail, as `set` takes them.",
+             .results = {{"number[][][]", "profiles",
+                          "Two lists of points in mesh units, each empty where there is none."}},
+             .errors = errors,
+             .example = tail_example() + "assert(#tail:profiles()[1] == 0)"}};
 }
 
 }  // namespace lissom::lua
