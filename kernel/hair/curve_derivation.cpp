@@ -72,11 +72,15 @@ class Derivation {
         result.course = shape.spine;
         result.constraints = ponytail_constraints(distances_, shape, ponytail.options);
         const PonytailSection& first = shape.tie();
-        const double behind = curve_length(std::span(shape.spine).subspan(shape.first));
+        std::optional<double> length = ponytail.tail_length;
+        if (!length && ponytail.options.fidelity == HairFidelity::lissom) {
+            length = curve_length(std::span(shape.spine).subspan(shape.first));
+        }
+        require(length || ponytail.ragged == 0.0,
+                "ragged of a ponytail needs its tail_length: give one, or leave ragged out");
         const auto from = shape.spine.begin() + shape.first;
-        result.tie = HairTie{first.center,    first.direction,
-                             first.radius,    ponytail.tail_length.value_or(behind),
-                             ponytail.ragged, {from, shape.spine.end()}};
+        result.tie = HairTie{first.center, first.direction, first.radius,
+                             length,       ponytail.ragged, {from, shape.spine.end()}};
         return result;
     }
 

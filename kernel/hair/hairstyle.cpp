@@ -102,6 +102,14 @@ HairField hair_field(const Mesh& head, const HairstyleOptions& options, const Co
 
 }  // namespace
 
+HairstyleOptions HairstyleOptions::thesis() {
+    HairstyleOptions options;
+    options.field.boundary = GridBoundary::thesis;
+    options.field.tension = 0.0;
+    options.fidelity = HairFidelity::thesis;
+    return options;
+}
+
 struct Hairstyle::State {
     State(const Mesh& mesh, std::shared_ptr<const Scalp> made_for, const HairstyleOptions& wanted,
           const Context& context)
@@ -367,6 +375,15 @@ std::vector<HairTie> Hairstyle::State::ties(std::vector<std::string>& names) con
     return result;
 }
 
+HairOptions Hairstyle::default_hair() const {
+    if (options().fidelity == HairFidelity::lissom) return {};
+    HairOptions hair;
+    hair.roots.pattern = RootPattern::steps;
+    hair.growth = GrowthOptions::thesis();
+    hair.growth.length = longest_hair(layout());
+    return hair;
+}
+
 GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands, const Context& context) {
     State& s = *state_;
     const std::vector<PlacedCurve>& all = inputs().curves;
@@ -393,6 +410,10 @@ Strands Hairstyle::grow(const HairOptions& options, const Context& context) {
     Strands result;
     grow(options, result, context);
     return result;
+}
+
+Strands Hairstyle::grow() {
+    return grow(default_hair());
 }
 
 std::size_t Hairstyle::memory_bytes() const {

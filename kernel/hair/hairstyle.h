@@ -19,6 +19,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/curve/constraint_kind.h"
+#include "kernel/hair/curve/fidelity.h"
 #include "kernel/hair/curve/style_curve.h"
 #include "kernel/hair/curve/tilt_fit.h"
 #include "kernel/hair/field/grid_layout.h"
@@ -41,6 +42,13 @@ struct HairstyleOptions {
     /// Where hair may be; strands end at its faces. Absent: Scalp::default_volume.
     std::optional<Box> volume = std::nullopt;
     GridFieldOptions field = HairField::default_options();
+    /// How curves are made that say nothing else, by scripts and from style files, and how hair
+    /// grows by default (Hairstyle::default_hair).
+    HairFidelity fidelity = HairFidelity::lissom;
+
+    /// Chapter 4 to the letter: the Laplacian's weights of section 4.4.1 at the faces of the grid,
+    /// no tension, and curves and hair of the same fidelity.
+    static HairstyleOptions thesis();
 };
 
 /// A vector that the style gives the field at a grid point.
@@ -149,13 +157,18 @@ class Hairstyle {
     void forget_scalp();
     bool avoids_scalp() const;
 
+    /// What its fidelity grows: that of the thesis roots in steps of angles, and strands that are
+    /// as long as the field carries them (GrowthOptions::thesis).
+    HairOptions default_hair() const;
     /// Grows hair into `strands`, whose memory is used again; solves first where needed. Groups are
     /// named after the ponytails through whose tie strands pass. The first n strands of a larger
     /// count are those of count n. After an error `strands` are as they were, or empty if growth
     /// itself had begun: it reuses their memory.
     /// Errors: invalid_argument without an enabled curve; as make_roots, grow and solve.
     GrowthReport grow(const HairOptions& options, Strands& strands, const Context& context = {});
-    Strands grow(const HairOptions& options = {}, const Context& context = {});
+    Strands grow(const HairOptions& options, const Context& context = {});
+    /// The default hair of its fidelity.
+    Strands grow();
 
     /// Bytes of grids, head and factors, about.
     std::size_t memory_bytes() const;

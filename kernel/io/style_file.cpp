@@ -19,6 +19,7 @@ using StyleJson = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "lissom hairstyle";
 constexpr int kStyleVersion = 1;
+constexpr const char *kDefaultName = "default", *kThesisName = "thesis";
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
     throw Error(ErrorCode::file_syntax, where + ": " + what);
@@ -46,6 +47,9 @@ class Writer {
         if (value) object_[key] = *value;
     }
     void integer(const char* key, Index& value) { object_[key] = value; }
+    void fidelity(HairstyleOptions& options) {
+        if (options.fidelity == HairFidelity::thesis) object_["fidelity"] = kThesisName;
+    }
     template <typename Enum>
     void choice(const char* key, Enum& value, std::initializer_list<const char*> names) {
         object_[key] = *(names.begin() + static_cast<int>(value));
@@ -104,6 +108,12 @@ class Reader {
         const double given = finite(*found, key);
         if (given != std::floor(given) || std::abs(given) > 2e9) wrong(key, "a whole number");
         value = static_cast<Index>(given);
+    }
+    // Before the options that have other defaults with it.
+    void fidelity(HairstyleOptions& options) {
+        HairFidelity fidelity = HairFidelity::lissom;
+        choice("fidelity", fidelity, {kDefaultName, kThesisName});
+        if (fidelity == HairFidelity::thesis) options = HairstyleOptions::thesis();
     }
     template <typename Enum>
     void choice(const char* key, Enum& value, std::initializer_list<const char*> names) {
@@ -179,7 +189,7 @@ class Reader {
 
     const StyleJson& object_;
     std::string where_;
-    std::set<std::string> known_{"kind", "format", "version", "curves", "volume"};
+    std::set<std::string> known_{"kind", "format", "version", "curves", "volume", "fidelity"};
 };
 
 template <typename Archive>
@@ -241,6 +251,7 @@ void describe(Archive& a, StyleCurve& curve) {
 template <typename Archive>
 void describe(Archive& a, StyleContent& content) {
     a.text("head", content.head);
+    a.fidelity(content.options);
     a.integer("resolution", content.options.resolution);
     a.choice("solver", content.options.field.solver, {"dual", "cholesky"});
     a.choice("boundary", content.options.field.boundary, {"zero_flux", "thesis"});
@@ -289,18 +300,28 @@ void append_json(std::string& text, const StyleJson& json, const std::string& in
 
 // ---- From JSON
 
-StyleCurve curve_from(const StyleJson& json, const std::string& where) {
+// A curve has the fidelity of its style where it does not say which.
+HairFidelity fidelity_from(const StyleJson& json, HairFidelity usual, const std::string& where) {
+    const auto found = json.find("fidelity");
+    if (found == json.end()) return usual;
+    if (*found == kDefaultName) return HairFidelity::lissom;
+    if (*found == kThesisName) return HairFidelity::thesis;
+    refuse(where, "\"fidelity\" must be \"default\" or \"thesis\"");
+}
+
+StyleCurve curve_from(const StyleJson& json, HairFidelity usual, const std::string& where) {
     if (!json.is_object()) refuse(where, "an object {...} is expected");
     const std::string kind = json.value("kind", StyleJson()).is_string()
                                  ? json["kind"].get<std::string>()
                                  : std::string();
+    const HairFidelity fidelity = fidelity_from(json, usual, where);
     StyleCurve curve;
     if (kind == "stream") {
-        curve.shape = StreamCurve{};
+        curve.shape = curve_with<StreamCurve>(fidelity);
     } else if (kind == "dividing") {
-        curve.shape = DividingCurve{};
+        curve.shape = curve_with<DividingCurve>(fidelity);
     } else if (kind == "ponytail") {
-        curve.shape = Ponytail{};
+        curve.shape = curve_with<Ponytail>(fidelity);
     } else {
         refuse(where, "\"kind\" must be \"stream\", \"dividing\" or \"ponytail\"");
     }
@@ -341,7 +362,8 @@ StyleContent content_from(const StyleJson& json) {
     const StyleJson curves = json.value("curves", StyleJson::array());
     if (!curves.is_array()) refuse("style", "\"curves\" must be a list");
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        content.curves.push_back(curve_from(curves[i], "curve " + std::to_string(i + 1)));
+        content.curves.push_back(
+            curve_from(curves[i], content.options.fidelity, "curve " + std::to_string(i + 1)));
     }
     return content;
 }
@@ -359,6 +381,10 @@ std::string text_of(const StyleContent& content) {
     StyleJson& curves = json["curves"] = StyleJson::array();
     for (StyleCurve& curve : copy.curves) {
         StyleJson one = {{"kind", kind_name(curve)}};
+        const HairFidelity fidelity = fidelity_of(curve);
+        if (fidelity != copy.options.fidelity) {
+            one["fidelity"] = fidelity == HairFidelity::thesis ? kThesisName : kDefaultName;
+        }
         Writer described(one);
         describe(described, curve);
         curves.push_back(std::move(one));

@@ -18,6 +18,8 @@
 ///     }
 ///
 /// Whatever is left out has the default of its C++ option; a key that is not known is an error.
+/// "fidelity": "thesis" of the style changes defaults, its own and those of the curves; of a curve,
+/// where it differs from that of the style, those of the curve.
 #pragma once
 
 #include <filesystem>

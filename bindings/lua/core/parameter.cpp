@@ -29,6 +29,13 @@ Parameter Parameter::optional(std::string text) const {
     return copy;
 }
 
+Parameter Parameter::thesis(std::string section, std::string text) const {
+    Parameter copy = *this;
+    copy.thesis_section = std::move(section);
+    copy.thesis_text = std::move(text);
+    return copy;
+}
+
 Parameter Parameter::defaults(bool value) const {
     return with_default(*this, value);
 }

@@ -83,6 +83,8 @@ struct Parameter {
     std::variant<std::monostate, bool, double, std::string> default_value;
     /// Text for the reference where the default is not a plain value.
     std::string default_text;
+    /// Default with fidelity = "thesis" where that is another, and the section of the thesis.
+    std::string thesis_text, thesis_section;
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
     bool above_min = false;
@@ -111,6 +113,9 @@ struct Parameter {
     /// A table of options may also be `true`, with the defaults of all fields, or `false`, which
     /// counts as left out. Read with `kind`: Kind::boolean then.
     Parameter or_true() const;
+    /// With fidelity = "thesis" the default is this, as that section of the thesis has it: for the
+    /// reference, and its table of what differs from the thesis.
+    Parameter thesis(std::string section, std::string text) const;
     /// Unit, for the reference: "degrees", "mesh units", ...
     Parameter in(std::string name_of_unit) const;
 };

@@ -455,10 +455,12 @@ std::vector<Parameter> deform_parameters() {
             "blend unless something asks for another: laplacian where the surface has to be as "
             "smooth as can be and may stretch, poisson where it may crease at handles, as along an "
             "edge of the part. Compared in examples/deform/second.png.")
-            .optional("\"blend\""),
+            .optional("\"blend\"")
+            .thesis("2.4.4", "\"laplacian\""),
         integer("coherence", "Rings of neighbours that turn alike.")
             .between(1, 2)
-            .optional(std::to_string(defaults.coherence)),
+            .optional(std::to_string(defaults.coherence))
+            .thesis("2.4.2", "2"),
         choice("weights", {"cotangent", "uniform"}, "Weights of the Laplacian coordinates.")
             .optional("\"cotangent\""),
         integer("refine",
@@ -481,7 +483,8 @@ std::vector<Parameter> deform_parameters() {
                "Condition number from which a vertex counts as degenerate and is displaced. Below "
                "about 100 that is nearly every vertex.")
             .above(1)
-            .optional(shown(defaults.degenerate_threshold)),
+            .optional(shown(defaults.degenerate_threshold))
+            .thesis("2.4.3", "200000"),
         number("transition",
                "Within this geodesic distance of the region's outline the deformation fades into "
                "what stays.")
@@ -490,8 +493,8 @@ std::vector<Parameter> deform_parameters() {
             .defaults(0.0),
         choice("fidelity", {"default", "thesis"},
                "thesis: coherence 2, second laplacian, and the weights and threshold of the thesis "
-               "where "
-               "no other option says otherwise.")
+               "where no other option says otherwise; the page thesis.md of the reference names "
+               "all of it.")
             .defaults("default")};
 }
 

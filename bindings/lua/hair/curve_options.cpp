@@ -95,7 +95,8 @@ Parameter stop_field() {
 std::vector<Parameter> own_stream_fields() {
     return {stop_field(), metres_field("clearance", "The curve is moved out to this height.")
                               .at_least(0)
-                              .optional("0.004")};
+                              .optional("0.004")
+                              .thesis("4.5", "0")};
 }
 
 std::vector<Parameter> own_dividing_fields() {
@@ -128,10 +129,12 @@ std::vector<Parameter> own_dividing_fields() {
         metres_field("wall_height", "How high.").at_least(0).optional("2.6 grid steps"),
         metres_field("ramp", "Nearer to the line, vectors away from it fade; 0 as in the thesis.")
             .at_least(0)
-            .optional("0.87 grid steps"),
+            .optional("0.87 grid steps")
+            .thesis("4.5", "0"),
         metres_field("gap", "Width of the bare skin along the line.")
             .at_least(0)
-            .optional("0.0024")};
+            .optional("0.0024")
+            .thesis("4.5", "0")};
 }
 
 std::vector<Parameter> own_ponytail_fields() {
@@ -157,28 +160,39 @@ std::vector<Parameter> own_ponytail_fields() {
             .above(0)
             .optional("1.3"),
         number("outer", "And up to this many (R2).").above(0).optional("1.9"),
-        metres_field("ring", "It is at least so wide.").at_least(0).optional("2.5 grid steps"),
+        metres_field("ring", "It is at least so wide.")
+            .at_least(0)
+            .optional("2.5 grid steps")
+            .thesis("4.5", "0"),
         metres_field("free", "Nearer to the head than this the tail leaves hair alone.")
             .at_least(0)
-            .optional("1.5 grid steps"),
-        metres_field("lead", "It begins so far in front of the tie.")
+            .optional("1.5 grid steps")
+            .thesis("4.5", "0"),
+        metres_field("lead", "The ring begins so far in front of the tie.")
             .at_least(0)
-            .optional("1.5 grid steps"),
+            .optional("1.5 grid steps")
+            .thesis("4.5", "half a grid step"),
         number("grip",
                "How strongly the tail holds its hair together: by how much vectors just "
                "outside turn inward, a grid step. 0 as in the thesis.")
             .at_least(0)
-            .optional("4"),
+            .optional("4")
+            .thesis("4.5", "0"),
         number("spread",
                "How strongly hair spreads again behind the tie and fills the tail. 0 as in "
                "the thesis.")
             .at_least(0)
-            .optional("2"),
+            .optional("2")
+            .thesis("4.5", "0"),
         number("tightness", "Magnitude of the vectors that do so.").between(0, 1).optional("0.6"),
         metres_field("tail_length", "Of the hair behind the tie.")
             .at_least(0)
-            .optional("as long as the spine"),
-        number("ragged", "Share of that by which tips differ.").between(0, 1).optional("0.45")};
+            .optional("as long as the spine")
+            .thesis("4.6", "as long as hair without a tie"),
+        number("ragged", "Share of that by which tips differ.")
+            .between(0, 1)
+            .optional("0.45")
+            .thesis("4.6", "0")};
 }
 
 std::vector<Parameter> joined(std::vector<std::vector<Parameter>> lists) {

@@ -1,6 +1,7 @@
 // lissom.Hairstyle: style curves, the field that they determine, and growth.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 
@@ -23,13 +24,14 @@ namespace {
 // ---- lissom.hairstyle
 
 HairstyleOptions style_options(const Call& call) {
-    HairstyleOptions options;
+    const bool thesis = call.integer("fidelity") == 1;
+    HairstyleOptions options = thesis ? HairstyleOptions::thesis() : HairstyleOptions{};
     options.resolution = call.integer("resolution");
     if (call.has("volume"))
         options.volume = Box{call.vector("volume.min"), call.vector("volume.max")};
     options.field.solver = call.choice<GridSolver>("solver");
-    options.field.boundary = call.choice<GridBoundary>("boundary");
-    options.field.tension = call.number("tension");
+    if (call.has("boundary")) options.field.boundary = call.choice<GridBoundary>("boundary");
+    if (call.has("tension")) options.field.tension = call.number("tension");
     return options;
 }
 
@@ -117,7 +119,7 @@ int add_curve(Call& call, bool ponytails) {
     const CurveReader reader(call, ponytails);
     const auto result = call.create<CurveObject>();
     const bool done = call.attempt([&] {
-        StyleCurve curve{Shape{}};
+        StyleCurve curve{curve_with<Shape>(style->style().options().fidelity)};
         reader.read(style->style().scalp(), curve);
         const CurveId id = style->style().add(std::move(curve));
         result.set(std::make_shared<CurveObject>(CurveObject{style.share(), id}));
@@ -265,6 +267,7 @@ std::vector<double> vertex_factors(const Call& call, const char* path, const Mes
 void set_lengths(const Call& call, std::span<const double> lengths, std::vector<double> factors,
                  GrowthOptions& growth) {
     growth.length_map = std::move(factors);
+    if (!call.has("length")) return;
     if (call.kind("length") != Kind::function) {
         growth.length = call.number("length");
         return;
@@ -304,17 +307,30 @@ std::span<const double> ask_factors(Call& call, const char* path) {
     return {factors, at(count)};
 }
 
+// How high hair lies over the head, which it knows only while it keeps outside.
+void read_heights(const Call& call, GrowthOptions& growth) {
+    if (call.has("avoid")) growth.avoid = call.boolean("avoid");
+    const auto take = [&](const char* option, double& target) {
+        if (!call.has(option)) return;
+        require(growth.avoid, "option '" + std::string(option) +
+                                  "' needs avoid = true: without it hair follows the field alone");
+        target = call.number(option);
+    };
+    take("clearance", growth.clearance);
+    take("layer", growth.layer);
+    take("ramp", growth.ramp);
+}
+
 void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
     growth.seed = static_cast<std::uint64_t>(call.integer("seed"));
-    growth.variation = call.number("variation");
+    if (call.has("variation")) growth.variation = call.number("variation");
     growth.segment = call.number("segment");
     growth.least_speed = call.number("least_speed");
-    growth.lift = call.number("lift");
-    growth.avoid = call.boolean("avoid");
-    growth.clearance = call.number("clearance");
-    growth.layer = call.number("layer");
-    growth.ramp = call.number("ramp");
-    growth.greatest_turn = call.number("greatest_turn") * kPi / 180.0;
+    if (call.has("lift")) growth.lift = call.number("lift");
+    read_heights(call, growth);
+    if (call.has("greatest_turn")) {
+        growth.greatest_turn = call.number("greatest_turn") * kPi / 180.0;
+    }
     growth.most_segments = call.integer("most_segments");
     if (call.has("cut")) {
         HairCut cut;
@@ -336,10 +352,10 @@ int grow_hair(Call& call) {
     const auto result = reuse ? call.object<StrandsObject>("into") : call.create<StrandsObject>();
     const bool done = call.attempt([&] {
         Hairstyle& own = style->style();
-        HairOptions options;
+        HairOptions options = own.default_hair();
         options.roots.count = call.integer("count");
         options.roots.seed = static_cast<std::uint64_t>(call.integer("seed"));
-        options.roots.pattern = call.choice<RootPattern>("roots");
+        if (call.has("roots")) options.roots.pattern = call.choice<RootPattern>("roots");
         options.roots.density = vertex_factors(call, "density", style->head->mesh, density);
         read_growth(call, own.scalp(), options.growth);
         set_lengths(call, lengths, vertex_factors(call, "lengths", style->head->mesh, factors),
@@ -376,18 +392,25 @@ int style_head(Call& call) {
     return push_owner(call, call.self<HairstyleObject>()->head);
 }
 
+std::string_view fidelity_name(const Hairstyle& style) {
+    return style.options().fidelity == HairFidelity::thesis ? "thesis" : "default";
+}
+
 int style_stats(Call& call) {
     const auto style = call.self<HairstyleObject>();
     GridLayout layout;
     int constraints = 0, curves = 0;
+    std::string_view fidelity;
     const bool done = call.attempt_quick([&] {
         const Hairstyle& own = style->style();
         layout = own.layout();
+        fidelity = fidelity_name(own);
         constraints = own.field().grid().constraint_count();
         curves = index_of(own.curves().size());
     });
     if (!done) return call.fail();
-    lua_createtable(call.lua(), 0, 4);
+    lua_createtable(call.lua(), 0, 5);
+    call.set_field("fidelity", call.push(fidelity));
     call.set_field("curves", call.push(curves));
     call.set_field("constraints", call.push(constraints));
     call.set_field("grid_points", call.push(layout.size()));
@@ -398,12 +421,15 @@ int style_stats(Call& call) {
 int style_text(Call& call) {
     const auto style = call.self<HairstyleObject>();
     int curves = 0, points = 0;
+    bool thesis = false;
     const bool open = call.attempt_quick([&] {
         curves = index_of(style->style().curves().size());
         points = style->style().layout().size();
+        thesis = style->style().options().fidelity == HairFidelity::thesis;
     });
     if (!open) return call.push("lissom.Hairstyle (closed)");
-    lua_pushfstring(call.lua(), "lissom.Hairstyle: %d curves, %d grid points", curves, points);
+    lua_pushfstring(call.lua(), "lissom.Hairstyle: %d curves, %d grid points%s", curves, points,
+                    thesis ? ", as in the thesis" : "");
     return 1;
 }
 
@@ -515,6 +541,17 @@ Parameter metres(const std::string& name, double value, const std::string& help)
     return number(name, help).in("metres").defaults(value).at_least(0);
 }
 
+std::string shown(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+// Over the head, for hair that keeps outside of it.
+Parameter height(const std::string& name, double value, const std::string& help) {
+    return number(name, help + " For `avoid`.").in("metres").optional(shown(value)).at_least(0);
+}
+
 std::vector<Parameter> growth_fields() {
     const GrowthOptions defaults;
     const std::string by_vertex =
@@ -535,13 +572,18 @@ std::vector<Parameter> growth_fields() {
             "in metres, for instance for a fringe that is shorter than the rest: it is asked "
             "for each vertex of the head with its number and its place in mesh units.")
             .in("metres")
-            .defaults(defaults.length),
+            .optional(shown(defaults.length))
+            .thesis("4.6", "as the field carries it"),
         number("variation", "Share by which strands are longer or shorter at most.")
-            .defaults(defaults.variation)
+            .optional(shown(defaults.variation))
+            .thesis("4.6", "0")
             .between(0, 1),
-        choice("roots", {"poisson", "angles"},
-               "Evenly spread, or on the thesis's grid of polar angles.")
-            .defaults("poisson"),
+        choice("roots", {"poisson", "angles", "steps"},
+               "Evenly spread; a root at a random place of each cell of polar angles; or in equal "
+               "steps of the angles with little randomness, as in the thesis: of steps the first n "
+               "of more are spread alike, but not the same.")
+            .optional("\"poisson\"")
+            .thesis("4.6", "\"steps\""),
         factors_option("density", "Relative density of hair." + by_vertex),
         factors_option("lengths", "Factors of the length." + by_vertex),
         options("cut",
@@ -550,12 +592,15 @@ std::vector<Parameter> growth_fields() {
                  metres("ragged", 0.006, "Strands meet the plane moved by this at most.")},
                 "Cuts hair off along a plane, but for tails.")
             .optional(),
-        boolean("avoid", "Keeps strands outside the head while they grow.").defaults(true),
-        metres("clearance", defaults.clearance, "The lowest strands lie this high."),
-        metres("layer", defaults.layer, "The highest lie higher by this."),
-        metres("ramp", defaults.ramp, "Length over which strands rise to their height."),
+        boolean("avoid", "Keeps strands outside the head while they grow.")
+            .optional("true")
+            .thesis("4.6", "false"),
+        height("clearance", defaults.clearance, "The lowest strands lie this high."),
+        height("layer", defaults.layer, "The highest lie higher by this."),
+        height("ramp", defaults.ramp, "Length over which strands rise to their height."),
         number("lift", "Share of the normal of the head in the first segment.")
-            .defaults(defaults.lift)
+            .optional(shown(defaults.lift))
+            .thesis("4.6", "0")
             .at_least(0),
         number("segment", "Length of a segment, in steps of the grid.")
             .defaults(defaults.segment)
@@ -568,7 +613,8 @@ std::vector<Parameter> growth_fields() {
             "A strand ends before a segment that turns by more than this, as about a sink of the "
             "field; 180 lets strands turn as they like.")
             .in("degrees")
-            .defaults(std::round(defaults.greatest_turn * 180.0 / kPi))
+            .optional(shown(std::round(defaults.greatest_turn * 180.0 / kPi)))
+            .thesis("4.6", "180")
             .between(0, 180),
         integer("most_segments", "A strand has no more segments.")
             .defaults(index_of(defaults.most_segments))
@@ -668,10 +714,17 @@ std::vector<Parameter> style_fields() {
                    "dual is fast; cholesky is the thesis's way, a reference.")
                 .defaults("dual"),
             choice("boundary", {"zero_flux", "thesis"}, "How the field behaves at the box.")
-                .defaults("zero_flux"),
+                .optional("\"zero_flux\"")
+                .thesis("4.4.1", "\"thesis\""),
             number("tension", "Keeps the field from growing far from the curves.")
-                .defaults(HairField::default_options().tension)
-                .at_least(0)};
+                .optional(shown(HairField::default_options().tension))
+                .thesis("4.4.1", "0")
+                .at_least(0),
+            choice("fidelity", {"default", "thesis"},
+                   "thesis: chapter 4 to the letter, for comparison. It changes what holds where "
+                   "no option says otherwise, also for the curves and for `grow`; the page "
+                   "thesis.md of the reference names all of it.")
+                .defaults("default")};
 }
 
 }  // namespace
@@ -709,7 +762,8 @@ std::vector<Record> hairstyle_records() {
           {"number", "weight", "How strictly it is kept."}}},
         {"lissom.HairstyleStats",
          "Sizes of a hairstyle.",
-         {{"integer", "curves", "Number of curves."},
+         {{"string", "fidelity", "\"default\" or \"thesis\"."},
+          {"integer", "curves", "Number of curves."},
           {"integer", "constraints", "Constrained grid points of the last solve."},
           {"integer", "grid_points", "Points of the grid."},
           {"number", "step",

@@ -309,7 +309,8 @@ std::vector<Parameter> merge_parameters(bool intersections) {
                 "Looks for faces that run through one another and did not before, for the report.")
             .defaults(intersections),
         choice("fidelity", {"lissom", "thesis"},
-               "thesis: its frames, scales and systems to the letter, for comparison.")
+               "thesis: its frames, scales and systems to the letter, for comparison; the page "
+               "thesis.md of the reference names all of it.")
             .defaults("lissom")};
 }
 

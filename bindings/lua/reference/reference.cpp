@@ -8,6 +8,7 @@
 
 #include "bindings/lua/core/failure.h"
 #include "bindings/lua/core/parser.h"
+#include "bindings/lua/reference/departures.h"
 
 namespace lissom::lua {
 namespace {
@@ -22,7 +23,8 @@ std::string default_text(const Parameter& p) {
     if (const auto* flag = std::get_if<bool>(&p.default_value)) return *flag ? "true" : "false";
     if (const auto* number = std::get_if<double>(&p.default_value)) return plain_number(*number);
     if (const auto* text = std::get_if<std::string>(&p.default_value)) return '"' + *text + '"';
-    return p.default_text;
+    if (p.thesis_text.empty()) return p.default_text;
+    return p.default_text + "; as in the thesis " + p.thesis_text;
 }
 
 // "Passes; in degrees; default 10": all that a reader needs beside the type.
@@ -362,6 +364,25 @@ std::string codes_page() {
     return text;
 }
 
+std::string departures_page(const std::vector<Departure>& all) {
+    std::string text =
+        kPageHead +
+        std::string(
+            "# What differs from the thesis\n\n[All pages](README.md)\n\n"
+            "By choice, where something else gives better shapes and hair: Fu, *Differential "
+            "methods for intuitive 3D shape modeling* (2007), chapters 2 to 4. The last column "
+            "says what gives the thesis's choice; where it is empty, nothing does. An option "
+            "that is given counts before what `fidelity` says.\n\n"
+            "| section | what | by default | in the thesis | as in the thesis by |\n"
+            "|---|---|---|---|---|\n");
+    for (const Departure& one : all) {
+        text += "| " + one.section + " | " + table_cell(one.subject) + " | " +
+                table_cell(one.usual) + " | " + table_cell(one.thesis) + " | " +
+                table_cell(one.by) + " |\n";
+    }
+    return text;
+}
+
 std::string records_page(const std::vector<const Record*>& records) {
     std::string text = kPageHead + std::string(
                                        "# Tables\n\nPlain tables that functions return.\n\n"
@@ -532,9 +553,10 @@ std::vector<Page> reference_pages(const Registry& registry) {
     }
     index +=
         "\n## Tables and codes\n\n- [Tables](tables.md) that functions return\n"
-        "- [Error codes](codes.md)\n";
+        "- [Error codes](codes.md)\n- [What differs from the thesis](thesis.md)\n";
     pages.push_back({"tables.md", records_page(records)});
     pages.push_back({"codes.md", codes_page()});
+    pages.push_back({"thesis.md", departures_page(departures(registry))});
     pages.push_back({"README.md", index});
     return pages;
 }

@@ -24,6 +24,10 @@ constexpr double kBeyond = 0.5;
 // Sine of the least angle between the curve and the scalp's normal.
 constexpr double kLeastSine = 1e-3;
 
+double default_ramp(const DividingOptions& options) {
+    return options.fidelity == HairFidelity::thesis ? 0.0 : 0.87;
+}
+
 // The options with all lengths known.
 struct Rule {
     double step, sigma, height, reach, thickness, wall_width, wall_height, ramp;
@@ -36,7 +40,7 @@ struct Rule {
           thickness(o.thickness.value_or(0.8 * d)),
           wall_width(o.wall_width.value_or(1.2 * d)),
           wall_height(o.wall_height.value_or(2.6 * d)),
-          ramp(o.ramp.value_or(0.87 * d)) {}
+          ramp(o.ramp.value_or(default_ramp(o) * d)) {}
 
     double bell(double u) const { return std::exp(-0.5 * std::pow((u - sigma) / sigma, 2)); }
     double gaussian(double u) const { return height * (bell(u) - std::exp(-0.5)); }
@@ -149,6 +153,113 @@ class Divider {
     const Rule& rule_;
 };
 
+// The local frames of Figure 4.4 along a curve, for one side of it: x points away from the curve, y
+// is the scalp's normal, and z the tangent turned by the tilt.
+class LocalFrames {
+  public:
+    struct Frame {
+        Vec3 origin, x, y, z;
+    };
+    // Where a point lies in the xy-plane through it.
+    struct Place {
+        double u = 0.0, v = 0.0, distance = 0.0;
+        Vec3 x = Vec3::Zero(), y = Vec3::Zero();
+    };
+
+    // `side`: 1 for the right one, -1 for the left one.
+    LocalFrames(const DividingLine& line, std::span<const Vec3> points,
+                const DividingOptions& options, double side) {
+        const auto& tilt = side > 0.0 ? options.right : options.left;
+        for (const Vec3& p : points) {
+            const DividingPlace on = line.place(p);
+            const double angle = tilt.start + on.along * (tilt.end - tilt.start);
+            const Vec3 away = side * on.right;
+            frames_.push_back({p, std::cos(angle) * away + std::sin(angle) * on.tangent, on.normal,
+                               std::cos(angle) * on.tangent - std::sin(angle) * away});
+        }
+    }
+
+    // In the plane whose origin is nearest; none on the other side, or more than `beyond` before
+    // the first plane or behind the last one.
+    std::optional<Place> place(const Vec3& point, double beyond) const {
+        std::optional<Place> best;
+        const auto consider = [&](const Frame& frame) {
+            const Vec3 from = point - frame.origin;
+            const Place here{from.dot(frame.x), from.dot(frame.y), from.norm(), frame.x, frame.y};
+            if (here.u > 0.0 && (!best || here.distance < best->distance)) best = here;
+        };
+        for (std::size_t i = 0; i + 1 < frames_.size(); ++i) {
+            const double from = ahead(point, i), to = ahead(point, i + 1);
+            if (from >= 0.0 && to <= 0.0 && from > to) consider(between(i, from / (from - to)));
+        }
+        if (const double d = ahead(point, 0); d < 0.0 && d >= -beyond) consider(frames_.front());
+        if (const double d = ahead(point, frames_.size() - 1); d > 0.0 && d <= beyond) {
+            consider(frames_.back());
+        }
+        return best;
+    }
+
+  private:
+    double ahead(const Vec3& point, std::size_t i) const {
+        return (point - frames_[i].origin).dot(frames_[i].z);
+    }
+
+    Frame between(std::size_t i, double t) const {
+        const Frame &a = frames_[i], &b = frames_[i + 1];
+        const Vec3 z = ((1.0 - t) * a.z + t * b.z).normalized();
+        const Vec3 y = (1.0 - t) * a.y + t * b.y, up = (y - y.dot(z) * z).normalized();
+        const Vec3 x = (1.0 - t) * a.x + t * b.x;
+        const Vec3 across = (x - x.dot(z) * z - x.dot(up) * up).normalized();
+        return {(1.0 - t) * a.origin + t * b.origin, across, up, z};
+    }
+
+    std::vector<Frame> frames_;
+};
+
+// Vectors at grid points around one dividing curve, in the local planes alone (section 4.5).
+class PlaneDivider {
+  public:
+    PlaneDivider(const GridLayout& layout, const DividingLine& line, std::span<const Vec3> points,
+                 const DividingOptions& options, const Rule& rule)
+        : layout_(layout),
+          right_(line, points, options, 1.0),
+          left_(line, points, options, -1.0),
+          separation_(options.separation),
+          rule_(rule) {}
+
+    std::optional<Divider::Said> at(const Cell& cell) const {
+        const std::optional<LocalFrames::Place> found =
+            place(layout_.point(cell[0], cell[1], cell[2]));
+        if (!found || found->u < kOnPlane * rule_.step) return std::nullopt;
+        const double u = found->u, v = found->v, g = rule_.gaussian(u);
+        if (u < (1.0 - kTie) * rule_.reach && std::abs(v - g) < rule_.thickness) {
+            const Vec3 along = (found->x + rule_.slope(u) * found->y).normalized();
+            return Divider::Said{faded(along, *found), ConstraintKind::parting};
+        }
+        const bool above = u < rule_.wall_width && v > 0.0 && v < g + rule_.wall_height;
+        if (!above || !(separation_ > 0.0)) return std::nullopt;
+        return Divider::Said{faded(separation_ * found->x, *found), ConstraintKind::separation};
+    }
+
+  private:
+    std::optional<LocalFrames::Place> place(const Vec3& point) const {
+        const auto a = right_.place(point, kBeyond * rule_.step),
+                   b = left_.place(point, kBeyond * rule_.step);
+        if (!a || !b) return a ? a : b;
+        return a->distance <= b->distance ? a : b;
+    }
+
+    Vec3 faded(const Vec3& vector, const LocalFrames::Place& place) const {
+        if (!(place.u < rule_.ramp)) return vector;
+        return vector - (1.0 - place.u / rule_.ramp) * vector.dot(place.x) * place.x;
+    }
+
+    const GridLayout& layout_;
+    LocalFrames right_, left_;
+    double separation_;
+    const Rule& rule_;
+};
+
 }  // namespace
 
 DividingOptions with_lengths(DividingOptions options, double step) {
@@ -160,6 +271,12 @@ DividingOptions with_lengths(DividingOptions options, double step) {
     options.wall_width = rule.wall_width;
     options.wall_height = rule.wall_height;
     options.ramp = rule.ramp;
+    return options;
+}
+
+DividingOptions DividingOptions::thesis() {
+    DividingOptions options;
+    options.fidelity = HairFidelity::thesis;
     return options;
 }
 
@@ -222,13 +339,15 @@ std::vector<GridConstraint> dividing_constraints(const DistanceGrid& distances,
     const Rule rule(options, layout.step);
     require_dividing(options, rule);
     const Divider divider(distances, line, options, rule);
+    const PlaneDivider planes(layout, line, points, options, rule);
+    const bool literal = options.fidelity == HairFidelity::thesis;
 
     Box box;
     for (const Vec3& p : points) box.extend(p);
     const Vec3 margin = Vec3::Constant(rule.width() + rule.highest() - rule.lowest());
     std::vector<GridConstraint> result;
     for_grid_points_in(layout, {box.min - margin, box.max + margin}, [&](const Cell& cell) {
-        const auto said = divider.at(cell);
+        const auto said = literal ? planes.at(cell) : divider.at(cell);
         if (!said) return;
         result.push_back({layout.index(cell[0], cell[1], cell[2]), said->vector, options.weight,
                           static_cast<int>(said->kind)});

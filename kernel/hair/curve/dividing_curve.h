@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/hair/curve/fidelity.h"
 #include "kernel/hair/field/distance_grid.h"
 #include "kernel/solve/grid/grid_constraints.h"
 
@@ -42,6 +43,12 @@ struct DividingOptions {
     std::optional<double> ramp = std::nullopt;
     /// omega of equation (4.2), 1e-6 to 1e9.
     double weight = 100.0;
+    /// thesis: u and v are coordinates in the local xy-planes of Figure 4.4, which the tilt turns,
+    /// and vectors lie in them; `ramp` is 0 where absent.
+    HairFidelity fidelity = HairFidelity::lissom;
+
+    /// Section 4.5 to the letter.
+    static DividingOptions thesis();
 
     bool operator==(const DividingOptions&) const = default;
 };
@@ -97,6 +104,8 @@ inline constexpr double kPartingGap = 0.0024;
 /// in the direction that is turned by the tilt. Above them stand vectors of length `separation`
 /// that point away from the curve, too. Points on the curve's plane belong to no side and take
 /// none; nor do those beyond the curve's ends by more than half a step. Ascending by point.
+/// With the fidelity of the thesis the grid points belong to the local planes that they lie in, of
+/// several to the one whose origin is nearest, and the head has no part in it.
 /// Errors: as DividingLine; invalid_argument for options out of range; out_of_range where the grid
 /// has no point near the curve, or the curve is nowhere near the head.
 std::vector<GridConstraint> dividing_constraints(const DistanceGrid& distances,

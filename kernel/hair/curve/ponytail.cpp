@@ -25,6 +25,7 @@ constexpr double kDefaultRing = 2.5;       // in steps
 constexpr double kDefaultClearance = 1.5;  // in steps
 constexpr double kDefaultLead = 1.5;       // in steps
 constexpr double kBehindTie = 0.5;         // the ring goes on behind C1, in steps
+constexpr double kThesisLead = 0.5;        // in steps: points nearest to the plane of C1
 constexpr double kSectionMargin = 0.6;     // beyond the radius of a cross section, in steps
 constexpr double kSpreading = 0.5;         // of the length from C1 to C2
 constexpr double kShortest = 1e-6;         // parts of a spine shorter than this many steps are none
@@ -337,11 +338,12 @@ class Tail {
           layout_(distances.layout()),
           shape_(shape),
           options_(options),
-          clearance_(options.clearance.value_or(kDefaultClearance * layout_.step)),
-          lead_(options.lead.value_or(kDefaultLead * layout_.step)),
+          literal_(options.fidelity == HairFidelity::thesis),
+          clearance_(options.clearance.value_or(steps(kDefaultClearance, 0.0))),
+          lead_(options.lead.value_or(steps(kDefaultLead, kThesisLead))),
           inner_(options.inner * shape.tie().radius),
           outer_(std::max(options.outer * shape.tie().radius,
-                          inner_ + options.ring.value_or(kDefaultRing * layout_.step))) {
+                          inner_ + options.ring.value_or(steps(kDefaultRing, 0.0)))) {
         for (const PonytailSection& section : shape.sections) centers_.push_back(section.center);
         lengths_ = arc_lengths(centers_);
     }
@@ -397,7 +399,8 @@ class Tail {
 
     // To the center of C1 (green).
     std::optional<Vec3> centripetal(const Vec3& point) const {
-        if (!(options_.tightness > 0.0) || distances_.inside(point)) return std::nullopt;
+        if (!(options_.tightness > 0.0)) return std::nullopt;
+        if (!literal_ && distances_.inside(point)) return std::nullopt;
         const PonytailSection& tie = shape_.tie();
         const Vec3 from = point - tie.center;
         const double height = from.dot(tie.direction);
@@ -430,7 +433,25 @@ class Tail {
         return inside;
     }
 
+    // A ring that is asked for must have an effect.
+    void require_ring(bool found) const {
+        if (!literal_ || found || !(options_.tightness > 0.0)) return;
+        throw Error(ErrorCode::invalid_argument,
+                    "no grid point lies in the ring from " + length_text(inner_) + " to " +
+                        length_text(outer_) +
+                        " m around the ponytail's tie, as the grid's step "
+                        "is " +
+                        length_text(layout_.step) +
+                        " m; give the tie a radius of at least one step, raise the resolution, or "
+                        "give the ring a width by `ring`");
+    }
+
   private:
+    // A default length, given in steps.
+    double steps(double usual, double thesis) const {
+        return (literal_ ? thesis : usual) * layout_.step;
+    }
+
     // Growth of distances from the spine at an arc length behind C1, as a share a unit of length:
     // a parabola, so that hair still closes up at the tie.
     double spreading(double behind) const {
@@ -440,6 +461,7 @@ class Tail {
 
     // Whether a point of the tail, this far behind C1, is where hair grows that is not in it yet.
     bool catches_hair(const Vec3& point, double behind) const {
+        if (literal_ && !(clearance_ > 0.0)) return false;
         return behind > clearance_ && distances_.value(point) < clearance_;
     }
 
@@ -447,6 +469,7 @@ class Tail {
     const GridLayout& layout_;
     const PonytailShape& shape_;
     const PonytailOptions& options_;
+    bool literal_;
     double clearance_, lead_, inner_, outer_;
     std::vector<Vec3> centers_;
     std::vector<double> lengths_;
@@ -455,9 +478,17 @@ class Tail {
 }  // namespace
 
 PonytailOptions with_lengths(PonytailOptions options, double step) {
-    options.ring = options.ring.value_or(kDefaultRing * step);
-    options.lead = options.lead.value_or(kDefaultLead * step);
-    options.clearance = options.clearance.value_or(kDefaultClearance * step);
+    const bool literal = options.fidelity == HairFidelity::thesis;
+    options.ring = options.ring.value_or(literal ? 0.0 : kDefaultRing * step);
+    options.lead = options.lead.value_or(literal ? kThesisLead * step : kDefaultLead * step);
+    options.clearance = options.clearance.value_or(literal ? 0.0 : kDefaultClearance * step);
+    return options;
+}
+
+PonytailOptions PonytailOptions::thesis() {
+    PonytailOptions options;
+    options.grip = options.spread = 0.0;
+    options.fidelity = HairFidelity::thesis;
     return options;
 }
 
@@ -512,9 +543,17 @@ std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
             vectors.insert({point, {point, *vector, options.weight, static_cast<int>(kind)}});
         });
     };
+    const auto gather = [&] {
+        at_points(ConstraintKind::gather,
+                  [&](const Vec3& point) { return tail.centripetal(point); });
+    };
+    if (options.fidelity == HairFidelity::thesis) {
+        gather();
+        tail.require_ring(!vectors.empty());
+    }
     at_points(ConstraintKind::section, [&](const Vec3& point) { return tail.longitudinal(point); });
     at_points(ConstraintKind::section, [&](const Vec3& point) { return tail.leading(point); });
-    VectorSplat spine(layout);
+    VectorSplat spine(layout, options.fidelity);
     if (!tail.splat_spine(spine) && vectors.empty()) {
         throw Error(ErrorCode::out_of_range,
                     "the ponytail lies outside the volume of the hairstyle; enlarge the volume, or "
@@ -523,7 +562,7 @@ std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
     for (const GridConstraint& c : spine.constraints(options.weight)) {
         vectors.emplace(c.point, c);
     }
-    at_points(ConstraintKind::gather, [&](const Vec3& point) { return tail.centripetal(point); });
+    gather();
 
     std::vector<GridConstraint> result;
     for (const auto& [point, constraint] : vectors) result.push_back(constraint);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/hair/curve/fidelity.h"
 #include "kernel/hair/field/distance_grid.h"
 #include "kernel/solve/grid/grid_constraints.h"
 
@@ -54,6 +55,13 @@ struct PonytailOptions {
     double stop_length = 0.04;
     /// omega of equation (4.2), 1e-6 to 1e9.
     double weight = 100.0;
+    /// thesis: the ring is that from R1 to R2 at the grid points nearest to the plane of C1, up to
+    /// half a step from it, and counts before the cross sections; `ring` and `clearance` are 0 and
+    /// `lead` half a step where absent; the spine is followed as StreamOptions::fidelity says.
+    HairFidelity fidelity = HairFidelity::lissom;
+
+    /// Section 4.5 to the letter: also no grip and no spread.
+    static PonytailOptions thesis();
 
     bool operator==(const PonytailOptions&) const = default;
 };
@@ -96,7 +104,8 @@ PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
 /// `grip`, points up to a step in front of C1 and near its axis lead into it, which is not in the
 /// thesis.
 /// Errors: invalid_argument for options out of range, for a tie that is wider than the grid or has
-/// its center inside the head; out_of_range where the whole spine lies outside the grid.
+/// its center inside the head, with the fidelity of the thesis for a ring without a grid point;
+/// out_of_range where the whole spine lies outside the grid.
 std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
                                                  const PonytailShape& shape,
                                                  const PonytailOptions& options = {});

@@ -14,6 +14,12 @@ constexpr double kLeastWeight = 1e-9;
 
 }  // namespace
 
+StreamOptions StreamOptions::thesis() {
+    StreamOptions options;
+    options.fidelity = HairFidelity::thesis;
+    return options;
+}
+
 double steps_across(const GridLayout& layout) {
     return static_cast<double>(layout.counts[0]) + layout.counts[1] + layout.counts[2];
 }
@@ -56,14 +62,27 @@ std::vector<GridConstraint> VectorSplat::constraints(double weight) const {
                      [](const Given& a, const Given& b) { return a.point < b.point; });
     std::vector<GridConstraint> result;
     for (std::size_t i = 0; i < sorted.size();) {
-        Given sum{sorted[i].point, 0.0, Vec3::Zero(), sorted[i].kind};
-        for (; i < sorted.size() && sorted[i].point == sum.point; ++i) {
-            sum.weight += sorted[i].weight;
-            sum.sum += sorted[i].sum;
-        }
-        result.push_back({sum.point, sum.sum / sum.weight, weight, static_cast<int>(sum.kind)});
+        std::size_t end = i;
+        while (end < sorted.size() && sorted[end].point == sorted[i].point) ++end;
+        const Given all = taken(std::span(sorted).subspan(i, end - i));
+        result.push_back({all.point, all.sum / all.weight, weight, static_cast<int>(all.kind)});
+        i = end;
     }
     return result;
+}
+
+VectorSplat::Given VectorSplat::taken(std::span<const Given> given) const {
+    if (fidelity_ == HairFidelity::thesis) {
+        return *std::max_element(given.begin(), given.end(), [](const Given& a, const Given& b) {
+            return a.weight < b.weight;
+        });
+    }
+    Given sum{given.front().point, 0.0, Vec3::Zero(), given.front().kind};
+    for (const Given& one : given) {
+        sum.weight += one.weight;
+        sum.sum += one.sum;
+    }
+    return sum;
 }
 
 std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
@@ -74,7 +93,7 @@ std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
         throw Error(ErrorCode::invalid_argument, "stop_length of a curve must be 0 or more");
     }
     require_curve_weight(options.weight);
-    VectorSplat splat(layout);
+    VectorSplat splat(layout, options.fidelity);
     bool inside = false;
     Vec3 tangent = Vec3::Zero();
     for (std::size_t i = 1; i < points.size(); ++i) {

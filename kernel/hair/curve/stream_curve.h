@@ -7,6 +7,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/curve/constraint_kind.h"
+#include "kernel/hair/curve/fidelity.h"
 #include "kernel/hair/field/grid_layout.h"
 #include "kernel/solve/grid/grid_constraints.h"
 
@@ -19,6 +20,12 @@ struct StreamOptions {
     double stop_length = 0.04;
     /// omega of equation (4.2), 1e-6 to 1e9.
     double weight = 100.0;
+    /// thesis: a grid point beside several segments takes the vector of the nearest one, not their
+    /// mean, so that vectors along the curve are of unit length.
+    HairFidelity fidelity = HairFidelity::lissom;
+
+    /// Section 4.5 to the letter.
+    static StreamOptions thesis();
 
     bool operator==(const StreamOptions&) const = default;
 };
@@ -37,10 +44,11 @@ std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
 double steps_across(const GridLayout& layout);
 
 /// Collects vectors that are to stand at grid points: each point takes the mean of what it was
-/// given, by weight.
+/// given, by weight; with the fidelity of the thesis, that of the greatest weight.
 class VectorSplat {
   public:
-    explicit VectorSplat(const GridLayout& layout) : layout_(layout) {}
+    explicit VectorSplat(const GridLayout& layout, HairFidelity fidelity = HairFidelity::lissom)
+        : layout_(layout), fidelity_(fidelity) {}
 
     /// Gives `vector` to the corners of the cell that `point` lies in, by trilinear weights. False
     /// where all of them are outside the grid.
@@ -48,7 +56,7 @@ class VectorSplat {
     /// Gives `vector` to one grid point.
     void add_at(Index point, const Vec3& vector, double weight, ConstraintKind kind);
 
-    /// Ascending by point; of the kind that a point was given first.
+    /// Ascending by point; means are of the kind that a point was given first.
     std::vector<GridConstraint> constraints(double weight) const;
 
   private:
@@ -59,7 +67,11 @@ class VectorSplat {
         ConstraintKind kind = ConstraintKind::stream;
     };
 
+    // What a point takes of all that it was given.
+    Given taken(std::span<const Given> given) const;
+
     GridLayout layout_;
+    HairFidelity fidelity_;
     std::vector<Given> given_;
 };
 

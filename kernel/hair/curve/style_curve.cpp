@@ -15,6 +15,22 @@ struct DrawnPoints {
 
 }  // namespace
 
+StreamCurve StreamCurve::thesis() {
+    return {.points = {}, .options = StreamOptions::thesis(), .clearance = 0.0};
+}
+
+DividingCurve DividingCurve::thesis() {
+    return {.points = {}, .options = DividingOptions::thesis(), .gap = 0.0};
+}
+
+Ponytail Ponytail::thesis() {
+    return {.spine = {}, .options = PonytailOptions::thesis(), .ragged = 0.0};
+}
+
+HairFidelity fidelity_of(const StyleCurve& curve) {
+    return std::visit([](const auto& shape) { return shape.options.fidelity; }, curve.shape);
+}
+
 std::string_view kind_name(const StyleCurve& curve) {
     constexpr std::array<std::string_view, 3> kNames = {"stream", "dividing", "ponytail"};
     return kNames[curve.shape.index()];

@@ -10,6 +10,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/hair/curve/dividing_curve.h"
+#include "kernel/hair/curve/fidelity.h"
 #include "kernel/hair/curve/ponytail.h"
 #include "kernel/hair/curve/stream_curve.h"
 
@@ -22,6 +23,9 @@ struct StreamCurve {
     StreamOptions options = {};
     /// The curve is moved outward to this height above the head.
     double clearance = 0.004;
+
+    /// Without points, as section 4.5 has it: it may lie on the head.
+    static StreamCurve thesis();
 
     bool operator==(const StreamCurve&) const = default;
 };
@@ -39,6 +43,9 @@ struct DividingCurve {
     /// effect.
     std::vector<std::vector<Vec3>> hints = {};
 
+    /// Without points, as section 4.5 has it: there is no bare skin.
+    static DividingCurve thesis();
+
     bool operator==(const DividingCurve&) const = default;
 };
 
@@ -47,10 +54,14 @@ struct Ponytail {
     /// From the tie to the tip of the tail; the curve runs smoothly through them.
     std::vector<Vec3> spine;
     PonytailOptions options = {};
-    /// Of the hair behind the tie; absent: as long as the spine. A share of it that differs from
-    /// strand to strand, up to `ragged`, 0 to 1, is missing at the tips.
+    /// Of the hair behind the tie; absent: as long as the spine, with the fidelity of the thesis as
+    /// long as hair would be without the tie. A share of it that differs from strand to strand, up
+    /// to `ragged`, 0 to 1, is missing at the tips.
     std::optional<double> tail_length = std::nullopt;
     double ragged = 0.45;
+
+    /// Without a spine, as section 4.5 has it: hair behind the tie is like any other.
+    static Ponytail thesis();
 
     bool operator==(const Ponytail&) const = default;
 };
@@ -67,6 +78,15 @@ struct StyleCurve {
 
 /// "stream", "dividing" or "ponytail".
 std::string_view kind_name(const StyleCurve& curve);
+
+/// How closely the curve keeps to the thesis.
+HairFidelity fidelity_of(const StyleCurve& curve);
+
+/// A curve without points, as it is by default with a fidelity.
+template <typename Shape>
+Shape curve_with(HairFidelity fidelity) {
+    return fidelity == HairFidelity::thesis ? Shape::thesis() : Shape{};
+}
 
 /// The points or spine that the curve was drawn with.
 const std::vector<Vec3>& drawn_points(const StyleCurve& curve);

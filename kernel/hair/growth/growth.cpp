@@ -46,7 +46,7 @@ bool is_direction(const Vec3& v) {
 void require_tie(const HairTie& tie) {
     require(tie.center.allFinite() && is_direction(tie.direction),
             "a tie needs a center and a direction of finite numbers, not of length 0");
-    require(is_length(tie.radius) && is_length(tie.tail_length),
+    require(is_length(tie.radius) && is_length(tie.tail_length.value_or(0.0)),
             "the radius and the tail of a tie must be lengths of 0 or more");
     require(is_share(tie.ragged), "how ragged a tail is must be from 0 to 1");
     require(std::all_of(tie.spine.begin(), tie.spine.end(),
@@ -101,7 +101,9 @@ void require_fitting_lengths(const GrowthOptions& o, const GridLayout& layout) {
         o.length_map.empty() ? 1.0 : *std::max_element(o.length_map.begin(), o.length_map.end());
     require_fitting(o.length * factor,
                     factor == 1.0 ? "hair" : "hair where its factor is greatest");
-    for (const HairTie& tie : o.ties) require_fitting(tie.tail_length, "the tail of a tie");
+    for (const HairTie& tie : o.ties) {
+        require_fitting(tie.tail_length.value_or(0.0), "the tail of a tie");
+    }
 }
 
 // The grid's cells to the coordinates of strands.
@@ -146,9 +148,10 @@ TieRule tie_rule(const HairTie& tie, const GridLayout& layout) {
     return {((tie.center - layout.origin) / layout.step).cast<float>(),
             tie.direction.normalized().cast<float>(),
             static_cast<float>(radius * radius),
-            static_cast<float>(tie.tail_length / layout.step),
+            static_cast<float>(tie.tail_length.value_or(0.0) / layout.step),
             static_cast<float>(tie.ragged),
-            planes_of(tie.spine, layout)};
+            tie.tail_length ? planes_of(tie.spine, layout) : std::vector<TailPlane>(),
+            tie.tail_length.has_value()};
 }
 
 CutRule cut_rule(const HairCut& cut, const GridLayout& layout) {
@@ -167,6 +170,8 @@ GrowthRules rules_of(const GridLayout& layout, const GrowthOptions& options) {
     rules.least_cosine =
         options.greatest_turn < kPi ? static_cast<float>(std::cos(options.greatest_turn)) : -2.0f;
     rules.lift = options.lift;
+    rules.outward = options.start_outward ? 1.0f : 0.0f;
+    rules.inverse_cap = options.cap_speed ? 1.0f : 0.0f;
     rules.inverse_ramp = 1.0 / std::max(options.ramp / layout.step, 1e-6);
     rules.inverse_step = 1.0 / layout.step;
     rules.avoid = options.avoid;
@@ -191,6 +196,14 @@ QuadGrid grid_of(const HairField& field) {
 }
 
 }  // namespace
+
+GrowthOptions GrowthOptions::thesis() {
+    GrowthOptions options;
+    options.variation = options.lift = 0.0;
+    options.greatest_turn = kPi;
+    options.avoid = options.start_outward = options.cap_speed = false;
+    return options;
+}
 
 struct StrandGrower::State {
     State(const Mesh& head, std::span<const Root> all, const Context& context)

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,8 +28,9 @@ struct HairTie {
     Vec3 direction = Vec3::UnitY();
     double radius = 0.0;
     /// Length grown past the tie, shortened at random by up to the fraction `ragged`, so that a
-    /// tail thins out towards its end.
-    double tail_length = 0.25;
+    /// tail thins out towards its end. Absent: strands become as long as they would without the
+    /// tie.
+    std::optional<double> tail_length = 0.25;
     double ragged = 0.45;
     /// The way of the tail from the center on. As far as it goes the length is measured along it,
     /// so that hair at the outside of a bend ends where that at its inside does; beyond, or where
@@ -72,8 +74,12 @@ struct GrowthOptions {
     double greatest_turn = 88.0 * kPi / 180.0;
     /// Segments at most: flow lines around a ponytail may be closed.
     Index most_segments = 400;
-    /// Share of the normal in the first segment, which never points inward.
+    /// Share of the normal in the first segment, which never points inward unless `start_outward`
+    /// is false.
     double lift = 0.15;
+    bool start_outward = true;
+    /// Vectors longer than 1 count as of length 1, as the field may overshoot.
+    bool cap_speed = true;
     /// Strands stay this far outside the head, and up to `layer` farther, most of them near it;
     /// over the first `ramp` of their length the distance grows from nothing. Off: strands follow
     /// the field into the head.
@@ -88,6 +94,10 @@ struct GrowthOptions {
     /// From the coordinates of the field to those of the strands.
     Affine placement = {};
     std::uint64_t seed = 1;
+
+    /// Section 4.6 to the letter: strands follow the field alone, l v(p) a segment, whether or not
+    /// into the head, however it turns and however long it is, and do not vary in length.
+    static GrowthOptions thesis();
 };
 
 /// What ended a strand.

@@ -42,6 +42,8 @@ struct TieRule {
     Eigen::Vector3f center, direction;
     float square_radius, tail_length, ragged;
     std::vector<TailPlane> planes = {};
+    /// Whether the tie says how long strands become.
+    bool measures = true;
 };
 
 /// Hair is left where normal . p <= offset + ragged x chance.
@@ -52,6 +54,9 @@ struct CutRule {
 
 struct GrowthRules {
     float segment, least_speed, least_move, lift, inverse_ramp;
+    /// 1 or 0: whether first segments never point inward, and whether longer vectors count as of
+    /// length 1.
+    float outward, inverse_cap;
     /// Of the greatest turn.
     float least_cosine;
     /// Steps in a unit of the distances.

@@ -258,9 +258,10 @@ class LaneGrower {
             const Eigen::Vector3f off = get(at_, k) + share[k] * get(next.way, k) - tie.center;
             if (off.squaredNorm() > tie.square_radius) continue;
             tie_[k] = index_of(number);
+            plane_[k] = 0;
+            if (!tie.measures) continue;
             tail_length_[k] = tie.tail_length * (1.0f - tie.ragged * tail_[k]);
             length_[k] = grown_[k] + share[k] * next.length[k] + tail_length_[k];
-            plane_[k] = 0;
         }
     }
 
@@ -309,7 +310,7 @@ class LaneGrower {
         const Ints take = next.go & moves & no(turns);
         const Ints end = next.go & ends_of(next, moves, turns, left, speed);
 
-        const Floats scale = least(all(rules_.segment) / most(speed, all(1.0f)), left / speed);
+        const Floats scale = least(full_step(speed), left / speed);
         put_points(take);
         way_ = choose(take, next.way, way_);
         way_length_ = choose(take, next.length, way_length_);
@@ -323,6 +324,11 @@ class LaneGrower {
         grown_ = choose(take, grown, grown_);
         pushes_ = choose(take, all(0), pushes_);
         if (any(end)) end_lanes(end);
+    }
+
+    // By which a vector of this length is multiplied for a whole segment.
+    LISSOM_INLINE Floats full_step(const Floats& speed) const {
+        return all(rules_.segment) / most(speed * all(rules_.inverse_cap), all(1.0f));
     }
 
     static LISSOM_INLINE void mark(Ints& end, const Ints& yes, StrandEnd why) {
@@ -356,10 +362,10 @@ class LaneGrower {
         }
         locate();
         const Floats3 v = read_all().vector;
-        const Floats inward = least(all(0.0f), dot(v, normal));
+        const Floats inward = all(rules_.outward) * least(all(0.0f), dot(v, normal));
         const Floats3 lifted = sum(v, scaled(normal, all(rules_.lift) - inward));
         const Floats speed = root(dot(lifted, lifted));
-        const Floats scale = least(all(rules_.segment) / most(speed, all(1.0f)), length_ / speed);
+        const Floats scale = least(full_step(speed), length_ / speed);
         to_ = sum(to_, scaled(lifted, scale));
         const Ints end = ends_of_roots(root(dot(v, v)), speed);
         for (std::size_t k = 0; k < count; ++k) {

@@ -6,6 +6,7 @@
 
 #include "kernel/hair/scalp/dart_thrower.h"
 #include "kernel/hair/scalp/root_surface.h"
+#include "kernel/hair/scalp/step_sampler.h"
 
 namespace lissom {
 namespace {
@@ -85,6 +86,19 @@ class AngleSampler {
     const Context& context_;
 };
 
+std::vector<Root> roots_of_pattern(const Scalp& scalp, const RootSurface& surface,
+                                   const RootOptions& options, const Context& context) {
+    switch (options.pattern) {
+        case RootPattern::poisson:
+            return throw_darts(surface, options, context);
+        case RootPattern::angles:
+            return AngleSampler(scalp, surface, options, context).run();
+        case RootPattern::steps:
+            break;
+    }
+    return roots_in_steps(scalp, surface, options, context);
+}
+
 }  // namespace
 
 double hairline_thinning(double margin) {
@@ -102,9 +116,7 @@ std::vector<Root> make_roots(const Mesh& head, const Scalp& scalp, const RootOpt
     }
     const auto charge = context.charge(at(options.count) * 2 * sizeof(Root), "roots");
     const RootSurface surface(head, scalp, options);
-    std::vector<Root> roots = options.pattern == RootPattern::poisson
-                                  ? throw_darts(surface, options, context)
-                                  : AngleSampler(scalp, surface, options, context).run();
+    std::vector<Root> roots = roots_of_pattern(scalp, surface, options, context);
     context.parallel_for(0, count_of(roots), 4096, [&](Index from, Index to) {
         for (Index i = from; i < to; ++i) {
             roots[i].normal = scalp.normal_at(roots[i].triangle, roots[i].barycentric);

@@ -20,8 +20,13 @@ enum class RootPattern {
     /// nearer.
     poisson,
     /// The cells of a grid of polar angles around the center of the frame, each with a root at a
-    /// random place (thesis, section 4.5). Roots are dense at the crown.
+    /// random place (thesis, section 4.6). Roots are dense at the crown.
     angles,
+    /// In equal steps of both polar angles, each moved at random by up to a quarter of a step, as
+    /// in section 4.6 of the thesis: the step follows from the count, and the few roots too many
+    /// that it gives are left out at random. The first n of a larger count are spread alike, but
+    /// are not those of count n.
+    steps,
 };
 
 struct RootOptions {
@@ -49,7 +54,7 @@ struct Root {
 };
 
 /// Roots in an order of which every beginning is spread alike: the first n of a larger count are
-/// those of count n, for a seed, on any number of threads.
+/// those of count n, but for RootPattern::steps; for a seed, on any number of threads.
 /// Darts are thrown at the scalp with a radius that shrinks as roots are added (McCool and Fiume
 /// 1992); where the density is lower they are wider. Time is about linear in the count.
 /// `head` must be the mesh that `scalp` was made for.

@@ -1,0 +1,141 @@
+#include "bindings/lua/reference/departures.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bindings/lua/core/parser.h"
+
+namespace lissom::lua {
+
+const char* const kByFidelity = "`fidelity = \"thesis\"`";
+
+namespace {
+
+// The description of an option names its default.
+void add_option_departures(std::vector<Departure>& list, const Function& function,
+                           const std::string& call) {
+    // It changes what was made, and has no defaults.
+    if (function.name == "set") return;
+    for (const Parameter& p : function.options) {
+        if (p.thesis_text.empty()) continue;
+        list.push_back({p.thesis_section, "`" + p.name + "` of `" + call + "`", p.default_text,
+                        p.thesis_text, kByFidelity, p.name});
+    }
+}
+
+std::vector<Departure> deform_departures() {
+    return {{"2.4.2", "Weights of both terms of (2.6) and (2.7)",
+             "by the areas of vertices and the cotangents of edges, so that neither the scale nor "
+             "the resolution of the mesh matters",
+             "all 1", kByFidelity},
+            {"2.4.2", "Handles that are turned by more than half a turn",
+             "the surface turns as far as was asked for", "it turns the shorter way", kByFidelity},
+            {"2.4.3", "Displaced degenerate vertices in `edit:preview`",
+             "are pulled back, as in the result", "are pulled back in the result", ""}};
+}
+
+std::vector<Departure> merge_departures() {
+    return {
+        {"3.3.1", "Frames along a boundary", "smoothed along it", "as they are at each vertex",
+         kByFidelity},
+        {"3.3.1", "How much the source grows at a boundary",
+         "one factor a join, from the spread of both boundaries",
+         "the ratio of tangent lengths at each vertex", kByFidelity},
+        {"3.3.1", "How much local features grow, |M| of (2.11)",
+         "a harmonic field with the factors at the boundaries", "|M| / sqrt 3", kByFidelity},
+        {"3.3.1", "Systems of the deformation",
+         "as `lissom.deform` by default, with the second system blend",
+         "as `lissom.deform` of the thesis, on the surface brought to unit size", kByFidelity},
+        {"3.3.1", "How the meshes are joined: `seam` of `lissom.merge`",
+         "vertices of both boundaries go into the faces of the other side",
+         "a band of the target's faces is replaced", "`seam = \"band\"`"},
+        {"3.3.1", "`smooth` of `lissom.merge`", "3 steps at the seam", "none", "`smooth = 0`"},
+        {"3.3.1", "`collar` of `lissom.merge`: faces beside the seam made anew", "where needed",
+         "never", kByFidelity},
+        {"3.3.1", "`trim` of `lissom.merge`: boundaries with teeth", "are cut to smooth lines",
+         "stay", "`trim = false`"},
+        {"3.3.2", "`frames` of `lissom.merge`, fixed configuration",
+         "the surface turns to meet the target's", "it keeps its directions", kByFidelity},
+        {"3.3.3", "Transition regions",
+         "coordinates along the surface, and a harmonic blend of both shapes",
+         "bands cut open and laid over the unit square, and the term E_T with `transition.weight`",
+         kByFidelity}};
+}
+
+std::vector<Departure> field_departures() {
+    return {{"4.4.2", "`solver` of `lissom.hairstyle`",
+             "dual, which finds the field of (4.3) many times faster",
+             "Cholesky factors that are updated and downdated", "`solver = \"cholesky\"`"},
+            {"4.5", "Grid points that several curves claim",
+             "dividing curves count first, then the later curve, with those that agree with it "
+             "within 60 degrees",
+             "not said", ""},
+            {"4.5", "Segments of curves",
+             "of equal length along a smooth curve through the points that are drawn, as near to "
+             "the grid's step as whole numbers come",
+             "of the length of the grid's step", ""},
+            {"4.5", "The vanishing extension of curves: `stop`", "0.04 metres, whatever the grid",
+             "a few segments", "`stop = LENGTH`"}};
+}
+
+std::vector<Departure> curve_departures() {
+    return {{"4.5", "Grid points beside several segments of a curve", "the mean of their tangents",
+             "the tangent of the nearest", kByFidelity},
+            {"4.5", "Local planes of dividing curves",
+             "a tilt turns vectors; heights are distances to the head",
+             "a tilt turns the planes, and vectors lie in them; heights are along the normal at "
+             "the curve",
+             kByFidelity},
+            {"4.5", "The ring of a ponytail",
+             "a slab in front of the tie, outside the head; cross sections count before it",
+             "from R1 to R2 at the grid points nearest to the tie's plane, also in the head; it "
+             "counts first, and is an error where the grid has no point in it",
+             kByFidelity},
+            {"4.5", "A ponytail without `profiles`",
+             "cross sections along `share` of the spine, swollen by `fullness`",
+             "always has two profiles", "`profiles = {...}`"},
+            {"4.5", "Grid points near the cross sections of a ponytail",
+             "those inside, and up to 0.6 steps outside", "not said", ""}};
+}
+
+std::vector<Departure> growth_departures() {
+    return {{"4.6", "Vectors longer than 1, which the field has away from curves",
+             "count as of length 1", "count as they are", kByFidelity},
+            {"4.6", "First segments that point into the head", "are turned along it",
+             "stay as they are", kByFidelity},
+            {"4.6", "`most_segments` of `style:grow`, for closed flow lines", "400", "no limit",
+             "`most_segments = NUMBER`"},
+            {"4.6", "Density of roots", "thins out at the hairline", "even in the angles",
+             "a scalp with `softness = 0`"},
+            {"4.6", "Where `style:avoid_scalp` adds vectors",
+             "where hair grows, but for points that curves constrain",
+             "all grid points near the scalp", ""}};
+}
+
+void append(std::vector<Departure>& list, const std::vector<Departure>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+std::vector<Departure> departures(const Registry& registry) {
+    std::vector<Departure> list;
+    for (const auto& library : registry.libraries()) {
+        for (const Function& f : library->functions) {
+            add_option_departures(list, f, "lissom." + f.name);
+        }
+        for (const Type& type : library->types) {
+            const std::string of = variable_name(type) + ":";
+            for (const Function& f : type.methods) add_option_departures(list, f, of + f.name);
+        }
+    }
+    for (const auto& more : {deform_departures(), merge_departures(), field_departures(),
+                             curve_departures(), growth_departures()}) {
+        append(list, more);
+    }
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Departure& a, const Departure& b) { return a.section < b.section; });
+    return list;
+}
+
+}  // namespace lissom::lua
