@@ -47,7 +47,7 @@ class CurveFields {
         number("grip", o.grip);
         number("spread", o.spread);
         number("tightness", o.tightness);
-        number("tail_length", tie.tail_length);
+        if (tie.tail_length) number("tail_length", *tie.tail_length);
         number("ragged", ponytail.ragged);
         number("weight", o.weight);
     }
