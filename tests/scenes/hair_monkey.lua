@@ -80,5 +80,8 @@ for trial = 1, 4 * (tonumber(os.getenv("LISSOM_TRIALS") or "") or 1) do
         local fresh = hand.new("select", objects())
         lissom.replay(file, { scene = fresh.scene })
         expect.equal(fresh.scene:hash(), h.scene:hash())
+        -- The journal ends with a check of the hash.
+        local other = hand.new("select", objects())
+        assert(load(h.host:journal_text(), "=journal"))(other.scene)
     end)
 end
