@@ -265,6 +265,7 @@
 
 ---Sizes of a hairstyle.
 ---@class lissom.HairstyleStats
+---@field fidelity string "default" or "thesis".
 ---@field curves integer Number of curves.
 ---@field constraints integer Constrained grid points of the last solve.
 ---@field grid_points integer Points of the grid.
@@ -1441,7 +1442,7 @@ function Hairstyle:stats() end
 ---@class lissom.Hairstyle.StreamOptions
 ---@field points lissom.Vector[] From the root to the tip; the curve runs smoothly through them. In mesh units.
 ---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
----@field clearance? number The curve is moved out to this height. In metres. Default: 0.004.
+---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
 ---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
@@ -1466,8 +1467,8 @@ function Hairstyle:stream(options) end
 ---@field separation? number Magnitude of the vectors that keep both sides apart. Default: 0.3.
 ---@field wall_width? number How far from the line these stand. In metres. Default: 1.2 grid steps.
 ---@field wall_height? number How high. In metres. Default: 2.6 grid steps.
----@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps.
----@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024.
+---@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps; as in the thesis 0.
+---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
 ---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
@@ -1490,14 +1491,14 @@ function Hairstyle:dividing(options) end
 ---@field fullness? number Without profiles: the tail swells to 1 + fullness radii. Default: 1.
 ---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
 ---@field outer? number And up to this many (R2). Default: 1.9.
----@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps.
----@field free? number Nearer to the head than this the tail leaves hair alone. In metres. Default: 1.5 grid steps.
----@field lead? number It begins so far in front of the tie. In metres. Default: 1.5 grid steps.
----@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4.
----@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2.
+---@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps; as in the thesis 0.
+---@field free? number Nearer to the head than this the tail leaves hair alone. In metres. Default: 1.5 grid steps; as in the thesis 0.
+---@field lead? number The ring begins so far in front of the tie. In metres. Default: 1.5 grid steps; as in the thesis half a grid step.
+---@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4; as in the thesis 0.
+---@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2; as in the thesis 0.
 ---@field tightness? number Magnitude of the vectors that do so. Default: 0.6.
----@field tail_length? number Of the hair behind the tie. In metres. Default: as long as the spine.
----@field ragged? number Share of that by which tips differ. Default: 0.45.
+---@field tail_length? number Of the hair behind the tie. In metres. Default: as long as the spine; as in the thesis as long as hair without a tie.
+---@field ragged? number Share of that by which tips differ. Default: 0.45; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
 ---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
@@ -1548,20 +1549,20 @@ function Hairstyle:forget_scalp() end
 ---@class lissom.Hairstyle.GrowOptions
 ---@field count? integer How many strands; the first n of more are the same. Default: 100000.
 ---@field seed? integer Another seed gives other roots and other chance. Default: 1.
----@field length? number|(fun(vertex: integer, x: number, y: number, z: number): number) Of a strand, at most twice the diagonal of the volume. By function(vertex, x, y, z) in metres, for instance for a fringe that is shorter than the rest: it is asked for each vertex of the head with its number and its place in mesh units. In metres. Default: 0.25.
----@field variation? number Share by which strands are longer or shorter at most. Default: 0.1.
----@field roots? "poisson"|"angles" Evenly spread, or on the thesis's grid of polar angles. Default: "poisson".
+---@field length? number|(fun(vertex: integer, x: number, y: number, z: number): number) Of a strand, at most twice the diagonal of the volume. By function(vertex, x, y, z) in metres, for instance for a fringe that is shorter than the rest: it is asked for each vertex of the head with its number and its place in mesh units. In metres. Default: 0.25; as in the thesis as the field carries it.
+---@field variation? number Share by which strands are longer or shorter at most. Default: 0.1; as in the thesis 0.
+---@field roots? "poisson"|"angles"|"steps" Evenly spread; a root at a random place of each cell of polar angles; or in equal steps of the angles with little randomness, as in the thesis: of steps the first n of more are spread alike, but not the same. Default: "poisson"; as in the thesis "steps".
 ---@field density? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Relative density of hair. For the vertices of the head: a list, the name of an attribute, or function(vertex, x, y, z), asked with the vertex's number and its place in mesh units. Default: 1 everywhere.
 ---@field lengths? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Factors of the length. For the vertices of the head: a list, the name of an attribute, or function(vertex, x, y, z), asked with the vertex's number and its place in mesh units. Default: 1 everywhere.
 ---@field cut? lissom.Hairstyle.GrowOptions.Cut Cuts hair off along a plane, but for tails.
----@field avoid? boolean Keeps strands outside the head while they grow. Default: true.
----@field clearance? number The lowest strands lie this high. In metres. Default: 0.002.
----@field layer? number The highest lie higher by this. In metres. Default: 0.012.
----@field ramp? number Length over which strands rise to their height. In metres. Default: 0.03.
----@field lift? number Share of the normal of the head in the first segment. Default: 0.15.
+---@field avoid? boolean Keeps strands outside the head while they grow. Default: true; as in the thesis false.
+---@field clearance? number The lowest strands lie this high. For `avoid`. In metres. Default: 0.002.
+---@field layer? number The highest lie higher by this. For `avoid`. In metres. Default: 0.012.
+---@field ramp? number Length over which strands rise to their height. For `avoid`. In metres. Default: 0.03.
+---@field lift? number Share of the normal of the head in the first segment. Default: 0.15; as in the thesis 0.
 ---@field segment? number Length of a segment, in steps of the grid. Default: 0.5.
 ---@field least_speed? number A strand ends where the field is shorter than this. Default: 0.05.
----@field greatest_turn? number A strand ends before a segment that turns by more than this, as about a sink of the field; 180 lets strands turn as they like. In degrees. Default: 88.
+---@field greatest_turn? number A strand ends before a segment that turns by more than this, as about a sink of the field; 180 lets strands turn as they like. In degrees. Default: 88; as in the thesis 180.
 ---@field most_segments? integer A strand has no more segments. Default: 400.
 ---@field into? lissom.Strands Strands whose place the new ones take. After an error they are as they were, or empty if growth had begun. Default: new strands.
 
@@ -1616,7 +1617,7 @@ function Curve:set_points(points) end
 ---@field points? lissom.Vector[] Of a stream or dividing curve.
 ---@field spine? lissom.Vector[] Of a ponytail.
 ---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
----@field clearance? number The curve is moved out to this height. In metres. Default: 0.004.
+---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004; as in the thesis 0.
 ---@field tilt? number[] {at its first point, at its last}: by how much hair on both sides is turned towards the curve's end, in degrees. Default: {0, 0}.
 ---@field left? number[] The same for one side, as seen along the curve from outside. Default: tilt.
 ---@field right? number[] The same for the other. Default: tilt.
@@ -1627,8 +1628,8 @@ function Curve:set_points(points) end
 ---@field separation? number Magnitude of the vectors that keep both sides apart. Default: 0.3.
 ---@field wall_width? number How far from the line these stand. In metres. Default: 1.2 grid steps.
 ---@field wall_height? number How high. In metres. Default: 2.6 grid steps.
----@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps.
----@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024.
+---@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps; as in the thesis 0.
+---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024; as in the thesis 0.
 ---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
 ---@field section? lissom.Vector[] A closed curve around the spine: the tie is as wide, and stands there.
 ---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, from their beginning to their end.
@@ -1636,14 +1637,14 @@ function Curve:set_points(points) end
 ---@field fullness? number Without profiles: the tail swells to 1 + fullness radii. Default: 1.
 ---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
 ---@field outer? number And up to this many (R2). Default: 1.9.
----@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps.
----@field free? number Nearer to the head than this the tail leaves hair alone. In metres. Default: 1.5 grid steps.
----@field lead? number It begins so far in front of the tie. In metres. Default: 1.5 grid steps.
----@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4.
----@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2.
+---@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps; as in the thesis 0.
+---@field free? number Nearer to the head than this the tail leaves hair alone. In metres. Default: 1.5 grid steps; as in the thesis 0.
+---@field lead? number The ring begins so far in front of the tie. In metres. Default: 1.5 grid steps; as in the thesis half a grid step.
+---@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4; as in the thesis 0.
+---@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2; as in the thesis 0.
 ---@field tightness? number Magnitude of the vectors that do so. Default: 0.6.
----@field tail_length? number Of the hair behind the tie. In metres. Default: as long as the spine.
----@field ragged? number Share of that by which tips differ. Default: 0.45.
+---@field tail_length? number Of the hair behind the tie. In metres. Default: as long as the spine; as in the thesis as long as hair without a tie.
+---@field ragged? number Share of that by which tips differ. Default: 0.45; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
 ---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
@@ -2589,15 +2590,15 @@ function lissom.shapes.head(options) end
 ---@field region? lissom.Region What may move. Outside nothing does. Default: all.
 ---@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview is as solve. Default: "implicit".
 ---@field local_size? "keep"|"scale" Whether details keep their size or scale with the surface around them. Default: "keep".
----@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian where the surface has to be as smooth as can be and may stretch, poisson where it may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend".
----@field coherence? integer Rings of neighbours that turn alike. Default: 1.
+---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian where the surface has to be as smooth as can be and may stretch, poisson where it may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend"; as in the thesis "laplacian".
+---@field coherence? integer Rings of neighbours that turn alike. Default: 1; as in the thesis 2.
 ---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
 ---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Leave it at 0 where the surface runs through itself or nearly does, since refined parts get thinner and cross more; beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
 ---@field refine_borders? boolean Works on a surface that is refined where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
 ---@field displacement? number How far degenerate vertices are displaced. In mean lengths of their edges. Default: 0.2.
----@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000.
+---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000; as in the thesis 200000.
 ---@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.
----@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise. Default: "default".
+---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "default".
 
 ---Prepares the deformation of a mesh, or of a region of it, by handles.
 ---@param mesh lissom.Mesh The mesh, in its rest shape.
@@ -2633,7 +2634,7 @@ function lissom.deform(mesh, options) end
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
----@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison. Default: "lissom".
+---@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison; the page thesis.md of the reference names all of it. Default: "lissom".
 
 ---Joins a source to one or several targets along open boundaries, into a new mesh. The source is deformed so that its boundaries meet those of the targets, wherever it lies and whatever its size; the targets stay. Vertices and faces of the targets come first, in their order, then those of the source; attributes, labels and regions of all are kept.
 ---@param options lissom.MergeOptions
@@ -2666,7 +2667,7 @@ function lissom.merge(options) end
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: false.
----@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison. Default: "lissom".
+---@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison; the page thesis.md of the reference names all of it. Default: "lissom".
 
 ---As lissom.merge, but returns an object that keeps what was prepared, so that a moved key costs a fraction of the first merge.
 ---@param options lissom.MergingOptions
@@ -2714,8 +2715,9 @@ function lissom.load_style(path, head, options) end
 ---@field resolution? integer Grid points of the field. 25,000 do for smooth styles, 50,000 for ponytails. Default: 50000.
 ---@field volume? lissom.HairstyleOptions.Volume A box in metres of an average head, around the center of its frame: x to its left, y up, z to the front. Hair ends at its faces. Default: around the head, down to the chest.
 ---@field solver? "dual"|"cholesky" dual is fast; cholesky is the thesis's way, a reference. Default: "dual".
----@field boundary? "zero_flux"|"thesis" How the field behaves at the box. Default: "zero_flux".
----@field tension? number Keeps the field from growing far from the curves. Default: 0.03.
+---@field boundary? "zero_flux"|"thesis" How the field behaves at the box. Default: "zero_flux"; as in the thesis "thesis".
+---@field tension? number Keeps the field from growing far from the curves. Default: 0.03; as in the thesis 0.
+---@field fidelity? "default"|"thesis" thesis: chapter 4 to the letter, for comparison. It changes what holds where no option says otherwise, also for the curves and for `grow`; the page thesis.md of the reference names all of it. Default: "default".
 
 ---Starts a hairstyle without curves on a head.
 ---@param head lissom.Mesh The head; its shape is copied.
