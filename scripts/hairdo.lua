@@ -31,6 +31,10 @@ function hairdo.params(options)
     return lissom.params(list)
 end
 
+-- A parameter for figures of the thesis, among the `more` of hairdo.params: how closely they keep to it.
+hairdo.fidelity = { type = "choice", default = "default", choices = { "default", "thesis" },
+    help = "thesis: chapter 4 to the letter; files are called NAME_thesis" }
+
 function hairdo.head(params)
     if params.head == "" then return lissom.shapes.head{ vertices = params.vertices } end
     return assert(lissom.load(params.head))
@@ -41,10 +45,19 @@ function hairdo.scalp(head, params)
     return assert(lissom.scalp(head, { unit = params.unit > 0 and params.unit or nil }))
 end
 
--- A style with the unit and resolution of the parameters; `volume` as in lissom.hairstyle.
-function hairdo.style(head, params, volume)
-    return assert(lissom.hairstyle(head, { scalp = hairdo.scalp(head, params),
-        resolution = params.resolution, volume = volume }))
+-- A style with the unit and resolution of the parameters; `options` are further ones of lissom.hairstyle.
+function hairdo.style(head, params, options)
+    local all = { scalp = hairdo.scalp(head, params), resolution = params.resolution }
+    for key, value in pairs(options or {}) do all[key] = value end
+    return assert(lissom.hairstyle(head, all))
+end
+
+-- Hair of a figure, with the options of style:grow. To the letter of the thesis it is as long as the field
+-- carries it, and kept out of the head by the scalp step alone, once the curves are there.
+function hairdo.grow(style, params, options)
+    options.count = params.count
+    if style:stats().fidelity == "default" then return style:grow(options) end
+    return style:avoid_scalp():grow{ count = params.count }
 end
 
 -- The volume of a style, {min=, max=} in metres, that holds the scalp and the spines of tails, with so much
@@ -270,7 +283,8 @@ end
 -- Local detail, files and pictures of grown hair. `rings` are meshes to draw with the head.
 function hairdo.finish(style, hair, params, rings)
     if params.detail then hairdo.detail(hair) end
-    local path = params.out .. "/" .. params.name
+    local literal = style:stats().fidelity == "thesis"
+    local path = params.out .. "/" .. params.name .. (literal and "_thesis" or "")
     assert(style:save(path .. ".json"))
     assert(hair:save(path .. "." .. params.format))
     if not params.pictures then return end

@@ -1,17 +1,20 @@
--- Long hair, half of it up (Figure 4.1): eleven stream curves, four dividing curves and one ponytail. The
--- upper half is gathered in the tie by six streams more.
+-- Long hair, half of it up (Figure 4.1): eleven stream curves, four dividing curves and one ponytail. By
+-- default the upper half is gathered in the tie by six streams more; to the letter of the thesis, by its ring.
 --
 --     lissom run examples/hair/figure_4_1.lua
+--     lissom run examples/hair/figure_4_1.lua --fidelity thesis
 --     lissom run examples/hair/figure_4_1.lua --head ict_head.obj --count 20000
 
 local hairdo = require "hairdo"
 local strokes = require "strokes"
 
-local params = hairdo.params{ name = "figure_4_1" }
+local params = hairdo.params{ name = "figure_4_1", more = { fidelity = hairdo.fidelity } }
 local to = strokes.to
+local literal = params.fidelity == "thesis"
 
 local head = hairdo.head(params)
-local style = hairdo.style(head, params, { min = { -0.2, -0.42, -0.24 }, max = { 0.2, 0.2, 0.16 } })
+local style = hairdo.style(head, params, { fidelity = params.fidelity,
+    volume = { min = { -0.2, -0.42, -0.24 }, max = { 0.2, 0.2, 0.16 } } })
 local route = strokes.route(style)
 
 -- Below the ties hair falls behind the shoulders.
@@ -47,20 +50,20 @@ local tail = { azimuth = 180, elevation = 26, lift = 0.02, length = 0.27, droop 
 style:ponytail{
     spine = hairdo.tail_spine(style:scalp(), tail),
     radius = tail.radius,
-    tightness = 1,
+    tightness = literal and 0.6 or 1,
     tail_length = tail.length,
     name = "tail",
 }
-local gather = { { 35, 60 }, { 75, 62 }, { 115, 45 } }
-strokes.both_sides({
-    { { gather[1][1], gather[1][2], 6 }, { 120, 66, 8 }, { 172, 36, 14 } },
-    { { gather[2][1], gather[2][2] - 18, 6 }, { 130, 44, 8 }, { 168, 30, 14 } },
-    { { gather[3][1], gather[3][2] - 10, 6 }, { 148, 32, 8 }, { 170, 27, 14 } },
-}, function(places) style:stream{ points = route(places), stop = false } end)
+if not literal then
+    strokes.both_sides({
+        { { 35, 60, 6 }, { 120, 66, 8 }, { 172, 36, 14 } },
+        { { 75, 44, 6 }, { 130, 44, 8 }, { 168, 30, 14 } },
+        { { 115, 35, 6 }, { 148, 32, 8 }, { 170, 27, 14 } },
+    }, function(places) style:stream{ points = route(places), stop = false } end)
+end
 
-local hair = style:grow{
-    count = params.count,
+local hair = hairdo.grow(style, params, {
     length = 0.46,
     cut = { point = style:scalp():from_metres(0, -0.36, 0), ragged = 0.012 },
-}
+})
 hairdo.finish(style, hair, params, { hairdo.ring(style:scalp(), tail) })

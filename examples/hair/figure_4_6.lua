@@ -1,16 +1,17 @@
 -- A smooth hairstyle made with ten stream curves alone (Figure 4.6): a bob, swept to one side.
 --
 --     lissom run examples/hair/figure_4_6.lua
+--     lissom run examples/hair/figure_4_6.lua --fidelity thesis
 --     lissom run examples/hair/figure_4_6.lua --head ict_head.obj --count 20000
 
 local hairdo = require "hairdo"
 local strokes = require "strokes"
 
-local params = hairdo.params{ name = "figure_4_6" }
+local params = hairdo.params{ name = "figure_4_6", more = { fidelity = hairdo.fidelity } }
 local by = strokes.by
 
 local head = hairdo.head(params)
-local style = hairdo.style(head, params)
+local style = hairdo.style(head, params, { fidelity = params.fidelity })
 local route = strokes.route(style)
 
 local streams = {
@@ -30,10 +31,9 @@ for i, places in ipairs(streams) do
     style:stream{ points = route(places), name = "stream " .. i }
 end
 
-local hair = style:grow{
-    count = params.count,
+local hair = hairdo.grow(style, params, {
     length = 0.25,
     layer = 0.012,
     cut = { point = style:scalp():from_metres(0, -0.118, 0), ragged = 0.006 },
-}
+})
 hairdo.finish(style, hair, params)

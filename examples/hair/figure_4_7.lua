@@ -1,16 +1,17 @@
 -- A hairstyle with a parting (Figure 4.7): seven stream curves and one dividing curve.
 --
 --     lissom run examples/hair/figure_4_7.lua
+--     lissom run examples/hair/figure_4_7.lua --fidelity thesis
 --     lissom run examples/hair/figure_4_7.lua --head ict_head.obj --count 20000
 
 local hairdo = require "hairdo"
 local strokes = require "strokes"
 
-local params = hairdo.params{ name = "figure_4_7" }
+local params = hairdo.params{ name = "figure_4_7", more = { fidelity = hairdo.fidelity } }
 local by = strokes.by
 
 local head = hairdo.head(params)
-local style = hairdo.style(head, params)
+local style = hairdo.style(head, params, { fidelity = params.fidelity })
 local route = strokes.route(style)
 
 style:dividing{
@@ -32,10 +33,9 @@ for i, places in ipairs(streams) do
     style:stream{ points = route(places), name = "stream " .. i }
 end
 
-local hair = style:grow{
-    count = params.count,
+local hair = hairdo.grow(style, params, {
     length = 0.25,
     layer = 0.012,
     cut = { point = style:scalp():from_metres(0, -0.125, 0), ragged = 0.006 },
-}
+})
 hairdo.finish(style, hair, params)

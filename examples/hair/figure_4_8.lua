@@ -1,15 +1,16 @@
 -- Two ponytails (Figure 4.8): hair is gathered at both sides of the head by streams that lead into the ties.
 --
 --     lissom run examples/hair/figure_4_8.lua
+--     lissom run examples/hair/figure_4_8.lua --fidelity thesis
 --     lissom run examples/hair/figure_4_8.lua --head ict_head.obj --count 20000
 
 local hairdo = require "hairdo"
 local strokes = require "strokes"
 
-local params = hairdo.params{ name = "figure_4_8" }
+local params = hairdo.params{ name = "figure_4_8", more = { fidelity = hairdo.fidelity } }
 
 local head = hairdo.head(params)
-local style = hairdo.style(head, params)
+local style = hairdo.style(head, params, { fidelity = params.fidelity })
 local route = strokes.route(style)
 
 local rings = {}
@@ -30,5 +31,5 @@ strokes.both_sides({
     { { 172, -30, 4 }, { 163, -8, 7 }, { 145, 8, 10 }, { 125, 14, 18 } },
 }, function(places) style:stream{ points = route(places), stop = false } end)
 
-local hair = style:grow{ count = params.count, length = 0.5, layer = 0.008 }
+local hair = hairdo.grow(style, params, { length = 0.5, layer = 0.008 })
 hairdo.finish(style, hair, params, rings)
