@@ -1,5 +1,5 @@
--- Long hair, half of it up (Figure 4.1): eleven stream curves, four dividing curves and one ponytail. By
--- default the upper half is gathered in the tie by six streams more; to the letter of the thesis, by its ring.
+-- Long hair, half of it up (Figure 4.1): eleven stream curves, four dividing curves and one ponytail. The
+-- upper half is gathered in the tie by six streams more; to the letter of the thesis, by its ring alone.
 --
 --     lissom run examples/hair/figure_4_1.lua
 --     lissom run examples/hair/figure_4_1.lua --fidelity thesis

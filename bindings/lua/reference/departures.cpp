@@ -29,9 +29,7 @@ std::vector<Departure> deform_departures() {
              "the resolution of the mesh matters",
              "all 1", kByFidelity},
             {"2.4.2", "Handles that are turned by more than half a turn",
-             "the surface turns as far as was asked for", "it turns the shorter way", kByFidelity},
-            {"2.4.3", "Displaced degenerate vertices in `edit:preview`",
-             "are pulled back, as in the result", "are pulled back in the result", ""}};
+             "the surface turns as far as was asked for", "it turns the shorter way", kByFidelity}};
 }
 
 std::vector<Departure> merge_departures() {
@@ -103,11 +101,11 @@ std::vector<Departure> growth_departures() {
              "count as of length 1", "count as they are", kByFidelity},
             {"4.6", "First segments that point into the head", "are turned along it",
              "stay as they are", kByFidelity},
-            {"4.6", "`most_segments` of `style:grow`, for closed flow lines", "400", "no limit",
+            {"4.6", "`most_segments` of `hairstyle:grow`, for closed flow lines", "400", "no limit",
              "`most_segments = NUMBER`"},
             {"4.6", "Density of roots", "thins out at the hairline", "even in the angles",
              "a scalp with `softness = 0`"},
-            {"4.6", "Where `style:avoid_scalp` adds vectors",
+            {"4.6", "Where `hairstyle:avoid_scalp` adds vectors",
              "where hair grows, but for points that curves constrain",
              "all grid points near the scalp", ""}};
 }

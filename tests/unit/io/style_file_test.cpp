@@ -137,6 +137,39 @@ TEST_CASE("mistakes in a style are named") {
     CHECK(refusal(style_with(R"(, "boundary": "mirror")")) == ErrorCode::file_syntax);
 }
 
+TEST_CASE("the fidelity of a style is kept, and says what its curves have by default") {
+    StyleContent content;
+    content.options = HairstyleOptions::thesis();
+    Ponytail tail = Ponytail::thesis();
+    tail.spine = {Vec3(0, 0, -0.12), Vec3(0, -0.1, -0.15)};
+    tail.options.grip = 2.0;
+    content.curves.push_back({tail});
+    content.curves.push_back({StreamCurve{{Vec3(0.1, 0, 0), Vec3(0.1, -0.1, 0)}}});
+    const std::string text = encode_style(content);
+    const StyleContent again = decode_style(text);
+    CHECK(encode_style(again) == text);
+    CHECK(again.options.fidelity == HairFidelity::thesis);
+    CHECK(again.options.field.tension == 0.0);
+    CHECK(again.options.field.boundary == GridBoundary::thesis);
+    CHECK(again.curves == content.curves);
+
+    const StyleContent brief = decode_style(style_with(
+        R"(, "fidelity": "thesis", "tension": 0.01, "curves": [{"kind": "ponytail", "spread": 1},)"
+        R"( {"kind": "dividing"}, {"kind": "stream", "fidelity": "default"}])"));
+    CHECK(brief.options.field.tension == 0.01);
+    CHECK(brief.options.field.boundary == GridBoundary::thesis);
+    Ponytail expected = Ponytail::thesis();
+    expected.options.spread = 1.0;
+    CHECK(std::get<Ponytail>(brief.curves[0].shape) == expected);
+    CHECK(std::get<DividingCurve>(brief.curves[1].shape) == DividingCurve::thesis());
+    CHECK(std::get<StreamCurve>(brief.curves[2].shape) == StreamCurve{});
+
+    CHECK(encode_style(everything()).find("fidelity") == std::string::npos);
+    CHECK(refusal(style_with(R"(, "fidelity": "literal")")) == ErrorCode::file_syntax);
+    CHECK(refusal(style_with(R"(, "curves": [{"kind": "stream", "fidelity": 1}])")) ==
+          ErrorCode::file_syntax);
+}
+
 TEST_CASE("a saved style grows the same hair again") {
     const Mesh head = make_head({.vertices = 3000});
     const auto scalp = std::make_shared<const Scalp>(head);

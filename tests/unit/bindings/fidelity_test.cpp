@@ -1,0 +1,186 @@
+// The table of what differs from the thesis names every option that the fidelity changes.
+#include <doctest/doctest.h>
+
+#include <set>
+#include <string>
+
+#include "bindings/lua/reference/departures.h"
+#include "kernel/deform/options.h"
+#include "kernel/hair/hairstyle.h"
+#include "tests/unit/bindings/lua_state.h"
+
+namespace lissom::lua {
+namespace {
+
+// All that it binds by name: a field more, and this does not compile until it is told whether the
+// thesis has it otherwise.
+using Names = std::set<std::string>;
+
+void note(Names& names, const char* name, bool differs) {
+    if (differs) names.insert(name);
+}
+
+Names of_deformation() {
+    const auto& [method, second, size, weights, refine, coherence, coherence_weight, threshold,
+                 borders, displacement, scale_free, transition] = DeformOptions{};
+    const DeformOptions t = DeformOptions::thesis();
+    Names names;
+    note(names, "method", method != t.method);
+    note(names, "second", second != t.second);
+    note(names, "local_size", size != t.local_size);
+    note(names, "weights", weights != t.weights);
+    note(names, "refine", refine != t.refine);
+    note(names, "coherence", coherence != t.coherence);
+    note(names, "coherence_weight", coherence_weight != t.coherence_weight);
+    note(names, "degenerate_threshold", threshold != t.degenerate_threshold);
+    note(names, "refine_borders", borders != t.refine_borders);
+    note(names, "displacement", displacement != t.displacement);
+    note(names, "transition", transition != t.transition);
+    // A matter without an option.
+    CHECK(scale_free != t.scale_free);
+    return names;
+}
+
+Names of_style() {
+    const auto& [resolution, volume, field, fidelity] = HairstyleOptions{};
+    const auto& [boundary, solver, tension, dense_limit, tolerance, refinements] = field;
+    const HairstyleOptions t = HairstyleOptions::thesis();
+    Names names;
+    note(names, "resolution", resolution != t.resolution);
+    note(names, "volume", volume.has_value() != t.volume.has_value());
+    note(names, "boundary", boundary != t.field.boundary);
+    note(names, "solver", solver != t.field.solver);
+    note(names, "tension", tension != t.field.tension);
+    CHECK(dense_limit == t.field.dense_limit);
+    CHECK(tolerance == t.field.tolerance);
+    CHECK(refinements == t.field.refinements);
+    CHECK(fidelity != t.fidelity);
+    return names;
+}
+
+Names of_stream() {
+    const auto& [points, options, clearance] = StreamCurve{};
+    const auto& [stop_length, weight, fidelity] = options;
+    const StreamCurve t = StreamCurve::thesis();
+    Names names;
+    note(names, "points", points != t.points);
+    note(names, "clearance", clearance != t.clearance);
+    note(names, "stop", stop_length != t.options.stop_length);
+    note(names, "weight", weight != t.options.weight);
+    CHECK(fidelity != t.options.fidelity);
+    return names;
+}
+
+Names of_dividing() {
+    const auto& [points, options, gap] = DividingCurve{};
+    const auto& [left, right, sigma, height, reach, thickness, separation, wall_width, wall_height,
+                 ramp, weight, fidelity] = options;
+    const DividingCurve t = DividingCurve::thesis();
+    Names names;
+    note(names, "points", points != t.points);
+    note(names, "gap", gap != t.gap);
+    note(names, "left", left != t.options.left);
+    note(names, "right", right != t.options.right);
+    note(names, "sigma", sigma != t.options.sigma);
+    note(names, "height", height != t.options.height);
+    note(names, "reach", reach != t.options.reach);
+    note(names, "thickness", thickness != t.options.thickness);
+    note(names, "separation", separation != t.options.separation);
+    note(names, "wall_width", wall_width != t.options.wall_width);
+    note(names, "wall_height", wall_height != t.options.wall_height);
+    note(names, "weight", weight != t.options.weight);
+    // Follows from the fidelity where it is absent.
+    note(names, "ramp", !ramp && fidelity != t.options.fidelity);
+    return names;
+}
+
+Names of_ponytail() {
+    const auto& [spine, options, tail_length, ragged] = Ponytail{};
+    const auto& [radius, section, profiles, share, fullness, inner, outer, ring, lead, tightness,
+                 grip, spread, clearance, stop_length, weight, fidelity] = options;
+    const Ponytail t = Ponytail::thesis();
+    Names names;
+    note(names, "spine", spine != t.spine);
+    note(names, "ragged", ragged != t.ragged);
+    note(names, "radius", radius != t.options.radius);
+    note(names, "section", section != t.options.section);
+    note(names, "profiles", profiles != t.options.profiles);
+    note(names, "share", share != t.options.share);
+    note(names, "fullness", fullness != t.options.fullness);
+    note(names, "inner", inner != t.options.inner);
+    note(names, "outer", outer != t.options.outer);
+    note(names, "tightness", tightness != t.options.tightness);
+    note(names, "grip", grip != t.options.grip);
+    note(names, "spread", spread != t.options.spread);
+    note(names, "stop", stop_length != t.options.stop_length);
+    note(names, "weight", weight != t.options.weight);
+    // These follow from the fidelity where they are absent.
+    const bool literal = fidelity != t.options.fidelity;
+    note(names, "ring", !ring && literal);
+    note(names, "lead", !lead && literal);
+    note(names, "free", !clearance && literal);
+    note(names, "tail_length", !tail_length && literal);
+    return names;
+}
+
+Names of_growth() {
+    const auto& [length, variation, length_map, segment, least_speed, greatest_turn, most_segments,
+                 lift, start_outward, cap_speed, avoid, clearance, layer, ramp, ties, cuts, spare,
+                 placement, seed] = GrowthOptions{};
+    const GrowthOptions t = GrowthOptions::thesis();
+    Names names{"length", "roots"};
+    note(names, "variation", variation != t.variation);
+    note(names, "lengths", length_map != t.length_map);
+    note(names, "segment", segment != t.segment);
+    note(names, "least_speed", least_speed != t.least_speed);
+    note(names, "greatest_turn", greatest_turn != t.greatest_turn);
+    note(names, "most_segments", most_segments != t.most_segments);
+    note(names, "lift", lift != t.lift);
+    note(names, "avoid", avoid != t.avoid);
+    note(names, "clearance", clearance != t.clearance);
+    note(names, "layer", layer != t.layer);
+    note(names, "ramp", ramp != t.ramp);
+    note(names, "seed", seed != t.seed);
+    // Matters without an option, and what the style sets.
+    CHECK(start_outward != t.start_outward);
+    CHECK(cap_speed != t.cap_speed);
+    CHECK(ties.size() == t.ties.size());
+    CHECK(cuts.size() == t.cuts.size());
+    CHECK(spare == t.spare_tied);
+    CHECK(placement.translation == t.placement.translation);
+    return names;
+}
+
+// What the table has of a function: "`ring` of `hairstyle:ponytail`".
+Names told_of(const std::vector<Departure>& all, const std::string& call) {
+    Names names;
+    for (const Departure& one : all) {
+        if (one.option.empty() || !one.subject.ends_with("of `" + call + "`")) continue;
+        CHECK(one.by == kByFidelity);
+        CHECK(one.usual != one.thesis);
+        names.insert(one.option);
+    }
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("the table of what differs from the thesis names every option that fidelity changes") {
+    const std::vector<Departure> all = departures(kernel_registry());
+    CHECK(told_of(all, "lissom.deform") == of_deformation());
+    CHECK(told_of(all, "lissom.hairstyle") == of_style());
+    CHECK(told_of(all, "hairstyle:stream") == of_stream());
+    CHECK(told_of(all, "hairstyle:dividing") == of_dividing());
+    CHECK(told_of(all, "hairstyle:ponytail") == of_ponytail());
+    CHECK(told_of(all, "hairstyle:grow") == of_growth());
+    std::string section = "2";
+    for (const Departure& one : all) {
+        CAPTURE(one.subject);
+        CHECK(section <= one.section);
+        section = one.section;
+        CHECK(!one.usual.empty());
+        CHECK(!one.thesis.empty());
+    }
+}
+
+}  // namespace lissom::lua
