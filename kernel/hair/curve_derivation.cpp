@@ -17,6 +17,14 @@ void require_length(double length, const char* message) {
     throw Error(ErrorCode::invalid_argument, message);
 }
 
+// Those that the hints tell, else those of the options.
+TiltFit acting_tilt(const DividingLine& line, const DividingCurve& dividing) {
+    TiltFit fit = fit_tilt(line, dividing.hints);
+    if (fit.left.pieces == 0) fit.left.tilt = dividing.options.left;
+    if (fit.right.pieces == 0) fit.right.tilt = dividing.options.right;
+    return fit;
+}
+
 class Derivation {
   public:
     Derivation(const Scalp& scalp, const DistanceGrid& distances)
@@ -43,9 +51,12 @@ class Derivation {
             result.course.push_back(found.position);
             normals.push_back(found.normal);
         }
-        result.constraints =
-            dividing_constraints(distances_, result.course, normals, dividing.options);
         result.line.emplace(result.course, normals);
+        result.tilt = acting_tilt(*result.line, dividing);
+        DividingOptions options = dividing.options;
+        options.left = result.tilt->left.tilt;
+        options.right = result.tilt->right.tilt;
+        result.constraints = dividing_constraints(distances_, result.course, normals, options);
         result.gap = dividing.gap;
         return result;
     }

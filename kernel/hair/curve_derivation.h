@@ -7,6 +7,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/hair/curve/dividing_curve.h"
 #include "kernel/hair/curve/style_curve.h"
+#include "kernel/hair/curve/tilt_fit.h"
 #include "kernel/hair/field/distance_grid.h"
 #include "kernel/hair/growth/growth.h"
 #include "kernel/hair/scalp/scalp.h"
@@ -21,6 +22,8 @@ struct DerivedCurve {
     /// Of a dividing curve: roots nearer to the line than half the gap are on bare skin.
     std::optional<DividingLine> line;
     double gap = 0.0;
+    /// Of a dividing curve: the tilts by which it acts.
+    std::optional<TiltFit> tilt;
     /// Of a ponytail.
     std::optional<HairTie> tie;
 };

@@ -259,6 +259,28 @@ const std::vector<Vec3>& Hairstyle::course(CurveId id) const {
     return state_->style.derived(id).course;
 }
 
+const TiltFit& Hairstyle::tilt(CurveId id) const {
+    const DerivedCurve& derived = state_->style.derived(id);
+    require(derived.tilt.has_value(), "only a dividing curve has tilts; this is a " +
+                                          std::string(kind_name(curve(id))) + " curve");
+    return *derived.tilt;
+}
+
+void Hairstyle::add_hint(CurveId id, std::vector<Vec3> hint) {
+    (void)tilt(id);
+    require_hint(*state_->style.derived(id).line, hint);
+    StyleCurve changed = curve(id);
+    std::get<DividingCurve>(changed.shape).hints.push_back(std::move(hint));
+    set(id, std::move(changed));
+}
+
+const HairTie& Hairstyle::tie(CurveId id) const {
+    const DerivedCurve& derived = state_->style.derived(id);
+    require(derived.tie.has_value(),
+            "only a ponytail has a tie; this is a " + std::string(kind_name(curve(id))) + " curve");
+    return *derived.tie;
+}
+
 std::vector<StyleConstraint> Hairstyle::constraints() const {
     std::vector<ConstraintOwner> owners;
     const std::vector<GridConstraint> decisive = decisive_constraints(state_->style, owners);

@@ -21,6 +21,7 @@
 #include "kernel/hair/curve/constraint_kind.h"
 #include "kernel/hair/curve/fidelity.h"
 #include "kernel/hair/curve/style_curve.h"
+#include "kernel/hair/curve/tilt_fit.h"
 #include "kernel/hair/field/grid_layout.h"
 #include "kernel/hair/field/hair_field.h"
 #include "kernel/hair/field/scalp_step.h"
@@ -118,6 +119,15 @@ class Hairstyle {
     const StyleCurve& curve(CurveId id) const;
     /// The curve as it acts: smooth, outside the head, in segments of about a grid step.
     const std::vector<Vec3>& course(CurveId id) const;
+    /// The tilts by which a dividing curve acts. Errors: also invalid_argument for another kind of
+    /// curve.
+    const TiltFit& tilt(CurveId id) const;
+    /// Adds a hint stroke, a polyline beside a dividing curve along which hair flows away from it
+    /// (DividingCurve::hints). Errors: as tilt and set; out_of_range where no part of the hint is
+    /// beside the curve.
+    void add_hint(CurveId id, std::vector<Vec3> hint);
+    /// The circle of hair around the beginning of a ponytail. Errors: as tilt.
+    const HairTie& tie(CurveId id) const;
     /// What the curves that are enabled and avoid_scalp give the field, one a grid point, in the
     /// order of the grid's points.
     std::vector<StyleConstraint> constraints() const;

@@ -64,6 +64,15 @@ class Writer {
         for (const Vec3& p : list) array.push_back(json_of(p));
     }
 
+    void lists(const char* key, std::vector<std::vector<Vec3>>& lists) {
+        if (lists.empty()) return;
+        StyleJson& array = object_[key] = StyleJson::array();
+        for (const auto& list : lists) {
+            StyleJson& one = array.emplace_back(StyleJson::array());
+            for (const Vec3& p : list) one.push_back(json_of(p));
+        }
+    }
+
   private:
     StyleJson& object_;
 };
@@ -138,6 +147,17 @@ class Reader {
         list.clear();
         for (const StyleJson& one : *found) list.push_back(coordinates(one, key));
     }
+    void lists(const char* key, std::vector<std::vector<Vec3>>& lists) {
+        const StyleJson* found = find(key);
+        if (!found) return;
+        if (!found->is_array()) wrong(key, "a list of lists of points [[[x, y, z], ...], ...]");
+        lists.clear();
+        for (const StyleJson& list : *found) {
+            if (!list.is_array()) wrong(key, "a list of lists of points [[[x, y, z], ...], ...]");
+            std::vector<Vec3>& points = lists.emplace_back();
+            for (const StyleJson& one : list) points.push_back(coordinates(one, key));
+        }
+    }
 
     // To be called when all is read: other keys are mistakes.
     void finish() const {
@@ -194,6 +214,7 @@ void describe(Archive& a, DividingCurve& c) {
     a.number("wall_height", c.options.wall_height);
     a.number("ramp", c.options.ramp);
     a.number("gap", c.gap);
+    a.lists("hints", c.hints);
     a.number("weight", c.options.weight);
 }
 

@@ -13,6 +13,9 @@ std::size_t size_in_bytes(const StyleInputs& inputs) {
     std::size_t bytes = inputs.scalp_step.size() * sizeof(GridConstraint);
     for (const PlacedCurve& placed : inputs.curves) {
         bytes += sizeof placed + drawn_points(placed.curve).size() * sizeof(Vec3);
+        const auto* dividing = std::get_if<DividingCurve>(&placed.curve.shape);
+        if (!dividing) continue;
+        for (const auto& hint : dividing->hints) bytes += hint.size() * sizeof(Vec3);
     }
     return bytes;
 }

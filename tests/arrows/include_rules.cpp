@@ -85,6 +85,7 @@ const std::vector<Names>& room_orders() {
          "kernel/merge/thesis", "kernel/merge"},
         {"kernel/hair/field", "kernel/hair/scalp", "kernel/hair/curve", "kernel/hair/strands",
          "kernel/hair/growth", "kernel/hair"},
+        {"kernel/sketch", "kernel/sketch/support"},
         {"kernel/io/stream", "kernel/io/record", "kernel/io/gltf/file", "kernel/io/gltf/mesh",
          "kernel/io/gltf", "kernel/io/obj", "kernel/io/off", "kernel/io/ply", "kernel/io/stl",
          "kernel/io/usda", "kernel/io/hair", "kernel/io"},

@@ -97,6 +97,46 @@ test("wrong curves are refused by name, and change nothing", function()
     expect.equal(#style:curves(), 3)
 end)
 
+test("hints beside a parting are its tilt, until that is set by numbers", function()
+    local own = bald_style()
+    local line = own:dividing{ points = parting:points(), tilt = { 5, 10 } }
+    expect.near({ line:tilt().left.start, line:tilt().right.finish }, { 5, 10 }, 1e-9)
+    expect.equal(line:tilt().left.pieces, 0)
+    local hint = { at(10, 58), at(20, 66) }
+    local told = line:add_hint(hint)
+    local side = told.left.pieces > 0 and "left" or "right"
+    expect.truthy(told[side].start > 15 and told[side].error < 20)
+    expect.near(line:options()[side], { told[side].start, told[side].finish }, 1e-9)
+    expect.near(line:hints()[1][2], hint[2], 1e-9)
+    local path = os.tmpname()
+    own:save(path)
+    local again = assert(lissom.load_style(path, head)):curves()[1]
+    os.remove(path)
+    expect.near(again:tilt()[side].start, told[side].start, 1e-9)
+    -- The other side keeps what its hints said, as a number.
+    line:set{ [side == "left" and "right" or "left"] = { 1, 2 } }
+    expect.equal(#line:hints(), 0)
+    expect.near(line:options()[side], { told[side].start, told[side].finish }, 1e-9)
+    line:add_hint(hint)
+    line:set{ gap = 0.004 }
+    expect.equal(#line:hints(), 1)
+    expect.equal(line:remove_hints(), line)
+    expect.truthy(line:tilt()[side].pieces == 0)
+    expect.error(function() line:add_hint{ at(180, 0), at(180, 10) } end, "beside")
+    expect.error(function() stream:add_hint(hint) end, "only a dividing curve")
+    expect.error(function() line:tie() end, "only a ponytail")
+    own:close()
+    expect.error(function() line:tilt() end, "")
+end)
+
+test("the options of a curve are those that act, and go back into set", function()
+    for _, curve in ipairs{ stream, parting, pony } do
+        local options = curve:options()
+        curve:set(options)
+        for name, value in pairs(curve:options()) do expect.near(value, options[name], 1e-9) end
+    end
+end)
+
 test("the normal that comes with a point is no point", function()
     local function with_normal()
         style:stream{ points = { at(20, 50), style:at{ azimuth = 70, elevation = 10 } } }

@@ -160,6 +160,11 @@ ToolMarks marks_of(lua_State* L, int list) {
         outline.width = raw_number(L, one, "width", 1.5);
         marks.outlines.push_back(std::move(outline));
     });
+    for_each_entry(L, list, "surfaces", [&](int one) {
+        ToolSurface surface{raw_points(L, one, "from", 3), raw_points(L, one, "to", 3),
+                            raw_color(L, one, kHandleColor), raw_number(L, one, "opacity", 0.25)};
+        marks.surfaces.push_back(std::move(surface));
+    });
     for_each_entry(L, list, "circles", [&](int one) {
         ToolOutline outline =
             circle(raw_point(L, one, "at", 2), raw_number(L, one, "radius", 20.0));

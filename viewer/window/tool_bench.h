@@ -34,10 +34,20 @@ struct ToolOutline {
     bool operator==(const ToolOutline&) const = default;
 };
 
+/// A surface between two lines of the world, as many points each, that is seen through.
+struct ToolSurface {
+    std::vector<Vec3> from, to;
+    Color color;
+    double opacity = 0.25;
+
+    bool operator==(const ToolSurface&) const = default;
+};
+
 /// What a tool shows that is no part of the scene.
 struct ToolMarks {
     std::vector<ToolLabel> labels;
     std::vector<ToolOutline> outlines;
+    std::vector<ToolSurface> surfaces;
 
     bool operator==(const ToolMarks&) const = default;
 };

@@ -111,6 +111,31 @@ ToolAnswers draw_history(const ToolState& state) {
     return answers;
 }
 
+// Quads are drawn without soft borders, which would show between them.
+void draw_surface(const ToolSurface& surface, const Camera& camera, const PictureSize& size,
+                  const ImVec2& corner, ImDrawList& list) {
+    const auto seen = [&](const Vec3& point) {
+        const Vec3 pixel = camera.project(point, size);
+        return ImVec2(corner.x + static_cast<float>(pixel.x()),
+                      corner.y + static_cast<float>(pixel.y()));
+    };
+    const auto in_front = [&](std::size_t i) {
+        return camera.to_camera(surface.from[i]).z() > 0.0 &&
+               camera.to_camera(surface.to[i]).z() > 0.0;
+    };
+    const double alpha = std::clamp(surface.opacity, 0.0, 1.0);
+    const ImU32 color = (packed(surface.color) & ~IM_COL32_A_MASK) |
+                        (static_cast<ImU32>(255.0 * alpha) << IM_COL32_A_SHIFT);
+    const ImDrawListFlags flags = list.Flags;
+    list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
+    for (std::size_t i = 0; i + 1 < std::min(surface.from.size(), surface.to.size()); ++i) {
+        if (!in_front(i) || !in_front(i + 1)) continue;
+        list.AddQuadFilled(seen(surface.from[i]), seen(surface.from[i + 1]),
+                           seen(surface.to[i + 1]), seen(surface.to[i]), color);
+    }
+    list.Flags = flags;
+}
+
 void draw_marks(const ToolState& state, const Camera& camera, const PictureSize& size,
                 const Canvas& canvas) {
     ImDrawList* list = ImGui::GetBackgroundDrawList();
@@ -125,6 +150,9 @@ void draw_marks(const ToolState& state, const Camera& camera, const PictureSize&
         fit = PictureFit({1.0 * state.hand->size.width, 1.0 * state.hand->size.height}, size);
     }
     list->PushClipRect(corner, end);
+    for (const ToolSurface& surface : state.marks.surfaces) {
+        draw_surface(surface, camera, size, corner, *list);
+    }
     for (const ToolOutline& outline : state.marks.outlines) {
         std::vector<ImVec2> points;
         for (const Vec2& pixel : outline.pixels) {

@@ -42,6 +42,12 @@ Type whole_camera_type() {
     return camera;
 }
 
+Type whole_curve_type() {
+    Type curve = curve_type();
+    add(curve.methods, support_methods_of_curve());
+    return curve;
+}
+
 }  // namespace
 
 Library kernel_library() {
@@ -69,17 +75,19 @@ Library kernel_library() {
     library.functions.push_back(failures_function());
     library.types = {whole_mesh_type(),  region_type(),    whole_path_type(),   buffer_type(),
                      deformation_type(), handle_type(),    merging_type(),      provenance_type(),
-                     scalp_type(),       hairstyle_type(), curve_type(),        strands_type(),
+                     scalp_type(),       hairstyle_type(), whole_curve_type(),  strands_type(),
                      scene_type(),       polyline_type(),  whole_camera_type(), gizmo_type(),
-                     parameters_type()};
+                     support_type(),     parameters_type()};
     library.records = kernel_records();
     add(library.records, cut_records());
     add(library.records, merge_records());
     add(library.records, hairstyle_records());
+    add(library.records, curve_records());
     add(library.records, strand_records());
     add(library.records, scene_records());
     add(library.records, pick_records());
     add(library.records, stroke_records());
+    add(library.records, support_records());
     add(library.records, gizmo_records());
     add(library.records, tool_records());
     return library;

@@ -97,6 +97,7 @@ int set_curve(Call& call) {
     return change_curve(call, [&](Hairstyle& style, CurveId id) {
         StyleCurve changed = style.curve(id);
         refuse_other_options(call, changed);
+        forget_hints(call, style, id, changed);
         reader.read(style.scalp(), changed);
         style.set(id, std::move(changed));
     });
@@ -352,7 +353,8 @@ curve:insert{ from, out, to })"}};
 Type curve_type() {
     Type type{.name = "lissom.Curve",
               .summary = "A style curve: says how hair flows near it. It lives in its hairstyle."};
-    for (const auto& list : {telling_methods(), changing_methods(), hint_methods()}) {
+    for (const auto& list : {telling_methods(), changing_methods(), hint_methods(), tilt_methods(),
+                             option_methods()}) {
         type.methods.insert(type.methods.end(), list.begin(), list.end());
     }
     type.operators = {{"__eq", equal_curves, "a == b", "whether both are the same curve"},

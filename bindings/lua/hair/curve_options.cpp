@@ -14,6 +14,13 @@ local points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
 local curve = style:stream{ points = points, name = "side" }
 )";
 
+const std::string kParting = kStyle + R"(local line = {}
+for i, elevation in ipairs{ 40, 60, 80 } do
+    line[i] = style:at{ azimuth = 0, elevation = elevation }
+end
+local parting = style:dividing{ points = line }
+)";
+
 namespace {
 
 void take_length(const Call& call, const char* path, double& target) {
@@ -135,11 +142,13 @@ std::vector<Parameter> own_ponytail_fields() {
         metres_field("radius", "Of the tie, the first cross section.")
             .above(0)
             .optional("from section or profiles, else 1.5 grid steps"),
-        points("section", "A closed curve around the spine: the tie is as wide, and stands there.")
+        points("section",
+               "A closed curve around the spine, seen from anywhere: the tie stands there, and is "
+               "as wide as it is across the spine.")
             .optional(),
         table("profiles",
               "{a, b}: two lists of points along the spine on either side of the tail; its cross "
-              "sections reach between them, from their beginning to their end.")
+              "sections reach between them, where both are, whichever way they run.")
             .optional(),
         number("share", "Without profiles: how much of the spine has cross sections.")
             .between(0, 1)

@@ -69,6 +69,17 @@ class CurveReader {
 /// has no use for.
 void refuse_other_options(const Call& call, const StyleCurve& curve);
 
+/// Where a call gives tilts to a dividing curve with hints: what these say becomes its tilts, and
+/// they go. Inside Call::attempt only.
+void forget_hints(const Call& call, const Hairstyle& style, CurveId id, StyleCurve& curve);
+
+/// Methods of curves: tilts of partings by hints, and options as they act.
+std::vector<Function> tilt_methods();
+std::vector<Function> option_methods();
+
+/// Start of examples: kStyle, and a parting.
+extern const std::string kParting;
+
 /// Pushes a curve.
 bool push_curve(Call& call, const std::shared_ptr<HairstyleObject>& style, CurveId id);
 

@@ -271,6 +271,24 @@
 ---@field grid_points integer Points of the grid.
 ---@field step number Distance of neighbouring grid points, in metres of an average head.
 
+---The tilts of a dividing curve.
+---@class lissom.CurveTilt
+---@field left lissom.SideTilt As seen along the curve from outside.
+---@field right lissom.SideTilt The other side.
+
+---The tilt of one side of a dividing curve, in degrees.
+---@class lissom.SideTilt
+---@field start number At the curve's first point.
+---@field finish number At its last point.
+---@field pieces integer Pieces of hints, about 0.003 metres long, that told it.
+---@field error number By how much these differ from it (root of mean square).
+
+---The ring around the beginning of a ponytail.
+---@class lissom.HairTie
+---@field center number[] In mesh units.
+---@field direction number[] Of the spine there, away from the head; of length 1.
+---@field radius number In metres of an average head.
+
 ---Measures of strands.
 ---@class lissom.StrandStats
 ---@field strands integer Number of strands.
@@ -360,6 +378,21 @@
 ---@field times number[] Of each pixel.
 ---@field pressures number[] Of each pixel.
 ---@field click boolean Whether the pen only touched the picture.
+---@field beside integer How many of the points lay beside the supporting surface that was drawn on; their depth is a guess.
+
+---What a hint stroke means.
+---@class lissom.HintReading
+---@field operation string "cut", "concatenate" or "insert".
+---@field sure boolean False where a stroke drawn a little otherwise means something else: show what it was taken for.
+---@field others string[] What else it may mean, likelier first.
+---@field pixels number Length of the curve on the picture, in logical pixels: below 120 hints are hard to tell, so ask to come nearer.
+
+---A point of a supporting surface.
+---@class lissom.SupportPoint
+---@field position lissom.Vector The point.
+---@field distance number From the ray's origin.
+---@field along number Arc length along the curve, more than its length beyond it.
+---@field across number The way from the curve.
 
 ---What a drag means. `matrix` is all of it, as handle:set_matrix takes it; mesh:transform takes its parts where the axes are the world's.
 ---@class lissom.GizmoMotion
@@ -468,6 +501,7 @@
 ---@field region fun(self: any, options: table) {mesh=, region=, color=}: colours it.
 ---@field outline fun(self: any, options: table) {pixels=, color=, width=, closed=}: a line in the picture, of {x, y}.
 ---@field circle fun(self: any, options: table) {at={x, y}, radius=, color=}: in pixels of the picture.
+---@field surface fun(self: any, options: table) {from=, to=, color=, opacity=}: seen through, between two lines of as many points.
 
 ---What a tool shows, as the tables it was drawn with.
 ---@class lissom.ToolMarks
@@ -477,6 +511,7 @@
 ---@field outlines table[] Lines in the picture.
 ---@field circles table[] Circles in the picture.
 ---@field regions table[] Coloured vertices.
+---@field surfaces table[] Surfaces between two lines.
 
 ---An oriented 2-manifold of polygons, with or without boundary. Vertices and faces count from 1.
 ---@class lissom.Mesh
@@ -1485,8 +1520,8 @@ function Hairstyle:dividing(options) end
 ---@field spine lissom.Vector[] From the tie to the tip of the tail. In mesh units.
 ---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
 ---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
----@field section? lissom.Vector[] A closed curve around the spine: the tie is as wide, and stands there.
----@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, from their beginning to their end.
+---@field section? lissom.Vector[] A closed curve around the spine, seen from anywhere: the tie stands there, and is as wide as it is across the spine.
+---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, where both are, whichever way they run.
 ---@field share? number Without profiles: how much of the spine has cross sections. Default: 0.7.
 ---@field fullness? number Without profiles: the tail swells to 1 + fullness radii. Default: 1.
 ---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
@@ -1631,8 +1666,8 @@ function Curve:set_points(points) end
 ---@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps; as in the thesis 0.
 ---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024; as in the thesis 0.
 ---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
----@field section? lissom.Vector[] A closed curve around the spine: the tie is as wide, and stands there.
----@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, from their beginning to their end.
+---@field section? lissom.Vector[] A closed curve around the spine, seen from anywhere: the tie stands there, and is as wide as it is across the spine.
+---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, where both are, whichever way they run.
 ---@field share? number Without profiles: how much of the spine has cross sections. Default: 0.7.
 ---@field fullness? number Without profiles: the tail swells to 1 + fullness radii. Default: 1.
 ---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
@@ -1717,6 +1752,64 @@ function Curve:concatenate(hint, options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function Curve:insert(hint, options) end
+
+---By how much hair on both sides of a dividing curve is turned towards the curve's end, as the options say or as the hints do.
+---@return lissom.CurveTilt tilt # Of both sides.
+function Curve:tilt() end
+
+---A stroke beside a dividing curve that says which way hair flows away from it. The curve keeps its hints, and all hints on a side tell its tilt together; one alone means an even tilt. To set the tilt by numbers takes them out.
+---@param hint lissom.Vector[] A polyline away from the curve, at most 0.03 metres of an average head beside it. In mesh units.
+---@return lissom.CurveTilt tilt # What the curve has now.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Curve:add_hint(hint) end
+
+---The hints of a dividing curve.
+---@return number[][][] hints # A list of points {x, y, z} each, in mesh units.
+function Curve:hints() end
+
+---Takes the hints of a dividing curve out: its tilts are those of its options.
+---@return lissom.Curve curve # The curve itself.
+function Curve:remove_hints() end
+
+---Its options as they act, by the names and in the units of `set`: also those that were not given, and those that follow from what was drawn.
+---@return table options # A table of its own.
+function Curve:options() end
+
+---Where a ponytail is tied.
+---@return lissom.HairTie tie # Its first cross section.
+function Curve:tie() end
+
+---The curve that was drawn around the spine of a ponytail.
+---@return number[][] points # In mesh units; none where there is none.
+function Curve:section() end
+
+---The curves that were drawn along a ponytail, as `set` takes them.
+---@return number[][][] profiles # Two lists of points in mesh units, each empty where there is none.
+function Curve:profiles() end
+
+---@class lissom.Curve.SupportOptions
+---@field mode? "ruled"|"strip" Which surface. Default: "strip".
+---@field camera lissom.Camera The viewpoint; that of the stroke may be another.
+---@field width? number To each side of the curve; a strip is narrower in bends. In metres of an average head. Default: 0.03 of a strip, 0.075 of a ruled surface.
+---@field extension? number How far it goes on beyond the tip. In metres of an average head. Default: 0.035.
+
+---The surface through the curve that strokes about it are drawn on (Figure 4.3): the strip keeps the depth of the curve and changes how it looks from the viewpoint, the ruled surface of the lines of sight keeps how it looks and changes its depth, seen from aside. Up to about 50 degrees from the viewpoint the strip is seen better, beyond that the ruled one. Give it to camera:stroke as `on`.
+---@param options lissom.Curve.SupportOptions
+---@return lissom.Support support # The surface, of the curve as it is now.
+function Curve:support(options) end
+
+---@class lissom.Curve.Read_hintOptions
+---@field camera lissom.Camera The camera that it is seen by.
+---@field points number[][] The stroke on the picture, smoothed; see camera:stroke.
+---@field scale? number Pixels of the picture to a logical one, on dense screens. Default: 1.
+---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+
+---What a hint stroke means, as it is seen on the picture: near is what is within 20 pixels. Draw it on the curve's supporting surface, and call the method of that name with it.
+---@param options lissom.Curve.Read_hintOptions
+---@return lissom.HintReading reading # What it is taken for.
+function Curve:read_hint(options) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Curve:close() end
@@ -2324,7 +2417,7 @@ function Camera:select(options) end
 ---@field points number[][] Where the pen was.
 ---@field times? number[] Seconds, one for each point; they tell a click.
 ---@field pressures? number[] 0 to 1, one for each point.
----@field on? lissom.Scalp|lissom.Mesh What is drawn on. Default: only on the picture.
+---@field on? lissom.Scalp|lissom.Mesh|lissom.Support|lissom.Curve What is drawn on. Default: only on the picture.
 ---@field plane? lissom.Camera.StrokeOptions.Plane The plane that is drawn on.
 ---@field depth? "envelope"|"last" On a scalp: in front of all of the head, changing gently; or as deep as the scalp, and beyond it as deep as it was left (section 4.5). Default: "envelope".
 ---@field lift? number How far in front of the surface; of a scalp in metres of an average head. Default: 0.02 on a scalp by the envelope, else 0.
@@ -2444,6 +2537,42 @@ function Gizmo:shape(camera, size, options) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Gizmo:close() end
+
+---A surface through a curve, on which strokes about the curve are drawn; see lissom.Curve:support.
+---@class lissom.Support
+local Support = {}
+
+---Which surface it is.
+---@return string mode # "ruled" or "strip".
+function Support:mode() end
+
+---How much of the curve is seen end-on from the viewpoint, where a surface says little of it. Warn above a third, and take another viewpoint.
+---@return number share # Of its length, 0 to 1.
+function Support:end_on() end
+
+---How squarely a camera sees the surface. Strokes need 0.3.
+---@param camera lissom.Camera The camera.
+---@return number cosine # 0, seen edge-on, to 1.
+function Support:seen_from(camera) end
+
+---Its two edges, for drawing it with view:surface.
+---@return lissom.Vector[] first # From the root to beyond the tip.
+---@return lissom.Vector[] second # Likewise, as many points.
+function Support:edges() end
+
+---The surface as a mesh: two vertices and two triangles a line.
+---@return lissom.Mesh mesh # A new mesh.
+function Support:mesh() end
+
+---Where a ray meets it first.
+---@param origin lissom.Vector Start of the ray.
+---@param direction lissom.Vector Its direction; any length.
+---@return lissom.SupportPoint? hit # nil where it does not.
+---@overload fun(self: lissom.Support, origin_x: number, origin_y: number, origin_z: number, direction_x: number, direction_y: number, direction_z: number): lissom.SupportPoint?
+function Support:pick(origin, direction) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Support:close() end
 
 ---Values of a script's parameters: `params.length`. Values that are set are checked as those of the command line.
 ---@class lissom.Params

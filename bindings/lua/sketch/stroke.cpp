@@ -4,7 +4,9 @@
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/sketch/camera_object.h"
+#include "bindings/lua/sketch/support_object.h"
 #include "kernel/sketch/stroke_depth.h"
+#include "kernel/sketch/support/support_stroke.h"
 
 namespace lissom::lua {
 namespace {
@@ -14,6 +16,8 @@ struct DrawnStroke {
     Stroke stroke;
     std::vector<Vec3> points;
     bool is_click = false;
+    // How many of the points were beside the supporting surface.
+    std::size_t beside = 0;
 };
 
 std::vector<StrokeEvent> read_events(const Call& call) {
@@ -71,10 +75,32 @@ std::vector<Vec3> over_scalp(const Call& call, const Scalp& scalp, const Stroke&
     return stroke_over_head(stroke.points, view, head, options, call.context());
 }
 
-std::vector<Vec3> placed(const Call& call, const Stroke& stroke, const View& view) {
+std::vector<Vec3> beside_curve(const CurveObject& curve, const Stroke& stroke, const View& view) {
+    const Hairstyle& style = curve.owner->style();
+    std::vector<Vec3> course = style.course(curve.id);
+    for (Vec3& point : course) point = style.scalp().from_metres(point);
+    return stroke_beside_curve(stroke.points, view, course);
+}
+
+std::vector<Vec3> on_support(const SupportObject& support, DrawnStroke& drawn, const View& view) {
+    SupportStrokeOptions options;
+    options.run *= support.metre, options.fade *= support.metre;
+    SupportStroke result = stroke_on_support(drawn.stroke.points, view, support.surface, options);
+    drawn.beside = result.beside;
+    return std::move(result.points);
+}
+
+std::vector<Vec3> placed(const Call& call, DrawnStroke& drawn, const View& view) {
+    const Stroke& stroke = drawn.stroke;
     if (call.has("plane")) {
         return stroke_on_plane(stroke.points, view, call.vector("plane.point"),
                                call.vector("plane.normal"));
+    }
+    if (call.is_object<SupportObject>("on")) {
+        return on_support(*call.object<SupportObject>("on"), drawn, view);
+    }
+    if (call.is_object<CurveObject>("on")) {
+        return beside_curve(*call.object<CurveObject>("on"), stroke, view);
     }
     if (call.is_object<ScalpObject>("on")) {
         return over_scalp(call, *call.object<ScalpObject>("on")->scalp, stroke, view);
@@ -86,7 +112,7 @@ std::vector<Vec3> placed(const Call& call, const Stroke& stroke, const View& vie
 int push_drawn(const Call& call, const DrawnStroke& drawn) {
     lua_State* L = call.lua();
     const std::size_t count = drawn.points.size();
-    lua_createtable(L, 0, 6);
+    lua_createtable(L, 0, 7);
     lua_createtable(L, index_of(count), 0);
     for (std::size_t i = 0; i < count; ++i) {
         call.push_vector(drawn.points[i]);
@@ -104,6 +130,7 @@ int push_drawn(const Call& call, const DrawnStroke& drawn) {
     call.set_field("times", call.push_numbers(drawn.stroke.times));
     call.set_field("pressures", call.push_numbers(drawn.stroke.pressures));
     call.set_field("click", call.push(drawn.is_click));
+    call.set_field("beside", call.push_count(drawn.beside));
     return 1;
 }
 
@@ -122,7 +149,7 @@ int draw_stroke(Call& call) {
         drawn.is_click = is_click(events, options.scale);
         drawn.stroke = fair_stroke(events, options);
         for (Vec2& pixel : drawn.stroke.points) pixel *= options.scale;
-        if (call.has("on") || call.has("plane")) drawn.points = placed(call, drawn.stroke, view);
+        if (call.has("on") || call.has("plane")) drawn.points = placed(call, drawn, view);
     });
     if (!done) return call.fail();
     return push_drawn(call, drawn);
@@ -146,7 +173,12 @@ Function stroke_method_of_camera() {
              either("on",
                     {object("scalp", ScalpObject::kTypeName, "In front of a head, from its hair."),
                      object("mesh", MeshObject::kTypeName,
-                            "On a surface, and beyond it as deep as it was left.")},
+                            "On a surface, and beyond it as deep as it was left."),
+                     object("support", SupportObject::kTypeName,
+                            "On the supporting surface of a curve, and beside it as its slope "
+                            "goes on."),
+                     object("curve", CurveObject::kTypeName,
+                            "As deep as the place of a style curve that is seen nearest.")},
                     "What is drawn on.")
                  .optional("only on the picture"),
              options("plane",
@@ -173,7 +205,8 @@ Function stroke_method_of_camera() {
                  .defaults(1.0),
              size_argument()},
         .results = {{"lissom.DrawnStroke", "stroke", "The line."}},
-        .errors = {ErrorCode::invalid_argument, ErrorCode::mesh_empty, ErrorCode::cancelled},
+        .errors = {ErrorCode::invalid_argument, ErrorCode::mesh_empty, ErrorCode::handle_removed,
+                   ErrorCode::cancelled},
         .example = R"(local camera = lissom.camera{ eye = { 0, 0, 5 } }
 local line = camera:stroke{ points = { { 600, 480 }, { 700, 480 } }, on = lissom.shapes.box() }
 assert(math.abs(line.points[1][3] - 0.5) < 1e-9))"};
@@ -191,7 +224,10 @@ std::vector<Record> stroke_records() {
           {"integer[]", "corners", "Places in `pixels` of what is a corner."},
           {"number[]", "times", "Of each pixel."},
           {"number[]", "pressures", "Of each pixel."},
-          {"boolean", "click", "Whether the pen only touched the picture."}}}};
+          {"boolean", "click", "Whether the pen only touched the picture."},
+          {"integer", "beside",
+           "How many of the points lay beside the supporting surface that was drawn on; their "
+           "depth is a guess."}}}};
 }
 
 }  // namespace lissom::lua

@@ -330,6 +330,7 @@ function Host:use(tool, word)
     self:cancel_quietly()
     if self.tool and not tool then self:note{ "tool" } end
     self:step("deactivate", self:event("deactivate"))
+    if self.tool then self:keep_parameters() end        -- a tool may have changed them itself
     self.tool = tool
     self.hover = nil
     if tool then
@@ -467,12 +468,13 @@ function Host:set(values)
     for name in pairs(values) do table.insert(names, name) end
     table.sort(names)
     for _, name in ipairs(names) do
+        local before = self.tool.params[name]
         self.tool.params[name] = values[name]
         self:keep_parameters()
         self:note{ "set", { [name] = values[name] } }
         local event = self:event("changed")
         event.parameter = name
-        self:step("changed", event)
+        if self.tool.params[name] ~= before then self:step("changed", event) end
     end
     return self
 end

@@ -450,7 +450,9 @@ std::vector<Record> tool_records() {
           {"fun(self: any, options: table)", "outline",
            "{pixels=, color=, width=, closed=}: a line in the picture, of {x, y}."},
           {"fun(self: any, options: table)", "circle",
-           "{at={x, y}, radius=, color=}: in pixels of the picture."}}},
+           "{at={x, y}, radius=, color=}: in pixels of the picture."},
+          {"fun(self: any, options: table)", "surface",
+           "{from=, to=, color=, opacity=}: seen through, between two lines of as many points."}}},
         {"lissom.ToolMarks",
          "What a tool shows, as the tables it was drawn with.",
          {{"table[]", "points", "Balls."},
@@ -458,7 +460,8 @@ std::vector<Record> tool_records() {
           {"table[]", "labels", "Text at points."},
           {"table[]", "outlines", "Lines in the picture."},
           {"table[]", "circles", "Circles in the picture."},
-          {"table[]", "regions", "Coloured vertices."}}}};
+          {"table[]", "regions", "Coloured vertices."},
+          {"table[]", "surfaces", "Surfaces between two lines."}}}};
 }
 
 }  // namespace lissom::lua

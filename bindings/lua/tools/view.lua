@@ -7,9 +7,10 @@ local view_fields = {
     outline = { pixels = "list", color = "color", width = "number", closed = "boolean" },
     circle = { at = "point", color = "color", radius = "number" },
     region = { mesh = "userdata", region = "userdata", color = "color" },
+    surface = { from = "list", to = "list", color = "color", opacity = "number" },
 }
 local needed = { points = "points", line = "points", label = "at", outline = "pixels", circle = "at",
-    region = "region" }
+    region = "region", surface = "from" }
 
 local function is_point(value, count)
     if type(value) ~= "table" then return false end
@@ -61,6 +62,15 @@ function View:curve(given) return put(self, "lines", "line", given) end
 function View:label(given) return put(self, "labels", "label", given) end
 function View:outline(given) return put(self, "outlines", "outline", given) end
 function View:circle(given) return put(self, "circles", "circle", given) end
+
+function View:surface(given)
+    local from, to = type(given) == "table" and given.from, type(given) == "table" and given.to
+    if type(from) == "table" and (type(to) ~= "table" or #from ~= #to) then
+        error("view:surface takes as many points in 'to' as in 'from'", 2)
+    end
+    return put(self, "surfaces", "surface", given)
+end
+
 function View:region(given) return put(self, "regions", "region", given) end
 
 function View:handle(given)
@@ -119,7 +129,8 @@ function Host:draw()
     self:ready()
     local view = setmetatable({ camera = self.camera, scene = self.scene, size = self.size,
         cursor = self.x and { self.x, self.y } or nil,
-        list = { points = {}, lines = {}, labels = {}, outlines = {}, circles = {}, regions = {} } }, View)
+        list = { points = {}, lines = {}, labels = {}, outlines = {}, circles = {}, regions = {},
+            surfaces = {} } }, View)
     draw_hover(view, self)
     local draw = self.tool and self.tool.draw
     if not draw then return view.list end

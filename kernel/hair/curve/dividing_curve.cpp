@@ -262,6 +262,18 @@ class PlaneDivider {
 
 }  // namespace
 
+DividingOptions with_lengths(DividingOptions options, double step) {
+    const Rule rule(options, step);
+    options.sigma = rule.sigma;
+    options.height = rule.height;
+    options.reach = rule.reach;
+    options.thickness = rule.thickness;
+    options.wall_width = rule.wall_width;
+    options.wall_height = rule.wall_height;
+    options.ramp = rule.ramp;
+    return options;
+}
+
 DividingOptions DividingOptions::thesis() {
     DividingOptions options;
     options.fidelity = HairFidelity::thesis;

@@ -53,6 +53,9 @@ struct DividingOptions {
     bool operator==(const DividingOptions&) const = default;
 };
 
+/// The options with the lengths that follow from the step of a grid.
+DividingOptions with_lengths(DividingOptions options, double step);
+
 /// Where a point lies as seen from the nearest point of a dividing curve.
 struct DividingPlace {
     /// Across, positive on the right.

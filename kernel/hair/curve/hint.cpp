@@ -183,6 +183,19 @@ HintOperation operation_of(const HintShape& shape, double near, double turn = 0.
     return across > 0.0 ? HintOperation::cut : HintOperation::concatenate;
 }
 
+// What the ends of a hint allow.
+std::vector<HintOperation> possible_operations(const HintShape& shape, double near) {
+    std::vector<HintOperation> possible;
+    const bool starts = shape.start.distance <= near, ends = shape.end.distance <= near;
+    const double apart = std::abs(shape.end.place - shape.start.place);
+    if (starts) possible.push_back(HintOperation::concatenate);
+    if (starts && ends && apart > kTiny * shape.curve_length) {
+        possible.push_back(HintOperation::insert);
+    }
+    possible.push_back(HintOperation::cut);
+    return possible;
+}
+
 // How else a hint may have been meant: factors of what is near, and turns in degrees.
 constexpr std::pair<double, double> kOtherReadings[] = {
     {0.75, 0.0}, {1.3, 0.0}, {1.0, -12.0}, {1.0, 12.0}};
@@ -202,12 +215,20 @@ HintReading hint_reading(std::span<const Vec3> curve, std::span<const Vec3> hint
         throw Error(ErrorCode::out_of_range, message.str());
     }
     HintReading reading{operation_of(shape, near), true};
-    for (const auto& [factor, turn] : kOtherReadings) {
-        if (shape.least > factor * near ||
-            operation_of(shape, factor * near, turn) != reading.operation) {
-            reading.sure = false;
+    const auto offer = [&](HintOperation operation) {
+        auto& others = reading.others;
+        if (operation == reading.operation) return;
+        if (std::find(others.begin(), others.end(), operation) == others.end()) {
+            others.push_back(operation);
         }
+    };
+    for (const auto& [factor, turn] : kOtherReadings) {
+        const bool is_near = shape.least <= factor * near;
+        if (is_near) offer(operation_of(shape, factor * near, turn));
+        if (!is_near) reading.sure = false;
     }
+    reading.sure = reading.sure && reading.others.empty();
+    for (const HintOperation operation : possible_operations(shape, 1.3 * near)) offer(operation);
     return reading;
 }
 

@@ -26,6 +26,8 @@ struct HintReading {
     /// False where a hint that is drawn a little nearer or farther, or turned by 12 degrees, means
     /// something else: tell the artist what it was taken for.
     bool sure = true;
+    /// What else it may mean, likelier first: what such hints mean, then what its ends allow.
+    std::vector<HintOperation> others = {};
 };
 
 /// Reads a hint by its ends and its general direction, that from its start to its end. With r for

@@ -33,6 +33,20 @@ constexpr double kShortest = 1e-6;         // parts of a spine shorter than this
 // from that one on to this share of its radius.
 constexpr double kSwollen = 0.45, kNarrowing = 0.55, kNarrowed = 0.45;
 
+// A drawn section encloses nothing if its area is this share of its length squared.
+constexpr double kNoArea = 1e-9;
+// Sines of the angle between the spine and the view that a section was drawn in, up to which it is
+// drawn as it is, and from which it is an ellipse that is right across the spine alone: 10 and 25
+// degrees.
+constexpr double kSeenAlong = 0.17, kSeenAside = 0.42;
+// Ends of a section that are farther apart than this share of its width do not go round the spine:
+// 0.59 where a fifth is missing, 1 for half a ring.
+constexpr double kOpen = 0.75;
+// A profile crosses the spine if it has more than this share of its area on the other side.
+constexpr double kCrossing = 0.05;
+// Profiles lie on one side if the mean cosine between them is above this one.
+constexpr double kSameSide = 0.5;
+
 void require_ponytail(const PonytailOptions& o) {
     require(!o.radius || (*o.radius > 0.0 && std::isfinite(*o.radius)),
             "the radius of a ponytail must be above 0");
@@ -83,7 +97,11 @@ struct Spine {
 // The closed polyline that was drawn around a spine.
 struct DrawnSection {
     Vec3 center = Vec3::Zero();
-    double radius = 0.0;
+    /// Mean distance from the center: the radius of a circle that is drawn around the spine, in its
+    /// cross section.
+    double mean_distance = 0.0;
+    /// Unit normal of the plane that it lies in, about; zero where it encloses nothing.
+    Vec3 normal = Vec3::Zero();
 };
 
 DrawnSection drawn_section(const std::vector<Vec3>& polyline) {
@@ -92,21 +110,54 @@ DrawnSection drawn_section(const std::vector<Vec3>& polyline) {
     std::vector<double> weights;
     double length = 0.0;
     DrawnSection result;
+    Vec3 area = Vec3::Zero();
     for (std::size_t i = 0; i < polyline.size(); ++i) {
         const Vec3 &a = polyline[i], &b = polyline[(i + 1) % polyline.size()];
         middles.push_back(0.5 * (a + b));
         weights.push_back((b - a).norm());
         length += weights.back();
         result.center += weights.back() * middles.back();
+        area += (a - polyline[0]).cross(b - polyline[0]);
     }
     result.center /= length;
     for (std::size_t i = 0; i < middles.size(); ++i) {
-        result.radius += weights[i] / length * (middles[i] - result.center).norm();
+        result.mean_distance += weights[i] / length * (middles[i] - result.center).norm();
     }
+    if (area.norm() > kNoArea * length * length) result.normal = area.normalized();
     return result;
 }
 
-// Distances from a spine over the arc length along it.
+// Half of how far a polyline reaches along a unit vector.
+double half_extent(const std::vector<Vec3>& polyline, const Vec3& along) {
+    double least = along.dot(polyline[0]), most = least;
+    for (const Vec3& p : polyline) {
+        least = std::min(least, along.dot(p));
+        most = std::max(most, along.dot(p));
+    }
+    return 0.5 * (most - least);
+}
+
+// The radius that a drawn section means. A ring that is seen from aside is drawn as an ellipse,
+// which is as wide as the ring across the spine alone.
+double section_radius(const std::vector<Vec3>& polyline, const DrawnSection& section,
+                      const Vec3& spine_direction) {
+    const Vec3 across = section.normal.cross(spine_direction);
+    const double aside = smooth_step(kSeenAlong, kSeenAside, across.norm());
+    if (!(aside > 0.0)) return section.mean_distance;
+    const double extent = half_extent(polyline, across.normalized());
+    return section.mean_distance + aside * (extent - section.mean_distance);
+}
+
+// Half of a ring would be closed by a chord through the spine.
+void require_closed(const std::vector<Vec3>& polyline, double radius) {
+    const double apart = (polyline.back() - polyline.front()).norm();
+    require(apart <= kOpen * 2.0 * radius,
+            "the section of the ponytail is open: its ends are " + length_text(apart) +
+                " m apart, and it is " + length_text(2.0 * radius) +
+                " m wide; draw it all the way round the spine, or give the radius alone");
+}
+
+// A profile: offsets from a spine over the arc length along it.
 class Profile {
   public:
     Profile(const Spine& spine, const std::vector<Vec3>& drawn, double step) {
@@ -114,43 +165,91 @@ class Profile {
         for (const Vec3& p : resampled_curve(drawn, 0.5 * step)) {
             const CurveFoot foot = foot_on_curve(spine.points, p);
             if (foot.beyond != 0.0) continue;
-            samples_.emplace_back(spine.place_of(foot), foot.distance);
+            samples_.push_back({spine.place_of(foot), foot.distance, p - foot.point});
         }
         require(samples_.size() > 1, "a profile of a ponytail must lie beside its spine");
         std::stable_sort(samples_.begin(), samples_.end(),
-                         [](const auto& a, const auto& b) { return a.first < b.first; });
+                         [](const Sample& a, const Sample& b) { return a.at < b.at; });
+        require(crossed_share() <= kCrossing,
+                "a profile of a ponytail crosses its spine; draw it along one side of the tail");
     }
 
-    double begin() const { return samples_.front().first; }
-    double end() const { return samples_.back().first; }
+    double begin() const { return samples_.front().at; }
+    double end() const { return samples_.back().at; }
     double radius(double at) const {
-        const auto behind = std::upper_bound(
-            samples_.begin(), samples_.end(), at,
-            [](double x, const std::pair<double, double>& sample) { return x < sample.first; });
-        if (behind == samples_.begin()) return samples_.front().second;
-        if (behind == samples_.end()) return samples_.back().second;
-        const auto& [from, near] = *(behind - 1);
-        const auto& [to, far] = *behind;
-        return near + (at - from) / (to - from) * (far - near);
+        const auto [behind, share] = find(at);
+        const Sample &a = samples_[behind - 1], &b = samples_[behind];
+        return a.distance + share * (b.distance - a.distance);
+    }
+    // From the spine.
+    Vec3 offset(double at) const {
+        const auto [behind, share] = find(at);
+        const Sample &a = samples_[behind - 1], &b = samples_[behind];
+        return a.offset + share * (b.offset - a.offset);
     }
 
   private:
-    std::vector<std::pair<double, double>> samples_;
+    struct Sample {
+        double at, distance;
+        Vec3 offset;
+    };
+
+    // The sample behind an arc length, but never the first one, and the share of the way to it from
+    // the one before.
+    std::pair<std::size_t, double> find(double at) const {
+        const auto found = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, at,
+                                            [](double x, const Sample& s) { return x < s.at; });
+        const std::size_t behind = found - samples_.begin();
+        const double from = samples_[behind - 1].at, to = samples_[behind].at;
+        return {behind, to > from ? std::clamp((at - from) / (to - from), 0.0, 1.0) : 0.0};
+    }
+
+    // How much of the area between profile and spine lies on the lesser side. The sides turn with
+    // the spine, so each sample is compared with the one before.
+    double crossed_share() const {
+        double areas[2] = {0.0, 0.0};
+        int side = 0;
+        Vec3 last = Vec3::Zero();
+        for (const Sample& sample : samples_) {
+            if (sample.offset.dot(last) < 0.0) side = 1 - side;
+            areas[side] += sample.distance;
+            if (sample.distance > 0.0) last = sample.offset;
+        }
+        const double whole = areas[0] + areas[1];
+        return whole > 0.0 ? std::min(areas[0], areas[1]) / whole : 0.0;
+    }
+
+    std::vector<Sample> samples_;
 };
+
+// Mean cosine of the angle between two profiles as seen along the spine, where both are.
+double cosine_between(const Profile& a, const Profile& b, double from, double to) {
+    constexpr int kPlaces = 32;
+    double dots = 0.0, lengths = 0.0;
+    for (int i = 0; i <= kPlaces; ++i) {
+        const double at = from + (to - from) * i / kPlaces;
+        const Vec3 u = a.offset(at), v = b.offset(at);
+        dots += u.dot(v);
+        lengths += u.norm() * v.norm();
+    }
+    return lengths > 0.0 ? dots / lengths : 0.0;
+}
 
 std::vector<Profile> profiles_of(const Spine& spine, const PonytailOptions& options, double step) {
     std::vector<Profile> result;
     for (const std::vector<Vec3>& drawn : options.profiles) {
         if (!drawn.empty()) result.emplace_back(spine, drawn, step);
     }
+    if (result.size() < 2 || options.profiles[0] == options.profiles[1]) return result;
+    const double from = std::max(result[0].begin(), result[1].begin());
+    const double to = std::min(result[0].end(), result[1].end());
+    require(from < to,
+            "the profiles of the ponytail have no part of its spine in common; draw both along the "
+            "same part of the tail");
+    require(cosine_between(result[0], result[1], from, to) < kSameSide,
+            "both profiles of the ponytail lie on one side of its spine; draw them on either side, "
+            "or give one alone");
     return result;
-}
-
-template <typename Value>
-double mean(const std::vector<Profile>& profiles, const Value& value) {
-    double sum = 0.0;
-    for (const Profile& profile : profiles) sum += value(profile);
-    return sum / profiles.size();
 }
 
 // Where the cross sections of a spine are and how wide, by arc length.
@@ -160,8 +259,15 @@ struct Outline {
     double fullness = 0.0, length = 0.0;
     std::vector<Profile> profiles;
 
+    // Where all profiles are.
+    double begin_of_profiles() const {
+        return std::max(profiles.front().begin(), profiles.back().begin());
+    }
+    double end_of_profiles() const {
+        return std::min(profiles.front().end(), profiles.back().end());
+    }
     double drawn(double at) const {
-        return mean(profiles, [at](const Profile& p) { return p.radius(at); });
+        return 0.5 * (profiles.front().radius(at) + profiles.back().radius(at));
     }
     double radius_at(double at) const {
         if (!profiles.empty()) return radius * drawn(at) / drawn(first);
@@ -171,12 +277,16 @@ struct Outline {
     }
 };
 
-// The arc length that a drawn section crosses the spine at.
-double place_of_section(const Spine& spine, const DrawnSection& section) {
+// Puts the tie where a drawn section crosses the spine.
+void place_section(const Spine& spine, const std::vector<Vec3>& polyline, Outline& outline) {
+    const DrawnSection section = drawn_section(polyline);
     const CurveFoot foot = foot_on_curve(spine.points, section.center);
-    require(foot.distance <= section.radius,
+    const Vec3 way = spine.points[foot.segment + 1] - spine.points[foot.segment];
+    outline.radius = section_radius(polyline, section, way.normalized());
+    require_closed(polyline, outline.radius);
+    require(foot.distance <= outline.radius,
             "the spine of the ponytail must pass through its cross section");
-    return spine.place_of(foot);
+    outline.first = spine.place_of(foot);
 }
 
 Outline outline_of(const Spine& spine, double step, const PonytailOptions& options) {
@@ -185,17 +295,13 @@ Outline outline_of(const Spine& spine, double step, const PonytailOptions& optio
     outline.length = spine.length();
     outline.fullness = options.fullness;
     const bool drawn = !outline.profiles.empty();
-    if (drawn) outline.first = mean(outline.profiles, [](const Profile& p) { return p.begin(); });
+    if (drawn) outline.first = outline.begin_of_profiles();
     outline.radius = kDefaultRadius * step;
     if (drawn) outline.radius = outline.drawn(outline.first);
-    if (!options.section.empty()) {
-        const DrawnSection section = drawn_section(options.section);
-        outline.first = place_of_section(spine, section);
-        outline.radius = section.radius;
-    }
+    if (!options.section.empty()) place_section(spine, options.section, outline);
     if (options.radius) outline.radius = *options.radius;
     outline.last = outline.first + options.share * (outline.length - outline.first);
-    if (drawn) outline.last = mean(outline.profiles, [](const Profile& p) { return p.end(); });
+    if (drawn) outline.last = outline.end_of_profiles();
 
     require(outline.last >= outline.first,
             "the profiles of the ponytail end before its cross section");
@@ -370,6 +476,14 @@ class Tail {
 };
 
 }  // namespace
+
+PonytailOptions with_lengths(PonytailOptions options, double step) {
+    const bool literal = options.fidelity == HairFidelity::thesis;
+    options.ring = options.ring.value_or(literal ? 0.0 : kDefaultRing * step);
+    options.lead = options.lead.value_or(literal ? kThesisLead * step : kDefaultLead * step);
+    options.clearance = options.clearance.value_or(literal ? 0.0 : kDefaultClearance * step);
+    return options;
+}
 
 PonytailOptions PonytailOptions::thesis() {
     PonytailOptions options;

@@ -20,13 +20,15 @@ struct PonytailOptions {
     /// Of the first cross section C1, the tie. Where absent, that of `section`, else the distance
     /// of `profiles` from the spine at C1, else 1.5 steps.
     std::optional<double> radius = std::nullopt;
-    /// A polyline drawn around the spine, closed by the way from its last point to its first. C1
-    /// lies where its center is nearest to the spine. Empty for none: C1 is at the beginning of the
-    /// profiles, else of the spine.
+    /// A polyline drawn around the spine, closed by the way from its last point to its first, which
+    /// is at most 0.75 of its width. It is a circle seen from anywhere: its radius is half of its
+    /// extent across the spine, or where the spine runs along the normal of the polyline's plane,
+    /// its mean distance from its center. C1 lies where that is nearest to the spine. Empty for
+    /// none: C1 is at the beginning of the profiles, else of the spine.
     std::vector<Vec3> section;
-    /// Polylines along the spine, from which it has cross sections, C1 to C2; their radius is the
-    /// mean distance of the profiles at each place, in the ratio to that at C1. Empty for none; one
-    /// alone stands for both.
+    /// Polylines along the spine on either side, whichever way they run: where both are it has
+    /// cross sections, C1 to C2; their radius is the mean distance of the profiles from the spine
+    /// at each place, in the ratio to that at C1. Empty for none; one alone stands for both.
     std::array<std::vector<Vec3>, 2> profiles;
     /// Without profiles: C2 is at this share of the spine's length behind C1, 0 to 1, and the tail
     /// swells to 1 + fullness radii over its first half, and narrows to its end.
@@ -64,6 +66,10 @@ struct PonytailOptions {
     bool operator==(const PonytailOptions&) const = default;
 };
 
+/// The options with the lengths that follow from the step of a grid, but for the radius, which
+/// follows from what was drawn.
+PonytailOptions with_lengths(PonytailOptions options, double step);
+
 /// A circle around the spine.
 struct PonytailSection {
     Vec3 center = Vec3::Zero();
@@ -86,7 +92,8 @@ struct PonytailShape {
 };
 
 /// Errors: as require_curve for the spine, `section` and `profiles`; invalid_argument for options
-/// out of range, a section that the spine does not pass through, or profiles beyond its ends.
+/// out of range, a section that is open or that the spine does not pass through, profiles beyond
+/// its ends, that cross it, lie on one side of it or along different parts of it.
 PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
                              const PonytailOptions& options = {});
 

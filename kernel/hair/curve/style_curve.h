@@ -37,6 +37,11 @@ struct DividingCurve {
     DividingOptions options = {};
     /// Width of the bare skin along the line, on which no hair is rooted.
     double gap = kPartingGap;
+    /// Polylines beside the curve along which hair flows away from it: on the sides where there are
+    /// any the tilts follow from all of them together (fit_tilt), and those of the options do not
+    /// count. They stay where they were drawn when the curve moves; those it has left have no
+    /// effect.
+    std::vector<std::vector<Vec3>> hints = {};
 
     /// Without points, as section 4.5 has it: there is no bare skin.
     static DividingCurve thesis();

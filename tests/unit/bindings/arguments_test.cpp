@@ -59,6 +59,7 @@ style = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 })
 -- The style has no curve, or each call of grow would make much hair.
 curve = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 }):stream{
     points = { { 0, 1, 0 }, { 0, 1.2, 0 } } }
+support = curve:support{ camera = lissom.camera{ eye = { 0, 0, 5 } } }
 ball = lissom.shapes.sphere{ segments = 2 }
 cap, rest = ball:cut{ plane = { point = { 0, 0.1, 0 }, normal = { 0, 1, 0 } } }
 merging = lissom.merging{
@@ -80,6 +81,7 @@ function fresh()
         ["lissom.Strands"] = strands, ["lissom.Scalp"] = scalp, ["lissom.Hairstyle"] = style,
         ["lissom.Curve"] = curve, ["lissom.Merging"] = merging, ["lissom.Provenance"] = provenance,
         ["lissom.Scene"] = scene, ["lissom.Camera"] = camera, ["lissom.Gizmo"] = gizmo,
+        ["lissom.Support"] = support,
         ["lissom.Polyline"] = lissom.polyline{ points = { { 0, 0, 0 }, { 0, 1, 0 } } } }
 end
 )";

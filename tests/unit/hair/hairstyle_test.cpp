@@ -499,3 +499,61 @@ TEST_CASE("hairstyle: what cannot be made or grown is refused") {
     none.roots.count = 0;
     CHECK(style.grow(none).empty());
 }
+
+TEST_CASE("hairstyle: a parting keeps its hints, and all of a side tell its tilt together") {
+    Hairstyle style = small_style();
+    const CurveId parting = style.add(test::parting(style)),
+                  other = style.add(stream(side(style, 1)));
+    const StyleInputs before = style.inputs();
+    const auto field = field_of(style);
+    CHECK(style.tilt(parting).left.tilt == DividingOptions::Tilt{});
+    // From the front to the back: the head's left is the curve's right.
+    const auto hint = [&](double elevation) {
+        return std::vector<Vec3>{over(style, 15, elevation, 0), over(style, 24, elevation + 9, 0)};
+    };
+    style.add_hint(parting, hint(52));
+    const SideTilt one = style.tilt(parting).left;
+    const bool is_left = one.pieces > 0;
+    const auto told = [&] {
+        const TiltFit& fit = style.tilt(parting);
+        return is_left ? fit.left : fit.right;
+    };
+    CHECK(told().pieces > 3);
+    CHECK(std::abs(told().tilt.start - told().tilt.end) < 0.3);
+    const StyleInputs first = style.inputs();
+    const auto pieces = told().pieces;
+    style.add_hint(parting, hint(70));
+    CHECK(told().pieces > pieces);
+    CHECK(field_of(style) != field);
+    // What is put back is all of it.
+    const TiltFit both = style.tilt(parting);
+    const StyleInputs last = style.inputs();
+    style.restore(first);
+    CHECK(told().pieces == pieces);
+    style.restore(before);
+    CHECK(field_of(style) == field);
+    style.restore(last);
+    CHECK(style.tilt(parting) == both);
+    // A curve that leaves its hints has the tilts of its options again.
+    StyleCurve moved = style.curve(parting);
+    std::get<DividingCurve>(moved.shape).options.left = {0.2, 0.2};
+    std::get<DividingCurve>(moved.shape).options.right = {0.2, 0.2};
+    drawn_points(moved) = {over(style, -60, 50, 0), over(style, -100, 50, 0)};
+    style.set(parting, moved);
+    CHECK(told().pieces == 0);
+    CHECK(told().tilt == DividingOptions::Tilt{0.2, 0.2});
+    style.restore(last);
+
+    const auto refused = [&](CurveId id, std::vector<Vec3> points) {
+        return error_of([&] { style.add_hint(id, std::move(points)); }).code();
+    };
+    CHECK(refused(other, hint(60)) == ErrorCode::invalid_argument);
+    CHECK(refused(CurveId{99}, hint(60)) == ErrorCode::handle_removed);
+    CHECK(refused(parting, {over(style, 180, 0, 0), over(style, 160, 0, 0)}) ==
+          ErrorCode::out_of_range);
+    CHECK(refused(parting, {Vec3::Constant(std::nan("")), Vec3::Zero()}) == ErrorCode::not_finite);
+    CHECK(refused(parting, {}) == ErrorCode::invalid_argument);
+    CHECK(style.inputs() == last);
+    CHECK(error_of([&] { (void)style.tie(parting); }).code() == ErrorCode::invalid_argument);
+    CHECK(style.tie(style.add(tail(style))).radius > 0.0);
+}

@@ -31,6 +31,8 @@ StyleContent everything() {
     dividing.options.left = {0.3, -0.2};
     dividing.options.sigma = 0.011;
     dividing.gap = 0.004;
+    dividing.hints = {{Vec3(0.01, 0.1, 1.0 / 7.0), Vec3(0.02, 0.1, 0.02)},
+                      {Vec3(-0.01, 0.1, 0.02), Vec3(-0.02, 0.1, 0), Vec3(-0.03, 0.1, 0)}};
     content.curves.push_back({dividing});
     Ponytail ponytail{{Vec3(0, 0, -0.12), Vec3(0, -0.1, -0.15)}};
     ponytail.options.radius = 0.017;
@@ -79,6 +81,7 @@ TEST_CASE("a style that is written and read again is the same to the bit") {
     CHECK(dividing.options.sigma == 0.011);
     CHECK_FALSE(dividing.options.height);
     CHECK(dividing.gap == 0.004);
+    CHECK(dividing.hints == std::get<DividingCurve>(before.curves[1].shape).hints);
     const auto& ponytail = std::get<Ponytail>(after.curves[2].shape);
     CHECK(ponytail.options.section.size() == 3);
     CHECK(ponytail.options.profiles[1] ==

@@ -104,6 +104,179 @@ TEST_CASE("ponytail: profiles tell radii, and where sections begin and end") {
     CHECK(ponytail_code_of(straight(), options) == ErrorCode::invalid_argument);
 }
 
+namespace {
+
+// A ring of this radius around the spine at a place, as a hand draws it from a view turned by
+// `turn` from the spine's direction, on the plane that faces the viewer.
+struct DrawnRing {
+    double turn = 0.0;
+    /// Share of the ring that is missing, or drawn twice where negative.
+    double gap = 0.0;
+    /// Where the gap is, as an angle around the ring.
+    double from = 0.0;
+    double jitter = 0.0;
+};
+
+constexpr double kRingRadius = 0.017;
+
+std::vector<Vec3> drawn_ring(const DrawnRing& drawn, std::uint32_t seed = 1) {
+    test::RandomPoints random(seed);
+    const Vec3 view(std::sin(drawn.turn), 0.0, -std::cos(drawn.turn));
+    const Vec3 center = kTie + Vec3(0, 0, -0.02);
+    std::vector<Vec3> points;
+    constexpr int kCount = 60;
+    for (int k = 0; k <= kCount; ++k) {
+        const double angle = drawn.from + 2.0 * kPi * (1.0 - drawn.gap) * k / kCount;
+        const Vec3 from = kRingRadius * Vec3(std::cos(angle), std::sin(angle), 0.0);
+        const auto noise = [&] { return random.uniform(-1.7, 1.7) * drawn.jitter; };
+        const Vec3 off = from + Vec3(noise(), noise(), noise());
+        points.push_back(center + off - off.dot(view) * view);
+    }
+    return points;
+}
+
+double tie_radius(std::vector<Vec3> section) {
+    PonytailOptions options;
+    options.section = std::move(section);
+    return shape_of(straight(), options).tie().radius;
+}
+
+std::string shape_refusal(const PonytailOptions& options) {
+    return test::error_of([&] { shape_of(straight(), options); }).message();
+}
+
+// Along the spine at this distance on one side, from one arc length to another, wavy by `wave`.
+std::vector<Vec3> profile(const Vec3& side, double from, double to, double wave = 0.0) {
+    std::vector<Vec3> points;
+    for (int k = 0; k <= 30; ++k) {
+        const double at = from + (to - from) * k / 30;
+        const double away = 0.015 + 0.2 * at + wave * std::sin(400.0 * at);
+        points.push_back(kTie + Vec3(0, 0, -at) + away * side);
+    }
+    return points;
+}
+
+std::vector<PonytailSection> sections_of(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    PonytailOptions options;
+    options.profiles = {a, b};
+    return shape_of(straight(), options).sections;
+}
+
+void check_alike(const std::vector<PonytailSection>& a, const std::vector<PonytailSection>& b) {
+    REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        CHECK((a[i].center - b[i].center).norm() < 1e-9);
+        CHECK(a[i].radius == Approx(b[i].radius).epsilon(1e-9));
+    }
+}
+
+std::vector<Vec3> backwards(std::vector<Vec3> points) {
+    std::reverse(points.begin(), points.end());
+    return points;
+}
+
+}  // namespace
+
+TEST_CASE("ponytail: a section is as wide from every side, with gaps, overlaps and jitter") {
+    for (const double degrees : {0.0, 15.0, 30.0, 45.0, 60.0, 80.0}) {
+        const double turn = degrees * kDegree;
+        CHECK(tie_radius(drawn_ring({turn})) == Approx(kRingRadius).epsilon(0.02));
+        for (std::uint32_t seed = 1; seed < 6; ++seed) {
+            const double from = 1.3 * seed;
+            const double jittery = tie_radius(drawn_ring({turn, 0.0, from, 0.0003}, seed));
+            CHECK(jittery == Approx(kRingRadius).epsilon(0.07));
+            CHECK(tie_radius(drawn_ring({turn, -0.15, from})) == Approx(kRingRadius).epsilon(0.03));
+            // A gap at the side of the ring hides some of its width.
+            CHECK(tie_radius(drawn_ring({turn, 0.2, from})) == Approx(kRingRadius).epsilon(0.11));
+        }
+    }
+    // Which way it runs, and how densely, does not matter.
+    const auto ring = drawn_ring({60.0 * kDegree});
+    CHECK(tie_radius(backwards(ring)) == Approx(tie_radius(ring)));
+    // It may cross itself.
+    auto eight = ring;
+    std::reverse(eight.begin() + 20, eight.begin() + 40);
+    CHECK(tie_radius(eight) == Approx(kRingRadius).epsilon(0.05));
+}
+
+TEST_CASE("ponytail: half a ring is refused, and says how wide it is open") {
+    PonytailOptions options;
+    for (const double from : {0.0, 0.5 * kPi}) {
+        options.section = drawn_ring({0.0, 0.5, from});
+        CHECK(shape_refusal(options).find("is open") != std::string::npos);
+    }
+    options.section = drawn_ring({60.0 * kDegree, 0.5, 0.5 * kPi});
+    CHECK(shape_refusal(options).find("is open") != std::string::npos);
+    options.section = {kTie + Vec3(0.01, 0, -0.02), kTie + Vec3(-0.01, 0, -0.02)};
+    CHECK(ponytail_code_of(straight(), options) == ErrorCode::invalid_argument);
+    options.section = drawn_ring({});
+    options.section[7].x() = std::nan("");
+    CHECK(ponytail_code_of(straight(), options) == ErrorCode::not_finite);
+}
+
+TEST_CASE("ponytail: profiles that are swapped, reversed or shifted mean the same") {
+    const Vec3 x(1, 0, 0);
+    const auto a = profile(x, 0.01, 0.06), b = profile(-x, 0.01, 0.06, 0.001);
+    const auto meant = sections_of(a, b);
+    check_alike(meant, sections_of(b, a));
+    check_alike(meant, sections_of(backwards(a), b));
+    check_alike(meant, sections_of(a, backwards(b)));
+    // What only one of them has does not count.
+    const auto longer = profile(x, 0.0, 0.07);
+    const auto shifted = sections_of(longer, b);
+    REQUIRE(shifted.size() == meant.size());
+    for (std::size_t i = 0; i < meant.size(); ++i) {
+        CHECK((shifted[i].center - meant[i].center).norm() < 1e-9);
+        CHECK(shifted[i].radius == Approx(meant[i].radius).epsilon(0.01));
+    }
+    // One given twice is as one alone.
+    check_alike(sections_of(a, a), sections_of(a, {}));
+    // Points may be as unevenly dense as a slow hand makes them.
+    std::vector<Vec3> dense;
+    for (std::size_t i = 0; i + 1 < a.size(); ++i) {
+        for (int k = 0; k < (i < 15 ? 200 : 1); ++k) {
+            dense.push_back(a[i] + (a[i + 1] - a[i]) * k / (i < 15 ? 200 : 1));
+        }
+    }
+    dense.push_back(a.back());
+    const auto same = sections_of(dense, b);
+    REQUIRE(same.size() == meant.size());
+    CHECK(same.back().radius == Approx(meant.back().radius).epsilon(1e-6));
+}
+
+TEST_CASE("ponytail: profiles on one side, across the spine or apart are refused") {
+    const Vec3 x(1, 0, 0);
+    PonytailOptions options;
+    options.profiles = {profile(x, 0.01, 0.06), profile(Vec3(0.8, 0.6, 0), 0.01, 0.06)};
+    CHECK(shape_refusal(options).find("on one side") != std::string::npos);
+    options.profiles = {profile(x, 0.01, 0.03), profile(-x, 0.04, 0.06)};
+    CHECK(shape_refusal(options).find("in common") != std::string::npos);
+    auto across = profile(x, 0.01, 0.06);
+    for (std::size_t i = 0; i < across.size(); ++i) across[i].x() = 0.02 - 0.04 * i / 30;
+    options.profiles = {across, {}};
+    CHECK(shape_refusal(options).find("crosses its spine") != std::string::npos);
+    // The end that meets the spine, as the tip of a tail, may come a little over it.
+    auto closing = profile(x, 0.01, 0.07);
+    for (std::size_t i = 0; i < closing.size(); ++i) closing[i].x() = 0.02 * (1.0 - i / 28.0);
+    options.profiles = {closing, {}};
+    CHECK_NOTHROW(shape_of(straight(), options));
+    // Around a bend the sides turn with the spine.
+    std::vector<Vec3> bend, outer, inner;
+    for (int k = 0; k <= 30; ++k) {
+        const double angle = kPi * k / 30;
+        const Vec3 way(0.0, std::cos(angle), -std::sin(angle));
+        bend.push_back(kTie + Vec3(0, -0.05, 0) + 0.05 * way);
+        outer.push_back(kTie + Vec3(0, -0.05, 0) + 0.07 * way);
+        inner.push_back(kTie + Vec3(0, -0.05, 0) + 0.03 * way);
+    }
+    options.profiles = {outer, inner};
+    CHECK(shape_of(bend, options).tie().radius == Approx(0.02).epsilon(0.02));
+    options.profiles = {outer, outer};
+    options.profiles[1].front().z() -= 1e-5;
+    CHECK(test::error_of([&] { shape_of(bend, options); }).message().find("one side") !=
+          std::string::npos);
+}
+
 TEST_CASE("ponytail: the shape does not depend on how finely the spine is given") {
     const std::vector<Vec3> coarse = smooth_curve(falling(), ponytail_step()),
                             fine = smooth_curve(falling(), 0.05 * ponytail_step());

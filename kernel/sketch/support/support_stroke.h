@@ -1,0 +1,44 @@
+/// Strokes that take their depth from a curve: on its supporting surface, or as deep as the curve
+/// itself.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+#include "kernel/sketch/support/support_surface.h"
+#include "kernel/sketch/view.h"
+
+namespace lissom {
+
+/// Lengths in the world.
+struct SupportStrokeOptions {
+    /// Beside the surface depth goes on with the slope that it had on the last `run` of the stroke
+    /// over it, at most 1, and turns to a constant over about `fade`.
+    double run = 0.008, fade = 0.04;
+};
+
+struct SupportStroke {
+    /// One for each point of the stroke.
+    std::vector<Vec3> points;
+    /// How many of them were beside the surface.
+    std::size_t beside = 0;
+};
+
+/// On a supporting surface. Where the line of sight meets it several times, the stroke goes on from
+/// where it was along the curve; it begins at the place that is nearest to the curve. Between two
+/// parts over the surface depth changes evenly.
+/// Errors: not_finite; invalid_argument where the surface is seen edge-on, less squarely than 0.3,
+/// or the stroke is nowhere over it.
+SupportStroke stroke_on_support(std::span<const Vec2> stroke, const View& view,
+                                const SupportSurface& support,
+                                const SupportStrokeOptions& options = {});
+
+/// As deep as the place of the curve that is seen nearest to each point. Errors: not_finite;
+/// invalid_argument for a curve of less than two points that differ, or one that is not wholly in
+/// front of the camera.
+std::vector<Vec3> stroke_beside_curve(std::span<const Vec2> stroke, const View& view,
+                                      std::span<const Vec3> curve);
+
+}  // namespace lissom

@@ -1,0 +1,111 @@
+--- Draws stream curves, which hair follows, and edits them by hint strokes.
+--
+-- by draw: a stroke that begins on the scalp is a new stream. With a stream chosen by a click, or begun at
+-- one, it is a hint: across the stream it cuts, from it to elsewhere it goes on there, from it back to it it
+-- takes the place of the part between. What it is taken for stands at the cursor; Alt takes the next reading.
+-- Seen from far beside the view that streams were drawn in (v: from now on this one) hints change the depth:
+-- they are drawn on the surface that is shown.
+-- by pull: a drag moves a stream there, at its first point the root over the scalp. by rub: smooths it.
+-- Keys: tab chooses the next stream, delete removes it, m adds its mirror image.
+local curves = require "tools.support.curves"
+local hair = require "tools.support.hair"
+local stream_hands = require "tools.support.stream_hands"
+
+local draft_share = 0.1         -- of the strands, while the button is down
+
+local function chosen(self, one)
+    for _, curve in ipairs(one and hair.curves(one, "stream") or {}) do
+        if curve == self.curve then return curve end
+    end
+    return nil
+end
+
+local function let_go(self)
+    self.pixels, self.target, self.twin, self.drafts, self.support, self.said = nil, nil, nil, nil, nil, nil
+end
+
+local keys = {
+    delete = function(self, one, curve)
+        local twin = self.params.symmetric and curves.partner(one, curve)
+        if twin then twin:remove() end
+        curve:remove()
+    end,
+    m = function(_, one, curve)
+        assert(one.style:stream{ points = curves.mirrored(one.scalp, curve:points()) })
+    end,
+}
+
+return require("lissom").tool{
+    name = "stream",
+    help = "Draw from the scalp: a stream. Click one: strokes across or from it change it, Alt: otherwise.",
+    params = hair.with_params{
+        by = { type = "choice", default = "draw", choices = { "draw", "pull", "rub" } },
+        symmetric = { type = "boolean", default = false, help = "The other side of the head follows." },
+        surface = { type = "choice", default = "auto", choices = { "auto", "strip", "ruled" },
+            help = "Of hints: strip changes how a stream looks, ruled its depth, seen from aside." },
+        reach = { type = "number", default = 0.05, min = 0.005, max = 0.3, unit = "metres",
+            help = "How far along a stream a pull or a rub reaches." },
+    },
+    press = function(self, ev)
+        local one = hair.need(ev.scene, self.params)
+        let_go(self)
+        local under, near = hair.curve_at(ev, one, { kind = "stream", preferred = chosen(self, one) })
+        self.under, self.near, self.target = under, near, under or chosen(self, one)
+        self.pixels, self.turn, self.alt = { { ev.x, ev.y } }, 0, ev.alt
+        if self.params.by ~= "draw" and not under and self.target then
+            near = hair.nearest(self.target:course(), hair.camera(ev.camera, one), ev.size, ev.x, ev.y)
+            self.near = near
+            if not near or near.pixels > 20 then self.target = nil end
+        end
+        if not self.target then return end
+        self.twin = self.params.symmetric and curves.partner(one, self.target) or nil
+        self.before = self.target:points()
+        if self.params.by ~= "draw" then
+            self.before = self.target:course()
+            near.point = hair.snapped(near, self.before)
+            self.place = curves.place(self.before, near)
+        end
+    end,
+    drag = function(self, ev)
+        local one = self.pixels and hair.find(ev.scene, self.params)
+        if not one then return end
+        if ev.alt and not self.alt then self.turn = self.turn + 1 end
+        self.alt = ev.alt
+        table.insert(self.pixels, { ev.x, ev.y })
+        if #self.pixels > 2 then stream_hands.follow(self, one, ev, draft_share) end
+    end,
+    release = function(self, ev)
+        local one = self.pixels and hair.find(ev.scene, self.params)
+        if one and #self.pixels < 3 then
+            self.curve = self.under
+        elseif one and not stream_hands.follow(self, one, ev) then
+            error(self.said, 0)
+        elseif one and self.drafts then
+            self.state.viewpoint = hair.camera(ev.camera, one)
+        end
+        let_go(self)
+    end,
+    changed = function(self, ev)
+        local one = hair.find(ev.scene, self.params)
+        if one and (ev.parameter == "strands" or ev.parameter == "length") then hair.grow(ev.scene, one) end
+    end,
+    key = function(self, ev)
+        local one = not self.pixels and hair.find(ev.scene, self.params)
+        local list, curve = one and hair.curves(one, "stream") or {}, chosen(self, one or nil)
+        if one and ev.key == "v" then self.state.viewpoint = hair.camera(ev.camera, one) end
+        if ev.key == "tab" then self.curve = hair.after(list, curve) end
+        if not curve or not keys[ev.key] then return end
+        keys[ev.key](self, one, curve)
+        hair.grow(ev.scene, one)
+    end,
+    draw = function(self, view)
+        local one = hair.find(view.scene, self.params)
+        if not one then return end
+        hair.draw(view, one, self.target or chosen(self, one))
+        if self.support then hair.draw_support(view, one, self.support) end
+        if self.pixels and #self.pixels > 1 then view:outline{ pixels = self.pixels } end
+        if self.said and view.cursor then hair.say(view, self.said) end
+    end,
+    cancel = let_go,
+    deactivate = let_go,
+}

@@ -1,0 +1,108 @@
+--- What a hand does to style curves: hint strokes on a supporting surface, pulling, rubbing, mirror images.
+-- Cameras and points are of the head's own space.
+local vectors = require "vectors"
+
+local curves = {}
+
+--- Points on the other side of the head.
+function curves.mirrored(scalp, points)
+    local list = {}
+    for i, point in ipairs(points) do
+        local p = scalp:to_metres(point)
+        list[i] = scalp:from_metres(-p[1], p[2], p[3])
+    end
+    return list
+end
+
+--- The stream that is the mirror image of another one; nil where there is none, or it is its own.
+function curves.partner(one, curve)
+    local points, scale = curve:points(), one.scalp:scale()
+    local image = curves.mirrored(one.scalp, points)
+    for _, other in ipairs(one.style:curves()) do
+        local list = other:points()
+        if other ~= curve and other:kind() == curve:kind() and #list == #points then
+            local is_image = true
+            for i, point in ipairs(list) do
+                is_image = is_image and vectors.length(vectors.plus(point, image[i], -1)) < 1e-4 * scale
+            end
+            if is_image then return other end
+        end
+    end
+    return nil
+end
+
+-- Degrees by which a camera is turned about the curve's middle against another.
+local function turned(points, a, b)
+    local middle = points[math.floor(#points / 2) + 1]
+    local function sight(camera)
+        if camera:ortho() then return camera:forward() end
+        return vectors.unit(vectors.plus(middle, camera:eye(), -1))
+    end
+    local u, v = sight(a), sight(b)
+    local cosine = u[1] * v[1] + u[2] * v[2] + u[3] * v[3]
+    return math.deg(math.acos(math.max(-1, math.min(1, cosine))))
+end
+
+--- The supporting surface of a curve for strokes that are drawn with `camera`, where the curve was drawn
+-- with `viewpoint`. `mode` is ruled, strip, or auto: the strip of the camera itself, and from 50 degrees
+-- beside the viewpoint on the ruled surface of that.
+function curves.support(curve, mode, camera, viewpoint)
+    viewpoint = viewpoint or camera
+    if mode ~= "auto" then return curve:support{ mode = mode, camera = viewpoint } end
+    local angle = turned(curve:points(), camera, viewpoint)
+    if angle > 50 and angle < 130 then
+        local ruled = curve:support{ mode = "ruled", camera = viewpoint }
+        if ruled:seen_from(camera) > 0.4 then return ruled end
+    end
+    return curve:support{ mode = "strip", camera = camera }
+end
+
+--- What a hint stroke means for a curve: a list of names, likeliest first, and whether the first is sure; nil
+-- where it is nowhere near.
+function curves.readings(curve, camera, size, pixels)
+    local near, reading = pcall(curve.read_hint, curve, { camera = camera, points = pixels, size = size })
+    if not near then return nil end
+    return { reading.operation, table.unpack(reading.others) }, reading
+end
+
+--- Does to a curve what a hint means.
+function curves.apply(curve, operation, hint)
+    local reach = { reach = 1 }
+    if operation ~= "cut" then reach.join = 0.015 end
+    return assert(curve[operation](curve, hint, reach))
+end
+
+--- Points moved by a vector: all of it at arc length `place`, less and less within `reach` of there.
+function curves.pulled(points, place, by, reach)
+    local list, length = {}, 0
+    for i, point in ipairs(points) do
+        if i > 1 then length = length + vectors.length(vectors.plus(point, points[i - 1], -1)) end
+        local t = math.max(0, 1 - math.abs(length - place) / reach)
+        list[i] = vectors.plus(point, by, t * t * (3 - 2 * t))
+    end
+    return list
+end
+
+--- Arc length of a place that hair.nearest has found.
+function curves.place(points, near)
+    local length = 0
+    for i = 2, near.segment do
+        length = length + vectors.length(vectors.plus(points[i], points[i - 1], -1))
+    end
+    local a, b = points[math.max(near.segment, 1)], points[near.segment + 1]
+    return length + near.along * vectors.length(vectors.plus(b, a, -1))
+end
+
+--- Points within `radius` of one of them moved towards the middle of their neighbours; the ends stay.
+function curves.rubbed(points, at, radius)
+    local list = { points[1] }
+    for i = 2, #points - 1 do
+        local t = math.max(0, 1 - vectors.length(vectors.plus(points[i], at, -1)) / radius)
+        local middle = vectors.plus(points[i - 1], points[i + 1], 1)
+        list[i] = vectors.plus(vectors.plus({ 0, 0, 0 }, points[i], 1 - 0.5 * t), middle, 0.25 * t)
+    end
+    list[#points] = points[#points]
+    return list
+end
+
+return curves

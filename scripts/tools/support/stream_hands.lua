@@ -1,0 +1,83 @@
+--- What the hand of the stream tool does with its strokes, by the tool's parameter `by`. The tool holds the
+-- stroke, `pixels`; the stream that was there before, `target`, with its points `before` and its mirror image
+-- `twin`; and those that the stroke makes, `drafts`.
+local curves = require "tools.support.curves"
+local hair = require "tools.support.hair"
+local vectors = require "vectors"
+
+local stream_hands = {}
+
+-- Puts the held stream and its mirror image at these points, or where they were.
+local function put(self, one, points)
+    self.target:set_points(points)
+    if self.twin then self.twin:set_points(curves.mirrored(one.scalp, points)) end
+end
+
+local function put_back(self, one)
+    if self.target then put(self, one, self.before) end
+    for _, curve in ipairs(self.drafts or {}) do curve:remove() end
+    self.drafts, self.support = nil, nil
+end
+
+local hands = {}
+
+-- Each does what the stroke so far means, and says what that is.
+function hands.draw(self, one, ev, camera)
+    local given = { points = self.pixels, size = ev.size }
+    local names = self.target and curves.readings(self.target, camera, ev.size, camera:stroke(given).pixels)
+    names = names or {}
+    table.insert(names, "stream")
+    local name = names[self.turn % #names + 1]
+    if name ~= "stream" then
+        self.support = curves.support(self.target, self.params.surface, camera, self.state.viewpoint)
+        given.on = self.support
+        curves.apply(self.target, name, camera:stroke(given).points)
+        put(self, one, self.target:points())
+    else
+        given.on = one.scalp
+        local points = camera:stroke(given).points
+        self.drafts = { assert(one.style:stream{ points = points }) }
+        if self.params.symmetric then
+            self.drafts[2] = assert(one.style:stream{ points = curves.mirrored(one.scalp, points) })
+        end
+    end
+    return name .. (#names > 1 and "  (Alt: " .. names[(self.turn + 1) % #names + 1] .. ")" or "")
+end
+
+function hands.pull(self, one, ev, camera)
+    if not self.target then error("begin at a stream", 0) end
+    local _, _, depth = camera:project(self.near.point, ev.size)
+    local there = camera:unproject(ev.x, ev.y, depth, ev.size)
+    if self.place == 0 then
+        local hit = one.scalp:head():pick(camera:ray(ev.x, ev.y, ev.size))
+        if not hit then error("the root stays on the head", 0) end
+        there = hit.position
+    end
+    local by, reach = vectors.plus(there, self.near.point, -1), self.params.reach * one.scalp:scale()
+    put(self, one, curves.pulled(self.before, self.place, by, reach))
+    return self.place == 0 and "root" or "pull"
+end
+
+function hands.rub(self, one, ev, camera)
+    if not self.target then error("begin at a stream", 0) end
+    local points, reach = self.before, self.params.reach * one.scalp:scale()
+    for _, pixel in ipairs(self.pixels) do
+        local near = hair.nearest(points, camera, ev.size, pixel[1], pixel[2])
+        if near and near.pixels < 30 then points = curves.rubbed(points, near.point, reach) end
+    end
+    put(self, one, points)
+    return "rub"
+end
+
+--- The hand's work so far, anew from what was before, and a share of the hair after it; what is wrong with it
+-- is told, not raised.
+function stream_hands.follow(self, one, ev, share)
+    put_back(self, one)
+    local done, said = pcall(hands[self.params.by], self, one, ev, hair.camera(ev.camera, one))
+    if not done then put_back(self, one) end
+    hair.grow(ev.scene, one, share)
+    self.said = (tostring(said):gsub("^[^\n]-:%d+: ", ""))      -- without its place in a script
+    return done
+end
+
+return stream_hands

@@ -1,0 +1,190 @@
+--- A ponytail in a tool's hand: the strokes that make it (its spine, the section around it, the profiles
+--- beside it), and its handles. Points are in the head's own space.
+local hair = require "tools.support.hair"
+local vectors = require "vectors"
+
+local tail = {}
+
+local tie_height = 0.018    -- metres over the head at which a tail is tied, best
+local lift = 0.025          -- metres in front of the head that a spine is drawn in
+local beside = 0.06         -- metres from the spine in which its profiles begin
+local firm = 0.05           -- metres from the tie to the handle of a tightness of 1
+
+local function middle_of(pixels)
+    local x, y = 0, 0
+    for _, pixel in ipairs(pixels) do x, y = x + pixel[1], y + pixel[2] end
+    return x / #pixels, y / #pixels
+end
+
+local function length_of(pixels)
+    local sum = 0
+    for i = 2, #pixels do
+        sum = sum + math.sqrt((pixels[i][1] - pixels[i - 1][1]) ^ 2 + (pixels[i][2] - pixels[i - 1][2]) ^ 2)
+    end
+    return sum
+end
+
+-- Whether a stroke goes round: its ends are near each other for how wide it is.
+local function is_closed(pixels)
+    local low, high = { math.huge, math.huge }, { -math.huge, -math.huge }
+    for _, pixel in ipairs(pixels) do
+        for k = 1, 2 do low[k], high[k] = math.min(low[k], pixel[k]), math.max(high[k], pixel[k]) end
+    end
+    local width = math.max(high[1] - low[1], high[2] - low[2])
+    local apart = length_of{ pixels[1], pixels[#pixels] }
+    return apart < 0.6 * width and length_of(pixels) > 1.7 * width, width
+end
+
+-- How much a stroke runs along a spine, 0 to 1, as both are seen.
+local function along(camera, size, spine, pixels)
+    local sum, whole = 0, 0
+    for i = 2, #pixels do
+        local a, b = pixels[i - 1], pixels[i]
+        local near = hair.nearest(spine, camera, size, b[1], b[2])
+        local x, y = camera:project(spine[near.segment], size)
+        local u, v = camera:project(spine[near.segment + 1], size)
+        local length = math.sqrt((u - x) ^ 2 + (v - y) ^ 2)
+        if length > 0 then
+            sum = sum + ((b[1] - a[1]) * (u - x) + (b[2] - a[2]) * (v - y)) / length
+        end
+        whole = whole + length_of{ a, b }
+    end
+    return whole > 0 and math.abs(sum) / whole or 0
+end
+
+--- Puts what was drawn at a tail where its spine is: all of a section at the depth of the spine in its
+-- middle, each point of a profile at that of the spine beside it.
+function tail.on_spine(ev, one, spine, pixels, is_section)
+    local camera, points = hair.camera(ev.camera, one), {}
+    local fair = camera:stroke{ points = pixels, size = ev.size }.pixels
+    local x, y = middle_of(fair)
+    for i, pixel in ipairs(fair) do
+        local near = hair.nearest(spine, camera, ev.size, is_section and x or pixel[1],
+            is_section and y or pixel[2])
+        local _, _, depth = camera:project(near.point, ev.size)
+        points[i] = camera:unproject({ pixel[1], pixel[2], depth }, ev.size)
+    end
+    return points
+end
+
+--- What a stroke at a tail means: "section", "profile", or nil where it is not at it. An error where it is at
+-- it, but neither.
+function tail.reading(ev, one, spine, pixels)
+    local camera = hair.camera(ev.camera, one)
+    local closed, width = is_closed(pixels)
+    local x, y = middle_of(pixels)
+    local middle = hair.nearest(spine, camera, ev.size, x, y)
+    local first = hair.nearest(spine, camera, ev.size, pixels[1][1], pixels[1][2])
+    if not middle or not first then return nil end
+    if closed and middle.pixels < width / 2 then return "section" end
+    local _, _, depth = camera:project(first.point, ev.size)
+    local start = camera:unproject({ pixels[1][1], pixels[1][2], depth }, ev.size)
+    if hair.distance(spine, start) > beside * one.scalp:scale() then return nil end
+    if along(camera, ev.size, spine, pixels) > 0.7 then return "profile" end
+    error("beside a tail draw all the way round it, for the tie, or along it, for how it swells; "
+        .. "with shift another tail", 0)
+end
+
+--- The spine of a tail from a stroke over the head: from where it is high enough for a tie.
+function tail.spine(ev, one, pixels)
+    local points = hair.camera(ev.camera, one):stroke{ points = pixels, on = one.scalp, lift = lift,
+        size = ev.size }.points
+    local head, heights, highest = one.scalp:head(), {}, 0
+    for i, point in ipairs(points) do
+        heights[i] = head:nearest(point).distance
+        highest = math.max(highest, heights[i])
+    end
+    local wanted, first = math.min(tie_height * one.scalp:scale(), 0.8 * highest), 1
+    while heights[first] < wanted do first = first + 1 end
+    return table.move(points, first, #points, 1, {})
+end
+
+-- From the spine to the middle of a line beside it.
+local function offset(spine, points)
+    local middle, best, nearest = points[math.ceil(#points / 2)], nil, math.huge
+    for _, at in ipairs(spine) do
+        local off = vectors.plus(middle, at, -1)
+        if vectors.length(off) < nearest then best, nearest = off, vectors.length(off) end
+    end
+    return best
+end
+
+--- The profiles of a tail with a new one, which takes the place of that on its side.
+function tail.with_profile(curve, points)
+    local list, spine = curve:profiles(), curve:course()
+    for side = 1, 2 do
+        if #list[side] > 0 and vectors.dot(offset(spine, list[side]), offset(spine, points)) > 0 then
+            list[side] = points
+            return list
+        end
+    end
+    list[#list[1] == 0 and 1 or 2] = points
+    return list
+end
+
+-- Inner and outer radius of the ring in which hair is drawn into a tie, in metres.
+local function ring_of(options)
+    local inner = options.inner * options.radius
+    return inner, math.max(options.outer * options.radius, inner + options.ring)
+end
+
+-- Two unit vectors across the direction of a tie: level, and up as far as can be.
+local function across(one, direction)
+    local level = vectors.cross(direction, one.scalp:up())
+    if vectors.length(level) < 0.1 then level = vectors.cross(direction, one.scalp:front()) end
+    level = vectors.unit(level)
+    return level, vectors.cross(level, direction)
+end
+
+--- The handles of a tail: both radii of its ring, and its tightness.
+function tail.handles(one, curve)
+    local tie, options, metre = curve:tie(), curve:options(), one.scalp:scale()
+    local level, up = across(one, tie.direction)
+    local inner, outer = ring_of(options)
+    local function handle(name, way, length)
+        local at = vectors.plus(tie.center, way, length * metre)
+        return { option = name, base = tie.center, way = way, at = at }
+    end
+    return { handle("inner", level, inner), handle("outer", level, outer),
+        handle("tightness", up, firm * (0.2 + 0.8 * options.tightness)) }
+end
+
+--- Takes a handle of a tail to a length in metres from its base.
+function tail.drag(curve, held, length)
+    local options = curve:options()
+    local inner, outer = ring_of(options)
+    if held.option == "tightness" then
+        return curve:set{ tightness = math.max(0, math.min(1, (length / firm - 0.2) / 0.8)) }
+    elseif held.option == "inner" then
+        inner = math.max(0.5 * options.radius, math.min(length, outer))
+    else
+        outer = math.max(inner, math.min(length, 0.15))
+    end
+    curve:set{ inner = inner / options.radius, outer = outer / options.radius, ring = outer - inner }
+end
+
+-- A circle around a tie.
+local function draw_circle(view, one, tie, radius)
+    local level, up = across(one, tie.direction)
+    local points = {}
+    for i = 1, 40 do
+        local turn, metres = 2 * math.pi * i / 40, radius * one.scalp:scale()
+        local side = vectors.plus(tie.center, level, math.cos(turn) * metres)
+        points[i] = vectors.plus(side, up, math.sin(turn) * metres)
+    end
+    hair.line(view, one, points, { color = "#e8a33d", width = 2, closed = true })
+end
+
+--- Draws the tie of a tail, its ring, and what was drawn for it.
+function tail.draw(view, one, curve)
+    local tie, inner, outer = curve:tie(), ring_of(curve:options())
+    for _, radius in ipairs{ tie.radius, inner, outer } do draw_circle(view, one, tie, radius) end
+    local drawn = curve:profiles()
+    drawn[3] = curve:section()
+    for i, points in ipairs(drawn) do
+        local look = { color = "#d090f0", width = 3, closed = i == 3 }
+        if #points > 0 then hair.line(view, one, points, look) end
+    end
+end
+
+return tail
