@@ -64,6 +64,12 @@ test("options count before what the fidelity says", function()
     local wide = kinds_of((with_curves(style_of{ fidelity = "thesis" }, { ring = 0.04, lead = 0.03 })))
     expect.truthy(wide.gather > 2 * literal.gather)
     local style = with_curves(style_of{ fidelity = "thesis" })
+    local told = style:curves()[3]:options()
+    for _, option in ipairs{ "ring", "free", "grip", "spread", "ragged" } do expect.equal(told[option], 0) end
+    expect.near(told.lead, 0.5 * style:stats().step)
+    expect.equal(told.tail_length, nil)
+    expect.equal(style:curves()[2]:options().ramp, 0)
+    expect.equal(style:curves()[1]:options().clearance, 0)
     style:curves()[3]:set{ ring = 0.04, lead = 0.03 }
     expect.equal(kinds_of(style).gather, wide.gather)
     local function field_of(options)

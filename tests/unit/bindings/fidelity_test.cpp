@@ -72,13 +72,14 @@ Names of_stream() {
 }
 
 Names of_dividing() {
-    const auto& [points, options, gap] = DividingCurve{};
+    const auto& [points, options, gap, hints] = DividingCurve{};
     const auto& [left, right, sigma, height, reach, thickness, separation, wall_width, wall_height,
                  ramp, weight, fidelity] = options;
     const DividingCurve t = DividingCurve::thesis();
     Names names;
     note(names, "points", points != t.points);
     note(names, "gap", gap != t.gap);
+    note(names, "hints", hints != t.hints);
     note(names, "left", left != t.options.left);
     note(names, "right", right != t.options.right);
     note(names, "sigma", sigma != t.options.sigma);
