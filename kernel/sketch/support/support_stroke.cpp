@@ -11,7 +11,7 @@
 namespace lissom {
 namespace {
 
-constexpr double kLeastSeen = 0.3;
+constexpr double kLeastSquare = 0.3;
 
 void require_pixels(std::span<const Vec2> stroke) {
     if (stroke.empty())
@@ -93,7 +93,7 @@ void bridge(std::vector<double>& depths, std::span<const double> lengths) {
 }
 
 void require_seen(const SupportSurface& support, const View& view) {
-    if (support.seen_from(view.camera) >= kLeastSeen) return;
+    if (support.seen_from(view.camera) >= kLeastSquare) return;
     const bool ruled = support.mode() == SupportMode::ruled;
     throw Error(ErrorCode::invalid_argument,
                 std::string("the supporting surface is seen edge-on from here; turn the view ") +

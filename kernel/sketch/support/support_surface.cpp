@@ -14,7 +14,7 @@ namespace lissom {
 namespace {
 
 // Nearer to the line of sight than this, the plane of tangent and line of sight is noise.
-constexpr double kEndOn = 15.0 * kDegree;
+constexpr double kAlongSight = 15.0 * kDegree;
 // Of the radius of the curve's bend: a strip is no wider.
 constexpr double kOfBend = 0.8;
 constexpr int kExtensionRulings = 8;
@@ -96,12 +96,13 @@ std::vector<Vec3> strip_directions(std::span<const Vec3> tangents, std::span<con
                                    const Vec3& otherwise) {
     std::vector<Vec3> across(tangents.size());
     for (std::size_t i = 0; i < tangents.size(); ++i) across[i] = sights[i].cross(tangents[i]);
-    const auto clear = std::find_if(across.begin(), across.end(),
-                                    [](const Vec3& one) { return one.norm() >= std::sin(kEndOn); });
+    const auto clear = std::find_if(across.begin(), across.end(), [](const Vec3& one) {
+        return one.norm() >= std::sin(kAlongSight);
+    });
     Vec3 last = clear != across.end() ? Vec3(clear->normalized()) : otherwise;
     for (Vec3& one : across) {
         if (one.dot(last) < 0.0) one = -one;
-        const double sine = one.norm(), share = std::min(1.0, sine / std::sin(kEndOn));
+        const double sine = one.norm(), share = std::min(1.0, sine / std::sin(kAlongSight));
         const Vec3 own = sine > 0.0 ? Vec3(one / sine) : last;
         const Vec3 blend = share * own + (1.0 - share) * last;
         last = one = blend.norm() > 0.0 ? Vec3(blend.normalized()) : last;
@@ -114,7 +115,7 @@ double end_on_share(std::span<const double> lengths, std::span<const Vec3> tange
                     std::span<const Vec3> sights) {
     double sum = 0.0;
     for (std::size_t i = 0; i < lengths.size(); ++i) {
-        if (tangents[i].cross(sights[i]).norm() >= std::sin(kEndOn)) continue;
+        if (tangents[i].cross(sights[i]).norm() >= std::sin(kAlongSight)) continue;
         const double before = i > 0 ? lengths[i - 1] : lengths[i];
         const double after = i + 1 < lengths.size() ? lengths[i + 1] : lengths[i];
         sum += 0.5 * (after - before);

@@ -173,6 +173,12 @@ function hair.draw(view, one, chosen)
     for _, curve in ipairs(one.style:curves()) do
         local color = curve:enabled() and colors[curve:kind()] or "#909090"
         hair.line(view, one, curve:course(), { color = color, width = curve == chosen and 5 or 2 })
+        local pixels = {}                       -- and over the hair that hides it
+        for i, point in ipairs(curve:course()) do
+            local x, y, depth = view.camera:project(matrices.point(one.place, point), view.size)
+            if depth > 0 and pixels then pixels[i] = { x, y } else pixels = nil end
+        end
+        if pixels then view:outline{ pixels = pixels, color = color, width = curve == chosen and 3 or 1 } end
     end
 end
 
