@@ -66,16 +66,6 @@ std::vector<double> carried_depths(std::span<const Seen> seen) {
     return depths;
 }
 
-std::vector<Vec3> in_world(std::span<const Vec2> stroke, std::span<const double> depths,
-                           const View& view) {
-    std::vector<Vec3> points;
-    for (std::size_t i = 0; i < stroke.size(); ++i) {
-        points.push_back(
-            view.camera.unproject({stroke[i].x(), stroke[i].y(), depths[i]}, view.size));
-    }
-    return points;
-}
-
 // ---- the envelope
 
 // The pixel within reach, nearest first in rings, where the surface may be drawn on.
@@ -183,6 +173,16 @@ double risen(double length, double rise) {
 
 }  // namespace
 
+std::vector<Vec3> at_depths(std::span<const Vec2> stroke, std::span<const double> depths,
+                            const View& view) {
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < stroke.size(); ++i) {
+        points.push_back(
+            view.camera.unproject({stroke[i].x(), stroke[i].y(), depths[i]}, view.size));
+    }
+    return points;
+}
+
 std::vector<Vec3> stroke_on_plane(std::span<const Vec2> stroke, const View& view, const Vec3& point,
                                   const Vec3& normal) {
     require_points(stroke);
@@ -215,7 +215,7 @@ std::vector<Vec3> stroke_on_surface(std::span<const Vec2> stroke, const View& vi
     if (!seen.front().counts) refuse_start(seen.front());
     std::vector<double> depths = carried_depths(seen);
     for (double& depth : depths) depth -= lift;
-    return in_world(stroke, depths, view);
+    return at_depths(stroke, depths, view);
 }
 
 std::vector<Vec3> stroke_over_head(std::span<const Vec2> drawn, const View& view,
@@ -249,7 +249,7 @@ std::vector<Vec3> stroke_over_head(std::span<const Vec2> drawn, const View& view
             depths[i] = cleared(depths[i], stroke[i], view, head.tree, clearance(i));
         }
     }
-    return in_world(stroke, depths, view);
+    return at_depths(stroke, depths, view);
 }
 
 }  // namespace lissom

@@ -12,6 +12,10 @@
 
 namespace lissom {
 
+/// The points of a stroke at these depths along the view, one for each.
+std::vector<Vec3> at_depths(std::span<const Vec2> stroke, std::span<const double> depths,
+                            const View& view);
+
 /// On a plane through `point`. Errors: not_finite; invalid_argument for a normal without length,
 /// or naming the place of the first point whose ray does not meet the plane in front of the camera.
 std::vector<Vec3> stroke_on_plane(std::span<const Vec2> stroke, const View& view, const Vec3& point,

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "kernel/core/error.h"
+#include "kernel/sketch/stroke_depth.h"
 
 namespace lissom {
 namespace {
@@ -101,16 +102,6 @@ void require_seen(const SupportSurface& support, const View& view) {
                            : "towards the one that it was made for, or take the ruled surface"));
 }
 
-std::vector<Vec3> unprojected(std::span<const Vec2> stroke, std::span<const double> depths,
-                              const View& view) {
-    std::vector<Vec3> points;
-    for (std::size_t i = 0; i < stroke.size(); ++i) {
-        points.push_back(
-            view.camera.unproject({stroke[i].x(), stroke[i].y(), depths[i]}, view.size));
-    }
-    return points;
-}
-
 // Depth of the place of a projected curve that is nearest to a pixel.
 double depth_beside(const Vec2& pixel, std::span<const Vec3> curve) {
     double nearest = std::numeric_limits<double>::infinity(), depth = curve.front().z();
@@ -148,7 +139,7 @@ SupportStroke stroke_on_support(std::span<const Vec2> stroke, const View& view,
     extrapolate(depths, lengths, begin, -1, options);
     extrapolate(depths, lengths, end, 1, options);
     bridge(depths, lengths);
-    return {unprojected(stroke, depths, view), beside};
+    return {at_depths(stroke, depths, view), beside};
 }
 
 std::vector<Vec3> stroke_beside_curve(std::span<const Vec2> stroke, const View& view,
@@ -165,7 +156,7 @@ std::vector<Vec3> stroke_beside_curve(std::span<const Vec2> stroke, const View& 
     if (seen.size() < 2) throw Error(ErrorCode::invalid_argument, "a curve needs two points");
     std::vector<double> depths;
     for (const Vec2& pixel : stroke) depths.push_back(depth_beside(pixel, seen));
-    return unprojected(stroke, depths, view);
+    return at_depths(stroke, depths, view);
 }
 
 }  // namespace lissom
