@@ -325,8 +325,8 @@ bool Hairstyle::State::over_scalp(const Vec3& point) const {
 
 std::vector<GridConstraint> Hairstyle::State::scalp_step(const ScalpStepOptions& wanted) const {
     ScalpStepOptions all = wanted;
-    all.where = [&](const Vec3& point) {
-        return over_scalp(point) && (!wanted.where || wanted.where(point));
+    all.scalp = [&](const Vec3& point) {
+        return over_scalp(point) && (!wanted.scalp || wanted.scalp(point));
     };
     std::vector<GridConstraint> step = lissom::scalp_step(field.field(), all);
     for (GridConstraint& one : step) one.tag = static_cast<int>(ConstraintKind::scalp);

@@ -500,7 +500,8 @@ std::vector<Function> field_methods() {
         {.name = "avoid_scalp",
          .body = avoid_scalp,
          .summary = "Turns the field along the head wherever it points into it (section 4.6 "
-                    "of the thesis). For the end of a design: it stays as it is until it is "
+                    "of the thesis), also where hair only passes, as on the neck. For the end of a "
+                    "design: it stays as it is until it is "
                     "done again. Hair that grows with `avoid` stays outside anyway.",
          .options = {number("magnitude",
                             "Length of the vectors that do so: small, so that they "

@@ -1564,7 +1564,7 @@ function Hairstyle:field(point) end
 ---@field magnitude? number Length of the vectors that do so: small, so that they change little elsewhere. Default: 0.3.
 ---@field band? number Grid points nearer to the head than this, on either side. In metres. Default: a grid step.
 
----Turns the field along the head wherever it points into it (section 4.6 of the thesis). For the end of a design: it stays as it is until it is done again. Hair that grows with `avoid` stays outside anyway.
+---Turns the field along the head wherever it points into it (section 4.6 of the thesis), also where hair only passes, as on the neck. For the end of a design: it stays as it is until it is done again. Hair that grows with `avoid` stays outside anyway.
 ---@param options? lissom.Hairstyle.Avoid_scalpOptions
 ---@return lissom.Hairstyle style # The hairstyle itself.
 ---@return string? message # What is wrong, where the first result is nil.

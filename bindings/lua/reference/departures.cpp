@@ -106,7 +106,8 @@ std::vector<Departure> growth_departures() {
             {"4.6", "Density of roots", "thins out at the hairline", "even in the angles",
              "a scalp with `softness = 0`"},
             {"4.6", "Where `hairstyle:avoid_scalp` adds vectors",
-             "where hair grows, but for points that curves constrain",
+             "where hair grows, and elsewhere on the head where the field points into it, but for "
+             "points that curves constrain",
              "all grid points near the scalp", ""}};
 }
 

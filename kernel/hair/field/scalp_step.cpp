@@ -69,9 +69,12 @@ std::vector<GridConstraint> scalp_step(const HairField& field, const ScalpStepOp
         const double distance = field.distances().values()[point];
         if (!(std::abs(distance) < band) || constrained[point]) continue;
         const GridPoint at = field.grid().size().point(point);
-        if (options.where && !options.where(layout.point(at.x, at.y, at.z))) continue;
+        const Vec3 place = layout.point(at.x, at.y, at.z);
+        if (options.where && !options.where(place)) continue;
         const Vec3 normal = outward(field.distances(), {at.x, at.y, at.z});
-        const Vec3 direction = without_inward({quad[0], quad[1], quad[2]}, normal);
+        const Vec3 value(quad[0], quad[1], quad[2]);
+        if (options.scalp && !(value.dot(normal) < 0.0) && !options.scalp(place)) continue;
+        const Vec3 direction = without_inward(value, normal);
         if (!(direction.norm() > 0.0)) continue;
         result.push_back({point, options.magnitude * direction.normalized(), options.weight});
     }

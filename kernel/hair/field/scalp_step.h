@@ -21,9 +21,13 @@ struct ScalpStepOptions {
     double magnitude = 0.3;
     /// omega of equation (4.2).
     double weight = 100.0;
-    /// Restricts the step to grid points where this is true, for instance to where hair grows; it
-    /// gets their coordinates. Empty for all that are near the surface.
+    /// Restricts the step to grid points where this is true; it gets their coordinates. Empty for
+    /// all that are near the surface.
     std::function<bool(const Vec3&)> where = {};
+    /// Whether hair grows at a place: there all grid points are constrained, elsewhere (face, neck,
+    /// shoulders) those whose direction points inward, so that hair that flows there stays outside
+    /// and the rest of the field keeps its freedom. Empty: all, everywhere.
+    std::function<bool(const Vec3&)> scalp = {};
 };
 
 /// Constraints for all grid points near the scalp, ascending by point: the direction of the field

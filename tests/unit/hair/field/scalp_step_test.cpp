@@ -87,6 +87,24 @@ TEST_CASE("scalp step: it keeps directions, its magnitude, and points that curve
     }
 }
 
+TEST_CASE("scalp step: off the scalp only points whose direction points inward") {
+    const Groomed& scene = test::groomed();
+    const double middle = scene.scalp.frame().center.x();
+    ScalpStepOptions options;
+    const std::size_t all = scalp_step(scene.field, options).size();
+    options.scalp = [&](const Vec3& p) { return p.x() > middle; };
+    const std::vector<GridConstraint> step = scalp_step(scene.field, options);
+    Index off = 0;
+    for (const GridConstraint& c : step) {
+        const GridPoint at = scene.field.grid().size().point(c.point);
+        if (scene.field.layout().point(at.x, at.y, at.z).x() > middle) continue;
+        ++off;
+        CHECK(inwardness(scene.field, c.point) > 0.0);
+    }
+    CHECK(off > 20);
+    CHECK(step.size() + 20 < all);
+}
+
 TEST_CASE("scalp step: nothing without a field, and bad options") {
     const Groomed& scene = test::groomed();
     HairField empty(DistanceGrid(scene.head, scene.field.layout()));
