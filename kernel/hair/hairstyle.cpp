@@ -297,6 +297,23 @@ std::vector<StyleConstraint> Hairstyle::constraints() const {
     return result;
 }
 
+std::span<const MaskStroke> Hairstyle::masks() const {
+    return inputs().masks;
+}
+
+void Hairstyle::add_mask(MaskStroke stroke) {
+    require_mask(stroke);
+    StyleInputs wanted = inputs();
+    wanted.masks.push_back(std::move(stroke));
+    state_->accept(std::move(wanted));
+}
+
+void Hairstyle::clear_masks(MaskKind kind) {
+    StyleInputs wanted = inputs();
+    std::erase_if(wanted.masks, [&](const MaskStroke& one) { return one.kind == kind; });
+    state_->accept(std::move(wanted));
+}
+
 const StyleInputs& Hairstyle::inputs() const {
     return state_->style.inputs;
 }
@@ -394,8 +411,13 @@ GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands, const
     }
     return with_memory_errors([&] {
         solve(context);
-        update_roots(s.roots, {s.original, s.head, *s.scalp}, options.roots, s.style, context);
+        RootOptions roots = options.roots;
+        std::copy_if(inputs().masks.begin(), inputs().masks.end(), std::back_inserter(roots.masks),
+                     [](const MaskStroke& one) { return one.kind == MaskKind::density; });
+        update_roots(s.roots, {s.original, s.head, *s.scalp}, roots, s.style, context);
         GrowthOptions growth = options.growth;
+        std::copy_if(inputs().masks.begin(), inputs().masks.end(), std::back_inserter(growth.masks),
+                     [](const MaskStroke& one) { return one.kind == MaskKind::length; });
         growth.placement = placement_of(*s.scalp);
         std::vector<std::string> names;
         growth.ties = s.ties(names);

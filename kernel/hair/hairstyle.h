@@ -132,6 +132,14 @@ class Hairstyle {
     /// order of the grid's points.
     std::vector<StyleConstraint> constraints() const;
 
+    /// What was painted on the scalp, in its order: its hair grows with the lengths and the density
+    /// that these say, besides those of HairOptions.
+    std::span<const MaskStroke> masks() const;
+    /// Paints a stroke over the others. Errors: as require_mask.
+    void add_mask(MaskStroke stroke);
+    /// Takes away what was painted of one kind.
+    void clear_masks(MaskKind kind);
+
     /// All that the style is made of: a copy given to `restore` later is an undo.
     const StyleInputs& inputs() const;
     /// Takes the inputs of a style on this head with the same options. Ids are not given again.

@@ -49,6 +49,7 @@ void require_inputs(const StyleInputs& inputs, const GridSize& size) {
                 "the curves of a hairstyle need ids above 0, each of its own");
     }
     GridConstraints(size).set(0, inputs.scalp_step);
+    for (const MaskStroke& mask : inputs.masks) require_mask(mask);
 }
 
 }  // namespace lissom

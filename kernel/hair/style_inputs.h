@@ -6,6 +6,7 @@
 
 #include "kernel/core/index.h"
 #include "kernel/hair/curve/style_curve.h"
+#include "kernel/hair/scalp/mask_stroke.h"
 #include "kernel/solve/grid/grid_constraints.h"
 #include "kernel/solve/grid/grid_size.h"
 
@@ -38,6 +39,8 @@ struct StyleInputs {
     std::vector<GridConstraint> scalp_step;
     /// As PlacedCurve::edit.
     std::int64_t scalp_edit = 0;
+    /// What was painted on the scalp, in its order.
+    std::vector<MaskStroke> masks;
 
     bool operator==(const StyleInputs&) const = default;
 };

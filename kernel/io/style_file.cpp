@@ -189,7 +189,8 @@ class Reader {
 
     const StyleJson& object_;
     std::string where_;
-    std::set<std::string> known_{"kind", "format", "version", "curves", "volume", "fidelity"};
+    std::set<std::string> known_{"kind",  "format", "version", "curves",
+                                 "masks", "volume", "fidelity"};
 };
 
 template <typename Archive>
@@ -246,6 +247,15 @@ void describe(Archive& a, StyleCurve& curve) {
     a.text("name", curve.name);
     a.flag("enabled", curve.enabled, true);
     std::visit([&](auto& shape) { describe(a, shape); }, curve.shape);
+}
+
+template <typename Archive>
+void describe(Archive& a, MaskStroke& mask) {
+    a.choice("kind", mask.kind, {"length", "density"});
+    a.number("value", mask.value);
+    a.number("radius", mask.radius);
+    a.number("softness", mask.softness);
+    a.points("points", mask.points);
 }
 
 template <typename Archive>
@@ -347,6 +357,18 @@ void require_version(const StyleJson& json) {
     }
 }
 
+std::vector<MaskStroke> masks_from(const StyleJson& json) {
+    const StyleJson list = json.value("masks", StyleJson::array());
+    if (!list.is_array()) refuse("style", "\"masks\" must be a list");
+    std::vector<MaskStroke> masks;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        Reader reader(list[i], "mask " + std::to_string(i + 1));
+        describe(reader, masks.emplace_back());
+        reader.finish();
+    }
+    return masks;
+}
+
 StyleContent content_from(const StyleJson& json) {
     if (!json.is_object()) refuse("style", "an object {...} is expected");
     require_version(json);
@@ -365,6 +387,7 @@ StyleContent content_from(const StyleJson& json) {
         content.curves.push_back(
             curve_from(curves[i], content.options.fidelity, "curve " + std::to_string(i + 1)));
     }
+    content.masks = masks_from(json);
     return content;
 }
 
@@ -389,6 +412,10 @@ std::string text_of(const StyleContent& content) {
         describe(described, curve);
         curves.push_back(std::move(one));
     }
+    for (MaskStroke& mask : copy.masks) {
+        Writer writer_of_mask(json["masks"].emplace_back(StyleJson::object()));
+        describe(writer_of_mask, mask);
+    }
     std::string text;
     append_json(text, json, "");
     return text + "\n";
@@ -398,16 +425,23 @@ std::string text_of(const StyleContent& content) {
 
 StyleContent content_of(const Hairstyle& style, std::string head) {
     return with_memory_errors([&] {
-        StyleContent content{std::move(head), style.options(), {}, style.avoids_scalp()};
-        for (const CurveId id : style.curves()) content.curves.push_back(style.curve(id));
+        StyleContent content = content_of(style.inputs(), style.options());
+        content.head = std::move(head);
         return content;
     });
+}
+
+StyleContent content_of(const StyleInputs& inputs, const HairstyleOptions& options) {
+    StyleContent content{{}, options, {}, !inputs.scalp_step.empty(), inputs.masks};
+    for (const PlacedCurve& placed : inputs.curves) content.curves.push_back(placed.curve);
+    return content;
 }
 
 Hairstyle make_style(const StyleContent& content, const Mesh& head,
                      std::shared_ptr<const Scalp> scalp, const Context& context) {
     Hairstyle style(head, std::move(scalp), content.options, context);
     style.add_all(content.curves, context);
+    for (const MaskStroke& mask : content.masks) style.add_mask(mask);
     if (content.avoids_scalp) style.avoid_scalp({}, context);
     return style;
 }

@@ -44,10 +44,14 @@ struct StyleContent {
     std::vector<StyleCurve> curves;
     /// Whether the scalp step is to be taken when the curves are there (Hairstyle::avoid_scalp).
     bool avoids_scalp = false;
+    /// What was painted on the scalp.
+    std::vector<MaskStroke> masks = {};
 };
 
 /// The content of a hairstyle. Errors: memory_limit.
 StyleContent content_of(const Hairstyle& style, std::string head = {});
+/// The same of what one is made of.
+StyleContent content_of(const StyleInputs& inputs, const HairstyleOptions& options);
 
 /// A hairstyle of this content on a head. Errors: as Hairstyle's constructor and add, naming the
 /// curve.

@@ -11,6 +11,9 @@ namespace {
 
 std::size_t size_in_bytes(const StyleInputs& inputs) {
     std::size_t bytes = inputs.scalp_step.size() * sizeof(GridConstraint);
+    for (const MaskStroke& mask : inputs.masks) {
+        bytes += sizeof mask + mask.points.size() * sizeof(Vec3);
+    }
     for (const PlacedCurve& placed : inputs.curves) {
         bytes += sizeof placed + drawn_points(placed.curve).size() * sizeof(Vec3);
         const auto* dividing = std::get_if<DividingCurve>(&placed.curve.shape);
@@ -42,10 +45,8 @@ void HairstyleContent::list_kept(std::vector<const KeptBytes*>& list) const {
 
 // What a style file says, and what it leaves out: the place on the head, and the scalp step.
 std::uint64_t HairstyleContent::compute_hash() const {
-    StyleContent content{{}, options_, {}, !inputs().scalp_step.empty()};
-    for (const PlacedCurve& placed : inputs().curves) content.curves.push_back(placed.curve);
     Hasher hasher;
-    hasher.add(encode_style(content));
+    hasher.add(encode_style(content_of(inputs(), options_)));
     add_frame(hasher, *scalp_);
     for (const GridConstraint& constraint : inputs().scalp_step) {
         hasher.add(constraint.point);

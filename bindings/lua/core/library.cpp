@@ -48,6 +48,12 @@ Type whole_curve_type() {
     return curve;
 }
 
+Type whole_hairstyle_type() {
+    Type style = hairstyle_type();
+    style.methods.push_back(sketch_method_of_hairstyle());
+    return style;
+}
+
 }  // namespace
 
 Library kernel_library() {
@@ -73,11 +79,12 @@ Library kernel_library() {
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
     library.functions.push_back(failures_function());
-    library.types = {whole_mesh_type(),  region_type(),    whole_path_type(),   buffer_type(),
-                     deformation_type(), handle_type(),    merging_type(),      provenance_type(),
-                     scalp_type(),       hairstyle_type(), whole_curve_type(),  strands_type(),
-                     scene_type(),       polyline_type(),  whole_camera_type(), gizmo_type(),
-                     support_type(),     parameters_type()};
+    library.types = {whole_mesh_type(),      region_type(),      whole_path_type(),
+                     buffer_type(),          deformation_type(), handle_type(),
+                     merging_type(),         provenance_type(),  scalp_type(),
+                     whole_hairstyle_type(), whole_curve_type(), strands_type(),
+                     scene_type(),           polyline_type(),    whole_camera_type(),
+                     gizmo_type(),           support_type(),     parameters_type()};
     library.records = kernel_records();
     add(library.records, cut_records());
     add(library.records, merge_records());
@@ -89,6 +96,7 @@ Library kernel_library() {
     add(library.records, stroke_records());
     add(library.records, support_records());
     add(library.records, gizmo_records());
+    add(library.records, sketch_records());
     add(library.records, tool_records());
     return library;
 }

@@ -71,6 +71,8 @@ Type gizmo_type();
 std::vector<Function> gizmo_functions();
 std::vector<Record> gizmo_records();
 
+Function sketch_method_of_hairstyle();
+std::vector<Record> sketch_records();
 std::vector<Function> tool_functions();
 std::vector<Record> tool_records();
 

@@ -77,6 +77,10 @@ void forget_hints(const Call& call, const Hairstyle& style, CurveId id, StyleCur
 std::vector<Function> tilt_methods();
 std::vector<Function> option_methods();
 
+/// Methods of hairstyles: masks, the comb and sketching, and the records that they give.
+std::vector<Function> style_stroke_methods();
+std::vector<Record> style_stroke_records();
+
 /// Start of examples: kStyle, and a parting.
 extern const std::string kParting;
 

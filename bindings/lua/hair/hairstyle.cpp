@@ -739,8 +739,8 @@ Type hairstyle_type() {
             "metres of an average head, so that a style fits any head; points are in "
             "mesh units.",
         .close = [](void* object) { static_cast<HairstyleObject*>(object)->content.reset(); }};
-    for (const auto& list :
-         {plain_methods(), adding_methods(), field_methods(), growth_methods()}) {
+    for (const auto& list : {plain_methods(), adding_methods(), field_methods(), growth_methods(),
+                             style_stroke_methods()}) {
         type.methods.insert(type.methods.end(), list.begin(), list.end());
     }
     type.operators = {{"__tostring", style_text, "tostring(style)", "its size"}};
@@ -748,7 +748,7 @@ Type hairstyle_type() {
 }
 
 std::vector<Record> hairstyle_records() {
-    return {
+    std::vector<Record> records{
         {"lissom.StyleConstraint",
          "A vector that a hairstyle gives its field at a grid point.",
          {{"number[]", "point", "{x, y, z}, in mesh units."},
@@ -770,6 +770,8 @@ std::vector<Record> hairstyle_records() {
           {"number", "step",
            "Distance of neighbouring grid points, in metres of an average "
            "head."}}}};
+    for (Record& record : style_stroke_records()) records.push_back(std::move(record));
+    return records;
 }
 
 std::vector<Function> hairstyle_functions() {

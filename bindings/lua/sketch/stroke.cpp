@@ -2,9 +2,11 @@
 #include "kernel/sketch/stroke.h"
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/hair/hair_object.h"
+#include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/sketch/support_object.h"
+#include "kernel/sketch/stroke_cloud.h"
 #include "kernel/sketch/stroke_depth.h"
 #include "kernel/sketch/support/support_stroke.h"
 
@@ -102,6 +104,13 @@ std::vector<Vec3> placed(const Call& call, DrawnStroke& drawn, const View& view)
     if (call.is_object<CurveObject>("on")) {
         return beside_curve(*call.object<CurveObject>("on"), stroke, view);
     }
+    if (call.is_object<StrandsObject>("on")) {
+        CloudStrokeOptions options;
+        options.radius *= call.number("scale");
+        return stroke_before_cloud(stroke.points, view,
+                                   call.object<StrandsObject>("on")->strands.points(), options,
+                                   call.context());
+    }
     if (call.is_object<ScalpObject>("on")) {
         return over_scalp(call, *call.object<ScalpObject>("on")->scalp, stroke, view);
     }
@@ -172,6 +181,8 @@ Function stroke_method_of_camera() {
              numbers("pressures", "0 to 1, one for each point.").optional(),
              either("on",
                     {object("scalp", ScalpObject::kTypeName, "In front of a head, from its hair."),
+                     object("strands", StrandsObject::kTypeName,
+                            "In front of hair, but for a few strands that stand out."),
                      object("mesh", MeshObject::kTypeName,
                             "On a surface, and beyond it as deep as it was left."),
                      object("support", SupportObject::kTypeName,

@@ -7,7 +7,8 @@ local changing = {
     ["lissom.Handle"] = set_of{ "remove" },
     ["lissom.Scene"] = set_of{ "add" },
     ["lissom.Mesh"] = set_of{ "fill", "remove_region", "remove_attribute", "add_attribute" },
-    ["lissom.Hairstyle"] = set_of{ "stream", "dividing", "ponytail", "solve", "grow" },
+    ["lissom.Hairstyle"] = set_of{ "stream", "dividing", "ponytail", "solve", "grow",
+        "comb" },
     ["lissom.Curve"] = set_of{ "remove", "cut", "concatenate", "insert", "add_hint" },
 }
 -- What a hand needs and a journal does not.

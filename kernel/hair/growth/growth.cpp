@@ -82,8 +82,20 @@ void require_options(const GrowthOptions& o, Index head_vertices) {
             "a length map needs one factor for every vertex of the head");
     require(std::all_of(o.length_map.begin(), o.length_map.end(), is_length),
             "factors of a length map must be finite and not negative");
+    for (const MaskStroke& mask : o.masks) require_mask(mask);
     for (const HairTie& tie : o.ties) require_tie(tie);
     for (const HairCut& cut : o.cuts) require_cut(cut);
+}
+
+// The greatest factor of a length that the options can give.
+double greatest_factor(const GrowthOptions& o) {
+    double painted = 1.0;
+    for (const MaskStroke& mask : o.masks) {
+        if (mask.kind == MaskKind::length) painted = std::max(painted, mask.value);
+    }
+    return painted * (o.length_map.empty()
+                          ? 1.0
+                          : *std::max_element(o.length_map.begin(), o.length_map.end()));
 }
 
 // Lengths that no hair in this grid can have.
@@ -97,8 +109,7 @@ void require_fitting_lengths(const GrowthOptions& o, const GridLayout& layout) {
                         " at most, twice the diagonal of the volume of the hairstyle; make it "
                         "shorter, or enlarge the volume");
     };
-    const double factor =
-        o.length_map.empty() ? 1.0 : *std::max_element(o.length_map.begin(), o.length_map.end());
+    const double factor = greatest_factor(o);
     require_fitting(o.length * factor,
                     factor == 1.0 ? "hair" : "hair where its factor is greatest");
     for (const HairTie& tie : o.ties) {
@@ -346,7 +357,7 @@ GrowthReport StrandGrower::grow(const HairField& field, const GrowthOptions& opt
     require_fitting_lengths(options, field.layout());
     StrandCollector collector(size(), strands, context);
     roots.set_seed(options.seed, context);
-    roots.set_length_map(options.length_map, context);
+    roots.set_factors({options.length_map, options.masks}, context);
     if (!options.ties.empty()) collector.report.ties.resize(size());
 
     const GrowthRules rules = rules_of(field.layout(), options);

@@ -14,6 +14,7 @@
 #include "kernel/core/index.h"
 #include "kernel/hair/field/grid_layout.h"
 #include "kernel/hair/field/hair_field.h"
+#include "kernel/hair/scalp/mask_stroke.h"
 #include "kernel/hair/scalp/roots.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/mesh/mesh.h"
@@ -63,6 +64,8 @@ struct GrowthOptions {
     /// Factors of the length for every vertex of the head, interpolated at roots; finite and not
     /// negative. Empty for none.
     std::vector<double> length_map = {};
+    /// Multiply these factors, those of the length alone; in the coordinates of the field.
+    std::vector<MaskStroke> masks = {};
     /// l of section 4.6, in steps of the grid, kLeastSegment to kGreatestSegment: a segment is
     /// l v(p) long, where the length of v counts as 1 at most.
     double segment = 0.5;

@@ -121,23 +121,30 @@ void GrowthRoots::set_seed(std::uint64_t seed, const Context& context) {
     seed_ = seed;
 }
 
-void GrowthRoots::set_length_map(const std::vector<double>& map, const Context& context) {
-    if (map_ == map) return;
-    map_.clear();
+double GrowthRoots::mapped(Index i, const std::vector<double>& map) const {
+    double factor = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        factor += barycentrics_[at(i)][k] * map[at(triangles_[at(i)][k])];
+    }
+    return factor;
+}
+
+void GrowthRoots::set_factors(LengthFactors wanted, const Context& context) {
+    if (origin_ == wanted) return;
+    origin_ = {};
     factors_.clear();
-    if (map.empty()) return;
+    const ScalpMask mask(wanted.masks, MaskKind::length);
+    if (wanted.map.empty() && mask.is_empty()) return;
     std::vector<float> factors(numbers_.size());
     context.parallel_for(0, size(), kRootGrain, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
-            double factor = 0.0;
-            for (int k = 0; k < 3; ++k) {
-                factor += barycentrics_[at(i)][k] * map[at(triangles_[at(i)][k])];
-            }
+            double factor = wanted.map.empty() ? 1.0 : mapped(i, wanted.map);
+            if (!mask.is_empty()) factor *= mask.at(position(i));
             factors[at(i)] = factor;
         }
     });
     factors_ = std::move(factors);
-    map_ = map;
+    origin_ = std::move(wanted);
 }
 
 }  // namespace lissom

@@ -30,6 +30,15 @@ struct StrandChance {
     float tail;
 };
 
+/// What the factors of lengths follow from.
+struct LengthFactors {
+    /// For every vertex of the head; empty for none.
+    std::vector<double> map;
+    std::vector<MaskStroke> masks;
+
+    bool operator==(const LengthFactors&) const = default;
+};
+
 /// All roots in the order of growth, which keeps the waves: entry i is root number[i].
 class GrowthRoots {
   public:
@@ -50,10 +59,11 @@ class GrowthRoots {
 
     /// Draws the random numbers, where the seed is another than before.
     void set_seed(std::uint64_t seed, const Context& context);
-    /// Interpolates the factors, where the map is another than before.
-    void set_length_map(const std::vector<double>& map, const Context& context);
+    /// Works the factors out, where they follow from something else than before.
+    void set_factors(LengthFactors wanted, const Context& context);
 
   private:
+    double mapped(Index i, const std::vector<double>& map) const;
     void put_in_order(std::span<const Root> roots, const Context& context);
 
     Index head_vertices_ = 0;
@@ -67,7 +77,7 @@ class GrowthRoots {
 
     std::optional<std::uint64_t> seed_;
     std::vector<StrandChance> chances_;
-    std::vector<double> map_;
+    LengthFactors origin_;
     std::vector<float> factors_;
 };
 

@@ -45,6 +45,7 @@ RootSurface::RootSurface(const Mesh& head, const Scalp& scalp, const RootOptions
     : head_(head),
       scalp_(scalp),
       density_(relative_density(head, scalp, options.density)),
+      mask_(options.masks, MaskKind::density),
       triangles_(triangulate_faces(head.topology(), head.positions(), scalp.root_faces())),
       on_scalp_(head.face_count(), 0) {
     for (const Index f : scalp.root_faces()) on_scalp_[f] = 1;
@@ -132,6 +133,7 @@ double RootSurface::density_at(Index face, const Triangle& triangle,
         density += barycentric[corner] * density_[triangle[corner]];
         position += barycentric[corner] * head_.position(triangle[corner]);
     }
+    if (!mask_.is_empty()) density *= mask_.at(scalp_.to_metres(position));
     return density * hairline_thinning(scalp_.margin_at(triangle, barycentric, position));
 }
 

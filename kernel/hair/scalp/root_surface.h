@@ -7,6 +7,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/hair/scalp/mask_stroke.h"
 #include "kernel/hair/scalp/roots.h"
 #include "kernel/hair/scalp/scalp.h"
 #include "kernel/mesh/measure/triangulation.h"
@@ -69,6 +70,7 @@ class RootSurface {
     const Scalp& scalp_;
     /// For every vertex, relative to the largest on the scalp.
     std::vector<double> density_;
+    ScalpMask mask_;
     Triangulation triangles_;
     std::vector<char> on_scalp_;
     /// Walker's alias table of the triangles' areas.

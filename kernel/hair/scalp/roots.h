@@ -8,6 +8,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/hair/scalp/mask_stroke.h"
 #include "kernel/hair/scalp/scalp.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
@@ -37,6 +38,8 @@ struct RootOptions {
     /// Relative density for every vertex of the head, finite and not negative; even where absent.
     /// Multiplied by the thinning at the hairline. Only ratios count.
     std::vector<double> density = {};
+    /// Multiply the density, those of the density alone.
+    std::vector<MaskStroke> masks = {};
 
     bool operator==(const RootOptions&) const = default;
 };

@@ -132,13 +132,15 @@ StyleContent style_content_of(const HairstyleRecord& record) {
     return content;
 }
 
-StyleInputs inputs_of(const HairstyleRecord& record, std::vector<StyleCurve> curves) {
+StyleInputs inputs_of(const HairstyleRecord& record, StyleContent content) {
+    std::vector<StyleCurve>& curves = content.curves;
     const std::size_t steps = record.step_points.size();
     require_valid(record.ids.size() == curves.size() && record.edits.size() == curves.size() &&
                       record.step_values.size() == steps && record.step_weights.size() == steps &&
                       record.step_tags.size() == steps,
                   "the curves of a hairstyle of the scene do not fit their numbers");
     StyleInputs inputs;
+    inputs.masks = std::move(content.masks);
     for (std::size_t i = 0; i < curves.size(); ++i) {
         inputs.curves.push_back({{record.ids[i]}, std::move(curves[i]), record.edits[i]});
     }
@@ -275,9 +277,8 @@ std::pair<DeformSetup, std::shared_ptr<const ShownResult>> setup_of(DeformRecord
 
 HairstyleRecord record_of(const Hairstyle& style, const StyleInputs& inputs) {
     HairstyleRecord record;
-    StyleContent content{{}, style.options(), {}, !inputs.scalp_step.empty()};
+    const StyleContent content = content_of(inputs, style.options());
     for (const PlacedCurve& placed : inputs.curves) {
-        content.curves.push_back(placed.curve);
         record.ids.push_back(placed.id.value);
         record.edits.push_back(placed.edit);
     }
@@ -297,13 +298,13 @@ HairstyleRecord record_of(const Hairstyle& style, const StyleInputs& inputs) {
 }
 
 StyleInputs inputs_of(const HairstyleRecord& record) {
-    return inputs_of(record, style_content_of(record).curves);
+    return inputs_of(record, style_content_of(record));
 }
 
 Hairstyle hairstyle_of(const HairstyleRecord& record, const Mesh& head, const Context& context) {
     StyleContent content = style_content_of(record);
     Hairstyle style(head, scalp_of(record.scalp, head, context), content.options, context);
-    style.restore(inputs_of(record, std::move(content.curves)));
+    style.restore(inputs_of(record, std::move(content)));
     return style;
 }
 

@@ -1,0 +1,90 @@
+-- ---- Sketching a style: strokes of the tools without a window.
+
+local stroke_fields = set_of{ "tool", "points", "key", "camera", "params", "shift", "ctrl", "alt" }
+
+local function refuse_stroke(i, text) error(string.format("stroke %d: %s", i, text), 0) end
+
+local function check_stroke(i, stroke)
+    if type(stroke) ~= "table" then refuse_stroke(i, "a stroke is a table") end
+    for key in pairs(stroke) do
+        if not stroke_fields[key] then refuse_stroke(i, "there is no field '" .. tostring(key) .. "'") end
+    end
+    local points = stroke.points
+    if (points ~= nil) == (stroke.key ~= nil) then refuse_stroke(i, "give its points, or a key") end
+    if points == nil then return end
+    if type(points) ~= "table" or #points == 0 then
+        refuse_stroke(i, "its points are a list of pixels {x, y}")
+    end
+    for k, pixel in ipairs(points) do
+        if type(pixel) ~= "table" or type(pixel[1]) ~= "number" or type(pixel[2]) ~= "number" then
+            refuse_stroke(i, "point " .. k .. " is not a pixel {x, y}")
+        end
+    end
+end
+
+-- Takes the tool, the camera and the parameters that a stroke names; the others stay.
+local function prepare(host, stroke, strands, tools)
+    if stroke.camera then host:look(stroke.camera) end
+    if stroke.tool and not (host.tool and host.tool.name == stroke.tool) then
+        tools[stroke.tool] = tools[stroke.tool] or load_tool(stroke.tool)
+        host:use(tools[stroke.tool])
+        if host.tool.params.strands then host:set{ strands = strands } end
+    end
+    if not host.tool then error("it names no tool, and there is none before it", 0) end
+    if stroke.params then host:set(stroke.params) end
+end
+
+local function draw_stroke(host, stroke)
+    local held = { shift = stroke.shift or false, ctrl = stroke.ctrl or false, alt = stroke.alt or false }
+    local function at(pixel)
+        return { x = pixel[1], y = pixel[2], shift = held.shift, ctrl = held.ctrl, alt = held.alt }
+    end
+    if stroke.key then
+        host:key{ key = stroke.key, shift = held.shift, ctrl = held.ctrl, alt = held.alt }
+        return
+    end
+    host:press(at(stroke.points[1]))
+    for i = 2, #stroke.points do host:move(at(stroke.points[i])) end
+    host:release(at(stroke.points[#stroke.points]))
+end
+
+local function new_curves(style, known)
+    local list = {}
+    for _, curve in ipairs(style:curves()) do
+        local is_new = true
+        for _, old in ipairs(known) do is_new = is_new and old ~= curve end
+        if is_new then table.insert(list, curve) end
+    end
+    return list
+end
+
+local function done_by(host, style, stroke)
+    local known, before = style:curves(), host.scene:hash()
+    draw_stroke(host, stroke)
+    return { tool = host.tool.name, added = new_curves(style, known),
+        changed = host.scene:hash() ~= before }
+end
+
+local function sketch(style, strokes, options)
+    for i, stroke in ipairs(strokes) do check_stroke(i, stroke) end
+    if #strokes == 0 then return {} end
+    local camera = options.camera or strokes[1].camera
+    if not camera then refuse_stroke(1, "it needs a camera") end
+    local scene = lissom.scene{}
+    scene:add("style", style)
+    scene:clear_history()
+    local host, tools, done = make_host{ scene = scene, camera = camera, size = options.size }, {}, {}
+    for i, stroke in ipairs(strokes) do
+        local drawn, result = pcall(function()
+            prepare(host, stroke, options.strands, tools)
+            return done_by(host, style, stroke)
+        end)
+        if not drawn then
+            while scene:undo() do end
+            refuse_stroke(i, type(result) == "string" and result or "the tool failed")
+        end
+        done[i] = result
+    end
+    return done, scene:get("style hair")
+end
+

@@ -1,0 +1,85 @@
+// lissom.Hairstyle: drawing on a style with the tools, without a window.
+#include <string>
+
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/hair/hair_object.h"
+#include "bindings/lua/sketch/camera_object.h"
+#include "bindings/lua/tools/tools.h"
+
+namespace lissom::lua {
+namespace {
+
+// The tools do the work, which are Lua.
+int sketch_style(Call& call) {
+    lua_State* L = call.lua();
+    push_tool_function(L, "sketch");
+    lua_pushvalue(L, 1);
+    lua_pushvalue(L, call.stack_index("strokes"));
+    lua_createtable(L, 0, 3);
+    if (call.has("camera")) {
+        lua_pushvalue(L, call.stack_index("camera"));
+        lua_setfield(L, -2, "camera");
+    }
+    call.set_field("strands", call.push(call.integer("strands")));
+    const PictureSize size = SizeRequest::picture(call);
+    lua_createtable(L, 2, 0);
+    lua_pushinteger(L, size.width);
+    lua_rawseti(L, -2, 1);
+    lua_pushinteger(L, size.height);
+    lua_rawseti(L, -2, 2);
+    lua_setfield(L, -2, "size");
+    lua_call(L, 3, 2);
+    return 2;
+}
+
+}  // namespace
+
+Function sketch_method_of_hairstyle() {
+    return {
+        .name = "sketch",
+        .body = sketch_style,
+        .summary =
+            "Draws on the style as a hand does with the tools of the window: each stroke is "
+            "a drag of a tool, and means what it means there. All strokes are done, or, "
+            "where a tool refuses one, none: the error says which and why.",
+        .arguments = {table("strokes",
+                            "A list of lissom.SketchStroke. What a stroke leaves out, but for its "
+                            "points or its key, is as for the one before.")},
+        .options = {object("camera", "lissom.Camera", "Of the first stroke, in mesh units.")
+                        .optional("the strokes say it"),
+                    size_argument(),
+                    integer("strands", "How many strands the tools grow, to be returned.")
+                        .defaults(0)
+                        .between(0, 200000)},
+        .results = {{"lissom.Sketched[]", "done", "One for each stroke."},
+                    {"lissom.Strands?", "hair", "What has grown."}},
+        .errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed, ErrorCode::cancelled},
+        .example = kStyle + R"(local camera = lissom.camera{ eye = { 0, 0, 3 }, fov = 12 }
+local line = {}
+for i, elevation in ipairs{ 70, 45, 20, -5 } do
+    line[i] = { camera:project((style:at{ azimuth = 40, elevation = elevation }), { 1280, 960 }) }
+end
+local done = style:sketch({ { tool = "stream", points = line } }, { camera = camera })
+assert(#done[1].added == 1))"};
+}
+
+std::vector<Record> sketch_records() {
+    return {{"lissom.SketchStroke",
+             "A stroke for `hairstyle:sketch`, a click, or a key.",
+             {{"string?", "tool", "Name of the tool: \"stream\", \"parting\", \"ponytail\", ..."},
+              {"number[][]?", "points",
+               "Pixels {x, y} from press to release; a single one is a click."},
+              {"string?", "key", "A key in place of points, as \"tab\"."},
+              {"lissom.Camera?", "camera", "What the head is seen by, in mesh units."},
+              {"table?", "params", "Values of the tool's parameters, by name."},
+              {"boolean?", "shift", "Held down during this stroke; false where it is not said."},
+              {"boolean?", "ctrl", "The same."},
+              {"boolean?", "alt", "The same."}}},
+            {"lissom.Sketched",
+             "What a stroke of `hairstyle:sketch` has done.",
+             {{"string", "tool", "The tool that it was drawn with."},
+              {"lissom.Curve[]", "added", "New curves of the style."},
+              {"boolean", "changed", "Whether the style is another than before."}}}};
+}
+
+}  // namespace lissom::lua

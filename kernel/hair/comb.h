@@ -1,0 +1,59 @@
+/// Combing: a stroke through grown hair changes the streams, so that hair flows along it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/hair/hairstyle.h"
+
+namespace lissom {
+
+/// What a comb may do to a style.
+enum class CombBy {
+    least,  ///< bend or add, whichever explains the stroke with the least change elsewhere
+    bend,   ///< bend streams that run beside the stroke
+    add,    ///< add a stream along the stroke
+};
+
+/// Lengths in metres of the scalp's frame.
+struct CombOptions {
+    CombBy by = CombBy::least;
+    /// Streams are bent where they are nearer to the stroke: wholly up to half of it, less and less
+    /// beyond.
+    double reach = 0.04;
+    /// Hair follows the stroke where it runs within this angle of it (root of the mean square),
+    /// radians.
+    double tolerance = 15.0 * kPi / 180.0;
+};
+
+struct CombReport {
+    std::vector<CurveId> bent;
+    std::optional<CurveId> added;
+    /// The angle between the field and the stroke, root of the mean square along it, radians.
+    double before = 0.0, after = 0.0;
+    /// How much the field has changed beyond the reach of the stroke, root of the mean square;
+    /// vectors near curves are of length 1.
+    double change = 0.0;
+};
+
+/// A stream as a comb bends it: segments near the stroke turn to its direction, the others keep
+/// theirs, and the root stays, so that what follows is moved along. Nothing where no part of the
+/// curve is beside the stroke within `reach`, or the two run against each other there. Curve and
+/// stroke are polylines without repeated points.
+std::optional<std::vector<Vec3>> combed_stream(std::span<const Vec3> curve,
+                                               std::span<const Vec3> stroke, double reach);
+
+/// Makes hair flow along a stroke, which runs as hair grows. Where hair follows it already, nothing
+/// changes. Otherwise the streams beside it are bent, or a stream without a stop is added along it:
+/// of what explains the stroke, the one that changes the rest of the field least; both, where
+/// neither does alone. Solves.
+/// After an error the style is as it was. Errors: not_finite; invalid_argument for a stroke shorter
+/// than two steps of the grid, for options out of range, or where streams are to be bent and none
+/// is beside the stroke; as Hairstyle::set and solve.
+CombReport comb(Hairstyle& style, std::span<const Vec3> stroke, const CombOptions& options = {},
+                const Context& context = {});
+
+}  // namespace lissom

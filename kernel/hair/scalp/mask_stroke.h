@@ -1,0 +1,57 @@
+/// Masks of a scalp as the strokes that painted them: where hair is shorter, longer or thinner.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+
+namespace lissom {
+
+enum class MaskKind {
+    length,   ///< factors of the length of hair
+    density,  ///< relative density of roots
+};
+
+/// What a round brush painted. Lengths and points are in metres of the scalp's frame, so that a
+/// mask fits any head.
+struct MaskStroke {
+    MaskKind kind = MaskKind::length;
+    /// The way of the brush over the head; one point is a dab.
+    std::vector<Vec3> points;
+    /// What it painted: 0 to kGreatestLengthMask, of a density to 1. 1 takes away what was there.
+    double value = 0.5;
+    /// Of the brush, above 0.
+    double radius = 0.02;
+    /// The share of the radius, at its rim, over which the brush fades; 0 to 1.
+    double softness = 0.5;
+
+    bool operator==(const MaskStroke&) const = default;
+};
+
+inline constexpr double kGreatestLengthMask = 4.0;
+
+/// Errors: not_finite, naming the point; invalid_argument without points, or for options out of
+/// range.
+void require_mask(const MaskStroke& stroke);
+
+/// The strokes of one kind as a function on the head.
+class ScalpMask {
+  public:
+    /// Takes those of `kind`, in their order.
+    ScalpMask(std::span<const MaskStroke> strokes, MaskKind kind);
+
+    bool is_empty() const { return layers_.empty(); }
+    /// 1 where nothing was painted; each stroke draws what was there towards its value. Does not
+    /// depend on the vertices of the head.
+    double at(const Vec3& point) const;
+
+  private:
+    struct Layer {
+        Box reach;
+        MaskStroke stroke;
+    };
+    std::vector<Layer> layers_;
+};
+
+}  // namespace lissom
