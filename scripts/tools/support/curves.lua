@@ -14,6 +14,21 @@ function curves.mirrored(scalp, points)
     return list
 end
 
+-- With two arguments in every Lua.
+local atan2 = rawget(math, "atan2") or math.atan
+
+--- Points moved so that the first is at another place of the head, turned with it about the head's height.
+function curves.copied(scalp, points, root)
+    local from, to = scalp:to_metres(points[1]), scalp:to_metres(root)
+    local turn = atan2(to[1], to[3]) - atan2(from[1], from[3])
+    local c, s, list = math.cos(turn), math.sin(turn), { root }
+    for i = 2, #points do
+        local p = vectors.plus(scalp:to_metres(points[i]), from, -1)
+        list[i] = scalp:from_metres(to[1] + c * p[1] + s * p[3], to[2] + p[2], to[3] - s * p[1] + c * p[3])
+    end
+    return list
+end
+
 --- The stream that is the mirror image of another one; nil where there is none, or it is its own.
 function curves.partner(one, curve)
     local points, scale = curve:points(), one.scalp:scale()
