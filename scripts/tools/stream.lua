@@ -48,6 +48,7 @@ return require("lissom").tool{
     help = "Draw from the scalp: a stream. Click one: strokes across or from it change it, Alt: otherwise.",
     params = hair.with_params{
         by = { type = "choice", default = "draw", choices = { "draw", "pull", "rub" } },
+        stop = { type = "boolean", default = true, help = "Hair ends where the streams do that are drawn." },
         symmetric = { type = "boolean", default = false, help = "The other side of the head follows." },
         surface = { type = "choice", default = "auto", choices = { "auto", "strip", "ruled" },
             help = "Of hints: strip changes how a stream looks, ruled its depth, seen from aside." },
@@ -98,7 +99,7 @@ return require("lissom").tool{
     end,
     changed = function(self, ev)
         local one = hair.find(ev.scene, self.params)
-        if one and (ev.parameter == "strands" or ev.parameter == "length") then hair.grow(ev.scene, one) end
+        if one and (hair.params[ev.parameter] and ev.parameter ~= "field") then hair.grow(ev.scene, one) end
     end,
     key = function(self, ev)
         local one = not self.pixels and hair.find(ev.scene, self.params)

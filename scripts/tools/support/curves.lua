@@ -80,9 +80,26 @@ function curves.readings(curve, camera, size, pixels)
     return { reading.operation, table.unpack(reading.others) }, reading
 end
 
+local at_root, fade = 0.02, 0.03        -- metres
+
+-- A hint that begins at the root of a curve begins in it, without a loop there: moved less and less over 3 cm.
+local function rooted(curve, hint)
+    local root, metre = curve:points()[1], curve:hairstyle():scalp():scale()
+    local by = vectors.plus(root, hint[1], -1)
+    if vectors.length(by) > at_root * metre then return hint end
+    local list, length = {}, 0
+    for i, point in ipairs(hint) do
+        if i > 1 then length = length + vectors.length(vectors.plus(point, hint[i - 1], -1)) end
+        local t = math.max(0, 1 - length / (fade * metre))
+        list[i] = vectors.plus(point, by, t * t * (3 - 2 * t))
+    end
+    return list
+end
+
 --- Does to a curve what a hint means.
 function curves.apply(curve, operation, hint)
     local reach = { reach = 1 }
+    if operation ~= "cut" then hint = rooted(curve, hint) end
     if operation ~= "cut" then reach.join = 0.015 end
     return assert(curve[operation](curve, hint, reach))
 end

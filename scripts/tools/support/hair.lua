@@ -12,6 +12,10 @@ hair.params = {
         help = "How many strands follow the curves." },
     length = { type = "number", default = 0.25, min = 0.01, max = 1, unit = "metres", group = "hair",
         help = "Of the strands, on an average head." },
+    cut = { type = "number", default = 1, min = -0.2, max = 1, unit = "metres", group = "hair",
+        help = "Hair ends so far below the middle of the head, but for tails; at 1 it is not cut." },
+    slant = { type = "number", default = 0, min = -45, max = 45, unit = "degrees", group = "hair",
+        help = "Of the cut: lower at the head's left, or if negative, at its right." },
     field = { type = "boolean", default = false, group = "hair",
         help = "Arrows around the cursor: which way hair grows there." },
 }
@@ -34,7 +38,9 @@ function hair.find(scene, params)
             local style = scene:get(name)
             return { name = name, style = style, scalp = style:scalp(), place = info.transform,
                 strands = params and params.strands or hair.params.strands.default,
-                length = params and params.length or hair.params.length.default }
+                length = params and params.length or hair.params.length.default,
+                cut = params and params.cut or hair.params.cut.default,
+                slant = params and params.slant or hair.params.slant.default }
         end
     end
     return nil
@@ -179,6 +185,16 @@ function hair.is_grown(style)
     return false
 end
 
+--- The plane that cuts the hair of a style, as style:grow takes it; nil where it is not cut.
+function hair.cut(one)
+    if one.cut >= hair.params.cut.max then return nil end
+    local normal, slant = {}, math.rad(one.slant)
+    for k = 1, 3 do
+        normal[k] = -math.cos(slant) * one.scalp:up()[k] - math.sin(slant) * one.scalp:left()[k]
+    end
+    return { point = one.scalp:from_metres(0, -one.cut, 0), normal = normal }
+end
+
 --- Grows the strands of a style, or a share of them while something is dragged, into the object
 -- "<name> hair", which is added where there is none, and removed where no curve is left.
 function hair.grow(scene, one, share)
@@ -192,7 +208,7 @@ function hair.grow(scene, one, share)
         return nil
     end
     local strands = assert(one.style:grow{ count = math.floor(one.strands * (share or 1)),
-        length = one.length, into = old })
+        length = one.length, cut = hair.cut(one), into = old })
     if not old then scene:add(name, strands, { transform = one.place }) end
     return strands
 end
@@ -206,7 +222,7 @@ function hair.is_click(pixels)
 end
 
 --- What tools say where nothing tells how deep a stroke is.
-hair.guessed = "off the head its depth is a guess: turn the view by 90 degrees and draw it again"
+hair.guessed = "off the head its depth is a guess: click it, turn the view by 90 degrees, draw it again"
 
 --- The same for a stroke much of which is beside the head; nil where it is not.
 function hair.is_guess(ev, one, pixels)
@@ -222,7 +238,7 @@ end
 --- What an error says, without its place in a script.
 function hair.message(text) return (tostring(text):gsub("^[^\n]-:%d+: ", "")) end
 
-local seen_only = { field = true, surface = true, reach = true, by = true, symmetric = true }
+local seen_only = { field = true, surface = true, stop = true, reach = true, by = true, symmetric = true }
 
 --- Whether a parameter changes what is shown, or what the next stroke does, but no hair.
 function hair.is_seen_only(parameter) return seen_only[parameter] == true end

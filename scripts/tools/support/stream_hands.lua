@@ -39,9 +39,10 @@ function hands.draw(self, one, ev, camera)
     else
         given.on = one.scalp
         local points = camera:stroke(given).points
-        self.drafts = { assert(one.style:stream{ points = points }) }
+        self.drafts = { assert(one.style:stream{ points = points, stop = self.params.stop }) }
         if self.params.symmetric then
-            self.drafts[2] = assert(one.style:stream{ points = curves.mirrored(one.scalp, points) })
+            points = curves.mirrored(one.scalp, points)
+            self.drafts[2] = assert(one.style:stream{ points = points, stop = self.params.stop })
         end
     end
     local hard = self.support and (self.support:end_on() > 1 / 3 and ": seen end-on, draw on the strip"
