@@ -72,12 +72,22 @@ function curves.support(curve, mode, camera, viewpoint)
     return curve:support{ mode = "strip", camera = camera }
 end
 
---- What a hint stroke means for a curve: a list of names, likeliest first, and whether the first is sure; nil
+-- Whether a stroke begins at the root of a curve, as it is seen: there nothing would be left of it by a cut.
+local function begins_at_root(curve, camera, size, pixels)
+    local x, y = camera:project(curve:points()[1], size)
+    return (x - pixels[1][1]) ^ 2 + (y - pixels[1][2]) ^ 2 < 20 ^ 2
+end
+
+--- What a hint stroke means for a curve: a list of names, likeliest first, and the reading of the kernel; nil
 -- where it is nowhere near.
 function curves.readings(curve, camera, size, pixels)
     local near, reading = pcall(curve.read_hint, curve, { camera = camera, points = pixels, size = size })
     if not near then return nil end
-    return { reading.operation, table.unpack(reading.others) }, reading
+    local names = { reading.operation, table.unpack(reading.others) }
+    if names[1] == "cut" and names[2] and begins_at_root(curve, camera, size, pixels) then
+        table.insert(names, table.remove(names, 1))
+    end
+    return names, reading
 end
 
 local at_root, fade = 0.02, 0.03        -- metres
