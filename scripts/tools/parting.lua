@@ -2,64 +2,55 @@
 --
 -- Drag over the head: a parting. A stroke that begins beside the chosen one is its tilt: draw it as hair
 -- shall flow there. All of a side count together, so two of them, one near each end, tell how the tilt
--- changes along the line. With shift a stroke is a parting wherever it begins. Click a parting, or press tab,
--- to choose it; drag its handles: how far off the crest of the hair stands, and how high. Backspace takes its
--- tilt strokes away, delete the parting.
-local lissom = require "lissom"
+-- changes along the line. What a stroke is taken for stands at the cursor; Alt takes it otherwise, with shift
+-- it is a parting wherever it begins. Click a parting, or press tab, to choose it; drag its handles: how far
+-- off the crest of the hair stands (sigma), how high it is (height), and how firmly both sides are kept apart
+-- (separation); one whose way is seen end-on is left out. Backspace takes its tilt strokes away, delete the
+-- parting.
 local curve_handles = require "tools.support.curve_handles"
+local curve_tool = require "tools.support.curve_tool"
 local hair = require "tools.support.hair"
+local hair_view = require "tools.support.hair_view"
 local vectors = require "vectors"
 
 local beside = 0.02         -- metres from a parting in which its tilt strokes begin
 local rise = 0.004          -- metres that the handle of a height of 0 stands above the skin
+local firm = 0.03           -- metres from the lowest to the highest place of the handle of the separation
 
--- The chosen parting, else the last one; its place among them, and all.
-local function chosen(self, one) return curve_handles.chosen(one, "dividing", self.curve) end
-
-local function choose(self, curve)
-    self.curve = curve
-    curve_handles.show(self.params, "parting", curve)
-end
-
--- The handles of a parting: the crest of its hair, and how high that is.
+-- The crest of its hair, how high that is, and at a quarter of the line how firmly both sides are apart.
 local function handles(one, curve)
-    local here = curve_handles.place_on(one, curve:course(), 0.5)
-    local options, metre = curve:options(), one.scalp:scale()
+    local course, metre, options = curve:course(), one.scalp:scale(), curve:options()
+    local here, other = curve_handles.place_on(one, course, 0.5), curve_handles.place_on(one, course, 0.25)
     local crest = vectors.plus(here.at, here.right, options.sigma * metre)
     local top = vectors.plus(crest, here.normal, (rise + 0.39 * options.height) * metre)
+    local apart = vectors.plus(other.at, other.normal, (rise + firm * options.separation) * metre)
     return { { option = "sigma", base = here.at, way = here.right, at = crest },
-        { option = "height", base = crest, way = here.normal, at = top } }
+        { option = "height", base = crest, way = here.normal, at = top },
+        { option = "separation", base = other.at, way = other.normal, at = apart } }
 end
 
-local function drag_handle(ev, one, curve, held)
-    local length = curve_handles.slide(ev, one, held)
-    if held.option == "height" then length = (length - rise) / 0.39 end
-    local least = held.option == "sigma" and 0.003 or 0
-    curve:set{ [held.option] = math.max(least, math.min(0.04, length)) }
-end
+local slides = {}
+function slides.sigma(length) return math.max(0.003, math.min(0.04, length)) end
+function slides.height(length) return math.max(0, math.min(0.04, (length - rise) / 0.39)) end
+function slides.separation(length) return math.max(0, math.min(1, (length - rise) / firm)) end
 
--- What the drawn stroke means: a click chooses, a stroke is a tilt or a new parting.
-local function finish(self, ev, one)
-    local curve = chosen(self, one)
-    if hair.is_click(self.pixels) then
-        local other = hair.curve_at(ev, one, { kind = "dividing", preferred = curve })
-        return other and choose(self, other)
-    end
+local function readings(self, ev, one, curve)
     local camera = hair.camera(ev.camera, one)
     local line = camera:stroke{ points = self.pixels, on = one.scalp, depth = "last", size = ev.size }.points
-    local near = curve and hair.distance(curve:course(), line[1]) < beside * one.scalp:scale()
-    if near and not ev.shift then
-        curve:add_hint(line)
-    else
+    local list = { { name = "parting", act = function()
         local options = curve_handles.options(self.params, "parting")
         options.points, options.name = line, "parting"
-        self.curve = one.style:dividing(options)
+        return one.style:dividing(options)
+    end } }
+    local near = curve and hair.distance(curve:course(), line[1]) < beside * one.scalp:scale()
+    if near and not ev.shift then
+        table.insert(list, 1, { name = "tilt", act = function() curve:add_hint(line) end })
     end
-    hair.grow(ev.scene, one)
+    return list
 end
 
--- Which way hair flows beside a parting, as small arrows.
-local function draw_tilt(view, one, curve)
+-- Which way hair flows beside a parting, as small arrows, and the strokes that say so.
+local function draw(view, one, curve)
     local tilt, course = curve:tilt(), curve:course()
     for i = 0, 6 do
         local here = curve_handles.place_on(one, course, i / 6)
@@ -71,15 +62,18 @@ local function draw_tilt(view, one, curve)
             curve_handles.arrow(view, one, { at = here.at, way = way, normal = here.normal })
         end
     end
+    for _, hint in ipairs(curve:hints()) do
+        hair_view.line(view, one, hint, { color = "#f0a040", width = 3 })
+    end
 end
 
-local function forget(self) self.held, self.pixels = nil, nil end
-
-return lissom.tool{
+return curve_tool.make{
     name = "parting",
-    help = "Drag over the head: a parting; beside it: its tilt (shift: another parting). Handles, click, "
-        .. "tab, backspace, delete.",
-    params = hair.with_params{
+    help = "Drag over the head: a parting; beside it: its tilt (Alt, shift: another parting). Handles, "
+        .. "click, tab, backspace, delete.",
+    kind = "dividing",
+    color = "#e04038",
+    params = {
         sigma = { type = "number", default = 14, min = 3, max = 40, unit = "millimetres", group = "parting",
             help = "How far from the line the crest of the hair is." },
         height = { type = "number", default = 7, min = 0, max = 40, unit = "millimetres", group = "parting",
@@ -89,59 +83,14 @@ return lissom.tool{
         gap = { type = "number", default = 2.4, min = 0, max = 20, unit = "millimetres", group = "parting",
             help = "Width of the bare skin." },
     },
-    press = function(self, ev)
-        local one = hair.need(ev.scene, self.params)
-        local curve = chosen(self, one)
-        self.held = curve and curve_handles.pick(ev, one, handles(one, curve))
-        self.pixels = { { ev.x, ev.y } }
+    handles = handles,
+    slide = function(curve, held, length) curve:set{ [held.option] = slides[held.option](length) } end,
+    readings = readings,
+    remember = function(curve) return curve:hints() end,
+    put_back = function(curve, hints)
+        curve:remove_hints()
+        for _, hint in ipairs(hints) do curve:add_hint(hint) end
     end,
-    drag = function(self, ev)
-        local one = hair.find(ev.scene, self.params)
-        local curve = one and chosen(self, one)
-        table.insert(self.pixels, { ev.x, ev.y })
-        if not self.held or not curve then return end
-        drag_handle(ev, one, curve, self.held)
-        hair.grow(ev.scene, one, 0.2)
-    end,
-    release = function(self, ev)
-        local one = hair.find(ev.scene, self.params)
-        local curve = one and chosen(self, one)
-        if one and not self.held then
-            finish(self, ev, one)
-        elseif curve then
-            choose(self, curve)
-            hair.grow(ev.scene, one)
-        end
-        forget(self)
-    end,
-    key = function(self, ev)
-        local one = hair.find(ev.scene, self.params)
-        if not one or self.pixels then return end
-        local curve, i, list = chosen(self, one)
-        if not curve then return end
-        if ev.key == "tab" then return choose(self, list[i % #list + 1]) end
-        if ev.key ~= "backspace" and ev.key ~= "delete" then return end
-        if ev.key == "delete" then curve:remove() else curve:remove_hints() end
-        hair.grow(ev.scene, one)
-    end,
-    changed = function(self, ev)
-        local one = hair.find(ev.scene, self.params)
-        local curve = one and chosen(self, one)
-        local changes = curve_handles.options(self.params, "parting", ev.parameter)
-        if curve and next(changes) then curve:set(changes) end
-        if one then hair.grow(ev.scene, one) end
-    end,
-    draw = function(self, view)
-        local one = hair.find(view.scene)
-        local curve = one and chosen(self, one)
-        if self.pixels and not self.held then view:outline{ pixels = self.pixels, color = "#e04038" } end
-        if one then hair.draw(view, one, curve) end
-        if not curve then return end
-        draw_tilt(view, one, curve)
-        local look = { color = "#f0a040", width = 3 }
-        for _, hint in ipairs(curve:hints()) do hair.line(view, one, hint, look) end
-        curve_handles.draw(view, one, handles(one, curve))
-    end,
-    cancel = forget,
-    deactivate = forget,
+    keys = { backspace = function(curve) curve:remove_hints() end },
+    draw = draw,
 }

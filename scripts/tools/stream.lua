@@ -6,9 +6,11 @@
 -- Seen from far beside the view that streams were drawn in (v: from now on this one) hints change the depth:
 -- they are drawn on the surface that is shown.
 -- by pull: a drag moves a stream there, at its first point the root over the scalp. by rub: smooths it.
--- Keys: tab chooses the next stream, delete removes it, m adds its mirror image.
+-- Keys: tab chooses the next stream, delete removes it, m adds its mirror image, c a
+-- copy of it that begins at the cursor.
 local curves = require "tools.support.curves"
 local hair = require "tools.support.hair"
+local hair_view = require "tools.support.hair_view"
 local stream_hands = require "tools.support.stream_hands"
 
 local draft_share = 0.1         -- of the strands, while the button is down
@@ -30,8 +32,14 @@ local keys = {
         if twin then twin:remove() end
         curve:remove()
     end,
-    m = function(_, one, curve)
-        assert(one.style:stream{ points = curves.mirrored(one.scalp, curve:points()) })
+    m = function(self, one, curve)
+        self.curve = assert(one.style:stream{ points = curves.mirrored(one.scalp, curve:points()) })
+    end,
+    c = function(self, one, curve, ev)
+        local hit = ev.x and one.scalp:head():pick(hair.camera(ev.camera, one):ray(ev.x, ev.y, ev.size))
+        if not hit then error("press c with the cursor where the copy's root shall be", 0) end
+        local points = curves.copied(one.scalp, curve:points(), hit.position)
+        self.curve = assert(one.style:stream{ points = points })
     end,
 }
 
@@ -40,6 +48,7 @@ return require("lissom").tool{
     help = "Draw from the scalp: a stream. Click one: strokes across or from it change it, Alt: otherwise.",
     params = hair.with_params{
         by = { type = "choice", default = "draw", choices = { "draw", "pull", "rub" } },
+        stop = { type = "boolean", default = true, help = "Hair ends where the streams do that are drawn." },
         symmetric = { type = "boolean", default = false, help = "The other side of the head follows." },
         surface = { type = "choice", default = "auto", choices = { "auto", "strip", "ruled" },
             help = "Of hints: strip changes how a stream looks, ruled its depth, seen from aside." },
@@ -49,6 +58,7 @@ return require("lissom").tool{
     press = function(self, ev)
         local one = hair.need(ev.scene, self.params)
         let_go(self)
+        self.advice = nil
         local under, near = hair.curve_at(ev, one, { kind = "stream", preferred = chosen(self, one) })
         self.under, self.near, self.target = under, near, under or chosen(self, one)
         self.pixels, self.turn, self.alt = { { ev.x, ev.y } }, 0, ev.alt
@@ -72,39 +82,44 @@ return require("lissom").tool{
         if ev.alt and not self.alt then self.turn = self.turn + 1 end
         self.alt = ev.alt
         table.insert(self.pixels, { ev.x, ev.y })
-        if #self.pixels > 2 then stream_hands.follow(self, one, ev, draft_share) end
+        if #self.pixels < 3 or hair.is_click(self.pixels) then return end
+        stream_hands.follow(self, one, ev, draft_share)
     end,
     release = function(self, ev)
         local one = self.pixels and hair.find(ev.scene, self.params)
-        if one and #self.pixels < 3 then
+        if one and hair.is_click(self.pixels) then
             self.curve = self.under
         elseif one and not stream_hands.follow(self, one, ev) then
             error(self.said, 0)
         elseif one and self.drafts then
             self.state.viewpoint = hair.camera(ev.camera, one)
+            self.advice = hair.is_guess(ev, one, self.pixels)
         end
         let_go(self)
     end,
     changed = function(self, ev)
         local one = hair.find(ev.scene, self.params)
-        if one and (ev.parameter == "strands" or ev.parameter == "length") then hair.grow(ev.scene, one) end
+        if one and (hair.params[ev.parameter] and ev.parameter ~= "field") then hair.grow(ev.scene, one) end
     end,
     key = function(self, ev)
         local one = not self.pixels and hair.find(ev.scene, self.params)
-        local list, curve = one and hair.curves(one, "stream") or {}, chosen(self, one or nil)
+        local curve = chosen(self, one or nil)
         if one and ev.key == "v" then self.state.viewpoint = hair.camera(ev.camera, one) end
-        if ev.key == "tab" then self.curve = hair.after(list, curve) end
+        if one and ev.key == "tab" then self.curve = hair.next_curve(ev, one, "stream", curve) end
         if not curve or not keys[ev.key] then return end
-        keys[ev.key](self, one, curve)
+        keys[ev.key](self, one, curve, ev)
         hair.grow(ev.scene, one)
     end,
     draw = function(self, view)
         local one = hair.find(view.scene, self.params)
         if not one then return end
-        hair.draw(view, one, self.target or chosen(self, one))
-        if self.support then hair.draw_support(view, one, self.support) end
-        if self.pixels and #self.pixels > 1 then view:outline{ pixels = self.pixels } end
-        if self.said and view.cursor then hair.say(view, self.said) end
+        if self.params.field then hair_view.field(view, one) end
+        local curve = self.target or chosen(self, one)
+        local under = hair_view.curves(view, one, "stream", curve, self.pixels ~= nil)
+        if self.support then hair_view.support(view, one, self.support) end
+        if self.pixels and #self.pixels > 1 then view:outline{ pixels = self.pixels, width = 2 } end
+        local resting = not self.pixels
+        hair_view.say(view, self.said or resting and (self.advice or hair_view.warning(view, one, under)))
     end,
     cancel = let_go,
     deactivate = let_go,

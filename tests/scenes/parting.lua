@@ -106,11 +106,18 @@ test("its handles are dragged: how far off the crest is, and how high", function
     expect.equal(h:steps(), steps + 1)
     expect.near(h.tool.params.sigma, 1000 * parting():options().sigma, 1e-9)
     expect.equal(#h.scene:get("style hair"), 200)
-    local top, up = handle(2), {}
-    local height = parting():options().height
-    for k = 1, 3 do up[k] = top[k] + 0.005 * h.camera:up()[k] end
-    h:drag{ top, up }
-    expect.truthy(parting():options().height ~= height)
+    local center = scalp:center()
+    h.camera = lissom.camera{ eye = { center[1] + 0.2, center[2] + 0.1, center[3] + 0.7 }, target = center,
+        fov = 26 }
+    h.host:look(h.camera)
+    for number, option in ipairs{ "height", "separation" } do
+        local top, up = handle(number + 1), {}
+        local value = parting():options()[option]
+        for k = 1, 3 do up[k] = top[k] + 0.005 * h.camera:up()[k] end
+        h:drag{ top, up }
+        expect.truthy(parting():options()[option] > 1.2 * value)
+    end
+    expect.equal(h:steps(), steps + 3)
     h:there_and_back()
 end)
 

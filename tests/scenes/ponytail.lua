@@ -101,6 +101,7 @@ test("along it: how it swells; a second one on its side takes its place", functi
 end)
 
 test("its handles: where hair is drawn into the tie, and how firmly", function()
+    begin(nil, { 0.4, 0.1, -0.5 })
     draw_spine()
     local options = tails()[1]:options()
     local function handle(number)
@@ -150,14 +151,99 @@ test("several tails: tab and clicks choose, shift draws another, delete removes;
     h:there_and_back()
 end)
 
-test("off the head, across the tail: refused with a reason, and nothing changes", function()
+test("off the head, half round the tail: refused with a reason, and nothing changes", function()
     local before = h.scene:hash()
     expect.error(function() h:drag{ at(0, 0.2, -0.3), at(0, 0, -0.3) } end, "")
     expect.equal(h.scene:hash(), before)
     draw_spine()
     before = h.scene:hash()
-    expect.error(function() h:drag{ at(0, -0.06, -0.16), at(0, -0.06, -0.21) } end, "round it")
+    local center = h.world(tails()[1]:course()[4])
+    expect.error(function() draw_ring(center, 0.02, 0.6) end, "half a ring")
     expect.equal(h.scene:hash(), before)
+end)
+
+-- A stroke over pixels of the picture.
+local function draw_pixels(pixels)
+    h.host:press{ x = pixels[1][1], y = pixels[1][2] }
+    for i = 2, #pixels do
+        local a, b = pixels[i - 1], pixels[i]
+        for step = 1, 8 do
+            h.host:move{ x = a[1] + step / 8 * (b[1] - a[1]), y = a[2] + step / 8 * (b[2] - a[2]) }
+        end
+    end
+    h.host:release{ x = pixels[#pixels][1], y = pixels[#pixels][2] }
+end
+
+local function length(points)
+    local sum = 0
+    for i = 2, #points do sum = sum + vectors.length(vectors.plus(points[i], points[i - 1], -1)) end
+    return sum
+end
+
+local function pixel(point)
+    local x, y = h.camera:project(h.world(point), { 1280, 960 })
+    return { x, y }
+end
+
+test("across the tail: cut there, which Alt makes another tail; from its tip: it goes on", function()
+    draw_spine()
+    local before, course = length(tails()[1]:points()), tails()[1]:course()
+    local middle = pixel(course[math.floor(0.6 * #course)])
+    draw_pixels{ { middle[1] - 50, middle[2] + 4 }, { middle[1] + 50, middle[2] - 4 } }
+    expect.equal(#tails(), 1)
+    local cut = length(tails()[1]:points())
+    expect.truthy(cut < 0.8 * before and cut > 0.3 * before, cut / before)
+    local points = tails()[1]:points()
+    local tip = pixel(points[#points])
+    draw_pixels{ tip, { tip[1] + 10, tip[2] + 60 }, { tip[1] + 60, tip[2] + 140 } }
+    expect.equal(#tails(), 1)
+    expect.truthy(length(tails()[1]:points()) > 1.2 * cut)
+    expect.equal(h:steps(), 3)
+    h:there_and_back()
+end)
+
+test("drawn from behind its depth is a guess, and it says so; from the side it is drawn right", function()
+    begin(nil, { 0, 0.05, -0.9 })
+    local function true_point(t) return at(0, 0.05 - 0.2 * t * t, -0.11 - 0.12 * t * (1.6 - t)) end
+    local route = {}
+    for i = 0, 8 do route[i + 1] = true_point(i / 8) end
+    table.insert(route, 1, at(0, 0.06, -0.08))
+    h:drag(route, nil, 6)
+    expect.truthy(h.tool.advice:find("guess"))
+    expect.truthy(h.host:draw().labels[1].text:find("90 degrees"))
+    local function off()
+        local worst, points = 0, tails()[1]:points()
+        for i = 1, 8 do worst = math.max(worst, hair.distance(points, true_point(i / 8))) end
+        return worst
+    end
+    local guessed = off()
+    h.camera = lissom.camera{ eye = at(0.9, 0.05, -0.1), target = at(0, 0, -0.1), fov = 30 }
+    h.host:look(h.camera)
+    local pixels = { pixel(tails()[1]:course()[1]) }
+    for i = 2, 8 do pixels[i] = pixel(true_point(i / 8)) end
+    draw_pixels(pixels)
+    expect.equal(#tails(), 1)
+    expect.truthy(off() < 0.012 and off() < 0.4 * guessed, off() .. " of " .. guessed)
+    expect.equal(h:steps(), 2)
+    h:there_and_back()
+end)
+
+test("what a stroke is taken for stands at the cursor with the surface that it is drawn on", function()
+    draw_spine()
+    local course = tails()[1]:course()
+    local a, b = pixel(course[3]), pixel(course[#course - 2])
+    h.host:press{ x = a[1] + 45, y = a[2] }
+    for i = 1, 10 do
+        h.host:move{ x = a[1] + 45 + i / 10 * (b[1] - a[1]), y = a[2] + i / 10 * (b[2] - a[2]) }
+    end
+    local marks = h.host:draw()
+    expect.truthy(marks.labels[1].text:find("^profile"))
+    expect.equal(#marks.surfaces, 1)
+    expect.truthy(#tails()[1]:profiles()[1] > 2)
+    h.host:move{ x = b[1] + 45, y = b[2], alt = true }
+    expect.falsy(h.host:draw().labels[1].text:find("^profile"))
+    h.host:cancel()
+    expect.equal(#tails()[1]:profiles()[1], 0)
 end)
 
 test("on a head that stands elsewhere, turned and twice as large", function()

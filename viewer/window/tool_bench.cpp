@@ -158,6 +158,7 @@ ToolMarks marks_of(lua_State* L, int list) {
         outline.closed = raw_flag(L, one, "closed");
         outline.color = raw_color(L, one, kLabelColor);
         outline.width = raw_number(L, one, "width", 1.5);
+        outline.opacity = raw_number(L, one, "opacity", 1.0);
         marks.outlines.push_back(std::move(outline));
     });
     for_each_entry(L, list, "surfaces", [&](int one) {

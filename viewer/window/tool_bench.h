@@ -30,6 +30,8 @@ struct ToolOutline {
     bool closed = false;
     Color color;
     double width = 1.5;
+    /// 0 for nothing to 1.
+    double opacity = 1.0;
 
     bool operator==(const ToolOutline&) const = default;
 };

@@ -111,6 +111,12 @@ ToolAnswers draw_history(const ToolState& state) {
     return answers;
 }
 
+// A colour that lets what is behind it be seen.
+ImU32 faint(const Color& color, double opacity) {
+    return (packed(color) & ~IM_COL32_A_MASK) |
+           (static_cast<ImU32>(255.0 * std::clamp(opacity, 0.0, 1.0)) << IM_COL32_A_SHIFT);
+}
+
 // Quads are drawn without soft borders, which would show between them.
 void draw_surface(const ToolSurface& surface, const Camera& camera, const PictureSize& size,
                   const ImVec2& corner, ImDrawList& list) {
@@ -123,9 +129,7 @@ void draw_surface(const ToolSurface& surface, const Camera& camera, const Pictur
         return camera.to_camera(surface.from[i]).z() > 0.0 &&
                camera.to_camera(surface.to[i]).z() > 0.0;
     };
-    const double alpha = std::clamp(surface.opacity, 0.0, 1.0);
-    const ImU32 color = (packed(surface.color) & ~IM_COL32_A_MASK) |
-                        (static_cast<ImU32>(255.0 * alpha) << IM_COL32_A_SHIFT);
+    const ImU32 color = faint(surface.color, surface.opacity);
     const ImDrawListFlags flags = list.Flags;
     list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
     for (std::size_t i = 0; i + 1 < std::min(surface.from.size(), surface.to.size()); ++i) {
@@ -159,7 +163,7 @@ void draw_marks(const ToolState& state, const Camera& camera, const PictureSize&
             const Vec2 p = fit(pixel);
             points.push_back(place(p.x(), p.y()));
         }
-        list->AddPolyline(points.data(), count_of(points), packed(outline.color),
+        list->AddPolyline(points.data(), count_of(points), faint(outline.color, outline.opacity),
                           outline.closed ? ImDrawFlags_Closed : ImDrawFlags_None,
                           static_cast<float>(outline.width));
     }

@@ -499,7 +499,7 @@
 ---@field handle fun(self: any, options: table) {at=, color=, radius=}: a ball to take hold of.
 ---@field gizmo fun(self: any, gizmo: lissom.Gizmo) The gizmo as it is seen now.
 ---@field region fun(self: any, options: table) {mesh=, region=, color=}: colours it.
----@field outline fun(self: any, options: table) {pixels=, color=, width=, closed=}: a line in the picture, of {x, y}.
+---@field outline fun(self: any, options: table) {pixels=, color=, width=, closed=, opacity=}: a line in the picture, of {x, y}.
 ---@field circle fun(self: any, options: table) {at={x, y}, radius=, color=}: in pixels of the picture.
 ---@field surface fun(self: any, options: table) {from=, to=, color=, opacity=}: seen through, between two lines of as many points.
 

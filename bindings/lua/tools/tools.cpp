@@ -448,7 +448,7 @@ std::vector<Record> tool_records() {
           {"fun(self: any, gizmo: lissom.Gizmo)", "gizmo", "The gizmo as it is seen now."},
           {"fun(self: any, options: table)", "region", "{mesh=, region=, color=}: colours it."},
           {"fun(self: any, options: table)", "outline",
-           "{pixels=, color=, width=, closed=}: a line in the picture, of {x, y}."},
+           "{pixels=, color=, width=, closed=, opacity=}: a line in the picture, of {x, y}."},
           {"fun(self: any, options: table)", "circle",
            "{at={x, y}, radius=, color=}: in pixels of the picture."},
           {"fun(self: any, options: table)", "surface",

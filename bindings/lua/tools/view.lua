@@ -4,7 +4,7 @@ local view_fields = {
     points = { points = "list", color = "color", radius = "number" },
     line = { points = "list", color = "color", width = "number", closed = "boolean" },
     label = { at = "point", text = "string", color = "color" },
-    outline = { pixels = "list", color = "color", width = "number", closed = "boolean" },
+    outline = { pixels = "list", color = "color", width = "number", closed = "boolean", opacity = "number" },
     circle = { at = "point", color = "color", radius = "number" },
     region = { mesh = "userdata", region = "userdata", color = "color" },
     surface = { from = "list", to = "list", color = "color", opacity = "number" },

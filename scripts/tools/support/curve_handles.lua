@@ -1,6 +1,7 @@
 --- What tools that edit curves of a hairstyle share: the chosen curve, its numbers in the panel, points that
 --- are dragged along a line. Points are in the head's own space, lengths in metres of an average head.
 local hair = require "tools.support.hair"
+local hair_view = require "tools.support.hair_view"
 local matrices = require "matrices"
 local vectors = require "vectors"
 
@@ -38,12 +39,23 @@ function curve_handles.options(params, group, name)
     return options
 end
 
---- The handle under the cursor, of a list of { at = } and more.
+-- Whether a handle can be slid: its way is not seen end-on, where it would also lie on its base.
+local function can_slide(camera, size, handle)
+    local x, y = camera:project(handle.at, size)
+    if x ~= x then return false end
+    local _, sight = camera:ray(x, y, size)
+    return math.abs(vectors.dot(handle.way, sight)) < 0.985
+end
+
+--- The handle under the cursor, within 12 pixels, of a list of { at = } and more.
 function curve_handles.pick(ev, one, list)
-    local points = {}
-    for i, handle in ipairs(list) do points[i] = matrices.point(one.place, handle.at) end
-    local hit = #points > 0 and ev:pick{ kinds = "point", points = points, radius = 12 }
-    return hit and list[hit.index] or nil
+    local camera, best, nearest = hair.camera(ev.camera, one), nil, 12
+    for _, handle in ipairs(list) do
+        local x, y = camera:project(handle.at, ev.size)
+        local pixels = math.sqrt((x - ev.x) ^ 2 + (y - ev.y) ^ 2)
+        if pixels <= nearest and can_slide(camera, ev.size, handle) then best, nearest = handle, pixels end
+    end
+    return best
 end
 
 --- How far from its base a handle { base =, way = } lies where its way comes nearest to what is under the
@@ -55,12 +67,21 @@ function curve_handles.slide(ev, one, handle)
     return along / math.max(1 - slope * slope, 0.01) / one.scalp:scale()
 end
 
---- Draws handles, each with a line from its base.
-function curve_handles.draw(view, one, list)
+--- Draws handles, each with a line from its base; that under the cursor glows, and says its name.
+function curve_handles.draw(view, one, list, held)
+    local under = held or view.cursor and curve_handles.pick(hair_view.event(view), one, list)
+    local camera, shown = hair.camera(view.camera, one), {}
     for _, handle in ipairs(list) do
-        hair.line(view, one, { handle.base, handle.at }, { color = "#e8a33d", width = 1 })
-        view:handle{ at = matrices.point(one.place, handle.at) }
+        if can_slide(camera, view.size, handle) then shown[#shown + 1] = handle end
     end
+    for _, handle in ipairs(shown) do
+        hair_view.line(view, one, { handle.base, handle.at }, { color = "#e8a33d", width = 1 })
+        local glows = under and under.option == handle.option
+        view:handle{ at = matrices.point(one.place, handle.at), color = glows and "#ffd24a" or nil,
+            radius = glows and 11 or 8 }
+        if glows and not held then hair_view.say(view, handle.option) end
+    end
+    return under
 end
 
 --- A place on a line over the head, 0 to 1 along it, with its frame: { at =, tangent =, right =, normal = }.
@@ -81,7 +102,7 @@ function curve_handles.arrow(view, one, arrow, length)
     local barb = vectors.plus(arrow.at, arrow.way, 0.7 * metres)
     local left = vectors.plus(barb, across, 0.2 * metres)
     local right = vectors.plus(barb, across, -0.2 * metres)
-    hair.line(view, one, { arrow.at, tip, left, tip, right }, { color = "#f0a040", width = 2 })
+    hair_view.line(view, one, { arrow.at, tip, left, tip, right }, { color = "#f0a040", width = 2 })
 end
 
 return curve_handles

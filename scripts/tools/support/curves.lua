@@ -14,6 +14,21 @@ function curves.mirrored(scalp, points)
     return list
 end
 
+-- With two arguments in every Lua.
+local atan2 = rawget(math, "atan2") or math.atan
+
+--- Points moved so that the first is at another place of the head, turned with it about the head's height.
+function curves.copied(scalp, points, root)
+    local from, to = scalp:to_metres(points[1]), scalp:to_metres(root)
+    local turn = atan2(to[1], to[3]) - atan2(from[1], from[3])
+    local c, s, list = math.cos(turn), math.sin(turn), { root }
+    for i = 2, #points do
+        local p = vectors.plus(scalp:to_metres(points[i]), from, -1)
+        list[i] = scalp:from_metres(to[1] + c * p[1] + s * p[3], to[2] + p[2], to[3] - s * p[1] + c * p[3])
+    end
+    return list
+end
+
 --- The stream that is the mirror image of another one; nil where there is none, or it is its own.
 function curves.partner(one, curve)
     local points, scale = curve:points(), one.scalp:scale()
@@ -57,17 +72,44 @@ function curves.support(curve, mode, camera, viewpoint)
     return curve:support{ mode = "strip", camera = camera }
 end
 
---- What a hint stroke means for a curve: a list of names, likeliest first, and whether the first is sure; nil
+-- Whether a stroke begins at the root of a curve, as it is seen: there nothing would be left of it by a cut.
+local function begins_at_root(curve, camera, size, pixels)
+    local x, y = camera:project(curve:points()[1], size)
+    return (x - pixels[1][1]) ^ 2 + (y - pixels[1][2]) ^ 2 < 20 ^ 2
+end
+
+--- What a hint stroke means for a curve: a list of names, likeliest first, and the reading of the kernel; nil
 -- where it is nowhere near.
 function curves.readings(curve, camera, size, pixels)
     local near, reading = pcall(curve.read_hint, curve, { camera = camera, points = pixels, size = size })
     if not near then return nil end
-    return { reading.operation, table.unpack(reading.others) }, reading
+    local names = { reading.operation, table.unpack(reading.others) }
+    if names[1] == "cut" and names[2] and begins_at_root(curve, camera, size, pixels) then
+        table.insert(names, table.remove(names, 1))
+    end
+    return names, reading
+end
+
+local at_root, fade = 0.02, 0.03        -- metres
+
+-- A hint that begins at the root of a curve begins in it, without a loop there: moved less and less over 3 cm.
+local function rooted(curve, hint)
+    local root, metre = curve:points()[1], curve:hairstyle():scalp():scale()
+    local by = vectors.plus(root, hint[1], -1)
+    if vectors.length(by) > at_root * metre then return hint end
+    local list, length = {}, 0
+    for i, point in ipairs(hint) do
+        if i > 1 then length = length + vectors.length(vectors.plus(point, hint[i - 1], -1)) end
+        local t = math.max(0, 1 - length / (fade * metre))
+        list[i] = vectors.plus(point, by, t * t * (3 - 2 * t))
+    end
+    return list
 end
 
 --- Does to a curve what a hint means.
 function curves.apply(curve, operation, hint)
     local reach = { reach = 1 }
+    if operation ~= "cut" then hint = rooted(curve, hint) end
     if operation ~= "cut" then reach.join = 0.015 end
     return assert(curve[operation](curve, hint, reach))
 end

@@ -12,6 +12,12 @@ hair.params = {
         help = "How many strands follow the curves." },
     length = { type = "number", default = 0.25, min = 0.01, max = 1, unit = "metres", group = "hair",
         help = "Of the strands, on an average head." },
+    cut = { type = "number", default = 1, min = -0.2, max = 1, unit = "metres", group = "hair",
+        help = "Hair ends so far below the middle of the head, but for tails; at 1 it is not cut." },
+    slant = { type = "number", default = 0, min = -45, max = 45, unit = "degrees", group = "hair",
+        help = "Of the cut: lower at the head's left, or if negative, at its right." },
+    field = { type = "boolean", default = false, group = "hair",
+        help = "Arrows around the cursor: which way hair grows there." },
 }
 
 --- The parameters of a tool with those above.
@@ -32,7 +38,9 @@ function hair.find(scene, params)
             local style = scene:get(name)
             return { name = name, style = style, scalp = style:scalp(), place = info.transform,
                 strands = params and params.strands or hair.params.strands.default,
-                length = params and params.length or hair.params.length.default }
+                length = params and params.length or hair.params.length.default,
+                cut = params and params.cut or hair.params.cut.default,
+                slant = params and params.slant or hair.params.slant.default }
         end
     end
     return nil
@@ -102,35 +110,89 @@ function hair.distance(points, point)
     return nearest
 end
 
--- Whether the head hides a point.
-local function is_hidden(one, camera, size, point)
+--- Whether the head hides a point from a camera.
+function hair.is_hidden(one, camera, size, point)
     local x, y, depth = camera:project(point, size)
     local hit = camera:pick{ mesh = one.scalp:head(), x = x, y = y, size = size }
     return hit ~= nil and hit.depth < depth - 0.01 * one.scalp:scale()
 end
 
---- The curve that is seen within `radius` (10) pixels of the cursor and nearest to it, and where; nil where
--- there is none that the head does not hide. `kind` as in hair.curves; `preferred` wins where it is within 4
--- pixels of the nearest.
-function hair.curve_at(ev, one, options)
-    options = options or {}
-    local camera, best, at = hair.camera(ev.camera, one), nil, nil
-    for _, curve in ipairs(hair.curves(one, options.kind)) do
-        local near = hair.nearest(curve:course(), camera, ev.size, ev.x, ev.y)
-        local pixels = near and near.pixels - (curve == options.preferred and 4 or 0)
-        if near and near.pixels <= (options.radius or 10) and not (best and at.weighed <= pixels)
-            and not is_hidden(one, camera, ev.size, near.point) then
-            best, at, near.weighed = curve, near, pixels
+local near_line, near_end, as_near = 10, 14, 4       -- pixels
+
+-- Where a curve is under the cursor, as hair.nearest; its ends from farther away, and before other curves.
+local function place_under(ev, camera, curve, radius)
+    local points = curve:course()
+    local near = hair.nearest(points, camera, ev.size, ev.x, ev.y)
+    if not near then return nil end
+    near.weighed = near.pixels
+    for _, i in ipairs{ #points, 1 } do
+        local x, y = camera:project(points[i], ev.size)
+        local off = math.sqrt((x - ev.x) ^ 2 + (y - ev.y) ^ 2)
+        if off <= near_end then
+            return { pixels = off, segment = math.max(i - 1, 1), along = i == 1 and 0 or 1, point = points[i],
+                weighed = off - near_end }
         end
     end
-    return best, at
+    return near.pixels <= radius and near or nil
 end
 
-local function may_grow(style)
+--- The curves under the cursor that the head does not hide, the nearest first: a list of { curve =, at = as
+-- hair.nearest }. `kind` as in hair.curves; `preferred` counts as nearer by 4 pixels; lines are hit from
+-- `radius` (10) pixels away, ends from 14.
+function hair.curves_at(ev, one, options)
+    options = options or {}
+    local camera, list = hair.camera(ev.camera, one), {}
+    for i, curve in ipairs(hair.curves(one, options.kind)) do
+        local at = place_under(ev, camera, curve, options.radius or near_line)
+        if at and not hair.is_hidden(one, camera, ev.size, at.point) then
+            at.weighed = at.weighed - (curve == options.preferred and as_near or 0)
+            list[#list + 1] = { curve = curve, at = at, order = i }
+        end
+    end
+    table.sort(list, function(a, b)
+        if a.at.weighed ~= b.at.weighed then return a.at.weighed < b.at.weighed end
+        return a.order < b.order
+    end)
+    return list
+end
+
+--- The first of these, and where; nil where there is none.
+function hair.curve_at(ev, one, options)
+    local first = hair.curves_at(ev, one, options)[1]
+    if not first then return nil end
+    return first.curve, first.at
+end
+
+--- The curve that the tab key chooses after another one: the next of those that are as good as under the
+-- cursor where there are several, else the next of its kind.
+function hair.next_curve(ev, one, kind, curve)
+    local list = {}
+    for _, found in ipairs(ev.x and hair.curves_at(ev, one, { kind = kind }) or {}) do
+        list[#list + 1] = found.curve
+    end
+    if #list < 2 then list = hair.curves(one, kind) end
+    for i, other in ipairs(list) do
+        if other == curve then return list[i % #list + 1] end
+    end
+    return list[1]
+end
+
+--- Whether a style has curves that act.
+function hair.is_grown(style)
     for _, curve in ipairs(style:curves()) do
         if curve:enabled() then return true end
     end
     return false
+end
+
+--- The plane that cuts the hair of a style, as style:grow takes it; nil where it is not cut.
+function hair.cut(one)
+    if one.cut >= hair.params.cut.max then return nil end
+    local normal, slant = {}, math.rad(one.slant)
+    for k = 1, 3 do
+        normal[k] = -math.cos(slant) * one.scalp:up()[k] - math.sin(slant) * one.scalp:left()[k]
+    end
+    return { point = one.scalp:from_metres(0, -one.cut, 0), normal = normal }
 end
 
 --- Grows the strands of a style, or a share of them while something is dragged, into the object
@@ -141,12 +203,12 @@ function hair.grow(scene, one, share)
     if info and info.kind ~= "strands" then
         error("'" .. name .. "' is a " .. info.kind .. ": rename it, hair goes by that name", 0)
     end
-    if not may_grow(one.style) then
+    if not hair.is_grown(one.style) then
         if old then scene:remove(name) end
         return nil
     end
     local strands = assert(one.style:grow{ count = math.floor(one.strands * (share or 1)),
-        length = one.length, into = old })
+        length = one.length, cut = hair.cut(one), into = old })
     if not old then scene:add(name, strands, { transform = one.place }) end
     return strands
 end
@@ -159,36 +221,27 @@ function hair.is_click(pixels)
     return true
 end
 
---- Draws a line of the head's own space; `options` are those of view:line.
-function hair.line(view, one, points, options)
-    local line = { points = {}, color = options.color, width = options.width, closed = options.closed }
-    for i, point in ipairs(points) do line.points[i] = matrices.point(one.place, point) end
-    view:line(line)
-end
+--- What tools say where nothing tells how deep a stroke is.
+hair.guessed = "off the head its depth is a guess: click it, turn the view by 90 degrees, draw it again"
 
-local colors = { stream = "#28b0c8", dividing = "#e04038", ponytail = "#b060d0" }
-
---- Draws the curves of a style, the chosen one wider.
-function hair.draw(view, one, chosen)
-    for _, curve in ipairs(one.style:curves()) do
-        local color = curve:enabled() and colors[curve:kind()] or "#909090"
-        hair.line(view, one, curve:course(), { color = color, width = curve == chosen and 5 or 2 })
-        local pixels = {}                       -- and over the hair that hides it
-        for i, point in ipairs(curve:course()) do
-            local x, y, depth = view.camera:project(matrices.point(one.place, point), view.size)
-            if depth > 0 and pixels then pixels[i] = { x, y } else pixels = nil end
-        end
-        if pixels then view:outline{ pixels = pixels, color = color, width = curve == chosen and 3 or 1 } end
+--- The same for a stroke much of which is beside the head; nil where it is not.
+function hair.is_guess(ev, one, pixels)
+    local camera, beside = hair.camera(ev.camera, one), 0
+    for _, pixel in ipairs(pixels) do
+        local hit = camera:pick{ mesh = one.scalp:head(), x = pixel[1], y = pixel[2], size = ev.size }
+        if not hit then beside = beside + 1 end
     end
+    if beside < 0.25 * #pixels then return nil end
+    return hair.guessed
 end
 
---- The stream after another one in a list; the first behind the last and for none.
-function hair.after(list, curve)
-    for i, one in ipairs(list) do
-        if one == curve then return list[i % #list + 1] end
-    end
-    return list[1]
-end
+--- What an error says, without its place in a script.
+function hair.message(text) return (tostring(text):gsub("^[^\n]-:%d+: ", "")) end
+
+local seen_only = { field = true, surface = true, stop = true, reach = true, by = true, symmetric = true }
+
+--- Whether a parameter changes what is shown, or what the next stroke does, but no hair.
+function hair.is_seen_only(parameter) return seen_only[parameter] == true end
 
 --- The place that hair.nearest has found, or the first point where it is near that: there a curve is held by
 -- its root.
@@ -196,24 +249,6 @@ function hair.snapped(near, points)
     if near.segment ~= 1 or near.along > 0.5 then return near.point end
     near.along = 0
     return points[1]
-end
-
---- Draws a supporting surface.
-function hair.draw_support(view, one, support)
-    local edges = { support:edges() }
-    for _, edge in ipairs(edges) do
-        for i, point in ipairs(edge) do edge[i] = matrices.point(one.place, point) end
-    end
-    view:surface{ from = edges[1], to = edges[2], color = "#f0c040", opacity = 0.22 }
-    for _, edge in ipairs(edges) do view:line{ points = edge, color = "#f0c040", width = 1 } end
-end
-
---- Says something at the cursor.
-function hair.say(view, text)
-    local origin, direction = view.camera:ray(view.cursor[1] + 12, view.cursor[2] - 12, view.size)
-    local at = {}
-    for axis = 1, 3 do at[axis] = origin[axis] + direction[axis] end
-    view:label{ at = at, text = text }
 end
 
 return hair

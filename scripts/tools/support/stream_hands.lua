@@ -24,8 +24,11 @@ local hands = {}
 -- Each does what the stroke so far means, and says what that is.
 function hands.draw(self, one, ev, camera)
     local given = { points = self.pixels, size = ev.size }
-    local names = self.target and curves.readings(self.target, camera, ev.size, camera:stroke(given).pixels)
-    names = names or {}
+    local names, reading = {}, nil
+    if self.target then
+        names, reading = curves.readings(self.target, camera, ev.size, camera:stroke(given).pixels)
+        names = names or {}
+    end
     table.insert(names, "stream")
     local name = names[self.turn % #names + 1]
     if name ~= "stream" then
@@ -36,12 +39,15 @@ function hands.draw(self, one, ev, camera)
     else
         given.on = one.scalp
         local points = camera:stroke(given).points
-        self.drafts = { assert(one.style:stream{ points = points }) }
+        self.drafts = { assert(one.style:stream{ points = points, stop = self.params.stop }) }
         if self.params.symmetric then
-            self.drafts[2] = assert(one.style:stream{ points = curves.mirrored(one.scalp, points) })
+            points = curves.mirrored(one.scalp, points)
+            self.drafts[2] = assert(one.style:stream{ points = points, stop = self.params.stop })
         end
     end
-    return name .. (#names > 1 and "  (Alt: " .. names[(self.turn + 1) % #names + 1] .. ")" or "")
+    local hard = self.support and (self.support:end_on() > 1 / 3 and ": seen end-on, draw on the strip"
+        or reading.pixels < 120 and ": come nearer" or not reading.sure and "?") or ""
+    return name .. hard .. (#names > 1 and "  (Alt: " .. names[(self.turn + 1) % #names + 1] .. ")" or "")
 end
 
 function hands.pull(self, one, ev, camera)
@@ -76,7 +82,7 @@ function stream_hands.follow(self, one, ev, share)
     local done, said = pcall(hands[self.params.by], self, one, ev, hair.camera(ev.camera, one))
     if not done then put_back(self, one) end
     hair.grow(ev.scene, one, share)
-    self.said = (tostring(said):gsub("^[^\n]-:%d+: ", ""))      -- without its place in a script
+    self.said = hair.message(said)
     return done
 end
 

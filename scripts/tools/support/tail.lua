@@ -1,6 +1,8 @@
 --- A ponytail in a tool's hand: the strokes that make it (its spine, the section around it, the profiles
 --- beside it), and its handles. Points are in the head's own space.
+local curves = require "tools.support.curves"
 local hair = require "tools.support.hair"
+local hair_view = require "tools.support.hair_view"
 local vectors = require "vectors"
 
 local tail = {}
@@ -24,15 +26,17 @@ local function length_of(pixels)
     return sum
 end
 
--- Whether a stroke goes round: its ends are near each other for how wide it is.
-local function is_closed(pixels)
+-- What a stroke goes round: "all" where its ends are near each other for how wide it is, "half" where it is
+-- bent but open; and its width.
+local function round(pixels)
     local low, high = { math.huge, math.huge }, { -math.huge, -math.huge }
     for _, pixel in ipairs(pixels) do
         for k = 1, 2 do low[k], high[k] = math.min(low[k], pixel[k]), math.max(high[k], pixel[k]) end
     end
     local width = math.max(high[1] - low[1], high[2] - low[2])
-    local apart = length_of{ pixels[1], pixels[#pixels] }
-    return apart < 0.6 * width and length_of(pixels) > 1.7 * width, width
+    local apart, length = length_of{ pixels[1], pixels[#pixels] }, length_of(pixels)
+    if apart < 0.6 * width and length > 1.7 * width then return "all", width end
+    return length > 1.3 * apart and "half" or nil, width
 end
 
 -- How much a stroke runs along a spine, 0 to 1, as both are seen.
@@ -52,37 +56,91 @@ local function along(camera, size, spine, pixels)
     return whole > 0 and math.abs(sum) / whole or 0
 end
 
---- Puts what was drawn at a tail where its spine is: all of a section at the depth of the spine in its
--- middle, each point of a profile at that of the spine beside it.
-function tail.on_spine(ev, one, spine, pixels, is_section)
-    local camera, points = hair.camera(ev.camera, one), {}
-    local fair = camera:stroke{ points = pixels, size = ev.size }.pixels
+-- A section in the plane across the view where the spine is in the middle of it.
+local function section_points(ev, spine, camera, fair)
     local x, y = middle_of(fair)
-    for i, pixel in ipairs(fair) do
-        local near = hair.nearest(spine, camera, ev.size, is_section and x or pixel[1],
-            is_section and y or pixel[2])
-        local _, _, depth = camera:project(near.point, ev.size)
-        points[i] = camera:unproject({ pixel[1], pixel[2], depth }, ev.size)
-    end
+    local _, _, depth = camera:project(hair.nearest(spine, camera, ev.size, x, y).point, ev.size)
+    local points = {}
+    for i, pixel in ipairs(fair) do points[i] = camera:unproject({ pixel[1], pixel[2], depth }, ev.size) end
     return points
 end
 
---- What a stroke at a tail means: "section", "profile", or nil where it is not at it. An error where it is at
--- it, but neither.
-function tail.reading(ev, one, spine, pixels)
-    local camera = hair.camera(ev.camera, one)
-    local closed, width = is_closed(pixels)
+local strip_width = 0.08    -- metres to each side of a spine on which profiles are drawn
+
+-- A profile on the strip of the spine that faces the view.
+local function profile_points(self, ev, curve, camera)
+    self.support = curve:support{ mode = "strip", camera = camera, width = strip_width }
+    local given = { points = self.pixels, size = ev.size, on = self.support }
+    return camera:stroke(given).points, self.support:end_on() > 1 / 3
+end
+
+local parts = {}
+
+-- Where a stroke is at a tail: whether its middle is on the spine, it begins at it, or beside it.
+function parts.place(ev, one, camera, spine, pixels, width)
     local x, y = middle_of(pixels)
     local middle = hair.nearest(spine, camera, ev.size, x, y)
     local first = hair.nearest(spine, camera, ev.size, pixels[1][1], pixels[1][2])
     if not middle or not first then return nil end
-    if closed and middle.pixels < width / 2 then return "section" end
     local _, _, depth = camera:project(first.point, ev.size)
     local start = camera:unproject({ pixels[1][1], pixels[1][2], depth }, ev.size)
-    if hair.distance(spine, start) > beside * one.scalp:scale() then return nil end
-    if along(camera, ev.size, spine, pixels) > 0.7 then return "profile" end
-    error("beside a tail draw all the way round it, for the tie, or along it, for how it swells; "
-        .. "with shift another tail", 0)
+    return { is_around = middle.pixels < width / 2, is_at = first.pixels < 20,
+        is_beside = hair.distance(spine, start) < beside * one.scalp:scale() }
+end
+
+function parts.section(_, ev, curve, camera, pixels)
+    return { name = "tie", act = function()
+        curve:set{ section = section_points(ev, curve:course(), camera, pixels) }
+    end }
+end
+
+function parts.profile(self, ev, curve, camera)
+    return { name = "profile", act = function()
+        local points, end_on = profile_points(self, ev, curve, camera)
+        curve:set{ profiles = tail.with_profile(curve, points) }
+        return nil, end_on and "the tail is seen end-on: turn the view" or nil
+    end }
+end
+
+function parts.refused(text) return { name = "nothing", act = function() error(text, 0) end } end
+
+-- Hints to the spine, as to a stream.
+function parts.hints(self, ev, one, curve, camera, pixels)
+    local list = {}
+    for i, name in ipairs(curves.readings(curve, camera, ev.size, pixels) or {}) do
+        list[i] = { name = name, act = function()
+            self.support = curves.support(curve, "auto", camera, self.state.viewpoint)
+            local given = { points = self.pixels, size = ev.size, on = self.support }
+            curves.apply(curve, name, camera:stroke(given).points)
+            return nil, self.support:mode() == "ruled" and "in depth" or nil
+        end }
+    end
+    return list
+end
+
+--- What a stroke at a tail may mean, likeliest first, as curve_tool has it; empty where it is not at it.
+function tail.readings(self, ev, one, curve)
+    local camera, spine = hair.camera(ev.camera, one), curve:course()
+    local pixels = camera:stroke{ points = self.pixels, size = ev.size }.pixels
+    local way, width = round(pixels)
+    local place = parts.place(ev, one, camera, spine, pixels, width)
+    if not place then return {} end
+    local hints = (place.is_at or place.is_beside) and parts.hints(self, ev, one, curve, camera, pixels) or {}
+    local first
+    if way == "all" and place.is_around then
+        first = parts.section(self, ev, curve, camera, pixels)
+    elseif not place.is_beside or (place.is_at and way ~= "half") then
+        return hints
+    elseif along(camera, ev.size, spine, pixels) > 0.7 then
+        first = parts.profile(self, ev, curve, camera)
+    elseif way == "half" and place.is_around then
+        first = parts.refused("half a ring: draw all the way round the tail, for the tie")
+    elseif #hints == 0 then
+        first = parts.refused("beside a tail draw all the way round it, for the tie, or along it, for how it "
+            .. "swells")
+    end
+    if first then table.insert(hints, 1, first) end
+    return hints
 end
 
 --- The spine of a tail from a stroke over the head: from where it is high enough for a tie.
@@ -172,7 +230,7 @@ local function draw_circle(view, one, tie, radius)
         local side = vectors.plus(tie.center, level, math.cos(turn) * metres)
         points[i] = vectors.plus(side, up, math.sin(turn) * metres)
     end
-    hair.line(view, one, points, { color = "#e8a33d", width = 2, closed = true })
+    hair_view.line(view, one, points, { color = "#e8a33d", width = 2, closed = true })
 end
 
 --- Draws the tie of a tail, its ring, and what was drawn for it.
@@ -183,7 +241,7 @@ function tail.draw(view, one, curve)
     drawn[3] = curve:section()
     for i, points in ipairs(drawn) do
         local look = { color = "#d090f0", width = 3, closed = i == 3 }
-        if #points > 0 then hair.line(view, one, points, look) end
+        if #points > 0 then hair_view.line(view, one, points, look) end
     end
 end
 
