@@ -14,8 +14,8 @@ constexpr Index kMaximumExactLoop = 300;
 // How far the ends of a chord may lie from those of a chord of the coarser line, in points; twice
 // as far where that gives nothing.
 constexpr Index kChordReach = 3, kFarthestReach = 12;
-// What squared edges count beside areas.
-constexpr double kEdgeCost = 1e-6;
+// What squared edges count beside areas, times how many areas they are; at most so many.
+constexpr double kShapeCost = 1e-8, kWorstShape = 1e4;
 // Costs that differ by a smaller part are equal, so that the first of symmetric solutions is taken
 // in every frame.
 constexpr double kCostTolerance = 1e-10;
@@ -83,8 +83,10 @@ class LeastArea {
     }
 
     static double triangle_cost(const Vec3& base, const Vec3& side) {
-        return 0.5 * base.cross(side).norm() +
-               kEdgeCost * (base.squaredNorm() + side.squaredNorm() + (base - side).squaredNorm());
+        const double area = 0.5 * base.cross(side).norm();
+        const double edges = base.squaredNorm() + side.squaredNorm() + (base - side).squaredNorm();
+        const double shape = edges < kWorstShape * area ? edges / area : kWorstShape;
+        return area + kShapeCost * edges * shape;
     }
 
     std::span<const Vec3> points_;

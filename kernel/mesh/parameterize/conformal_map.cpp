@@ -59,20 +59,14 @@ BoundarySpread boundary_spread(const Chart& chart) {
 // boundary runs from the lower vertex to the higher.
 using AreaEdges = std::unordered_map<std::uint64_t, double>;
 
-// The area of the faces, and that of what closes their holes by its weight.
-AreaEdges area_edges(const Chart& chart, double fill_weight) {
+AreaEdges area_edges(const Chart& chart) {
     AreaEdges edges;
-    const auto add = [&](const std::vector<std::vector<Index>>& loops, double weight) {
-        if (weight == 0.0) return;
-        for (const std::vector<Index>& loop : loops) {
-            for (std::size_t i = 0; i < loop.size(); ++i) {
-                const Index a = loop[i], b = loop[(i + 1) % loop.size()];
-                edges[pair_key(std::min(a, b), std::max(a, b))] += a < b ? weight : -weight;
-            }
+    for (const std::vector<Index>& loop : chart.open_loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Index a = loop[i], b = loop[(i + 1) % loop.size()];
+            edges[pair_key(std::min(a, b), std::max(a, b))] = a < b ? 1.0 : -1.0;
         }
-    };
-    add(chart.loops, 1.0 - fill_weight);
-    add(chart.open_loops, fill_weight);
+    }
     return edges;
 }
 
@@ -231,12 +225,12 @@ class ConformalLanczos {
 }  // namespace
 
 std::vector<Vec2> conformal_map(const Chart& chart, const std::vector<TriangleShape>& shapes,
-                                double fill_weight, const Context& context) {
+                                const Context& context) {
     const BoundarySpread spread = boundary_spread(chart);
     require(spread.start.size() > 0 && std::isfinite(spread.fraction[0]),
             "the outline of the faces has no length; choose a larger region");
     const SymmetricMatrix matrix =
-        conformal_matrix(chart_laplacian(chart, shapes), area_edges(chart, fill_weight), spread);
+        conformal_matrix(chart_laplacian(chart, shapes), area_edges(chart), spread);
     ConformalInverse inverse(matrix, spread, context);
     return inverse.everywhere(ConformalLanczos(inverse).find(spread.start, context));
 }

@@ -16,6 +16,6 @@ namespace lissom {
 /// a vertex, found by Lanczos iteration with the inverse. Scale and rotation are arbitrary.
 /// Errors: not_positive_definite; memory_limit; cancelled.
 std::vector<Vec2> conformal_map(const Chart& chart, const std::vector<TriangleShape>& shapes,
-                                double fill_weight, const Context& context);
+                                const Context& context);
 
 }  // namespace lissom

@@ -1,7 +1,6 @@
 #include "kernel/mesh/parameterize/parameterize.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "kernel/mesh/parameterize/chart.h"
@@ -14,20 +13,11 @@
 namespace lissom {
 namespace {
 
-void require_options(const ParameterizeOptions& options) {
-    require(options.maximum_iterations >= 0, "maximum_iterations must be 0 or more");
-    require(options.fill_weight > 0.0 && std::isfinite(options.fill_weight),
-            "fill_weight must be above 0; leave out the triangles that close holes instead");
-}
-
 // Lays out a chart, and keeps of each method what the next is worth.
 class ChartLayout {
   public:
     ChartLayout(const Chart& chart, const ParameterizeOptions& options, const Context& context)
-        : chart_(chart),
-          options_(options),
-          context_(context),
-          shapes_(triangle_shapes(chart, options.fill_weight)) {}
+        : chart_(chart), options_(options), context_(context), shapes_(triangle_shapes(chart)) {}
 
     Parameterization run() {
         Progress progress(context_, "parameterize");
@@ -35,7 +25,7 @@ class ChartLayout {
         if (options_.method == ParameterizeMethod::tutte) {
             result_.uv = convex_map(chart_, shapes_, context_);
         } else {
-            result_.uv = conformal_map(chart_, shapes_, options_.fill_weight, context_);
+            result_.uv = conformal_map(chart_, shapes_, context_);
         }
         scale_to_area(chart_, shapes_, result_.uv);
         result_.method = options_.method;
@@ -95,7 +85,7 @@ class ChartLayout {
 
 Parameterization parameterize(const Mesh& mesh, std::span<const Index> faces,
                               const ParameterizeOptions& options, const Context& context) {
-    require_options(options);
+    require(options.maximum_iterations >= 0, "maximum_iterations must be 0 or more");
     Chart chart = make_chart(mesh, faces, options.fill, options.close_holes, context);
     Parameterization result = ChartLayout(chart, options, context).run();
     result.vertex = std::move(chart.vertex);

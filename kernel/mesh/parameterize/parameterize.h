@@ -38,9 +38,6 @@ struct ParameterizeOptions {
     /// Triangles over vertices of the mesh that close holes the same way, given by the caller. They
     /// turn as the faces do.
     std::vector<Triangle> fill = {};
-    /// Weight of all these triangles beside the faces, above 0. They have the shape of a flat lid,
-    /// not of the surface, so a small one lets the surface have its own.
-    double fill_weight = 1.0;
 };
 
 /// A piece of surface in the plane. Lengths are those of the mesh: for `lscm` and `tutte` the scale
@@ -71,8 +68,8 @@ struct Parameterization {
     /// holes.
     std::vector<Index> flipped;
     Index flipped_fill = 0;
-    /// Faces with a triangle that has no area on the surface, ascending. They are laid out as
-    /// if they were 1e-4 of their length wide, and do not count in the scale.
+    /// Faces with a triangle that has hardly an area on the surface, ascending: one narrower than
+    /// 1e-4 of its length. It is laid out as if it had that width, and does not count in the scale.
     std::vector<Index> degenerate;
     /// Least and greatest factor by which the map changes a length at a point, over all faces: the
     /// singular values of its derivative.

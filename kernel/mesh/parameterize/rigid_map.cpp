@@ -22,7 +22,7 @@ class RigidIteration {
         matrix.value[0] *= 2.0;
         system_.analyze(matrix, context);
         system_.factor(matrix, context);
-        for (const TriangleShape& shape : shapes) total_ += shape.weight * shape.area;
+        for (const TriangleShape& shape : shapes) total_ += shape.area;
     }
 
     // The best rotations for a map, and the energy that is left.
@@ -34,8 +34,8 @@ class RigidIteration {
             const MapDerivative map = map_derivative(shape, uv[a], uv[b], uv[c]);
             const double length = map.same.norm();
             turn_[t] = length > 0.0 ? Vec2(map.same / length) : Vec2(1.0, 0.0);
-            energy += 2.0 * shape.weight * shape.area *
-                      ((length - 1.0) * (length - 1.0) + map.mirrored.squaredNorm());
+            energy +=
+                2.0 * shape.area * ((length - 1.0) * (length - 1.0) + map.mirrored.squaredNorm());
         }
         return energy / total_;
     }
@@ -47,7 +47,7 @@ class RigidIteration {
         for (std::size_t t = 0; t < shapes_.size(); ++t) {
             for (int k = 0; k < 3; ++k) {
                 const Vec2 side = shapes_[t].side(k);
-                const double w = 0.5 * shapes_[t].weight * shapes_[t].opposite(k);
+                const double w = 0.5 * shapes_[t].opposite(k);
                 add(chart_.triangles[t][k], chart_.triangles[t][(k + 1) % 3],
                     {w * (turn_[t].x() * side.x() - turn_[t].y() * side.y()),
                      w * (turn_[t].y() * side.x() + turn_[t].x() * side.y())});

@@ -50,7 +50,7 @@ TriangleShape shape_of(const std::array<Vec3, 3>& p, double unit) {
 
 }  // namespace
 
-std::vector<TriangleShape> triangle_shapes(const Chart& chart, double fill_weight) {
+std::vector<TriangleShape> triangle_shapes(const Chart& chart) {
     const double mean = mean_side(chart), unit = mean > 0.0 ? mean : 1.0;
     std::vector<TriangleShape> shapes;
     shapes.reserve(chart.triangles.size());
@@ -58,7 +58,6 @@ std::vector<TriangleShape> triangle_shapes(const Chart& chart, double fill_weigh
         const auto [a, b, c] = chart.triangles[t];
         shapes.push_back(
             shape_of({chart.positions[a], chart.positions[b], chart.positions[c]}, unit));
-        if (chart.is_fill(t)) shapes.back().weight = fill_weight;
     }
     return shapes;
 }
@@ -69,7 +68,7 @@ SymmetricMatrix chart_laplacian(const Chart& chart, const std::vector<TriangleSh
     for (std::size_t t = 0; t < shapes.size(); ++t) {
         for (int k = 0; k < 3; ++k) {
             const Index a = chart.triangles[t][k], b = chart.triangles[t][(k + 1) % 3];
-            const double w = 0.5 * shapes[t].weight * shapes[t].opposite(k);
+            const double w = 0.5 * shapes[t].opposite(k);
             entries.push_back({a, a, w});
             entries.push_back({b, b, w});
             entries.push_back({std::max(a, b), std::min(a, b), -w});

@@ -20,8 +20,6 @@ struct TriangleShape {
     /// At each corner, and so for the edge opposite to it.
     std::array<double, 3> cotangent{};
     double area = 0.0;
-    /// How much it counts in an energy.
-    double weight = 1.0;
     bool degenerate = false;
 
     /// From corner k to the next.
@@ -30,11 +28,11 @@ struct TriangleShape {
     double opposite(int k) const { return cotangent[at((k + 2) % 3)]; }
 };
 
-/// All triangles of the chart; those that close holes count by `fill_weight`.
-std::vector<TriangleShape> triangle_shapes(const Chart& chart, double fill_weight);
+/// All triangles of the chart.
+std::vector<TriangleShape> triangle_shapes(const Chart& chart);
 
 /// The matrix of sum over edges of w |x_i - x_j|^2, where w is half the cotangents opposite to the
-/// edge, each times the weight of its triangle.
+/// edge.
 SymmetricMatrix chart_laplacian(const Chart& chart, const std::vector<TriangleShape>& shapes);
 
 /// Derivative of the map that takes a triangle to `a`, `b` and `c`, as its parts that keep angles

@@ -73,8 +73,7 @@ inline double deviation(const std::vector<Vec2>& uv, const std::vector<Vec2>& fr
     const Complex factor = rigid ? above / std::abs(above) : above / below;
     for (std::size_t i = 0; i < uv.size(); ++i) {
         const Complex p = Complex(from[i].x(), from[i].y()) - mean;
-        worst = std::max(worst,
-                         std::abs(Complex(uv[i].x(), uv[i].y()) - uv_mean - factor * p));
+        worst = std::max(worst, std::abs(Complex(uv[i].x(), uv[i].y()) - uv_mean - factor * p));
         extent = std::max(extent, std::abs(factor * p));
     }
     return worst / extent;
