@@ -72,9 +72,11 @@ class LeastArea {
         Chord best{k, kNoIndex, i + 1 == k ? 0.0 : kImpossible};
         const Vec3 base = points_[k] - points_[i];
         for (const Chord& left : chords_[i]) {
-            const double sides = left.cost + cost_to_[left.to];
-            if (!(sides < best.cost)) continue;
-            const double cost = sides + triangle_cost(base, points_[left.to] - points_[i]);
+            const double sides = left.cost + cost_to_[left.to], room = best.cost - sides;
+            if (!(room > 0.0)) continue;
+            const Vec3 side = points_[left.to] - points_[i], normal = base.cross(side);
+            if (normal.squaredNorm() >= 4.0 * room * room) continue;
+            const double cost = sides + triangle_cost(base, side, 0.5 * normal.norm());
             if (cost < best.cost * (1.0 - kCostTolerance)) best = {k, left.to, cost};
         }
         if (best.cost == kImpossible) return;
@@ -82,8 +84,7 @@ class LeastArea {
         cost_to_[i] = best.cost;
     }
 
-    static double triangle_cost(const Vec3& base, const Vec3& side) {
-        const double area = 0.5 * base.cross(side).norm();
+    static double triangle_cost(const Vec3& base, const Vec3& side, double area) {
         const double edges = base.squaredNorm() + side.squaredNorm() + (base - side).squaredNorm();
         const double shape = edges < kWorstShape * area ? edges / area : kWorstShape;
         return area + kShapeCost * edges * shape;

@@ -12,7 +12,7 @@ namespace {
 
 // How far outside of a triangle a point counts as inside, by its weights.
 constexpr double kOutside = 1e-9;
-constexpr double kTrianglesPerCell = 2.0;
+constexpr double kTrianglesPerCell = 4.0;
 
 void require_points(std::span<const Vec2> uv, std::span<const Triangle> triangles) {
     for (const Vec2& p : uv) {
@@ -31,27 +31,24 @@ void require_points(std::span<const Vec2> uv, std::span<const Triangle> triangle
 
 }  // namespace
 
-UvGrid::UvGrid(std::span<const Vec2> uv, std::span<const Triangle> triangles) {
+UvGrid::UvGrid(std::span<const Vec2> uv, std::span<const Triangle> triangles)
+    : uv_(uv.begin(), uv.end()), triangles_(triangles.begin(), triangles.end()) {
     require_points(uv, triangles);
-    corners_.reserve(triangles.size());
-    for (const auto& [a, b, c] : triangles) {
-        corners_.push_back({uv[at(a)], uv[at(b)], uv[at(c)]});
-    }
-    if (corners_.empty()) return;
+    if (triangles_.empty()) return;
     set_cells();
     sort_into_cells();
 }
 
 void UvGrid::set_cells() {
-    low_ = high_ = corners_[0][0];
-    for (const std::array<Vec2, 3>& corners : corners_) {
-        for (const Vec2& p : corners) {
-            low_ = low_.cwiseMin(p);
-            high_ = high_.cwiseMax(p);
+    low_ = high_ = uv_[at(triangles_[0][0])];
+    for (const Triangle& t : triangles_) {
+        for (const Index v : t) {
+            low_ = low_.cwiseMin(uv_[at(v)]);
+            high_ = high_.cwiseMax(uv_[at(v)]);
         }
     }
     const Vec2 size = (high_ - low_).cwiseMax(1e-9 * (high_ - low_).maxCoeff());
-    const double wanted = static_cast<double>(corners_.size()) / kTrianglesPerCell;
+    const double wanted = static_cast<double>(triangles_.size()) / kTrianglesPerCell;
     cells_per_length_ = size.x() > 0.0 ? std::sqrt(wanted / (size.x() * size.y())) : 0.0;
     for (int axis = 0; axis < 2; ++axis) {
         const double count = std::ceil(size[axis] * cells_per_length_);
@@ -67,13 +64,13 @@ void UvGrid::sort_into_cells() {
         }
     };
     begin_.assign(at(count_[0]) * at(count_[1]) + 1, 0);
-    for (Index t = 0; t < count_of(corners_); ++t) {
+    for (Index t = 0; t < count_of(triangles_); ++t) {
         for_each_cell(t, [&](std::size_t place) { ++begin_[place + 1]; });
     }
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     of_cell_.resize(at(begin_.back()));
     std::vector<Index> next(begin_.begin(), begin_.end() - 1);
-    for (Index t = 0; t < count_of(corners_); ++t) {
+    for (Index t = 0; t < count_of(triangles_); ++t) {
         for_each_cell(t, [&](std::size_t place) { of_cell_[at(next[place]++)] = t; });
     }
 }
@@ -85,7 +82,7 @@ Index UvGrid::column(double value, int axis) const {
 
 // Cells that the box around a triangle touches, with room for points that count as inside.
 UvGrid::Cells UvGrid::cells_of(Index triangle) const {
-    const auto& [a, b, c] = corners_[at(triangle)];
+    const auto [a, b, c] = corners(triangle);
     const Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     const Vec2 room = 4.0 * kOutside * (high - low);
     Cells cells{};
@@ -97,7 +94,7 @@ UvGrid::Cells UvGrid::cells_of(Index triangle) const {
 }
 
 std::optional<Vec3> UvGrid::weights(Index triangle, const Vec2& point) const {
-    const auto& [a, b, c] = corners_[at(triangle)];
+    const auto [a, b, c] = corners(triangle);
     const double area = doubled_area(a, b, c);
     if (area == 0.0) return {};
     Vec3 weights(doubled_area(point, b, c), doubled_area(a, point, c), 0.0);
@@ -111,7 +108,7 @@ std::optional<UvPoint> UvGrid::locate(const Vec2& point) const {
     const Vec2 room = 4.0 * kOutside * (high_ - low_);
     const bool outside = ((point + room).array() < low_.array()).any() ||
                          ((point - room).array() > high_.array()).any();
-    if (corners_.empty() || outside || !point.allFinite()) return {};
+    if (triangles_.empty() || outside || !point.allFinite()) return {};
     const std::size_t place = cell(column(point.x(), 0), column(point.y(), 1));
     for (Index i = begin_[place]; i < begin_[place + 1]; ++i) {
         const Index triangle = of_cell_[at(i)];

@@ -20,7 +20,7 @@ struct UvPoint {
     Vec3 barycentric = Vec3::Zero();
 };
 
-/// Triangles of the plane in the cells of a grid, about two a cell. Building takes time in
+/// Triangles of the plane in the cells of a grid, about four a cell. Building takes time in
 /// proportion to their number, a look-up does not depend on it where they are of about one size.
 /// Keeps copies of what it needs. Several threads may look up at once.
 class UvGrid {
@@ -40,13 +40,17 @@ class UvGrid {
 
     void set_cells();
     void sort_into_cells();
+    std::array<Vec2, 3> corners(Index triangle) const {
+        const auto& [a, b, c] = triangles_[at(triangle)];
+        return {uv_[at(a)], uv_[at(b)], uv_[at(c)]};
+    }
     Index column(double value, int axis) const;
     std::size_t cell(Index x, Index y) const { return at(y) * at(count_[0]) + at(x); }
     Cells cells_of(Index triangle) const;
     std::optional<Vec3> weights(Index triangle, const Vec2& point) const;
 
-    // Corners of the triangles.
-    std::vector<std::array<Vec2, 3>> corners_;
+    std::vector<Vec2> uv_;
+    std::vector<Triangle> triangles_;
     Vec2 low_ = Vec2::Zero(), high_ = Vec2::Zero();
     double cells_per_length_ = 0.0;
     Index count_[2] = {1, 1};
