@@ -100,7 +100,7 @@ void close_loop(Chart& chart, std::span<const Index> loop, const Context& contex
     if (triangles.empty()) {
         Elements elements{ElementKind::vertex, 0, {}};
         elements.add(chart.vertex[loop[0]]);
-        throw Error(ErrorCode::invalid_argument,
+        throw Error(ErrorCode::not_a_disk,
                     "no triangles close the hole at " + describe(elements) +
                         ", since faces have the edges that they would need; give triangles of "
                         "your own, or clear close_holes",

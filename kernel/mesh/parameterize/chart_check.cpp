@@ -85,7 +85,7 @@ class ChartCheck {
         if (parts.size() == 1) return;
         Elements elements{ElementKind::vertex, 0, {}};
         for (const Index v : parts) elements.add(id_[v]);
-        refuse_if(true, ErrorCode::invalid_argument, elements,
+        refuse_if(true, ErrorCode::not_a_disk, elements,
                   "the faces fall into " + std::to_string(parts.size()) + " parts, which begin at ",
                   "; lay out one part at a time");
     }
@@ -94,12 +94,12 @@ class ChartCheck {
     void require_genus_zero() {
         Elements lowest{ElementKind::vertex, 0, {}};
         lowest.add(id_[0]);
-        refuse_if(border_count_ == 0, ErrorCode::invalid_argument, lowest,
+        refuse_if(border_count_ == 0, ErrorCode::not_a_disk, lowest,
                   "the surface to be laid out is closed around ",
                   "; leave a part of it out of the region");
         const Index characteristic = count_of(id_) - edge_count_ + faces_.size();
         const Index genus = (2 - count_of(loops()) - characteristic) / 2;
-        refuse_if(genus > 0, ErrorCode::invalid_argument, lowest,
+        refuse_if(genus > 0, ErrorCode::not_a_disk, lowest,
                   "the surface to be laid out has " + std::to_string(genus) +
                       (genus == 1 ? " handle around " : " handles around "),
                   "; choose a region that goes around none, such as half of it");

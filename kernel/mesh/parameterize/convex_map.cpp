@@ -18,7 +18,7 @@ void require_one_loop(const Chart& chart) {
     for (std::size_t i = 1; i < chart.open_loops.size(); ++i) {
         elements.add(chart.vertex[chart.open_loops[i][0]]);
     }
-    throw Error(ErrorCode::invalid_argument,
+    throw Error(ErrorCode::not_a_disk,
                 "a map onto a disk needs a surface without holes; there are some at " +
                     describe(elements) + "; set close_holes",
                 elements);

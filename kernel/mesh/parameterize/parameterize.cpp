@@ -37,11 +37,22 @@ class ChartLayout {
     }
 
   private:
+    // Whole iterations; where they end with flips, also ones that stop short of these.
+    RigidMap best_rigid_map() const {
+        const auto with = [&](RigidSteps steps) {
+            return rigid_map(chart_, shapes_, result_.uv, steps, options_.maximum_iterations,
+                             context_);
+        };
+        RigidMap whole = with(RigidSteps::whole);
+        if (!whole.ends_with_flips()) return whole;
+        RigidMap shorter = with(RigidSteps::short_of_flips);
+        return shorter.reached() < whole.reached() ? std::move(shorter) : std::move(whole);
+    }
+
     // Kept where it flips nothing, and where no boundary crosses another that did not before.
     void make_rigid() {
         result_.method = ParameterizeMethod::lscm;
-        RigidMap rigid =
-            rigid_map(chart_, shapes_, result_.uv, options_.maximum_iterations, context_);
+        RigidMap rigid = best_rigid_map();
         result_.energy = std::move(rigid.energy);
         if (rigid.iterations == 0 ||
             crossing_edges(chart_.loops, rigid.uv) > crossing_edges(chart_.loops, result_.uv)) {

@@ -1,5 +1,8 @@
 #include "kernel/mesh/parameterize/rigid_map.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "kernel/mesh/parameterize/map_quality.h"
@@ -10,6 +13,9 @@ namespace {
 
 // It ends where the energy falls by less than this part of it, or of that of a doubled length.
 constexpr double kEnergyFall = 1e-6, kNoEnergy = 1e-24;
+// Part that is taken of the way to where the first triangle has no area, and the least part of an
+// iteration that is worth while.
+constexpr double kWayToFlip = 0.8, kLeastWay = 0.02;
 
 class RigidIteration {
   public:
@@ -78,22 +84,59 @@ class RigidIteration {
     double total_ = 0.0;
 };
 
+// The smallest t above 0 where c + b t + a t^2 is 0, c being positive; infinity where there is
+// none.
+double first_root(double a, double b, double c) {
+    const double discriminant = b * b - 4.0 * a * c;
+    if (discriminant < 0.0) return std::numeric_limits<double>::infinity();
+    const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+    double first = std::numeric_limits<double>::infinity();
+    for (const double root : {q / a, c / q}) {
+        if (root > 0.0) first = std::min(first, root);
+    }
+    return first;
+}
+
+// Part of the way from one map to another until a triangle has no area, from a map without flips.
+double way_to_flip(std::span<const Triangle> triangles, std::span<const Vec2> from,
+                   std::span<const Vec2> to) {
+    const auto cross = [](const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); };
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b, c] : triangles) {
+        const Vec2 u = from[b] - from[a], v = from[c] - from[a];
+        const Vec2 du = to[b] - to[a] - u, dv = to[c] - to[a] - v;
+        least =
+            std::min(least, first_root(cross(du, dv), cross(u, dv) + cross(du, v), cross(u, v)));
+    }
+    return least;
+}
+
 }  // namespace
 
 RigidMap rigid_map(const Chart& chart, const std::vector<TriangleShape>& shapes,
-                   std::vector<Vec2> start, Index maximum_iterations, const Context& context) {
+                   std::vector<Vec2> start, RigidSteps steps, Index maximum_iterations,
+                   const Context& context) {
     RigidIteration iteration(chart, shapes, context);
     RigidMap result;
     result.energy.push_back(iteration.rotate(start));
-    result.uv = std::move(start);
+    result.uv = start;
     const std::span faces(chart.triangles.data(), chart.face.size());
+    bool free = steps == RigidSteps::whole || !flipped_triangles(faces, start).empty();
+    std::vector<Vec2> at_hand = std::move(start);
     for (Index i = 1; i <= maximum_iterations; ++i) {
         context.checkpoint();
         std::vector<Vec2> next = iteration.move();
-        const double before = result.energy.back(), energy = iteration.rotate(next);
+        const double way = free ? 1.0 : kWayToFlip * way_to_flip(faces, at_hand, next);
+        if (way < kLeastWay) break;
+        for (std::size_t v = 0; v < next.size() && way < 1.0; ++v) {
+            next[v] = at_hand[v] + way * (next[v] - at_hand[v]);
+        }
+        at_hand = std::move(next);
+        const double before = result.energy.back(), energy = iteration.rotate(at_hand);
         result.energy.push_back(energy);
-        if (flipped_triangles(faces, next).empty()) {
-            result.uv = std::move(next);
+        if (flipped_triangles(faces, at_hand).empty()) {
+            free = steps == RigidSteps::whole;
+            result.uv = at_hand;
             result.iterations = i;
         }
         if (energy < kNoEnergy || before - energy < kEnergyFall * before) break;

@@ -10,8 +10,9 @@
 namespace lissom {
 namespace {
 
-// How far outside of a triangle a point counts as inside, by its weights.
-constexpr double kOutside = 1e-9;
+// How far outside of a triangle a point counts as inside, by its weights; no more than this part of
+// the extent.
+constexpr double kOutside = 1e-9, kRoom = 4e-9;
 constexpr double kTrianglesPerCell = 4.0;
 
 void require_points(std::span<const Vec2> uv, std::span<const Triangle> triangles) {
@@ -52,15 +53,17 @@ void UvGrid::set_cells() {
     cells_per_length_ = size.x() > 0.0 ? std::sqrt(wanted / (size.x() * size.y())) : 0.0;
     for (int axis = 0; axis < 2; ++axis) {
         const double count = std::ceil(size[axis] * cells_per_length_);
-        count_[axis] = static_cast<Index>(std::clamp(count, 1.0, std::ceil(wanted)));
+        count_[at(axis)] = static_cast<Index>(std::clamp(count, 1.0, std::ceil(wanted)));
     }
 }
 
 void UvGrid::sort_into_cells() {
+    const std::vector<Cells> around = cells_of_vertices();
     const auto for_each_cell = [&](Index t, const auto& use) {
-        const Cells cells = cells_of(t);
-        for (Index y = cells.begin[1]; y < cells.end[1]; ++y) {
-            for (Index x = cells.begin[0]; x < cells.end[0]; ++x) use(cell(x, y));
+        const auto& [a, b, c] = triangles_[at(t)];
+        const Cells cells = around[at(a)].united(around[at(b)]).united(around[at(c)]);
+        for (Index y = cells.first[1]; y <= cells.last[1]; ++y) {
+            for (Index x = cells.first[0]; x <= cells.last[0]; ++x) use(cell(x, y));
         }
     };
     begin_.assign(at(count_[0]) * at(count_[1]) + 1, 0);
@@ -77,20 +80,22 @@ void UvGrid::sort_into_cells() {
 
 Index UvGrid::column(double value, int axis) const {
     const double place = (value - low_[axis]) * cells_per_length_;
-    return static_cast<Index>(std::clamp(place, 0.0, count_[axis] - 1.0));
+    return static_cast<Index>(std::clamp(place, 0.0, count_[at(axis)] - 1.0));
 }
 
-// Cells that the box around a triangle touches, with room for points that count as inside.
-UvGrid::Cells UvGrid::cells_of(Index triangle) const {
-    const auto [a, b, c] = corners(triangle);
-    const Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    const Vec2 room = 4.0 * kOutside * (high - low);
-    Cells cells{};
-    for (int axis = 0; axis < 2; ++axis) {
-        cells.begin[axis] = column(low[axis] - room[axis], axis);
-        cells.end[axis] = column(high[axis] + room[axis], axis) + 1;
+// Cells around each vertex, with room for points that count as inside.
+std::vector<UvGrid::Cells> UvGrid::cells_of_vertices() const {
+    std::vector<Cells> result;
+    result.reserve(uv_.size());
+    const Vec2 room = kRoom * (high_ - low_);
+    for (const Vec2& p : uv_) {
+        Cells& cells = result.emplace_back();
+        for (int axis = 0; axis < 2; ++axis) {
+            cells.first[at(axis)] = column(p[axis] - room[axis], axis);
+            cells.last[at(axis)] = column(p[axis] + room[axis], axis);
+        }
     }
-    return cells;
+    return result;
 }
 
 std::optional<Vec3> UvGrid::weights(Index triangle, const Vec2& point) const {
@@ -105,7 +110,7 @@ std::optional<Vec3> UvGrid::weights(Index triangle, const Vec2& point) const {
 }
 
 std::optional<UvPoint> UvGrid::locate(const Vec2& point) const {
-    const Vec2 room = 4.0 * kOutside * (high_ - low_);
+    const Vec2 room = kRoom * (high_ - low_);
     const bool outside = ((point + room).array() < low_.array()).any() ||
                          ((point - room).array() > high_.array()).any();
     if (triangles_.empty() || outside || !point.allFinite()) return {};

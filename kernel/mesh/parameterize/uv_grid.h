@@ -1,6 +1,7 @@
 /// UvGrid: where points of the plane lie in a surface that is laid out there.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -35,7 +36,12 @@ class UvGrid {
 
   private:
     struct Cells {
-        Index begin[2], end[2];
+        std::array<Index, 2> first{}, last{};
+
+        Cells united(const Cells& other) const {
+            return {{std::min(first[0], other.first[0]), std::min(first[1], other.first[1])},
+                    {std::max(last[0], other.last[0]), std::max(last[1], other.last[1])}};
+        }
     };
 
     void set_cells();
@@ -46,14 +52,14 @@ class UvGrid {
     }
     Index column(double value, int axis) const;
     std::size_t cell(Index x, Index y) const { return at(y) * at(count_[0]) + at(x); }
-    Cells cells_of(Index triangle) const;
+    std::vector<Cells> cells_of_vertices() const;
     std::optional<Vec3> weights(Index triangle, const Vec2& point) const;
 
     std::vector<Vec2> uv_;
     std::vector<Triangle> triangles_;
     Vec2 low_ = Vec2::Zero(), high_ = Vec2::Zero();
     double cells_per_length_ = 0.0;
-    Index count_[2] = {1, 1};
+    std::array<Index, 2> count_{1, 1};
     // Triangles of cell c, ascending: of_cell_[begin_[c]] to of_cell_[begin_[c + 1]].
     std::vector<Index> begin_, of_cell_;
 };

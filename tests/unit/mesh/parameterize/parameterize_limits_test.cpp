@@ -28,18 +28,20 @@ Mesh ring_around_spike() {
 
 TEST_CASE("closed surfaces, handles, parts and corners are refused with what to do") {
     const Error closed = error_of([] { all_of(make_sphere({})); });
-    CHECK(closed.code() == ErrorCode::invalid_argument);
+    CHECK(closed.code() == ErrorCode::not_a_disk);
     CHECK(closed.message().find("is closed") != std::string::npos);
 
     const Mesh torus = make_torus({});
     const Region pierced = Region(torus.shared_topology(), {100}).grown(2).inverted();
     const Error handle = error_of([&] { parameterize(torus, pierced); });
+    CHECK(handle.code() == ErrorCode::not_a_disk);
     CHECK(handle.message().find("1 handle") != std::string::npos);
 
     const Mesh grid = make_grid({});
     const Region corners = select_box(grid, {Vec3(-1, -1, -1), Vec3(-0.2, 1, 1)})
                                .united(select_box(grid, {Vec3(0.2, -1, -1), Vec3(1, 1, 1)}));
     const Error parts = error_of([&] { parameterize(grid, corners); });
+    CHECK(parts.code() == ErrorCode::not_a_disk);
     CHECK(parts.message().find("2 parts") != std::string::npos);
     CHECK(parts.elements().kind == ElementKind::vertex);
     CHECK(parts.elements().count == 2);
@@ -73,7 +75,7 @@ TEST_CASE("a map onto a disk needs holes to be closed") {
     ParameterizeOptions options{.method = ParameterizeMethod::tutte};
     options.close_holes = false;
     const Error error = error_of([&] { all_of(grid_with_holes(), options); });
-    CHECK(error.code() == ErrorCode::invalid_argument);
+    CHECK(error.code() == ErrorCode::not_a_disk);
     CHECK(error.elements().count == 2);
 }
 
