@@ -15,7 +15,7 @@ struct CodeEntry {
     std::string_view explanation;
 };
 
-constexpr std::array<CodeEntry, 40> kCodes{{
+constexpr std::array<CodeEntry, 41> kCodes{{
     {ErrorCode::cancelled, "cancelled",
      "The operation was asked to stop and stopped; nothing was changed. Start it again."},
     {ErrorCode::invalid_argument, "invalid_argument",
@@ -108,6 +108,10 @@ constexpr std::array<CodeEntry, 40> kCodes{{
     {ErrorCode::not_a_boundary, "not_a_boundary",
      "A path that has to be a whole open boundary of its mesh is not one. Take it from the mesh's "
      "boundaries, or cut the mesh along it first."},
+    {ErrorCode::not_a_disk, "not_a_disk",
+     "The surface to be laid out in the plane is no disk, with or without holes: it is closed, has "
+     "handles, falls into parts, or has a hole that cannot be closed. Choose a region that is "
+     "one."},
     {ErrorCode::boundary_conflict, "boundary_conflict",
      "Boundaries or cuts get in each other's way: two joins share one, a loop crosses itself or "
      "has no length, or a cut runs into an open boundary. The message names the vertices."},

@@ -46,6 +46,7 @@ enum class ErrorCode {
     singular_transform,
     unconstrained,
     not_a_boundary,
+    not_a_disk,
     boundary_conflict,
     key_conflict,
     skin_mismatch,

@@ -25,6 +25,7 @@ Type whole_mesh_type() {
     add(mesh.methods, region_methods_of_mesh());
     add(mesh.methods, path_methods_of_mesh());
     add(mesh.methods, cut_methods_of_mesh());
+    add(mesh.methods, parameterize_methods_of_mesh());
     return mesh;
 }
 
@@ -87,6 +88,7 @@ Library kernel_library() {
                      gizmo_type(),           support_type(),     parameters_type()};
     library.records = kernel_records();
     add(library.records, cut_records());
+    add(library.records, parameterize_records());
     add(library.records, merge_records());
     add(library.records, hairstyle_records());
     add(library.records, curve_records());

@@ -20,6 +20,9 @@ std::vector<Function> region_methods_of_mesh();
 Type path_type();
 std::vector<Function> path_methods_of_mesh();
 
+std::vector<Function> parameterize_methods_of_mesh();
+std::vector<Record> parameterize_records();
+
 std::vector<Function> cut_methods_of_mesh();
 std::vector<Function> trim_methods_of_path();
 std::vector<Record> cut_records();

@@ -70,6 +70,7 @@ int make_path(Call& call) {
 int fill_boundary(Call& call) {
     const auto boundary = call.object<PathObject>("boundary");
     FillOptions options;
+    options.method = call.choice<FillMethod>("method");
     options.refine = call.boolean("refine");
     options.fair = call.boolean("fair");
     options.maximum_vertices = call.integer("maximum_vertices");
@@ -309,7 +310,11 @@ assert(#path == 11))"},
                  "Closes an open boundary by a patch of triangles that continues the surface, in "
                  "place. Old ids stay.",
              .arguments = {object("boundary", "lissom.Path", "An open boundary of this mesh.")},
-             .options = {boolean("refine", "Makes the patch as dense as the mesh around it.")
+             .options = {choice("method", {"angle", "area"},
+                                "Begins with the triangles whose greatest angle to one another and "
+                                "to the mesh is least, or with those of the least area, a lid.")
+                             .defaults("angle"),
+                         boolean("refine", "Makes the patch as dense as the mesh around it.")
                              .defaults(fill_defaults.refine),
                          boolean("fair", "Bends the patch to continue the surface smoothly.")
                              .defaults(fill_defaults.fair),

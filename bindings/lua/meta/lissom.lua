@@ -187,6 +187,18 @@
 ---@field removed_faces integer Faces that are gone.
 ---@field divided_faces integer Faces that were divided.
 
+---What a map into the plane is like.
+---@class lissom.ParameterizeReport
+---@field method string What made it: lscm where arap turned faces over at once.
+---@field iterations integer Iterations of arap that are in it.
+---@field energy number[] Of arap, before the first iteration and after each that was made: the mean squared distance of the map's derivative from a rotation.
+---@field flipped integer[] Faces that are turned over.
+---@field degenerate integer[] Faces that have hardly an area on the mesh.
+---@field least_scale number Least factor by which it changes a length, in lengths of the mesh.
+---@field greatest_scale number The greatest.
+---@field crossings integer Pairs of boundary edges that cross in the plane.
+---@field boundaries integer Boundaries of the faces.
+
 ---An element that another comes from.
 ---@class lissom.Origin
 ---@field side string source or target.
@@ -865,6 +877,7 @@ function Mesh:boundaries() end
 function Mesh:path(options) end
 
 ---@class lissom.Mesh.FillOptions
+---@field method? "angle"|"area" Begins with the triangles whose greatest angle to one another and to the mesh is least, or with those of the least area, a lid. Default: "angle".
 ---@field refine? boolean Makes the patch as dense as the mesh around it. Default: true.
 ---@field fair? boolean Bends the patch to continue the surface smoothly. Default: true.
 ---@field maximum_vertices? integer Vertices that refinement may insert. Default: 200000.
@@ -898,6 +911,20 @@ function Mesh:fill(boundary, options) end
 ---@return lissom.Mesh b # The rest.
 ---@return lissom.CutLines loops # The lines on both parts, and a report.
 function Mesh:cut(options) end
+
+---@class lissom.Mesh.ParameterizeOptions
+---@field region? lissom.Region Its faces are laid out: one part without handles, with at least one boundary. Default: the whole mesh.
+---@field method? "lscm"|"arap"|"tutte" Keeps angles (lscm); angles and lengths, as far as no face is turned over (arap, from lscm); or covers a disk, where nothing ever turns over (tutte). Default: "arap".
+---@field attribute? string Where the coordinates go: "uv", "uv2", or a name of your own. Default: "uv".
+---@field placement? "unit_square"|"as_is" Fitted into the square from 0 to 1, or in lengths of the mesh around the origin. Default: "unit_square".
+---@field iterations? integer Iterations of arap at most. Default: 20.
+---@field close_holes? boolean Closes every boundary but the longest by triangles that are part of the map and not of the result, so that the boundaries do not cross. Default: true.
+
+---Lays the surface, or a region of it, out in the plane, and keeps where each corner lies as texture coordinates. Other corners keep theirs.
+---@param options? lissom.Mesh.ParameterizeOptions
+---@return lissom.Mesh mesh # The mesh itself.
+---@return lissom.ParameterizeReport report # What the map is like.
+function Mesh:parameterize(options) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Mesh:close() end

@@ -82,7 +82,11 @@ FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options,
 
     progress.step(0.4);
     HolePatch patch(mesh);
-    report.parts = triangulate_hole(patch, outline, context);
+    if (options.method == FillMethod::area) {
+        triangulate_hole_by_area(patch, outline, context);
+    } else {
+        report.parts = triangulate_hole(patch, outline, context);
+    }
     progress.step(0.3);
     if (options.refine) {
         report.limit_reached = !patch.refine(outline, options.maximum_vertices, context);

@@ -10,7 +10,16 @@
 
 namespace lissom {
 
+/// Which triangles close a hole before they are refined.
+enum class FillMethod {
+    /// The least largest dihedral angle, then the least area (Liepa 2003): continues the surface.
+    angle,
+    /// The least area: a lid.
+    area,
+};
+
 struct FillOptions {
+    FillMethod method = FillMethod::angle;
     /// Inserts vertices until the patch is as dense as the mesh around the hole.
     bool refine = true;
     /// Moves the inserted vertices so that the patch continues the surface smoothly (a bi-Laplacian
@@ -35,9 +44,10 @@ struct FillReport {
     Index folded_edges = 0;
 };
 
-/// Closes one open boundary of `mesh`, in place, by triangles: minimum-weight triangulation (Liepa
-/// 2003: least largest dihedral angle, then least area), refinement, fairing. The dynamic programme
-/// is cubic: a loop of more than 300 edges is first divided by short chords. The topology is a new
+/// Closes one open boundary of `mesh`, in place, by triangles: minimum-weight triangulation,
+/// refinement, fairing (Liepa 2003). The dynamic programme is cubic: a loop of more than 300 edges
+/// is first divided by short chords, or with `area` triangulated as `minimum_area_triangles` says.
+/// The topology is a new
 /// one; named regions move to it, and a new vertex is in those that its sources are all in. Vertex
 /// attributes of new vertices are blended from the loop; corner and face attributes of new faces
 /// are NaN and their labels none.

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/mesh/fill/minimum_area.h"
+
 namespace lissom {
 namespace {
 
@@ -213,6 +215,18 @@ Index triangulate_hole(HolePatch& patch, std::span<const Index> loop, const Cont
                                                 polygon.vertices[(i + 1) % polygon.size()]));
     }
     return close(patch, polygon, context).second;
+}
+
+void triangulate_hole_by_area(HolePatch& patch, std::span<const Index> loop,
+                              const Context& context) {
+    std::vector<Vec3> points;
+    for (const Index v : loop) points.push_back(patch.position(v));
+    const auto taken = [&](Index i, Index k) { return patch.has_edge(loop[at(i)], loop[at(k)]); };
+    const std::vector<Triangle> triangles = minimum_area_triangles(points, taken, context);
+    for (const auto& [a, b, c] : triangles) {
+        patch.add_triangle(loop[at(a)], loop[at(b)], loop[at(c)]);
+    }
+    if (triangles.empty()) close_by_fan(patch, {{loop.begin(), loop.end()}, {}});
 }
 
 }  // namespace lissom

@@ -17,4 +17,8 @@ namespace lissom {
 /// parts.
 Index triangulate_hole(HolePatch& patch, std::span<const Index> loop, const Context& context);
 
+/// The same by `minimum_area_triangles`: those with the least area.
+void triangulate_hole_by_area(HolePatch& patch, std::span<const Index> loop,
+                              const Context& context);
+
 }  // namespace lissom

@@ -1,0 +1,124 @@
+/// Speed of what pasting stands on: maps of disks and rings into the plane beside CGAL's, points
+/// found there, and holes closed with the least area.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/edit/triangulate.h"
+#include "kernel/mesh/fill/minimum_area.h"
+#include "kernel/mesh/parameterize/parameterize.h"
+#include "kernel/mesh/parameterize/uv_grid.h"
+#include "kernel/mesh/query/region_select.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/bench/report.h"
+
+#ifdef LISSOM_BENCH_CGAL
+#include "tests/bench/cgal_parameterize.h"
+#endif
+
+namespace lissom::bench {
+namespace {
+
+/// Triangles over a square with hills, about `vertices` of them.
+Mesh hills(double vertices) {
+    const auto segments = static_cast<Index>(std::sqrt(vertices)) - 1;
+    Mesh mesh = make_grid({.size = {2, 2}, .segments = {segments, segments}});
+    for (Vec3& p : mesh.edit_positions()) {
+        p.y() =
+            0.25 * std::sin(4.0 * p.x()) * std::cos(3.0 * p.z()) + 0.05 * std::sin(17.0 * p.x());
+    }
+    triangulate(mesh);
+    return mesh;
+}
+
+/// The hills without their middle.
+Mesh ring(double vertices) {
+    const Mesh mesh = hills(vertices / (1.0 - kPi * 0.04));
+    std::vector<Index> middle;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        const Vec3& p = mesh.position(v);
+        if (std::hypot(p.x(), p.z()) < 0.4) middle.push_back(v);
+    }
+    return remove(mesh, Region(mesh.shared_topology(), middle)).mesh;
+}
+
+Parameterization lay_out(const Mesh& mesh, ParameterizeMethod method) {
+    return parameterize(mesh, Region::all(mesh.shared_topology()), {.method = method});
+}
+
+double milliseconds_of(const Mesh& mesh, ParameterizeMethod method, int repeats) {
+    return 1e3 * median_seconds(repeats, [&] { (void)lay_out(mesh, method); });
+}
+
+void run_maps(Report& report, const std::string& what, const Mesh& mesh, int repeats) {
+    const std::string name = what + " of " + std::to_string(mesh.vertex_count()) + " vertices";
+    report.title(name);
+    report.add({"lscm: " + name, milliseconds_of(mesh, ParameterizeMethod::lscm, repeats), "ms"});
+    report.add(
+        {"lscm and arap: " + name, milliseconds_of(mesh, ParameterizeMethod::arap, repeats), "ms"});
+    report.add(
+        {"onto a disk: " + name, milliseconds_of(mesh, ParameterizeMethod::tutte, repeats), "ms"});
+}
+
+void run_rival([[maybe_unused]] Report& report, [[maybe_unused]] const Mesh& mesh,
+               [[maybe_unused]] int repeats) {
+#ifdef LISSOM_BENCH_CGAL
+    CgalParameterizer rival(mesh);
+    const Quotient quotient = seconds_quotient(
+        repeats, [&] { (void)lay_out(mesh, ParameterizeMethod::lscm); },
+        [&] { (void)rival.lay_out(); });
+    const std::string size = std::to_string(mesh.vertex_count()) + " vertices";
+    report.add({"CGAL's lscm, two vertices pinned: " + size, 1e3 * quotient.below, "ms"});
+    report.add_ratio("spectral lscm / CGAL's lscm: " + size, "CGAL", quotient, 1.0);
+#endif
+}
+
+void run_grid(Report& report, const Mesh& mesh) {
+    const Parameterization map = lay_out(mesh, ParameterizeMethod::arap);
+    report.title("points in a ring of " + std::to_string(mesh.vertex_count()) + " vertices");
+    report.add({"building the grid",
+                1e3 * median_seconds(21,
+                                     [&] {
+                                         UvGrid{map.uv, map.surface_triangles()};
+                                     }),
+                "ms"});
+    const UvGrid grid(map.uv, map.surface_triangles());
+    report.add({"finding the points of all vertices",
+                1e3 * median_seconds(21,
+                                     [&] {
+                                         for (const Vec2& p : map.uv) {
+                                             (void)grid.locate(p);
+                                         }
+                                     }),
+                "ms"});
+}
+
+void run_fill(Report& report, Index points) {
+    std::vector<Vec3> loop;
+    for (Index i = 0; i < points; ++i) {
+        const double angle = 2.0 * kPi * i / points, r = 1.0 + 0.3 * std::sin(5.0 * angle);
+        loop.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.4 * std::sin(3.0 * angle));
+    }
+    report.add({"a loop of " + std::to_string(points) + " points closed with the least area",
+                1e3 * median_seconds(7, [&] { (void)minimum_area_triangles(loop); }), "ms"});
+}
+
+}  // namespace
+}  // namespace lissom::bench
+
+int main(int argc, char** argv) {
+    using namespace lissom::bench;
+    Report report(argc, argv);
+    for (const double vertices : {1e3, 1e4, 5e4}) {
+        const lissom::Mesh disk = hills(vertices);
+        run_maps(report, "a disk", disk, vertices > 1e4 ? 5 : 15);
+        run_rival(report, disk, vertices > 1e4 ? 5 : 15);
+        run_maps(report, "a ring", ring(vertices), vertices > 1e4 ? 5 : 15);
+    }
+    run_grid(report, ring(1e4));
+    report.title("holes");
+    for (const lissom::Index points : {100, 300, 500, 2000}) run_fill(report, points);
+    return 0;
+}
