@@ -16,6 +16,6 @@ for _, folder in ipairs{ "bindings/lua/meta", "viewer/meta" } do
    files[folder] = { ignore = { "111", "112", "113", "211", "212", "241", "631" } }
 end
 -- One chunk in several files: each goes on where the one before ends.
-for _, file in ipairs{ "host", "view", "recording", "journal", "windows" } do
+for _, file in ipairs{ "host", "view", "recording", "journal", "sketch", "windows" } do
    files["bindings/lua/tools/" .. file .. ".lua"] = { ignore = { "111", "112", "113", "211" } }
 end

@@ -283,6 +283,22 @@
 ---@field grid_points integer Points of the grid.
 ---@field step number Distance of neighbouring grid points, in metres of an average head.
 
+---A stroke of a brush on a scalp.
+---@class lissom.ScalpMask
+---@field kind string "length" or "density".
+---@field points number[][] Its way, in mesh units.
+---@field value number What it painted.
+---@field radius number Of the brush, in metres of an average head.
+---@field softness number The share of the radius over which it fades.
+
+---What a comb has done.
+---@class lissom.CombReport
+---@field bent lissom.Curve[] Streams that it has bent.
+---@field added lissom.Curve? The stream that it has added.
+---@field before number The angle between the field and the stroke along it, root of the mean square, in degrees.
+---@field after number The same afterwards.
+---@field change number How much the field has changed beyond the reach of the stroke, root of the mean square; vectors near curves are of length 1.
+
 ---The tilts of a dividing curve.
 ---@class lissom.CurveTilt
 ---@field left lissom.SideTilt As seen along the curve from outside.
@@ -442,6 +458,23 @@
 ---@field highlighted boolean Held or under the pixel.
 ---@field position lissom.Vector In the world.
 ---@field radius number Pixels.
+
+---A stroke for `hairstyle:sketch`, a click, or a key.
+---@class lissom.SketchStroke
+---@field tool string? Name of the tool: "stream", "parting", "ponytail", ...
+---@field points number[][]? Pixels {x, y} from press to release; a single one is a click.
+---@field key string? A key in place of points, as "tab".
+---@field camera lissom.Camera? What the head is seen by, in mesh units.
+---@field params table? Values of the tool's parameters, by name.
+---@field shift boolean? Held down during this stroke; false where it is not said.
+---@field ctrl boolean? The same.
+---@field alt boolean? The same.
+
+---What a stroke of `hairstyle:sketch` has done.
+---@class lissom.Sketched
+---@field tool string The tool that it was drawn with.
+---@field added lissom.Curve[] New curves of the style.
+---@field changed boolean Whether the style is another than before.
 
 ---Calls tools with what a hand does.
 ---@class lissom.ToolHost
@@ -1636,6 +1669,59 @@ function Hairstyle:forget_scalp() end
 ---@return lissom.Elements? elements # The elements concerned.
 function Hairstyle:grow(options) end
 
+---@class lissom.Hairstyle.MaskOptions
+---@field kind "length"|"density" Factors of the length of hair, or the relative density of its roots.
+---@field points lissom.Vector[] The way of the brush over the head; one point is a dab. In mesh units.
+---@field value? number What the brush paints: to 4 for the length, to 1 for the density; 1 takes away what was there. Default: 0.5.
+---@field radius? number Of the brush. In metres. Default: 0.02.
+---@field softness? number The share of the radius over which the brush fades. Default: 0.5.
+
+---Paints on the scalp with a round brush where hair is shorter, longer or thinner. A style keeps its strokes, in metres of an average head, and hair grows by them besides `lengths` and `density` of `grow`.
+---@param options lissom.Hairstyle.MaskOptions
+---@return lissom.Hairstyle style # The hairstyle itself.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Hairstyle:mask(options) end
+
+---What was painted on the scalp, in its order.
+---@return lissom.ScalpMask[] masks # As given to `mask`.
+function Hairstyle:masks() end
+
+---@class lissom.Hairstyle.Clear_masksOptions
+---@field kind? "length"|"density" Factors of the length of hair, or the relative density of its roots. Default: both.
+
+---Takes away what was painted on the scalp.
+---@param options? lissom.Hairstyle.Clear_masksOptions
+---@return lissom.Hairstyle style # The hairstyle itself.
+function Hairstyle:clear_masks(options) end
+
+---@class lissom.Hairstyle.CombOptions
+---@field points lissom.Vector[] The stroke, in the hair: `camera:stroke{ on = strands }` puts it there. In mesh units.
+---@field by? "least"|"bend"|"add" What changes least; bent streams alone; or an added one. Default: "least".
+---@field reach? number Streams are bent where they are nearer to the stroke: wholly up to half of it, less and less beyond. In metres. Default: 0.04.
+---@field tolerance? number Hair follows the stroke where it runs within this angle of it, root of the mean square. In degrees. Default: 15.
+
+---Makes hair flow along a stroke, which runs as hair grows. Where hair follows it already nothing changes; otherwise streams beside it are bent, or one is added along it, whichever explains the stroke and changes the rest of the hair least.
+---@param options lissom.Hairstyle.CombOptions
+---@return lissom.CombReport report # What was done.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Hairstyle:comb(options) end
+
+---@class lissom.Hairstyle.SketchOptions
+---@field camera? lissom.Camera Of the first stroke, in mesh units. Default: the strokes say it.
+---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@field strands? integer How many strands the tools grow, to be returned. Default: 0.
+
+---Draws on the style as a hand does with the tools of the window: each stroke is a drag of a tool, and means what it means there. All strokes are done, or, where a tool refuses one, none: the error says which and why.
+---@param strokes table A list of lissom.SketchStroke. What a stroke leaves out, but for its points or its key, is as for the one before.
+---@param options? lissom.Hairstyle.SketchOptions
+---@return lissom.Sketched[] done # One for each stroke.
+---@return lissom.Strands? hair # What has grown.
+function Hairstyle:sketch(strokes, options) end
+
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Hairstyle:close() end
 
@@ -2444,7 +2530,7 @@ function Camera:select(options) end
 ---@field points number[][] Where the pen was.
 ---@field times? number[] Seconds, one for each point; they tell a click.
 ---@field pressures? number[] 0 to 1, one for each point.
----@field on? lissom.Scalp|lissom.Mesh|lissom.Support|lissom.Curve What is drawn on. Default: only on the picture.
+---@field on? lissom.Scalp|lissom.Strands|lissom.Mesh|lissom.Support|lissom.Curve What is drawn on. Default: only on the picture.
 ---@field plane? lissom.Camera.StrokeOptions.Plane The plane that is drawn on.
 ---@field depth? "envelope"|"last" On a scalp: in front of all of the head, changing gently; or as deep as the scalp, and beyond it as deep as it was left (section 4.5). Default: "envelope".
 ---@field lift? number How far in front of the surface; of a scalp in metres of an average head. Default: 0.02 on a scalp by the envelope, else 0.

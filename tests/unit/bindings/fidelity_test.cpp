@@ -125,13 +125,14 @@ Names of_ponytail() {
 }
 
 Names of_growth() {
-    const auto& [length, variation, length_map, segment, least_speed, greatest_turn, most_segments,
+    const auto& [length, variation, length_map, masks, segment, least_speed, greatest_turn, most_segments,
                  lift, start_outward, cap_speed, avoid, clearance, layer, ramp, ties, cuts, spare,
                  placement, seed] = GrowthOptions{};
     const GrowthOptions t = GrowthOptions::thesis();
     Names names{"length", "roots"};
     note(names, "variation", variation != t.variation);
     note(names, "lengths", length_map != t.length_map);
+    CHECK(masks == t.masks);
     note(names, "segment", segment != t.segment);
     note(names, "least_speed", least_speed != t.least_speed);
     note(names, "greatest_turn", greatest_turn != t.greatest_turn);

@@ -72,11 +72,11 @@ TEST_CASE("growth roots: a map of lengths is interpolated, and forgotten where n
     GrowthRoots roots(many_roots().head, many_roots().roots, {});
     std::vector<double> map;
     for (const Vec3& p : many_roots().head.positions()) map.push_back(1.0 + 2.0 * p.x() - p.z());
-    roots.set_length_map(map, {});
+    roots.set_factors({map, {}}, {});
     for (Index i = 0; i < kRoots; ++i) {
         const Vec3& p = roots.position(i);
         CHECK(std::abs(roots.factor(i) - (1.0 + 2.0 * p.x() - p.z())) < 1e-5);
     }
-    roots.set_length_map({}, {});
+    roots.set_factors({}, {});
     for (Index i = 0; i < kRoots; i += 100) CHECK(roots.factor(i) == 1.0f);
 }
