@@ -190,7 +190,7 @@ end
 function artist:done(name, fresh)
     print(string.format("%-18s %2d strokes, %2d clicks, %4.1f s by hand", name, self.strokes,
         self.clicks, self.seconds))
-    if os.getenv("LISSOM_SKETCHES") then self:show(name) end
+    if os.getenv("LISSOM_SKETCHES") and self.style then self:show(name) end
     local file = test.file("recording.lua")
     local stream = assert(io.open(file, "w"))
     stream:write(self.host:recording())
