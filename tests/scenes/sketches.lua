@@ -42,7 +42,9 @@ local function tail(a, places, first, second, radius)
     local curve = a.style:curves()[before + 1]
     a:look(second[1], second[2], second[3], second[4])
     local seen, start = a:seen(points), a:seen{ curve:course()[1] }[1]
-    while #seen > 3 and (seen[2][1] - start[1]) ^ 2 + (seen[2][2] - start[2]) ^ 2 < 400 do table.remove(seen, 2) end
+    while #seen > 3 and (seen[2][1] - start[1]) ^ 2 + (seen[2][2] - start[2]) ^ 2 < 400 do
+        table.remove(seen, 2)
+    end
     seen[1] = start
     a:pixels(seen)
     expect.equal(#a.style:curves(), before + 1)
@@ -105,9 +107,11 @@ test("an asymmetric bob: ten streams", function()
             { -10, 5 } },
         { { { 120, 72, 12 }, { 106, 42, 20 }, { 108, 5, 22 }, by(6, -60, 2), by(-4, -60, 4) }, { 105, 15 },
             { 180, 5 } },
-        { { { -125, 72, 12 }, { -108, 42, 20 }, { -110, 5, 22 }, by(-6, -40, 2), by(4, -20, 4) }, { -105, 15 },
+        { { { -125, 72, 12 }, { -108, 42, 20 }, { -110, 5, 22 }, by(-6, -40, 2), by(4, -20, 4) }, {
+            -105, 15 },
             { 180, 5 } },
-        { { { 155, 68, 10 }, { 140, 35, 20 }, { 137, -5, 22 }, { 140, -35, 22 }, by(0, -50, -2) }, { 150, 15 },
+        { { { 155, 68, 10 }, { 140, 35, 20 }, { 137, -5, 22 }, { 140, -35, 22 }, by(0, -50, -2) }, {
+            150, 15 },
             { 90, 5 } },
         { { { -155, 68, 10 }, { -140, 35, 20 }, { -137, -5, 22 }, { -140, -30, 22 }, by(0, -20, -2) },
             { -150, 15 }, { -90, 5 } },
@@ -279,7 +283,8 @@ local function middle(list, share) return list[math.floor(1.5 + share * (#list -
 
 test("cut, concatenation and insertion, on both supporting surfaces", function()
     local a = sketch("stream", 19)
-    a:look(60, 15):stroke(a.route{ { 30, 55, 6 }, { 62, 40, 18 }, { 78, 5, 20 }, by(4, -60, 0), by(0, -60, -4) })
+    a:look(60, 15):stroke(a.route{ { 30, 55, 6 }, { 62, 40, 18 }, { 78, 5, 20 }, by(4, -60, 0), by(0,
+        -60, -4) })
     local curve = a.style:curves()[1]
     for i, view in ipairs{ { 60, 15 }, { 125, 10 } } do
         a:look(view[1], view[2]):choose(curve)
