@@ -18,7 +18,8 @@ local interval = 0.016          -- seconds between two events
 --- As hand.new, with an own seed; the objects have a hairstyle called style.
 function artist.new(tool, objects, options)
     options = options or {}
-    local self = setmetatable({ strokes = 0, clicks = 0, others = 0, seconds = 0, random = options.seed or 1, objects = objects },
+    local self = setmetatable({
+        strokes = 0, clicks = 0, others = 0, seconds = 0, random = options.seed or 1, objects = objects },
         artist)
     self.hand = hand.new(tool, objects, { record = true, eye = options.eye, ortho = options.ortho })
     self.host, self.scene = self.hand.host, self.hand.scene
@@ -73,7 +74,8 @@ local function length(a) return math.sqrt(a[1] ^ 2 + a[2] ^ 2) end
 local function meant(points)
     local line = {}
     for i = 1, #points - 1 do
-        local a, b, c, d = points[i - 1] or points[i], points[i], points[i + 1], points[i + 2] or points[i + 1]
+        local b, c = points[i], points[i + 1]
+        local a, d = points[i - 1] or b, points[i + 2] or c
         local steps = math.max(1, math.floor(length(plus(c, b, -1))))
         for step = 0, steps - 1 do
             local t, p = step / steps, {}
@@ -190,13 +192,14 @@ end
 function artist:done(name, fresh)
     print(string.format("%-18s %2d strokes, %2d clicks, %4.1f s by hand", name, self.strokes,
         self.clicks, self.seconds))
-    if os.getenv("LISSOM_SKETCHES") then self:show(name) end
-    local file = test.file("recording.lua")
+    if os.getenv("LISSOM_SKETCHES") and self.style then self:show(name) end
+    local file = os.tmpname()
     local stream = assert(io.open(file, "w"))
     stream:write(self.host:recording())
     stream:close()
     local other = hand.new("select", fresh)
     lissom.replay(file, { scene = other.scene })
+    os.remove(file)
     expect.equal(other.scene:hash(), self.scene:hash())
     expect.equal(other:steps(), self.hand:steps())
     expect.equal(self.hand:steps(), self.strokes + self.others)
@@ -205,10 +208,10 @@ end
 -- Pictures of it with many strands, in the folder that the environment names.
 function artist:show(name)
     local style, folder = self.style, os.getenv("LISSOM_SKETCHES")
-    local scalp, length = style:scalp(), self.hair_length or 0.25
+    local scalp, long = style:scalp(), self.hair_length or 0.25
     local count = tonumber(os.getenv("LISSOM_STRANDS") or 100000)
     local one = hair.find(self.scene, self.hand.tool.params)
-    local strands = assert(style:grow{ count = count, length = length, cut = hair.cut(one) })
+    local strands = assert(style:grow{ count = count, length = long, cut = hair.cut(one) })
     require("hairdo").detail(strands)
     for _, view in ipairs(self.views or { { 0, 4 }, { 35, 12 }, { 90, 4 }, { 180, 4 } }) do
         local a, e, far = math.rad(view[1]), math.rad(view[2]), 2

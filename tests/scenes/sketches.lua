@@ -8,10 +8,12 @@ local strokes = require "strokes"
 
 local by, to = strokes.by, strokes.to
 
+local resolution = os.getenv("LISSOM_SKETCHES") and 60000 or 20000
+
 -- The objects that a sketch begins with: a head with a style.
 local function begin(volume)
     local head = lissom.shapes.head{ vertices = 10000 }
-    return { head = head, style = lissom.hairstyle(head, { resolution = 20000, volume = volume }) }
+    return { head = head, style = lissom.hairstyle(head, { resolution = resolution, volume = volume }) }
 end
 
 -- An artist with a tool before such objects.
@@ -40,7 +42,9 @@ local function tail(a, places, first, second, radius)
     local curve = a.style:curves()[before + 1]
     a:look(second[1], second[2], second[3], second[4])
     local seen, start = a:seen(points), a:seen{ curve:course()[1] }[1]
-    while #seen > 3 and (seen[2][1] - start[1]) ^ 2 + (seen[2][2] - start[2]) ^ 2 < 400 do table.remove(seen, 2) end
+    while #seen > 3 and (seen[2][1] - start[1]) ^ 2 + (seen[2][2] - start[2]) ^ 2 < 400 do
+        table.remove(seen, 2)
+    end
     seen[1] = start
     a:pixels(seen)
     expect.equal(#a.style:curves(), before + 1)
@@ -103,9 +107,11 @@ test("an asymmetric bob: ten streams", function()
             { -10, 5 } },
         { { { 120, 72, 12 }, { 106, 42, 20 }, { 108, 5, 22 }, by(6, -60, 2), by(-4, -60, 4) }, { 105, 15 },
             { 180, 5 } },
-        { { { -125, 72, 12 }, { -108, 42, 20 }, { -110, 5, 22 }, by(-6, -40, 2), by(4, -20, 4) }, { -105, 15 },
+        { { { -125, 72, 12 }, { -108, 42, 20 }, { -110, 5, 22 }, by(-6, -40, 2), by(4, -20, 4) }, {
+            -105, 15 },
             { 180, 5 } },
-        { { { 155, 68, 10 }, { 140, 35, 20 }, { 137, -5, 22 }, { 140, -35, 22 }, by(0, -50, -2) }, { 150, 15 },
+        { { { 155, 68, 10 }, { 140, 35, 20 }, { 137, -5, 22 }, { 140, -35, 22 }, by(0, -50, -2) }, {
+            150, 15 },
             { 90, 5 } },
         { { { -155, 68, 10 }, { -140, 35, 20 }, { -137, -5, 22 }, { -140, -30, 22 }, by(0, -20, -2) },
             { -150, 15 }, { -90, 5 } },
@@ -140,7 +146,7 @@ test("a centre parting with tilt strokes on both sides", function()
             { 180, 10 } },
         { { { 170, 62, 12 }, { 165, 32, 20 }, { 165, -5, 22 }, by(0, -60, 2), by(0, -70, 0) }, { 165, 15 },
             { 90, 10 } },
-    } do stream(a, one[1], one[2]) end
+    } do stream(a, one[1], one[2], one[3]) end
     expect.equal(#a.style:curves(), 9)
     a.hair_length = 0.27
     a:done("centre parting", begin())
@@ -169,6 +175,7 @@ end)
 test("two tails", function()
     local volume = { min = { -0.3, -0.32, -0.2 }, max = { 0.3, 0.2, 0.16 } }
     local a = sketch("ponytail", 9, volume)
+    a:use("ponytail", { fullness = 2.2 })
     a.metres = 0.6
     for _, side in ipairs{ 1, -1 } do
         local places = { { 118 * side, 14, 8 }, { 118 * side, 15, 30 }, to(135 * side, 28, -70),
@@ -212,4 +219,118 @@ test("a pony with fringe", function()
     a:look(0, 70):stroke(a.route{ { -58, 42 }, { -35, 62 }, { 0, 68 }, { 35, 62 }, { 58, 42 } })
     a.hair_length, a.high, a.low = 0.5, 0.62, -0.05
     a:done("pony with fringe", begin(volume))
+end)
+
+test("long hair, half of it up: ten streams and more, partings on both sides, a tail", function()
+    local volume = { min = { -0.2, -0.42, -0.24 }, max = { 0.2, 0.2, 0.16 } }
+    local a = sketch("stream", 17, volume)
+    a:use("stream", { symmetric = true })
+    a.metres = 0.62
+    local function low(places, first, second)
+        a:look(first[1], first[2], nil, -0.1)
+        local before, points = #a.style:curves(), a.route(places)
+        a:stroke(points)
+        if second then
+            local curve = a.style:curves()[before + 1]
+            a:look(second[1], second[2], nil, -0.1)
+            local seen = a:seen(points)
+            seen[1] = a:seen{ curve:course()[1] }[1]
+            a:choose(curve):pixels(seen)
+            a.host:click{ x = 5, y = 5 }
+        end
+        expect.equal(#a.style:curves(), before + (a.hand.tool.params.symmetric and 2 or 1))
+    end
+    low({ { 20, 37, 4 }, { 46, 28, 14 }, { 66, 6, 18 }, to(86, -60, 22), to(80, -115, -20), to(76, -170, -80),
+        to(72, -220, -106), to(70, -360, -110) }, { 40, 10 }, { 110, 5 })
+    low({ { 84, 22, 10 }, { 92, 4, 20 }, to(92, -60, -18), to(76, -120, -58), to(66, -190, -104),
+        to(62, -360, -112) }, { 90, 10 }, { 180, 5 })
+    low({ { 124, 20, 8 }, { 122, -5, 20 }, to(70, -80, -66), to(54, -130, -84), to(46, -190, -108),
+        to(44, -360, -114) }, { 150, 5 }, { 90, 5 })
+    low({ { 156, 2, 8 }, { 154, -28, 18 }, to(34, -130, -88), to(30, -200, -108), to(28, -360, -114) },
+        { 180, 5 }, { 90, 5 })
+    a:use("stream", { stop = false })
+    low({ { 20, 54, 5 }, { 66, 58, 7 }, { 122, 48, 8 }, { 170, 33, 14 } }, { 80, 45 })
+    low({ { 30, 70, 6 }, { 120, 68, 8 }, { 172, 36, 14 } }, { 110, 50 })
+    low({ { 75, 44, 6 }, { 130, 44, 8 }, { 168, 30, 14 } }, { 120, 30 })
+    low({ { 115, 35, 6 }, { 148, 32, 8 }, { 170, 27, 14 } }, { 150, 20 })
+    a:use("parting", { strands = 100 })
+    a:look(0, 50):stroke(a.route{ { 0, 38 }, { 0, 52 }, { 0, 66 } })
+    a:use("parting", { height = 0, gap = 0 })
+    for _, side in ipairs{ 1, -1 } do
+        a:look(90 * side, 30)
+        a:stroke(a.route{ { 47 * side, 41 }, { 62 * side, 34 }, { 88 * side, 34 }, { 116 * side, 28 },
+            { 138 * side, 21 } }, { shift = true })
+        a:stroke(a.route{ { 78 * side, 38 }, { 96 * side, 40 }, { 112 * side, 38 } })
+    end
+    a:look(180, 15):stroke(a.route{ { 142, 20 }, { 180, 15 }, { -142, 20 } }, { shift = true })
+    a:use("ponytail", { strands = 100, tightness = 1 })
+    tail(a, { { 180, 26, 8 }, { 180, 27, 30 }, to(0, 55, -140), to(0, 10, -158), to(0, -60, -166),
+        to(0, -150, -170) }, { 180, 10 }, { 90, 5 }, 0.018)
+    a:use("ponytail", { length = 0.46, cut = 0.34 })
+    expect.truthy(a.strokes < 30)
+    a.hair_length, a.high, a.low = 0.46, 0.66, -0.1
+    a:done("long, half up", begin(volume))
+end)
+
+-- Figure 4.3: a stream, and what hint strokes do to it.
+local function length(points)
+    local sum = 0
+    for i = 2, #points do sum = sum + hair.distance({ points[i], points[i] }, points[i - 1]) end
+    return sum
+end
+
+local function middle(list, share) return list[math.floor(1.5 + share * (#list - 1))] end
+
+test("cut, concatenation and insertion, on both supporting surfaces", function()
+    local a = sketch("stream", 19)
+    a:look(60, 15):stroke(a.route{ { 30, 55, 6 }, { 62, 40, 18 }, { 78, 5, 20 }, by(4, -60, 0), by(0,
+        -60, -4) })
+    local curve = a.style:curves()[1]
+    for i, view in ipairs{ { 60, 15 }, { 125, 10 } } do
+        a:look(view[1], view[2]):choose(curve)
+        local whole, list = length(curve:points()), a:seen(curve:points())
+        local p = middle(list, 0.7)
+        a:pixels{ { p[1] - 70, p[2] - 10 }, { p[1] + 65, p[2] + 14 } }
+        local cut = length(curve:points())
+        expect.truthy(cut < 0.85 * whole and cut > 0.5 * whole, cut / whole)
+        local tip = a:seen{ curve:points()[#curve:points()] }[1]
+        a:pixels{ tip, { tip[1] + 12, tip[2] + 70 }, { tip[1] + 60, tip[2] + 150 } }
+        expect.truthy(length(curve:points()) > 1.2 * cut)
+        list = a:seen(curve:points())
+        local from, other = middle(list, 0.35), middle(list, 0.75)
+        local bow = { (from[1] + other[1]) / 2 + 55, (from[2] + other[2]) / 2 }
+        local before = length(curve:points())
+        a:pixels{ from, bow, other }
+        expect.truthy(length(curve:points()) > before)
+        expect.equal(#a.style:curves(), 1)
+        if i == 1 then a.host:set{ surface = "ruled" } end
+    end
+    a:done("figure 4.3 c-h", begin())
+end)
+
+-- A line along the top outline of a head from behind the brow to the crown, and where it is drawn anew.
+local function outline(head, rise)
+    local list = {}
+    for i = 0, 12 do
+        local angle = math.rad(40 + 100 * i / 12)
+        local d = { 0, math.sin(angle), math.cos(angle) }
+        local from = { 0, 0, 0 }
+        for k = 2, 3 do from[k] = 2 * d[k] end
+        local hit = head:pick(from, { 0, -d[2], -d[3] })
+        local hump = 1 + rise * math.sin(math.pi * i / 12) ^ 2
+        list[i + 1] = { 0, hit.position[2] * hump, hit.position[3] * hump }
+    end
+    return list
+end
+
+test("a silhouette is drawn anew: the back of a head", function()
+    local head = lissom.shapes.head{ vertices = 6000 }
+    local a = artist.new("redraw", { head = head }, { seed = 23, eye = { 2, 0, 0 }, ortho = 0.5 })
+    local before, high = head:volume(), head:bounds().max[2]
+    a:stroke(outline(head, 0))
+    a:stroke(outline(head, 0.35))
+    expect.truthy(head:volume() > 1.01 * before)
+    expect.truthy(head:bounds().max[2] > high + 0.01)
+    a.others = -1                    -- the first stroke says which line, and changes nothing
+    a:done("silhouette", { head = lissom.shapes.head{ vertices = 6000 } })
 end)

@@ -78,7 +78,7 @@ local function begins_at_root(curve, camera, size, pixels)
     return (x - pixels[1][1]) ^ 2 + (y - pixels[1][2]) ^ 2 < 20 ^ 2
 end
 
---- What a hint stroke means for a curve: a list of names, likeliest first, and the reading of the kernel; nil
+--- What a hint stroke means for a curve: names, likeliest first, and the reading of the kernel; nil
 -- where it is nowhere near.
 function curves.readings(curve, camera, size, pixels)
     local near, reading = pcall(curve.read_hint, curve, { camera = camera, points = pixels, size = size })
@@ -92,7 +92,7 @@ end
 
 local at_root, fade = 0.02, 0.03        -- metres
 
--- A hint that begins at the root of a curve begins in it, without a loop there: moved less and less over 3 cm.
+-- A hint that begins at the root of a curve begins in it, without a loop there: moved ever less over 3 cm.
 local function rooted(curve, hint)
     local root, metre = curve:points()[1], curve:hairstyle():scalp():scale()
     local by = vectors.plus(root, hint[1], -1)
