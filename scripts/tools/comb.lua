@@ -1,8 +1,8 @@
 --- Combs hair: a stroke through it says which way it shall flow.
 --
--- Drag through hair as it shall grow, from its roots towards its tips. Streams that run beside the stroke are
--- bent, or a new one is added along it, whichever says it with the least change elsewhere; `by` has it one way
--- alone. Where hair flows so already nothing changes.
+-- Drag through hair as it shall grow, from its roots towards its tips. Streams that run beside the stroke
+-- are bent, or a new one is added along it, whichever says it with the least change elsewhere; `by` has it
+-- one way alone. Where hair flows so already nothing changes.
 local lissom = require "lissom"
 local hair = require "tools.support.hair"
 local hair_view = require "tools.support.hair_view"

@@ -1,8 +1,8 @@
 --- Paints on the scalp where hair is shorter, longer or thinner, and where it parts.
 --
--- Drag over the head. A style keeps its strokes; a later one paints over those before it, with a value of 1 it
--- takes them away. Of kind `parting` a stroke is a parting as wide as the brush. Delete takes away all that was
--- painted of the kind.
+-- Drag over the head. A style keeps its strokes; a later one paints over those before it, with a value of 1
+-- it takes them away. Of kind `parting` a stroke is a parting as wide as the brush. Delete takes away all
+-- that was painted of the kind.
 local lissom = require "lissom"
 local hair = require "tools.support.hair"
 local hair_view = require "tools.support.hair_view"
