@@ -8,6 +8,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/hair/hairstyle.h"
+#include "kernel/hair/style_inputs.h"
 
 namespace lissom {
 

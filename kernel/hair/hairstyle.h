@@ -26,6 +26,7 @@
 #include "kernel/hair/field/hair_field.h"
 #include "kernel/hair/field/scalp_step.h"
 #include "kernel/hair/growth/growth.h"
+#include "kernel/hair/scalp/mask_stroke.h"
 #include "kernel/hair/scalp/roots.h"
 #include "kernel/hair/scalp/scalp.h"
 #include "kernel/hair/strands/strands.h"

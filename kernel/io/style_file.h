@@ -31,7 +31,9 @@
 #include "kernel/core/context.h"
 #include "kernel/hair/curve/style_curve.h"
 #include "kernel/hair/hairstyle.h"
+#include "kernel/hair/scalp/mask_stroke.h"
 #include "kernel/hair/scalp/scalp.h"
+#include "kernel/hair/style_inputs.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

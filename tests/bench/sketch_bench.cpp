@@ -1,5 +1,5 @@
-/// Speed of picking: a search tree that is refitted against one that is built again, and picks, on
-/// the armadillo and on 16 times its faces.
+/// Speed of sketching: hair that follows a hand, and of picking: a search tree that is refitted
+/// against one that is built again, and picks, on the armadillo and on 16 times its faces.
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,7 @@
 #include "kernel/sketch/picking.h"
 #include "kernel/sketch/screen_select.h"
 #include "tests/bench/report.h"
+#include "tests/bench/sketch_hair.h"
 
 namespace lissom::bench {
 namespace {
@@ -122,6 +123,7 @@ void run_mesh(Report& report, const Mesh& mesh, int repeats) {
 
 int main(int argc, char** argv) {
     lissom::bench::Report report(argc, argv);
+    lissom::bench::run_sketched_hair(report);
     const lissom::Mesh mesh = lissom::bench::test_mesh();
     lissom::bench::run_mesh(report, mesh, 11);
     lissom::bench::run_mesh(

@@ -3,7 +3,7 @@
 local hand = require "hand"
 local lissom = require "lissom"
 
-local tools = { "parting", "ponytail" }
+local tools = { "stream", "parting", "ponytail", "comb", "mask" }
 local keys = { "escape", "backspace", "delete", "tab", "enter", "x" }
 local head = lissom.shapes.head{ vertices = 3000 }
 local scalp = lissom.scalp(head)
@@ -31,7 +31,15 @@ end
 local function set(h)
     local p = pick(h.tool.params:schema())
     if p.name == "strands" then return end
-    h.host:set{ [p.name] = p.min + (p.max - p.min) * math.random() }
+    local value
+    if p.type == "boolean" then
+        value = math.random() < 0.5
+    elseif p.choices then
+        value = pick(p.choices)
+    else
+        value = p.min + (p.max - p.min) * math.random()
+    end
+    h.host:set{ [p.name] = value }
 end
 
 local deeds = { stroke, stroke, stroke, stroke, set, function(h) h:key(pick(keys)) end,

@@ -461,7 +461,7 @@
 
 ---A stroke for `hairstyle:sketch`, a click, or a key.
 ---@class lissom.SketchStroke
----@field tool string? Name of the tool: "stream", "parting", "ponytail", ...
+---@field tool string|table? Name of the tool, "stream", "parting", "ponytail", ..., or a tool.
 ---@field points number[][]? Pixels {x, y} from press to release; a single one is a click.
 ---@field key string? A key in place of points, as "tab".
 ---@field camera lissom.Camera? What the head is seen by, in mesh units.

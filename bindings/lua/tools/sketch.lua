@@ -22,13 +22,24 @@ local function check_stroke(i, stroke)
     end
 end
 
+local function grows_hair(tool)
+    for _, p in ipairs(tool.params:schema()) do
+        if p.name == "strands" then return true end
+    end
+    return false
+end
+
 -- Takes the tool, the camera and the parameters that a stroke names; the others stay.
 local function prepare(host, stroke, strands, tools)
     if stroke.camera then host:look(stroke.camera) end
-    if stroke.tool and not (host.tool and host.tool.name == stroke.tool) then
-        tools[stroke.tool] = tools[stroke.tool] or load_tool(stroke.tool)
-        host:use(tools[stroke.tool])
-        if host.tool.params.strands then host:set{ strands = strands } end
+    local wanted = stroke.tool
+    if type(wanted) == "string" then
+        tools[wanted] = tools[wanted] or load_tool(wanted)
+        wanted = tools[wanted]
+    end
+    if wanted and host.tool ~= wanted then
+        host:use(wanted)
+        if grows_hair(wanted) then host:set{ strands = strands } end
     end
     if not host.tool then error("it names no tool, and there is none before it", 0) end
     if stroke.params then host:set(stroke.params) end

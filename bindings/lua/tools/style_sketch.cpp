@@ -55,18 +55,21 @@ Function sketch_method_of_hairstyle() {
                     {"lissom.Strands?", "hair", "What has grown."}},
         .errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed, ErrorCode::cancelled},
         .example = kStyle + R"(local camera = lissom.camera{ eye = { 0, 0, 3 }, fov = 12 }
-local line = {}
-for i, elevation in ipairs{ 70, 45, 20, -5 } do
-    line[i] = { camera:project((style:at{ azimuth = 40, elevation = elevation }), { 1280, 960 }) }
-end
-local done = style:sketch({ { tool = "stream", points = line } }, { camera = camera })
+-- Of the tools that come with the program: tool = "stream", or "parting", "ponytail", "comb", ...
+local flow = lissom.tool{ name = "flow", release = function(self, ev)
+    local to = { azimuth = -70, elevation = 10, lift = 0.02 }
+    style:stream{ points = { (style:at{ azimuth = -20, elevation = 60 }), (style:at(to)) } }
+end }
+local done = style:sketch({ { tool = flow, points = { { 600, 300 }, { 640, 480 } } } },
+    { camera = camera })
 assert(#done[1].added == 1))"};
 }
 
 std::vector<Record> sketch_records() {
     return {{"lissom.SketchStroke",
              "A stroke for `hairstyle:sketch`, a click, or a key.",
-             {{"string?", "tool", "Name of the tool: \"stream\", \"parting\", \"ponytail\", ..."},
+             {{"string|table?", "tool",
+               "Name of the tool, \"stream\", \"parting\", \"ponytail\", ..., or a tool."},
               {"number[][]?", "points",
                "Pixels {x, y} from press to release; a single one is a click."},
               {"string?", "key", "A key in place of points, as \"tab\"."},

@@ -11,6 +11,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/hair/scalp/mask_stroke.h"
 #include "kernel/hair/scalp/roots.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/mesh/measure/triangulation.h"

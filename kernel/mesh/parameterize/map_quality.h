@@ -6,6 +6,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/parameterize/chart.h"
 #include "kernel/mesh/parameterize/triangle_shape.h"
 
