@@ -66,4 +66,5 @@ local function method(host, name, ...) return host[name](host, ...) end
 
 return { tool = make_tool, host = make_host, replay = replay, open = open_scene, load_tool = load_tool,
     host_of = host_of, look = look, use = use, tool_files = tool_files, draw = draw, holds = holds,
-    save = save, method = method, sketch = sketch, open_recording = open_recording, play = play, event_kind = event_kind }
+    save = save, method = method, sketch = sketch, open_recording = open_recording, play = play,
+    event_kind = event_kind }

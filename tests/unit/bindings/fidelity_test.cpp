@@ -125,9 +125,9 @@ Names of_ponytail() {
 }
 
 Names of_growth() {
-    const auto& [length, variation, length_map, masks, segment, least_speed, greatest_turn, most_segments,
-                 lift, start_outward, cap_speed, avoid, clearance, layer, ramp, ties, cuts, spare,
-                 placement, seed] = GrowthOptions{};
+    const auto& [length, variation, length_map, masks, segment, least_speed, greatest_turn,
+                 most_segments, lift, start_outward, cap_speed, avoid, clearance, layer, ramp, ties,
+                 cuts, spare, placement, seed] = GrowthOptions{};
     const GrowthOptions t = GrowthOptions::thesis();
     Names names{"length", "roots"};
     note(names, "variation", variation != t.variation);
