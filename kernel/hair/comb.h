@@ -27,7 +27,7 @@ struct CombOptions {
     double reach = 0.04;
     /// Hair follows the stroke where it runs within this angle of it (root of the mean square),
     /// radians.
-    double tolerance = 15.0 * kPi / 180.0;
+    double tolerance = 15.0 * kDegree;
 };
 
 struct CombReport {

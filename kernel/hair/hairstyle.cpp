@@ -69,6 +69,12 @@ void label_strands(Strands& strands, const std::vector<Eigen::Vector2f>& uvs,
     throw;
 }
 
+// Those of one kind: roots are made anew for strokes of the density alone.
+void append_masks(std::span<const MaskStroke> masks, MaskKind kind, std::vector<MaskStroke>& list) {
+    std::copy_if(masks.begin(), masks.end(), std::back_inserter(list),
+                 [&](const MaskStroke& one) { return one.kind == kind; });
+}
+
 std::string quantity(double amount, const char* unit) {
     std::ostringstream text;
     text.precision(amount < 10.0 ? 1 : 0);
@@ -412,12 +418,10 @@ GrowthReport Hairstyle::grow(const HairOptions& options, Strands& strands, const
     return with_memory_errors([&] {
         solve(context);
         RootOptions roots = options.roots;
-        std::copy_if(inputs().masks.begin(), inputs().masks.end(), std::back_inserter(roots.masks),
-                     [](const MaskStroke& one) { return one.kind == MaskKind::density; });
+        append_masks(inputs().masks, MaskKind::density, roots.masks);
         update_roots(s.roots, {s.original, s.head, *s.scalp}, roots, s.style, context);
         GrowthOptions growth = options.growth;
-        std::copy_if(inputs().masks.begin(), inputs().masks.end(), std::back_inserter(growth.masks),
-                     [](const MaskStroke& one) { return one.kind == MaskKind::length; });
+        append_masks(inputs().masks, MaskKind::length, growth.masks);
         growth.placement = placement_of(*s.scalp);
         std::vector<std::string> names;
         growth.ties = s.ties(names);

@@ -158,8 +158,9 @@ class Hairstyle {
 
     /// Turns the field along the head where it points into it, by constraints at all grid points
     /// near the head that no curve constrains (section 4.6). To be done once, when the curves are
-    /// as wanted: the constraints stay as they are until it is called again. Solves. Points over
-    /// the scalp alone count, besides what `options` say. After an error the constraints are as
+    /// as wanted: the constraints stay as they are until it is called again. Solves. Over the
+    /// scalp all such points count, on the rest of the head those where the field points inward,
+    /// besides what `options` say. After an error the constraints are as
     /// they were, and the field is that of the last solve. Errors: as scalp_step and solve.
     void avoid_scalp(const ScalpStepOptions& options = {}, const Context& context = {});
     /// Takes back what `avoid_scalp` added.

@@ -4,10 +4,26 @@ local stroke_fields = set_of{ "tool", "points", "key", "camera", "params", "shif
 
 local function refuse_stroke(i, text) error(string.format("stroke %d: %s", i, text), 0) end
 
+local function is_finite(x) return type(x) == "number" and math.abs(x) < math.huge end
+
+-- What a tool says, without the place in its file: the stroke is what the script can change.
+local function without_place(message)
+    if type(message) ~= "string" then return "the tool failed" end
+    return (message:gsub("^[^\n]-:%d+: ", ""))
+end
+
 local function check_stroke(i, stroke)
     if type(stroke) ~= "table" then refuse_stroke(i, "a stroke is a table") end
     for key in pairs(stroke) do
         if not stroke_fields[key] then refuse_stroke(i, "there is no field '" .. tostring(key) .. "'") end
+    end
+    local tool, params = stroke.tool, stroke.params
+    if tool ~= nil and type(tool) ~= "string" and not is_tool(tool) then
+        refuse_stroke(i, "its tool is a name, or what lissom.tool returns")
+    end
+    if params ~= nil and type(params) ~= "table" then refuse_stroke(i, "its params are a table of values") end
+    if stroke.camera ~= nil and type(stroke.camera) ~= "userdata" then
+        refuse_stroke(i, "its camera is what lissom.camera returns")
     end
     local points = stroke.points
     if (points ~= nil) == (stroke.key ~= nil) then refuse_stroke(i, "give its points, or a key") end
@@ -16,7 +32,7 @@ local function check_stroke(i, stroke)
         refuse_stroke(i, "its points are a list of pixels {x, y}")
     end
     for k, pixel in ipairs(points) do
-        if type(pixel) ~= "table" or type(pixel[1]) ~= "number" or type(pixel[2]) ~= "number" then
+        if type(pixel) ~= "table" or not (is_finite(pixel[1]) and is_finite(pixel[2])) then
             refuse_stroke(i, "point " .. k .. " is not a pixel {x, y}")
         end
     end
@@ -92,7 +108,7 @@ local function sketch(style, strokes, options)
         end)
         if not drawn then
             while scene:undo() do end
-            refuse_stroke(i, type(result) == "string" and result or "the tool failed")
+            refuse_stroke(i, without_place(result))
         end
         done[i] = result
     end

@@ -28,8 +28,9 @@ int sketch_style(Call& call) {
     lua_pushinteger(L, size.height);
     lua_rawseti(L, -2, 2);
     lua_setfield(L, -2, "size");
-    lua_call(L, 3, 2);
-    return 2;
+    if (lua_pcall(L, 3, 2, 0) == 0) return 2;
+    if (lua_type(L, -1) != LUA_TSTRING) lua_error(L);
+    call.raise(lua_tostring(L, -1));
 }
 
 }  // namespace
