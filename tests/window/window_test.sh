@@ -235,6 +235,9 @@ sed -i 's/name = "bulge"/name = "swell"/' bulge.lua
 wait_for "tool swell"
 drag 700 320 5 2
 wait_for "history 2 of 2"
+# Faster than it is seen: the button still goes down where it was pressed.
+xdotool mousemove --window "$window" 720 340 mousedown 1 mousemove_relative 90 20 mouseup 1
+wait_for "history 3 of 3"
 sed -i 's/return lissom.tool/return nonsense.tool/' bulge.lua
 wait_for "error "
 sed -i 's/return nonsense.tool/return lissom.tool/' bulge.lua
@@ -243,6 +246,7 @@ sleep 2.5
 wait_for "at rest"
 close_view 0
 grep -q "was not saved" told || fail "an unsaved scene is not told"
+grep -q '"press", 430, 340' events.lua || fail "a fast stroke does not begin where it was pressed"
 "$program" run events.lua || fail "what was recorded does not repeat"
 "$program" run calls.lua || fail "the journal does not come to the same scene"
 

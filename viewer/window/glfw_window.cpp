@@ -104,6 +104,9 @@ struct GlfwWindow::State {
     GLFWwindow* window = nullptr;
     InputQueue inputs;
     Modifiers modifiers;
+    // Where the cursor was when the last input came, in units of the screen: when that is read, it
+    // may have moved on.
+    Vec2 cursor = Vec2::Zero();
 
     ~State() {
         if (window) glfwDestroyWindow(window);
@@ -114,19 +117,18 @@ struct GlfwWindow::State {
     }
 
     // Cursor positions are in units of the screen, pictures in pixels.
-    Vec2 pixels(double x, double y) const {
+    Vec2 pixels(const Vec2& at) const {
         int width = 0, height = 0, pixel_width = 0, pixel_height = 0;
         glfwGetWindowSize(window, &width, &height);
         glfwGetFramebufferSize(window, &pixel_width, &pixel_height);
-        return {x * pixel_width / std::max(width, 1), y * pixel_height / std::max(height, 1)};
+        return {at.x() * pixel_width / std::max(width, 1),
+                at.y() * pixel_height / std::max(height, 1)};
     }
 
     Input input(Input::Kind kind) const {
-        double x = 0.0, y = 0.0;
-        glfwGetCursorPos(window, &x, &y);
         Input made;
         made.kind = kind;
-        made.at = pixels(x, y);
+        made.at = pixels(cursor);
         made.modifiers = modifiers;
         return made;
     }
@@ -136,11 +138,11 @@ struct GlfwWindow::State {
 
 void GlfwWindow::State::listen() {
     glfwSetWindowUserPointer(window, this);
+    glfwGetCursorPos(window, &cursor.x(), &cursor.y());
     glfwSetCursorPosCallback(window, [](GLFWwindow* from, double x, double y) {
         State& state = of(from);
-        Input move = state.input(Input::Kind::move);
-        move.at = state.pixels(x, y);
-        state.inputs.push(std::move(move));
+        state.cursor = {x, y};
+        state.inputs.push(state.input(Input::Kind::move));
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* from, int button, int action, int bits) {
         if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
