@@ -187,10 +187,10 @@ std::vector<FacePair> own_intersections(const Mesh& target, const Mesh& source,
     return result;
 }
 
-std::vector<FacePair> new_intersections(const Boundaries& boundaries, const Sewn& sewn,
+}  // namespace
+
+std::vector<FacePair> new_intersections(const Mesh& target, const Mesh& source, const Sewn& sewn,
                                         const Context& context) {
-    const Mesh& target = boundaries.target;
-    const Mesh& source = boundaries.source.mesh;
     std::vector<FacePair> pairs =
         self_intersections(sewn.mesh, {changed_faces(target, sewn), std::nullopt}, context);
     if (pairs.empty()) return pairs;
@@ -252,13 +252,12 @@ std::vector<FacePair> new_intersections(const Boundaries& boundaries, const Sewn
     return pairs;
 }
 
-}  // namespace
-
 MergedSides sew_sides(const MergePreparation& preparation, const Matching& matching,
                       const Moved& moved, const Context& context) {
     MergedSides merged = sew_well(preparation, matching, moved, context);
     if (!preparation.options.find_intersections) return merged;
-    merged.intersections = new_intersections(preparation.boundaries, merged.sewn, context);
+    merged.intersections = new_intersections(
+        preparation.boundaries.target, preparation.boundaries.source.mesh, merged.sewn, context);
     if (!merged.intersections.empty()) {
         merged.warnings.push_back(std::to_string(merged.intersections.size()) +
                                   " pairs of faces run through one another that did not "

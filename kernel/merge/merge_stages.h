@@ -171,6 +171,11 @@ struct MergedSides {
 MergedSides sew_sides(const MergePreparation& preparation, const Matching& matching,
                       const Moved& moved, const Context& context);
 
+/// Pairs of faces of `sewn` that run through one another and come from faces of the opened target
+/// and of the source at rest that did not.
+std::vector<FacePair> new_intersections(const Mesh& target, const Mesh& source, const Sewn& sewn,
+                                        const Context& context);
+
 MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
                       const MergedSides& merged);
 

@@ -83,7 +83,7 @@ const std::vector<Names>& room_orders() {
          "kernel/deform/rotation", "kernel/deform/holds", "kernel/deform/system",
          "kernel/deform/comparison", "kernel/deform", "kernel/deform/boundary"},
         {"kernel/merge/provenance", "kernel/merge/loop", "kernel/merge/sew", "kernel/merge/blend",
-         "kernel/merge/thesis", "kernel/merge"},
+         "kernel/merge/thesis", "kernel/merge", "kernel/merge/paste"},
         {"kernel/hair/field", "kernel/hair/scalp", "kernel/hair/curve", "kernel/hair/strands",
          "kernel/hair/growth", "kernel/hair"},
         {"kernel/sketch", "kernel/sketch/support"},

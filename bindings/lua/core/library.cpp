@@ -69,6 +69,7 @@ Library kernel_library() {
     add(library.functions, shape_functions());
     add(library.functions, deform_functions());
     add(library.functions, merge_functions());
+    add(library.functions, paste_functions());
     add(library.functions, scalp_functions());
     add(library.functions, hairstyle_functions());
     add(library.functions, strand_functions());
@@ -82,7 +83,7 @@ Library kernel_library() {
     library.functions.push_back(failures_function());
     library.types = {whole_mesh_type(),      region_type(),      whole_path_type(),
                      buffer_type(),          deformation_type(), handle_type(),
-                     merging_type(),         provenance_type(),  scalp_type(),
+                     merging_type(),         provenance_type(),  paste_type(),         scalp_type(),
                      whole_hairstyle_type(), whole_curve_type(), strands_type(),
                      scene_type(),           polyline_type(),    whole_camera_type(),
                      gizmo_type(),           support_type(),     parameters_type()};
@@ -90,6 +91,7 @@ Library kernel_library() {
     add(library.records, cut_records());
     add(library.records, parameterize_records());
     add(library.records, merge_records());
+    add(library.records, paste_records());
     add(library.records, hairstyle_records());
     add(library.records, curve_records());
     add(library.records, strand_records());

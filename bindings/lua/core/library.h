@@ -37,8 +37,11 @@ std::vector<Function> deform_functions();
 
 Type merging_type();
 Type provenance_type();
+Type paste_type();
 std::vector<Function> merge_functions();
+std::vector<Function> paste_functions();
 std::vector<Record> merge_records();
+std::vector<Record> paste_records();
 
 std::vector<Function> shape_functions();
 

@@ -67,6 +67,12 @@ struct CutRegion {
     double smoothing = 0.04;
 };
 
+/// The line along which a function is 0, linear on the triangles of the mesh.
+struct CutContour {
+    /// One value a vertex, none of them NaN; the part where they are positive is kept.
+    std::vector<double> value;
+};
+
 /// Why the result of a cut may not be what was wanted.
 enum class CutConcern {
     /// A line ends at an open boundary, which now belongs to both parts in pieces.
@@ -162,6 +168,13 @@ Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options = {},
 /// boundary_conflict naming vertices where an outline or its smooth line runs into an open boundary
 /// or another outline; nonmanifold_edge; cancelled.
 Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options = {},
+        const Context& context = {});
+
+/// Cuts along all lines on which a function is 0, to the bit where `slide` is 0, and keeps the part
+/// where it is positive. Components without a line go to the side of their values' sum.
+/// Errors: mesh_empty; invalid_argument for options out of range, a wrong number of values, or a
+/// function without a line; not_finite for NaN; nonmanifold_edge; cancelled.
+Cut cut(const Mesh& mesh, const CutContour& contour, const CutOptions& options = {},
         const Context& context = {});
 
 /// The lines along which `cut` would divide the mesh, before vertices slide onto them; the mesh

@@ -65,6 +65,9 @@ cap, rest = ball:cut{ plane = { point = { 0, 0.1, 0 }, normal = { 0, 1, 0 } } }
 merging = lissom.merging{
     joins = { { source = cap:boundaries()[1], target = rest:boundaries()[1] } } }
 provenance = select(2, merging:solve()).provenance
+local globe = lissom.shapes.sphere{ segments = 8 }
+paste = lissom.paste{ source = globe, target = globe:copy(), placement = { at = { 0, 1, 0 }, scale = 0.5 },
+    region = globe:region{ plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } } } }
 function fresh()
     box = lissom.shapes.box()
     edit = lissom.deform(box)
@@ -80,6 +83,7 @@ function fresh()
         ["lissom.Deformation"] = edit, ["lissom.Handle"] = handle, ["lissom.Params"] = params,
         ["lissom.Strands"] = strands, ["lissom.Scalp"] = scalp, ["lissom.Hairstyle"] = style,
         ["lissom.Curve"] = curve, ["lissom.Merging"] = merging, ["lissom.Provenance"] = provenance,
+        ["lissom.Paste"] = paste,
         ["lissom.Scene"] = scene, ["lissom.Camera"] = camera, ["lissom.Gizmo"] = gizmo,
         ["lissom.Support"] = support,
         ["lissom.Polyline"] = lissom.polyline{ points = { { 0, 0, 0 }, { 0, 1, 0 } } } }

@@ -1,0 +1,320 @@
+// lissom.paste: features put onto other surfaces.
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/merge/paste_object.h"
+
+namespace lissom::lua {
+
+Paste& PasteSetup::paste() {
+    if (!content) throw Error(ErrorCode::handle_removed, "the paste was closed; make a new one");
+    return *content;
+}
+
+namespace {
+
+constexpr double kRadians = kPi / 180.0;
+
+// Reads the fields of a placement under `path`, which may be empty, over those of `placement`.
+PastePlacement read_placement(const Call& call, const std::string& path, PastePlacement placement) {
+    const auto name = [&](const char* field) { return path + field; };
+    if (call.has(name("at").c_str())) placement.at = call.vector(name("at").c_str());
+    if (call.has(name("toward").c_str())) placement.toward = call.vector(name("toward").c_str());
+    if (call.has(name("up").c_str())) placement.up = call.vector(name("up").c_str());
+    if (call.has(name("angle").c_str())) {
+        placement.angle = kRadians * call.number(name("angle").c_str());
+    }
+    if (call.has(name("scale").c_str())) placement.scale = call.number(name("scale").c_str());
+    if (call.has(name("offset").c_str())) {
+        const auto offset = call.numbers(name("offset").c_str());
+        require(offset.size() == 2, "the offset of a placement has two numbers");
+        placement.offset = {offset[0], offset[1]};
+    }
+    return placement;
+}
+
+int new_paste(Call& call) {
+    const auto source = call.object<MeshObject>("source");
+    const auto target = call.object<MeshObject>("target");
+    const auto region = call.object<RegionObject>("region");
+    const bool given = call.is_object<RegionObject>("feature");
+    const auto result = call.create<PasteSetup>();
+    const bool done = call.attempt([&] {
+        PasteOptions options;
+        options.correspondence = call.choice<PasteCorrespondence>("correspondence");
+        options.share = call.number("ring");
+        options.normals = call.number("normals");
+        options.thesis = call.integer("fidelity") == 1;
+        std::optional<Region> feature, onto;
+        if (given) feature = call.object<RegionObject>("feature")->current();
+        if (call.has("onto")) onto = call.object<RegionObject>("onto")->current();
+        const auto setup = std::make_shared<PasteSetup>();
+        setup->content.emplace(source->mesh, target->mesh, region->current(), feature, onto,
+                               read_placement(call, "placement.", {}), options, call.context());
+        setup->source = source.share();
+        setup->target = target.share();
+        for (const MeshObject* mesh : {target.get(), source.get()}) {
+            setup->inputs.vertices.push_back(mesh->mesh.vertex_count());
+            setup->inputs.faces.push_back(mesh->mesh.face_count());
+        }
+        result.set(setup);
+    });
+    if (!done) return call.fail();
+    call.charge(result);
+    return 1;
+}
+
+// ---- Paste
+
+int optimize_paste(Call& call) {
+    const auto setup = call.self<PasteSetup>();
+    const Index iterations = call.integer("iterations");
+    auto& report = call.hold<PasteSearch>();
+    const auto loop = call.create<PathObject>();
+    const bool done = call.attempt([&] {
+        Path path = setup->paste().optimize(iterations, call.context());
+        report = setup->paste().search();
+        loop.set(std::make_shared<PathObject>(setup->source, std::move(path)));
+    });
+    return done ? 1 + push_paste_search(call, report) : call.fail();
+}
+
+int merge_paste(Call& call) {
+    const auto setup = call.self<PasteSetup>();
+    PasteMergeOptions options;
+    options.smooth = call.integer("smooth");
+    options.collar = call.boolean("collar");
+    options.find_intersections = call.boolean("intersections");
+    options.lock_scale = call.integer("scale") == 1;
+    options.compare = call.boolean("compare");
+    auto& result = call.hold<std::unique_ptr<PasteResult>>();
+    const bool done = call.attempt([&] {
+        result = std::make_unique<PasteResult>(setup->paste().merge(options, call.context()));
+    });
+    if (!done) return call.fail();
+    const int pushed = push_merge_result(call, result->merged, setup->inputs);
+    if (pushed != 2) return pushed;
+    push_paste_report(call, result->report);
+    call.set_field("paste");
+    return 2;
+}
+
+int move_paste(Call& call) {
+    const auto setup = call.self<PasteSetup>();
+    const bool done = call.attempt([&] {
+        setup->paste().move(read_placement(call, "", setup->paste().placement()), call.context());
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+int loop_of_paste(Call& call) {
+    const auto setup = call.self<PasteSetup>();
+    const auto loop = call.create<PathObject>();
+    const auto image = call.create<PathObject>();
+    const bool done = call.attempt_quick([&] {
+        loop.set(std::make_shared<PathObject>(setup->source, setup->paste().loop()));
+        image.set(std::make_shared<PathObject>(setup->target, setup->paste().image()));
+    });
+    return done ? 2 : call.fail();
+}
+
+void close_paste(void* object) {
+    auto& setup = *static_cast<PasteSetup*>(object);
+    setup.content.reset();
+    setup.source.reset();
+    setup.target.reset();
+}
+
+// ---- Descriptions
+
+std::vector<Parameter> placement_fields(bool moved) {
+    const auto kept = [&](const Parameter& parameter, const char* first) {
+        return parameter.optional(moved ? "as it was" : first);
+    };
+    Parameter at = vector("at",
+                          "The middle of the feature comes to lie on the point of the target that "
+                          "is nearest to this.");
+    return {
+        moved ? at.optional("as it was") : at,
+        kept(axis("toward",
+                  "The way on the target that `up` of the source is to point, as far as both lie "
+                  "in the surfaces."),
+             "the same as `up`"),
+        kept(axis("up", "The direction of the source that belongs to it."), "y"),
+        kept(number("angle",
+                    "Turns the part about the surface's normal, counter-clockwise seen from "
+                    "outside, from `toward`.")
+                 .in("degrees"),
+             "0 where `toward` is given, else what fits best of twelve"),
+        kept(number("scale", "Size of the part on the target over its size on the source.").above(0),
+             "1"),
+        kept(numbers("offset",
+                     "{x, y}: moves the part in the plane of the target's map, in lengths of the "
+                     "target; the way of placing of thesis 3.4.1."),
+             "{0, 0}")};
+}
+
+std::vector<Parameter> paste_parameters() {
+    return {
+        object("source", "lissom.Mesh", "The mesh that has the feature; it stays as it is."),
+        object("target", "lissom.Mesh", "The mesh that it is pasted onto; it stays as it is."),
+        object("region", "lissom.Region",
+               "Part of the source around the feature, marked casually: the boundary is sought "
+               "between its outline and the feature."),
+        either("feature",
+               {object("region", "lissom.Region", ""),
+                choice("auto", {"auto"}, "What lies deep in the region.")},
+               "Part of the source that keeps out of the search; of any genus, and of several "
+               "parts. auto: what lies farther from the region's outline than the share `ring` of "
+               "the way to its middle.")
+            .optional("auto"),
+        object("onto", "lissom.Region",
+               "Part of the target that the feature may go to: without holes and handles, and "
+               "larger than the region of the source will be.")
+            .optional("a disk around the placement"),
+        options("placement", placement_fields(false), "Where the feature goes."),
+        number("ring", "Share of the region that is searched where no feature is given.")
+            .between(0.01, 0.99)
+            .defaults(0.5),
+        choice("correspondence", {"map", "closest"},
+               "map: vertices lie where the plane maps of both surfaces put them. closest: then, "
+               "in rounds, on the nearest point of the target, where that lowers the misfit.")
+            .defaults("map"),
+        number("normals",
+               "Weight of the normals in the energy of a boundary; .1 to .3 help where the "
+               "feature overhangs.")
+            .at_least(0)
+            .defaults(0.0),
+        choice("fidelity", {"lissom", "thesis"},
+               "thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, and "
+               "its deformation, for comparison.")
+            .defaults("lissom")};
+}
+
+std::vector<Parameter> paste_merge_parameters() {
+    return {
+        integer("smooth", "Umbrella steps at the seam, at most, as in lissom.merge.")
+            .between(0, 1000)
+            .defaults(3),
+        boolean("collar", "Makes faces anew beside the seam where one side is coarser.")
+            .defaults(true),
+        boolean("intersections",
+                "Looks for faces that run through one another and did not before.")
+            .defaults(true),
+        choice("scale", {"boundary", "lock"},
+               "Size of the part: that of its boundary on the target, which depends on the loop, "
+               "or what the placement says.")
+            .defaults("boundary"),
+        boolean("compare",
+                "Pastes along the outline of the region as well, and takes that where the "
+                "surface near the boundary is distorted less.")
+            .defaults(true)};
+}
+
+std::vector<ErrorCode> paste_errors() {
+    return {ErrorCode::topology_mismatch, ErrorCode::region_empty,
+            ErrorCode::boundary_conflict, ErrorCode::not_a_disk,
+            ErrorCode::invalid_argument,  ErrorCode::mesh_empty,
+            ErrorCode::not_finite,        ErrorCode::not_positive_definite,
+            ErrorCode::memory_limit,      ErrorCode::cancelled};
+}
+
+constexpr const char* kHorn = R"(local source = lissom.shapes.sphere{ segments = 24 }
+source:set_positions((function()
+    local points = {}
+    for i = 1, source:vertex_count() do
+        local x, y, z = source:position(i)
+        local rise = math.exp(-12 * (x * x + z * z))
+        points[i] = { x, y > 0 and y + 0.8 * rise or y, z }
+    end
+    return points
+end)())
+local target = lissom.shapes.sphere{ segments = 20, radius = 2 }
+local paste = lissom.paste{
+    source = source, target = target,
+    region = source:region{ sphere = { center = { 0, 1.3, 0 }, radius = 0.95 } },
+    placement = { at = { 2, 0, 0 } },
+}
+)";
+
+}  // namespace
+
+Type paste_type() {
+    const std::string horn = kHorn;
+    return {
+        .name = "lissom.Paste",
+        .summary = "A feature of one mesh that is being put onto another: it can be moved, its "
+                   "boundary sought, and pasted, as often as one likes.",
+        .methods =
+            {{.name = "optimize",
+              .body = optimize_paste,
+              .summary =
+                  "Seeks the loop around the feature whose shape on the target differs least from "
+                  "its shape on the source, by turns with the similarity between both (thesis "
+                  "3.4.3).",
+              .options = {integer("iterations", "At most.").at_least(1).defaults(20)},
+              .results = {{"lissom.Path", "loop", "The loop, on the source."},
+                          {"lissom.PasteSearch", "report", "What was found."}},
+              .errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed,
+                         ErrorCode::cancelled},
+              .example = horn + R"(local loop, report = paste:optimize()
+assert(loop:closed() and report.misfit[#report.misfit] <= report.misfit[1]))"},
+             {.name = "merge",
+              .body = merge_paste,
+              .summary = "Opens the target along the loop's image and pastes the part inside the "
+                         "loop, deformed to fit, as a new mesh. Without `optimize` the loop is the "
+                         "outline of the region.",
+              .options = paste_merge_parameters(),
+              .results = {{"lissom.Mesh", "mesh", "The target with the feature."},
+                          {"lissom.MergeReport", "report",
+                           "As of lissom.merge; its field `paste` is a lissom.PasteReport."}},
+              .errors = {ErrorCode::invalid_argument, ErrorCode::boundary_conflict,
+                         ErrorCode::nonmanifold_edge, ErrorCode::skin_mismatch,
+                         ErrorCode::zero_area, ErrorCode::handle_removed, ErrorCode::memory_limit,
+                         ErrorCode::cancelled},
+              .example = horn + R"(paste:optimize()
+local mesh, report = paste:merge()
+assert(mesh:is_closed() and mesh:genus() == 0)
+assert(report.paste.scale > 0.5))"},
+             {.name = "move",
+              .body = move_paste,
+              .summary =
+                  "Places the feature anew, and seeks its boundary again from the one it had where "
+                  "`optimize` was called. What is left out stays. Where the feature does not fit "
+                  "there, the last good placement stays.",
+              .options = placement_fields(true),
+              .results = {{"lissom.Paste", "paste", "The same paste."}},
+              .errors = {ErrorCode::invalid_argument, ErrorCode::not_a_disk,
+                         ErrorCode::not_finite, ErrorCode::handle_removed,
+                         ErrorCode::memory_limit, ErrorCode::cancelled},
+              .example = horn + R"(paste:optimize()
+assert(paste:move{ at = { 0, 0, 2 }, angle = 30 })
+assert(paste:merge():is_closed()))"},
+             {.name = "loop",
+              .body = loop_of_paste,
+              .summary = "The loop that `merge` pastes along, and where it lies on the target.",
+              .results = {{"lissom.Path", "loop", "On the source."},
+                          {"lissom.Path", "image", "Points of the target's surface."}},
+              .errors = {ErrorCode::handle_removed},
+              .example = horn + R"(local loop, image = paste:loop()
+assert(#loop:vertices() == #image:points()))"}},
+        .close = close_paste};
+}
+
+std::vector<Function> paste_functions() {
+    const std::string horn = kHorn;
+    return {{.name = "paste",
+             .body = new_paste,
+             .summary =
+                 "Puts a feature of one mesh onto another, wherever that is and however it is "
+                 "curved (thesis section 3.4): a nose, an ear, a horn, a handle. Lays the surface "
+                 "around the feature and the target out in one plane; `optimize` then finds the "
+                 "best boundary and `merge` makes the new mesh.",
+             .options = paste_parameters(),
+             .results = {{"lissom.Paste", "paste", "The paste, placed and not optimised yet."}},
+             .errors = paste_errors(),
+             .example = horn + R"(local loop, search = paste:optimize()
+local mesh, report = paste:merge()
+assert(mesh:is_closed() and mesh:components() == 1)
+print(#loop:vertices(), search.misfit[#search.misfit], report.verdict))"}};
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,126 @@
+// What a paste reports to a script.
+#include "bindings/lua/core/library.h"
+#include "bindings/lua/merge/paste_object.h"
+
+namespace lissom::lua {
+namespace {
+
+constexpr double kInDegrees = 180.0 / kPi;
+
+const char* stop_name(PasteStop stop) {
+    if (stop == PasteStop::converged) return "converged";
+    return stop == PasteStop::cycle ? "cycle" : "iterations";
+}
+
+void push_distortion(const Call& call, const PasteDistortion& distortion) {
+    lua_createtable(call.lua(), 0, 3);
+    call.set_field("anisotropy", call.push(distortion.anisotropy));
+    call.set_field("energy", call.push(distortion.energy));
+    call.set_field("faces", call.push(distortion.faces));
+}
+
+void push_map_quality(const Call& call, const MapQuality& map) {
+    lua_createtable(call.lua(), 0, 7);
+    call.set_field("method", call.push(map.rigid ? "arap" : "lscm"));
+    call.set_field("faces", call.push(map.faces));
+    call.set_field("flipped", call.push(map.flipped));
+    call.set_field("flipped_fill", call.push(map.flipped_fill));
+    call.set_field("crossings", call.push(map.crossings));
+    call.set_field("least_scale", call.push(map.least_scale));
+    call.set_field("greatest_scale", call.push(map.greatest_scale));
+}
+
+}  // namespace
+
+int push_paste_search(const Call& call, const PasteSearch& search) {
+    lua_createtable(call.lua(), 0, 9);
+    call.set_field("energy", call.push_numbers(search.energy));
+    call.set_field("misfit", call.push_numbers(search.misfit));
+    if (search.outline_energy) {
+        call.set_field("outline_energy", call.push(*search.outline_energy));
+    }
+    if (search.outline_misfit) {
+        call.set_field("outline_misfit", call.push(*search.outline_misfit));
+    }
+    call.set_field("stop", call.push(stop_name(search.stop)));
+    call.set_field("kept_outline", call.push(search.kept_outline));
+    call.set_field("scale", call.push(search.scale));
+    call.set_field("loop_size", call.push(search.loop_size));
+    call.set_field("closest_rounds", call.push(search.closest_rounds));
+    return 1;
+}
+
+int push_paste_report(const Call& call, const PasteReport& report) {
+    lua_createtable(call.lua(), 0, 12);
+    push_paste_search(call, report.search);
+    call.set_field("search");
+    push_map_quality(call, report.source_map);
+    call.set_field("source_map");
+    push_map_quality(call, report.target_map);
+    call.set_field("target_map");
+    call.set_field("angle", call.push(kInDegrees * report.angle));
+    call.set_field("angle_chosen", call.push(report.angle_chosen));
+    call.set_field("scale", call.push(report.scale));
+    push_distortion(call, report.near);
+    call.set_field("near");
+    push_distortion(call, report.feature);
+    call.set_field("feature");
+    if (report.outline_near) {
+        push_distortion(call, *report.outline_near);
+        call.set_field("outline_near");
+    }
+    call.set_field("kept_outline", call.push(report.kept_outline));
+    call.set_field("euler_characteristic", call.push(report.euler_characteristic));
+    call.set_field("expected_characteristic", call.push(report.expected_characteristic));
+    return 1;
+}
+
+std::vector<Record> paste_records() {
+    return {
+        {"lissom.PasteSearch",
+         "What the search for a boundary found.",
+         {{"number[]", "energy", "Of the first loop and after each iteration."},
+          {"number[]", "misfit",
+           "The mean difference of the loop's edges from their images, over their length."},
+          {"number|nil", "outline_energy",
+           "Of the outline of the region, where all of it lies on the target's region."},
+          {"number|nil", "outline_misfit", "The same of the misfit."},
+          {"string", "stop", "converged, iterations or cycle: why it ended."},
+          {"boolean", "kept_outline", "Nothing better than the outline was found."},
+          {"number", "scale", "How much the loop grows."},
+          {"integer", "loop_size", "Vertices of the loop."},
+          {"integer", "closest_rounds", "Rounds of nearest points that were kept."}}},
+        {"lissom.PasteMapQuality",
+         "What the map of a surface into the plane is like.",
+         {{"string", "method", "arap or lscm."},
+          {"integer", "faces", "Faces that were laid out."},
+          {"integer", "flipped", "Faces that are turned over."},
+          {"integer", "flipped_fill", "Of those that close the hole of the feature."},
+          {"integer", "crossings", "Pairs of boundary edges that cross."},
+          {"number", "least_scale", "Least factor by which it changes a length."},
+          {"number", "greatest_scale", "The greatest."}}},
+        {"lissom.PasteDistortion",
+         "How much faces of the part were distorted.",
+         {{"number", "anisotropy", "95th percentile of greatest over least stretch of a face."},
+          {"number", "energy", "Mean squared difference of the stretches from 1, after scaling."},
+          {"integer", "faces", "How many faces that is of."}}},
+        {"lissom.PasteReport",
+         "What a paste found and did.",
+         {{"lissom.PasteSearch", "search", "Of the boundary."},
+          {"lissom.PasteMapQuality", "source_map", "The map of the ring."},
+          {"lissom.PasteMapQuality", "target_map", "The map of the target's region."},
+          {"number", "angle", "Angle of the placement, in degrees."},
+          {"boolean", "angle_chosen", "It was not given."},
+          {"number", "scale", "How much the part grew."},
+          {"lissom.PasteDistortion", "near", "Within three rings of the boundary."},
+          {"lissom.PasteDistortion", "feature", "In the feature."},
+          {"lissom.PasteDistortion|nil", "outline_near",
+           "Near the outline of the region, were it the boundary."},
+          {"boolean", "kept_outline",
+           "The outline was pasted along, since the surface there is distorted less."},
+          {"integer", "euler_characteristic", "Of the result."},
+          {"integer", "expected_characteristic",
+           "What those of the target and of the part make it."}}}};
+}
+
+}  // namespace lissom::lua

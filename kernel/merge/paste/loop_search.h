@@ -1,0 +1,49 @@
+/// The cheapest loop of edges around a ring (thesis section 3.4.3); private to kernel/merge.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/merge/paste/paste_regions.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// The edges of a ring, cut open along a short path from its outer boundary to the inner one. An
+/// edge carries how often it crosses the cut from right to left, so that no vertex is doubled.
+class LoopSearch {
+  public:
+    LoopSearch(const Mesh& source, const PasteRegions& regions, const Context& context);
+
+    /// Edges by the vertices of the mesh that they join; costs are given in this order.
+    const std::vector<std::pair<Index, Index>>& edges() const { return edges_; }
+    /// Number of the edge between two vertices, or kNoIndex.
+    Index edge_between(Index a, Index b) const;
+
+    /// Vertices of the closed path with the least cost that runs once around the ring,
+    /// counter-clockwise; it visits no vertex twice. Costs are above 0, or infinite for edges that
+    /// must not be used. Empty where there is none. Errors: cancelled.
+    std::vector<Index> cheapest(std::span<const double> cost, const Context& context) const;
+
+  private:
+    struct Arc {
+        Index to = kNoIndex, edge = kNoIndex;
+        int turns = 0;
+    };
+    void find_cut(const Mesh& source, const PasteRegions& regions);
+    void label(const Mesh& source, const PasteRegions& regions);
+    Index local(Index vertex) const;
+    double search_from(Index start, std::span<const double> cost, double limit,
+                       std::vector<Index>& loop) const;
+
+    std::vector<Index> vertices_;
+    std::vector<std::pair<Index, Index>> edges_;
+    std::vector<std::vector<Arc>> arcs_;
+    /// Local numbers, from the outer boundary to the inner one.
+    std::vector<Index> cut_;
+};
+
+}  // namespace lissom

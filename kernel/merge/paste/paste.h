@@ -1,0 +1,137 @@
+/// Paste: a feature of one mesh becomes part of another, along the loop around it that merges with
+/// the least distortion (thesis section 3.4).
+///
+///     Paste paste(source, target, region, feature, std::nullopt, {.at = point});
+///     paste.optimize();
+///     PasteResult result = paste.merge();
+///     paste.move({.at = other});
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/merge/merge.h"
+#include "kernel/merge/paste/paste_options.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/query/path.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+/// Where a vertex of the ring comes to lie: where the maps of both surfaces put it, or, after some
+/// rounds, on the nearest point of the target's region. A round that does not lower the misfit is
+/// not kept.
+enum class PasteCorrespondence { map, closest };
+
+struct PasteOptions {
+    PasteCorrespondence correspondence = PasteCorrespondence::map;
+    /// Part of the way from the region's outline to its middle that is ring where no feature is
+    /// given; 0 to 1.
+    double share = 0.5;
+    /// Weight of the normals in the energy; 0.1 to 0.3 help where the feature overhangs.
+    double normals = 0.0;
+    /// The thesis to the letter: maps that keep angles (LSCM), the energy of Eq 3.1 with its
+    /// similarity, its deformation.
+    bool thesis = false;
+};
+
+struct PasteMergeOptions {
+    /// As MergeOptions::smooth, collar and find_intersections.
+    Index smooth = 3;
+    bool collar = true;
+    bool find_intersections = true;
+    /// The part keeps the size that its placement asks for, in place of that of its boundary.
+    bool lock_scale = false;
+    /// Deforms the part inside the outline that was marked as well, and takes that where the
+    /// surface near the boundary is distorted less.
+    bool compare = true;
+};
+
+/// How much the part was distorted; see PasteReport.
+struct PasteDistortion {
+    /// 95th percentile over faces of the ratio of the singular values of the face's map.
+    double anisotropy = 1.0;
+    /// Mean by area of (s1 / s - 1)^2 + (s2 / s - 1)^2, s1 and s2 the singular values and s the
+    /// scale of the part.
+    double energy = 0.0;
+    Index faces = 0;
+};
+
+/// What a paste found and did.
+struct PasteReport {
+    PasteSearch search;
+    MapQuality source_map, target_map;
+    /// Angle from the base direction and scale of the placement, in radians; whether the angle was
+    /// chosen.
+    double angle = 0.0;
+    bool angle_chosen = false;
+    /// How much the part grew.
+    double scale = 1.0;
+    /// Within three rings of the boundary, and of the feature's faces.
+    PasteDistortion near, feature;
+    /// Near the outline that was marked, where that was compared.
+    std::optional<PasteDistortion> outline_near;
+    /// The outline was used in place of the loop that was found.
+    bool kept_outline = false;
+    /// Euler characteristic of the result, and what target and part make it.
+    Index euler_characteristic = 0, expected_characteristic = 0;
+};
+
+struct PasteResult {
+    MergeResult merged;
+    PasteReport report;
+};
+
+/// A paste that can be placed and optimised again.
+class Paste {
+  public:
+    /// Checks the regions, lays both surfaces out in the plane and places the part. Meshes may
+    /// change or die afterwards. `onto` absent: a disk of the target around the placement, large
+    /// enough for the ring.
+    /// Errors: topology_mismatch, region_empty, boundary_conflict, not_a_disk for regions (see
+    /// paste_regions and target_faces); invalid_argument for options out of range, for a point
+    /// outside the target's region, and where the feature's outline does not fit into it, naming
+    /// vertices; not_finite; mesh_empty; not_positive_definite; memory_limit; cancelled.
+    Paste(const Mesh& source, const Mesh& target, const Region& region,
+          const std::optional<Region>& feature, const std::optional<Region>& onto,
+          const PastePlacement& placement, const PasteOptions& options = {},
+          const Context& context = {});
+    ~Paste();
+    Paste(Paste&&) noexcept;
+    Paste& operator=(Paste&&) noexcept;
+
+    /// Alternates similarity and loop until the energy falls no more. Returns the loop, on the
+    /// source and counter-clockwise around the feature.
+    /// Errors: invalid_argument for less than one iteration; cancelled.
+    Path optimize(Index iterations = 20, const Context& context = {});
+    /// What the last search found; before `optimize`, the loop that is used without.
+    const PasteSearch& search() const;
+    /// The loop that `merge` pastes: the outline of the region, or of the feature where that has no
+    /// image, until `optimize` was called.
+    Path loop() const;
+    /// The place of the loop on the target: one point a vertex of `loop`.
+    Path image() const;
+
+    /// Opens the target along the loop's image and pastes the part. Watertight where the target
+    /// is. Errors: invalid_argument where the target is too coarse under the part or the boundary
+    /// crosses itself; as `sew`; zero_area; skin_mismatch; memory_limit; cancelled.
+    PasteResult merge(const PasteMergeOptions& options = {}, const Context& context = {});
+
+    /// Places the part anew; where it was optimised, from the loop it had. After an error all is as
+    /// before: the last good placement stays. Errors: as the constructor.
+    void move(const PastePlacement& placement, const Context& context = {});
+    const PastePlacement& placement() const;
+
+    std::size_t memory_bytes() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lissom

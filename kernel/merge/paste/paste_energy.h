@@ -1,0 +1,93 @@
+/// The energy of a merging boundary, and the search for the one with the least (thesis sections
+/// 3.4.2 and 3.4.3); private to kernel/merge.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/merge/paste/loop_search.h"
+#include "kernel/merge/paste/paste_map.h"
+#include "kernel/merge/paste/paste_options.h"
+
+namespace lissom {
+
+/// How the source is turned and scaled onto its image.
+struct PasteSimilarity {
+    Mat3 rotation = Mat3::Identity();
+    double scale = 1.0;
+};
+
+/// An edge e of the ring and what it becomes on the target.
+struct RingEdge {
+    Vec3 edge = Vec3::Zero(), image = Vec3::Zero();
+    /// Unit normals in its middle.
+    Vec3 source_normal = Vec3::Zero(), target_normal = Vec3::Zero();
+    /// False where an end has no image.
+    bool inside = false;
+};
+
+struct EnergyOptions {
+    /// Weight of the normals, times the square root of the first scale; 0 leaves them out.
+    double normals = 0.0;
+    /// Eq 3.1, |s R e - e*| |e|, with its similarity, in place of the symmetric energy
+    /// |sqrt(s) R e - e* / sqrt(s)| + lambda |e| + mu |R n - n*| |e|, whose value does not depend
+    /// on how finely the surface is divided. lambda and mu hold the scale of the first loop, so
+    /// that they do not change while the scale does.
+    bool thesis = false;
+    Index iterations = 20;
+    /// The search ends where the energy falls by less than this part of it.
+    double tolerance = 1e-5;
+};
+
+/// The ring's edges with their images, as energies see them.
+class PasteEnergy {
+  public:
+    PasteEnergy(const PasteMap& map, const LoopSearch& ring,
+                std::span<const ImagePoint> images, const EnergyOptions& options);
+
+    /// The numbers of a loop's edges, or nothing where one has no image or is not in the ring.
+    std::vector<Index> edges_of(std::span<const Index> loop) const;
+    /// Costs of all edges; infinite for those without an image.
+    std::vector<double> costs(const PasteSimilarity& similarity) const;
+    double energy(std::span<const Index> edges, const PasteSimilarity& similarity) const;
+    /// Mean misfit; see PasteSearch.
+    double misfit(std::span<const Index> edges, const PasteSimilarity& similarity) const;
+
+    /// The similarity that fits best to begin with: by squares, or the thesis's. Fixes lambda and
+    /// mu by its scale.
+    PasteSimilarity start(std::span<const Index> edges);
+    /// One that has no more energy than `before`, unless it is the thesis's: by reweighted least
+    /// squares.
+    PasteSimilarity improved(std::span<const Index> edges, const PasteSimilarity& before) const;
+
+  private:
+    double cost(const RingEdge& edge, const PasteSimilarity& similarity) const;
+    PasteSimilarity reweighted(std::span<const Index> edges, const PasteSimilarity& before) const;
+    PasteSimilarity literal(std::span<const Index> edges) const;
+
+    const LoopSearch& ring_;
+    std::vector<RingEdge> edges_;
+    EnergyOptions options_;
+    double lambda_ = 0.0, mu_ = 0.0;
+};
+
+/// A loop of the ring, counter-clockwise, and the similarity that belongs to it.
+struct PasteLoop {
+    std::vector<Index> vertices;
+    PasteSimilarity similarity;
+    PasteSearch report;
+};
+
+/// Alternates similarity and loop. Starts from `start` where it is not empty, else from the
+/// outline of the region, or where that has no image from the feature's.
+/// Errors: invalid_argument, naming vertices, where no loop around the feature has an image on the
+/// target's region; cancelled.
+PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, const LoopSearch& ring,
+                          std::span<const ImagePoint> images,
+                          std::span<const Index> start, const EnergyOptions& options,
+                          const Context& context);
+
+}  // namespace lissom

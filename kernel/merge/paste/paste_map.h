@@ -1,0 +1,99 @@
+/// Correspondence of a paste: both surfaces laid out in the plane, one put onto the other (thesis
+/// section 3.4.1, step 2); private to kernel/merge.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/merge/paste/paste_options.h"
+#include "kernel/merge/paste/paste_regions.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/parameterize/parameterize.h"
+#include "kernel/mesh/parameterize/uv_grid.h"
+#include "kernel/mesh/query/spatial_tree.h"
+
+namespace lissom {
+
+/// A piece of surface in the plane with what placements need of it.
+struct PasteChart {
+    Parameterization map;
+    /// Mean of the feature's outline in the plane (of the source).
+    Vec2 center = Vec2::Zero();
+    /// Length on the surface over length in the plane, of the ring's edges (of the source).
+    double length_ratio = 1.0;
+    /// Greatest distance in the plane from `center` to the ring (of the source).
+    double reach = 0.0;
+
+    /// Place in `map.vertex` of a vertex, or kNoIndex.
+    Index place_of(Index vertex) const;
+    MapQuality quality() const;
+};
+
+/// The ring, with a row of faces on each side of it where these leave it an annulus, and triangles
+/// of least area over the feature's outline. Errors: as `parameterize`.
+PasteChart source_chart(const Mesh& source, const PasteRegions& regions, ParameterizeMethod method,
+                        const Context& context);
+/// Faces that are a disk. Errors: as `parameterize`.
+PasteChart target_chart(const Mesh& target, std::span<const Index> faces, ParameterizeMethod method,
+                        const Context& context);
+
+/// Where one vertex of the ring lies on the target.
+struct ImagePoint {
+    /// Whether it lies on the target's region; nothing else is known otherwise.
+    bool inside = false;
+    Vec3 position = Vec3::Zero(), normal = Vec3::Zero();
+    /// In the plane of the target's chart.
+    Vec2 uv = Vec2::Zero();
+};
+
+/// A similarity of the plane: p -> factor R(angle) (p - center) + point.
+struct PlanarMap {
+    Vec2 center = Vec2::Zero(), point = Vec2::Zero();
+    double factor = 1.0, angle = 0.0;
+    Vec2 operator()(const Vec2& p) const;
+};
+
+/// Both charts, and what it takes to place one on the other many times.
+class PasteMap {
+  public:
+    /// Copies what it needs; the meshes must outlive it.
+    PasteMap(const Mesh& source, const Mesh& target, PasteChart source_chart,
+             PasteChart target_chart);
+
+    const Mesh& source_mesh() const { return source_mesh_; }
+    const std::vector<Vec3>& source_normals() const { return source_normals_; }
+    const PasteChart& source() const { return source_; }
+    const PasteChart& target() const { return target_; }
+
+    /// The map of the plane that a placement asks for, `angle` being the whole angle from the
+    /// base direction. Errors: invalid_argument where the point is not on the target's region;
+    /// not_finite; for a scale that is not above 0.
+    PlanarMap planar(const PastePlacement& placement, double angle) const;
+    /// One image a place of the source's chart.
+    std::vector<ImagePoint> images(const PlanarMap& plane) const;
+    /// The point of the target's region nearest to a point of space.
+    ImagePoint nearest(const Vec3& point) const;
+    /// The point of the target's surface at a place of its plane.
+    std::optional<ImagePoint> on_target(const Vec2& uv) const;
+
+  private:
+    ImagePoint image_at(const Triangle& places, const Vec3& weights) const;
+    Vec2 point_of(const PastePlacement& placement) const;
+    double target_ratio(const Vec2& point, double radius) const;
+    double base_angle(const PastePlacement& placement, const Vec2& point, double radius) const;
+
+    const Mesh& source_mesh_;
+    const Mesh& target_mesh_;
+    PasteChart source_, target_;
+    std::vector<Vec3> source_normals_, target_normals_;
+    /// Of the target, and of its region alone, whose vertices are places of the chart.
+    SpatialTree tree_, chart_tree_;
+    UvGrid grid_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,59 @@
+/// What a paste is asked for, and what it reports.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+
+namespace lissom {
+
+/// Where a part goes on its target.
+struct PastePlacement {
+    /// The middle of the feature comes to lie on the point of the target that is nearest to this.
+    Vec3 at = Vec3::Zero();
+    /// The way on the target that the source's `up` is to point; of any length. Without it the
+    /// same way as on the source, as far as that lies in the surface.
+    std::optional<Vec3> toward = std::nullopt;
+    /// Direction of the source that `toward` is for.
+    Vec3 up = Vec3::UnitY();
+    /// Turns the part about the surface's normal, counter-clockwise seen from outside, in radians
+    /// from `toward`. Without either the angle is chosen that fits best, of twelve.
+    std::optional<double> angle = std::nullopt;
+    /// Size of the part on the target, over its size on the source; above 0.
+    double scale = 1.0;
+    /// Moves the part in the plane of the target's map, in lengths of the target (the thesis's way
+    /// of placing).
+    Vec2 offset = Vec2::Zero();
+};
+
+/// What the map of a piece of surface into the plane is like; see Parameterization.
+struct MapQuality {
+    Index faces = 0, flipped = 0, flipped_fill = 0, crossings = 0;
+    double least_scale = 1.0, greatest_scale = 1.0;
+    bool rigid = false;
+};
+
+enum class PasteStop { converged, iterations, cycle };
+
+/// What the search for the boundary found. Energies are of the arcs of one loop.
+struct PasteSearch {
+    /// After each iteration; the first is of the loop that was started from.
+    std::vector<double> energy;
+    /// Mean misfit of the loop's edges: |sqrt(s) R e - e* / sqrt(s)| over sqrt(s) |e|; no unit.
+    std::vector<double> misfit;
+    /// Of the outline of the marked region, where all of it lies on the target's region.
+    std::optional<double> outline_energy, outline_misfit;
+    PasteStop stop = PasteStop::converged;
+    /// The outline of the region was kept, since nothing better was found.
+    bool kept_outline = false;
+    /// Scale of the similarity from the loop to its image.
+    double scale = 1.0;
+    Index loop_size = 0;
+    /// Rounds of nearest points that were kept.
+    Index closest_rounds = 0;
+};
+
+}  // namespace lissom

@@ -1,0 +1,283 @@
+#include "kernel/merge/paste/paste_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "kernel/core/error.h"
+#include "kernel/merge/paste/face_set.h"
+#include "kernel/mesh/query/distances.h"
+
+namespace lissom {
+namespace {
+
+// Steps by which a disk that does not close on itself is sought, and how far.
+constexpr double kShrink = 0.85;
+constexpr int kShrinks = 6;
+
+Elements vertices_named(std::span<const Index> vertices) {
+    Elements elements{ElementKind::vertex, 0, {}};
+    for (const Index v : vertices) elements.add(v);
+    return elements;
+}
+
+void fill_islands(FaceSet& set, const FaceSet* bounds) {
+    const std::vector<std::vector<Index>> outside = set.outside_parts(bounds);
+    for (std::size_t k = 1; k < outside.size(); ++k) {
+        const bool beside = std::any_of(outside[k].begin(), outside[k].end(), [&](Index f) {
+            const std::span<const Index> face = set.topology().face(f);
+            return std::any_of(face.begin(), face.end(), [&](Index v) {
+                const auto around = set.topology().faces_around(v);
+                return std::any_of(around.begin(), around.end(),
+                                   [&](Index g) { return set.contains(g); });
+            });
+        });
+        if (!beside) continue;
+        for (const Index f : outside[k]) set.add(f);
+    }
+}
+
+// Of several parts the one with most faces of `wanted`; of equals the largest.
+void keep_one_part(FaceSet& set, std::span<const Index> wanted) {
+    const std::vector<std::vector<Index>> parts = set.parts();
+    const FaceSet marked(set.topology(), wanted);
+    const auto held = [&](const std::vector<Index>& part) {
+        return std::count_if(part.begin(), part.end(), [&](Index f) { return marked.contains(f); });
+    };
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < parts.size(); ++k) {
+        if (held(parts[k]) > held(parts[best])) best = k;
+    }
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (k == best) continue;
+        for (const Index f : parts[k]) set.remove(f);
+    }
+}
+
+// The faces from the first part to the nearest other one, by the fewest faces inside `bounds`.
+std::vector<Index> bridge(const FaceSet& set, const FaceSet& bounds,
+                          const std::vector<Index>& first) {
+    const Topology& topology = set.topology();
+    std::vector<Index> from(at(topology.face_count()), kNoIndex), queue = first;
+    for (const Index f : first) from[at(f)] = f;
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+        const Index f = queue[i];
+        const std::span<const Index> face = topology.face(f);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const Index g = face_left_of(topology, face[(k + 1) % face.size()], face[k]);
+            if (g == kNoIndex || from[at(g)] != kNoIndex || !bounds.contains(g)) continue;
+            from[at(g)] = f;
+            if (!set.contains(g)) {
+                queue.push_back(g);
+                continue;
+            }
+            std::vector<Index> way;
+            for (Index step = f; from[at(step)] != step; step = from[at(step)]) way.push_back(step);
+            return way;
+        }
+    }
+    return {};
+}
+
+void join_parts(FaceSet& feature, const FaceSet& region, const Context& context) {
+    for (auto parts = feature.parts(); parts.size() > 1; parts = feature.parts()) {
+        context.checkpoint();
+        const std::vector<Index> way = bridge(feature, region, parts.front());
+        for (const Index f : way) feature.add(f);
+        if (way.empty()) return;
+    }
+}
+
+FaceSet clean_region(const Mesh& source, const Region& region, std::span<const Index> seed,
+                     const char* name) {
+    FaceSet set(source.topology(), region.faces());
+    if (set.size() == 0) {
+        throw Error(ErrorCode::region_empty, std::string("the ") + name +
+                                                 " holds no face: mark all vertices of the faces "
+                                                 "that belong to it");
+    }
+    keep_one_part(set, seed);
+    set.grow_at_bow_ties(nullptr);
+    fill_islands(set, nullptr);
+    return set;
+}
+
+// Vertices of the set's outline that do not lie on an open boundary alone.
+std::vector<Index> outline_of(const FaceSet& set) {
+    const Topology& topology = set.topology();
+    std::vector<std::vector<Index>> loops = set.loops();
+    std::erase_if(loops, [&](const std::vector<Index>& loop) {
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const Index a = loop[k], b = loop[(k + 1) % loop.size()];
+            if (face_left_of(topology, b, a) != kNoIndex) return false;
+        }
+        return true;
+    });
+    return loops.empty() ? std::vector<Index>() : loops.front();
+}
+
+FaceSet deep_faces(const Mesh& source, const FaceSet& region, double share,
+                   const Context& context) {
+    if (!(share > 0.0 && share < 1.0)) {
+        throw Error(ErrorCode::invalid_argument, "the ring's share must lie between 0 and 1");
+    }
+    const std::vector<Index> outline = outline_of(region);
+    if (outline.empty()) {
+        throw Error(ErrorCode::region_empty,
+                    "the region has no outline inside its mesh; mark a part of the surface only");
+    }
+    const std::vector<double> distance = edge_distances(
+        source, outline, std::numeric_limits<double>::infinity(), context);
+    double deepest = 0.0;
+    for (const Index f : region.faces()) {
+        for (const Index v : source.topology().face(f)) {
+            if (std::isfinite(distance[at(v)])) deepest = std::max(deepest, distance[at(v)]);
+        }
+    }
+    FaceSet deep(source.topology(), {});
+    for (const Index f : region.faces()) {
+        const std::span<const Index> face = source.topology().face(f);
+        if (std::all_of(face.begin(), face.end(),
+                        [&](Index v) { return distance[at(v)] > share * deepest; })) {
+            deep.add(f);
+        }
+    }
+    keep_one_part(deep, {});
+    return deep;
+}
+
+FaceSet clean_feature(const Mesh& source, const FaceSet& region,
+                      const std::optional<Region>& feature, double share, const Context& context) {
+    FaceSet set = feature ? FaceSet(source.topology(), feature->faces())
+                          : deep_faces(source, region, share, context);
+    for (const Index f : set.faces()) {
+        if (!region.contains(f)) set.remove(f);
+    }
+    if (set.size() == 0) {
+        throw Error(ErrorCode::region_empty,
+                    "the feature holds no face of the region; mark a feature inside the region");
+    }
+    join_parts(set, region, context);
+    set.grow_at_bow_ties(&region);
+    fill_islands(set, &region);
+    return set;
+}
+
+void require_apart(std::span<const Index> outer, const FaceSet& feature) {
+    std::vector<Index> touching;
+    for (const Index v : outer) {
+        const auto around = feature.topology().faces_around(v);
+        if (std::any_of(around.begin(), around.end(),
+                        [&](Index f) { return feature.contains(f); })) {
+            touching.push_back(v);
+        }
+    }
+    if (touching.empty()) return;
+    const Elements elements = vertices_named(touching);
+    throw Error(ErrorCode::boundary_conflict,
+                "the feature touches the outline of its region at " + describe(elements) +
+                    "; mark a larger region or a smaller feature, so that a ring lies between them",
+                elements);
+}
+
+std::string sizes_of(const std::vector<std::vector<Index>>& loops) {
+    std::string text;
+    for (const std::vector<Index>& loop : loops) {
+        text += (text.empty() ? "" : ", ") + std::to_string(loop.size());
+    }
+    return text;
+}
+
+void require_annulus(const FaceSet& ring) {
+    const std::vector<std::vector<Index>> loops = ring.loops();
+    const Index chi = ring.euler_characteristic();
+    if (loops.size() == 2 && chi == 0 && ring.parts().size() == 1) return;
+    const Elements elements =
+        vertices_named(loops.empty() ? std::vector<Index>() : loops.back());
+    const std::string found = loops.size() == 2 && chi != 0
+                                  ? "has a handle"
+                                  : "has " + std::to_string(loops.size()) +
+                                        " boundaries, of " + sizes_of(loops) + " vertices";
+    throw Error(ErrorCode::not_a_disk,
+                "the ring between the feature and the outline of its region " + found +
+                    " and must have two and no handle; take holes and handles into the feature, "
+                    "or leave them out of the region; the smallest is at " +
+                    describe(elements),
+                elements);
+}
+
+void require_disk(const FaceSet& set) {
+    const std::vector<std::vector<Index>> loops = set.loops();
+    if (loops.size() == 1 && set.euler_characteristic() == 1) return;
+    const Elements elements =
+        vertices_named(loops.empty() ? std::vector<Index>() : loops.back());
+    throw Error(ErrorCode::not_a_disk,
+                "the region of the target has " + std::to_string(loops.size()) +
+                    " boundaries (" + sizes_of(loops) + " vertices) and Euler characteristic " +
+                    std::to_string(set.euler_characteristic()) +
+                    "; it must be a disk: leave holes and handles out of it, or fill them first" +
+                    (elements.ids.empty() ? "" : "; the smallest is at " + describe(elements)),
+                elements);
+}
+
+}  // namespace
+
+PasteRegions paste_regions(const Mesh& source, const Region& region,
+                           const std::optional<Region>& feature, double share,
+                           const Context& context) {
+    require_same_topology(source, region.topology(), "the region");
+    if (feature) require_same_topology(source, feature->topology(), "the feature");
+    const std::vector<Index> seed = feature ? feature->faces() : std::vector<Index>();
+    const FaceSet whole = clean_region(source, region, seed, "region");
+    const FaceSet core = clean_feature(source, whole, feature, share, context);
+    PasteRegions result;
+    result.outer = outline_of(whole);
+    require_apart(result.outer, core);
+    FaceSet ring = whole;
+    for (const Index f : core.faces()) ring.remove(f);
+    if (ring.size() == 0 || result.outer.empty()) {
+        throw Error(ErrorCode::region_empty,
+                    "there is no ring around the feature; mark a region that is larger than it");
+    }
+    require_annulus(ring);
+    result.region = whole.faces();
+    result.feature = core.faces();
+    result.ring = ring.faces();
+    result.inner = outline_of(core);
+    return result;
+}
+
+std::vector<Index> target_faces(const Mesh& target, const Region& onto, const Context& context) {
+    context.checkpoint();
+    require_same_topology(target, onto.topology(), "the target's region");
+    const FaceSet set = clean_region(target, onto, {}, "target's region");
+    require_disk(set);
+    return set.faces();
+}
+
+std::vector<Index> disk_around(const Mesh& target, const SurfacePoint& point, double radius,
+                               const Context& context) {
+    const std::vector<double> distance = edge_distances(target, point, context);
+    const Topology& topology = target.topology();
+    for (int step = 0;; ++step, radius *= kShrink) {
+        context.checkpoint();
+        FaceSet set(topology, {});
+        for (Index f = 0; f < topology.face_count(); ++f) {
+            const std::span<const Index> face = topology.face(f);
+            if (f == point.face || std::all_of(face.begin(), face.end(), [&](Index v) {
+                    return distance[at(v)] <= radius;
+                })) {
+                set.add(f);
+            }
+        }
+        const Index seed[] = {point.face};
+        keep_one_part(set, seed);
+        set.grow_at_bow_ties(nullptr);
+        fill_islands(set, nullptr);
+        if (set.euler_characteristic() == 1 && set.loops().size() == 1) return set.faces();
+        if (step == kShrinks) require_disk(set);
+    }
+}
+
+}  // namespace lissom

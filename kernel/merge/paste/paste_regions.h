@@ -1,0 +1,48 @@
+/// The regions of a paste: what is pasted, the ring around it in which the boundary is sought, and
+/// where it goes (thesis section 3.4.1); private to kernel/merge.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/query/spatial_tree.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+/// Faces of the source: the region Omega_0 that was marked, the feature in it, and the ring between
+/// them. Invariant: the ring is an annulus.
+struct PasteRegions {
+    std::vector<Index> region, feature, ring;
+    /// Outlines of region and feature. Both run counter-clockwise around the feature.
+    std::vector<Index> outer, inner;
+};
+
+/// Cleans what was marked: of the region the part that holds most of the feature stays, both grow
+/// where their faces meet at a vertex only, islands in them are filled, and several parts of a
+/// feature are joined by the faces between them. Without a feature it is what lies farther from the
+/// region's outline than `share` of the way to the farthest vertex, along edges; 0 to 1.
+/// The feature may have any genus, and open boundaries of its own.
+/// Errors, naming vertices: topology_mismatch for regions of another mesh; region_empty where
+/// region or feature holds no face, or the region has no outline; invalid_argument for a share out
+/// of range; boundary_conflict where the feature touches the region's outline; not_a_disk where the
+/// ring has a handle or more than its two boundaries; cancelled.
+PasteRegions paste_regions(const Mesh& source, const Region& region,
+                           const std::optional<Region>& feature, double share,
+                           const Context& context);
+
+/// Faces of the target that were marked, cleaned the same way. Errors: topology_mismatch;
+/// region_empty; not_a_disk, naming vertices, where they have a hole or a handle; cancelled.
+std::vector<Index> target_faces(const Mesh& target, const Region& onto, const Context& context);
+
+/// Faces of the target within `radius` along edges of a point: the greatest disk of at most that
+/// size. Errors: not_a_disk where there is none; cancelled.
+std::vector<Index> disk_around(const Mesh& target, const SurfacePoint& point, double radius,
+                               const Context& context);
+
+}  // namespace lissom
