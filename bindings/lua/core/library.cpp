@@ -81,12 +81,12 @@ Library kernel_library() {
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
     library.functions.push_back(failures_function());
-    library.types = {whole_mesh_type(),      region_type(),      whole_path_type(),
-                     buffer_type(),          deformation_type(), handle_type(),
-                     merging_type(),         provenance_type(),  paste_type(),         scalp_type(),
-                     whole_hairstyle_type(), whole_curve_type(), strands_type(),
-                     scene_type(),           polyline_type(),    whole_camera_type(),
-                     gizmo_type(),           support_type(),     parameters_type()};
+    library.types = {
+        whole_mesh_type(),  region_type(),  whole_path_type(),      buffer_type(),
+        deformation_type(), handle_type(),  merging_type(),         provenance_type(),
+        paste_type(),       scalp_type(),   whole_hairstyle_type(), whole_curve_type(),
+        strands_type(),     scene_type(),   polyline_type(),        whole_camera_type(),
+        gizmo_type(),       support_type(), parameters_type()};
     library.records = kernel_records();
     add(library.records, cut_records());
     add(library.records, parameterize_records());

@@ -144,8 +144,9 @@ std::vector<Parameter> placement_fields(bool moved) {
                     "outside, from `toward`.")
                  .in("degrees"),
              "0 where `toward` is given, else what fits best of twelve"),
-        kept(number("scale", "Size of the part on the target over its size on the source.").above(0),
-             "1"),
+        kept(
+            number("scale", "Size of the part on the target over its size on the source.").above(0),
+            "1"),
         kept(numbers("offset",
                      "{x, y}: moves the part in the plane of the target's map, in lengths of the "
                      "target; the way of placing of thesis 3.4.1."),
@@ -164,7 +165,7 @@ std::vector<Parameter> paste_parameters() {
                 choice("auto", {"auto"}, "What lies deep in the region.")},
                "Part of the source that keeps out of the search; of any genus, and of several "
                "parts. auto: what lies farther from the region's outline than the share `ring` of "
-               "the way to its middle.")
+               "the way to its middle, or of the outline's radius where that is less.")
             .optional("auto"),
         object("onto", "lissom.Region",
                "Part of the target that the feature may go to: without holes and handles, and "
@@ -196,8 +197,7 @@ std::vector<Parameter> paste_merge_parameters() {
             .defaults(3),
         boolean("collar", "Makes faces anew beside the seam where one side is coarser.")
             .defaults(true),
-        boolean("intersections",
-                "Looks for faces that run through one another and did not before.")
+        boolean("intersections", "Looks for faces that run through one another and did not before.")
             .defaults(true),
         choice("scale", {"boundary", "lock"},
                "Size of the part: that of its boundary on the target, which depends on the loop, "
@@ -218,15 +218,10 @@ std::vector<ErrorCode> paste_errors() {
 }
 
 constexpr const char* kHorn = R"(local source = lissom.shapes.sphere{ segments = 24 }
-source:set_positions((function()
-    local points = {}
-    for i = 1, source:vertex_count() do
-        local x, y, z = source:position(i)
-        local rise = math.exp(-12 * (x * x + z * z))
-        points[i] = { x, y > 0 and y + 0.8 * rise or y, z }
-    end
-    return points
-end)())
+for i = 1, source:vertex_count() do
+    local x, y, z = source:position(i)
+    if y > 0 then source:set_position(i, x, y + 0.8 * math.exp(-12 * (x * x + z * z)), z) end
+end
 local target = lissom.shapes.sphere{ segments = 20, radius = 2 }
 local paste = lissom.paste{
     source = source, target = target,
@@ -241,8 +236,9 @@ Type paste_type() {
     const std::string horn = kHorn;
     return {
         .name = "lissom.Paste",
-        .summary = "A feature of one mesh that is being put onto another: it can be moved, its "
-                   "boundary sought, and pasted, as often as one likes.",
+        .summary =
+            "A feature of one mesh that is being put onto another: it can be moved, its "
+            "boundary sought, and pasted, as often as one likes.",
         .methods =
             {{.name = "optimize",
               .body = optimize_paste,
@@ -282,9 +278,8 @@ assert(report.paste.scale > 0.5))"},
                   "there, the last good placement stays.",
               .options = placement_fields(true),
               .results = {{"lissom.Paste", "paste", "The same paste."}},
-              .errors = {ErrorCode::invalid_argument, ErrorCode::not_a_disk,
-                         ErrorCode::not_finite, ErrorCode::handle_removed,
-                         ErrorCode::memory_limit, ErrorCode::cancelled},
+              .errors = {ErrorCode::invalid_argument, ErrorCode::not_a_disk, ErrorCode::not_finite,
+                         ErrorCode::handle_removed, ErrorCode::memory_limit, ErrorCode::cancelled},
               .example = horn + R"(paste:optimize()
 assert(paste:move{ at = { 0, 0, 2 }, angle = 30 })
 assert(paste:merge():is_closed()))"},

@@ -87,9 +87,9 @@ void LoopSearch::find_cut(const Mesh& source, const PasteRegions& regions) {
             break;
         }
         for (const Arc& arc : arcs_[at(v)]) {
-            const double reached = length + (source.position(vertices_[at(v)]) -
-                                             source.position(vertices_[at(arc.to)]))
-                                                .norm();
+            const double reached =
+                length +
+                (source.position(vertices_[at(v)]) - source.position(vertices_[at(arc.to)])).norm();
             if (reached >= distance[at(arc.to)]) continue;
             distance[at(arc.to)] = reached;
             from[at(arc.to)] = v;

@@ -62,9 +62,8 @@ void leave_one_hole(const Topology& topology, const PasteChart& chart, double st
     }
     const auto outside = sets_of_sign(topology, value, false);
     for (std::size_t k = 1; k < outside.size(); ++k) {
-        const bool in_chart = std::all_of(outside[k].begin(), outside[k].end(), [&](Index v) {
-            return chart.place_of(v) != kNoIndex;
-        });
+        const bool in_chart = std::all_of(outside[k].begin(), outside[k].end(),
+                                          [&](Index v) { return chart.place_of(v) != kNoIndex; });
         if (!in_chart) continue;
         for (const Index v : outside[k]) value[at(v)] = step;
     }

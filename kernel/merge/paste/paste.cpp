@@ -182,9 +182,8 @@ void Paste::State::draw_closer(const PasteMap& on, Placed& place, const Context&
 
 // Whether all of the ring has an image.
 bool Paste::State::covers(const Placed& place) const {
-    return std::all_of(regions.outer.begin(), regions.outer.end(), [&](Index v) {
-        return place.images[at(source_map.place_of(v))].inside;
-    });
+    return std::all_of(regions.outer.begin(), regions.outer.end(),
+                       [&](Index v) { return place.images[at(source_map.place_of(v))].inside; });
 }
 
 LoopImage Paste::State::loop_image(std::span<const Index> loop) const {
@@ -201,8 +200,7 @@ MovedPart Paste::State::deformed(const PastePart& part, std::span<const Index> l
                                  const PasteSimilarity& similarity, const Context& context) const {
     std::vector<Vec3> normals;
     for (const Index v : loop) normals.push_back(map->source_normals()[at(v)]);
-    const auto how =
-        options.thesis ? BoundaryDeformOptions::thesis() : BoundaryDeformOptions{};
+    const auto how = options.thesis ? BoundaryDeformOptions::thesis() : BoundaryDeformOptions{};
     return moved_part(part, paste_values(normals, loop_image(loop), similarity, scale), how,
                       context);
 }
@@ -210,7 +208,8 @@ MovedPart Paste::State::deformed(const PastePart& part, std::span<const Index> l
 Paste::Paste(const Mesh& source, const Mesh& target, const Region& region,
              const std::optional<Region>& feature, const std::optional<Region>& onto,
              const PastePlacement& placement, const PasteOptions& options,
-             const Context& context) try : state_(std::make_unique<State>()) {
+             const Context& context) try
+    : state_(std::make_unique<State>()) {
     require_options(options);
     for (const Mesh* mesh : {&source, &target}) {
         if (mesh->face_count() == 0) {
@@ -226,8 +225,7 @@ Paste::Paste(const Mesh& source, const Mesh& target, const Region& region,
     state.regions = paste_regions(source, region, feature, options.share, context);
     state.ring = std::make_unique<LoopSearch>(state.source, state.regions, context);
     progress.step(0.3);
-    state.source_map =
-        source_chart(state.source, state.regions, method_for(options), context);
+    state.source_map = source_chart(state.source, state.regions, method_for(options), context);
     progress.step(0.3);
     state.own_disk = !onto.has_value();
     if (onto) {
@@ -328,8 +326,8 @@ SewOptions paste_sewing(const PasteMergeOptions& options, bool collar) {
 Sewn sewn_well(const PasteSides& sides, const PasteMergeOptions& options, const Context& context) {
     const auto sew_with = [&](bool collar) {
         const LoopPair pairs[] = {sides.pair};
-        Sewn sewn = sew(sides.opened.mesh, sides.moved.mesh, pairs, paste_sewing(options, collar),
-                        context);
+        Sewn sewn =
+            sew(sides.opened.mesh, sides.moved.mesh, pairs, paste_sewing(options, collar), context);
         require_sound(sewn, sides.opened.mesh, sides.moved.mesh, pairs);
         return sewn;
     };
@@ -358,8 +356,7 @@ MergeReport merge_report(const PasteSides& sides, const Sewn& sewn, double scale
     report.deform = sides.moved.stats;
     report.seam = sewn.report;
     if (options.find_intersections) {
-        report.intersections =
-            new_intersections(sides.opened.mesh, sides.part.mesh, sewn, context);
+        report.intersections = new_intersections(sides.opened.mesh, sides.part.mesh, sewn, context);
     }
     const Verdict verdict = verdict_of(report, options.find_intersections);
     report.ok = verdict.good;
@@ -404,8 +401,7 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     }
     progress.step(0.6);
     report.scale = scale;
-    report.feature =
-        feature_distortion(sides.part, sides.moved.mesh, scale, state.regions.feature);
+    report.feature = feature_distortion(sides.part, sides.moved.mesh, scale, state.regions.feature);
     std::vector<Vec2> outline;
     for (const Index v : loop) {
         outline.push_back(placed.images[at(state.source_map.place_of(v))].uv);
@@ -431,8 +427,7 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     PasteResult result{{}, std::move(report)};
     result.merged.report = merge_report(sides, sewn, scale, options, context);
     result.merged.report.solve_seconds = seconds_since(start);
-    const MeshMap origins =
-        appended_map(sides.opened.map, sides.part.map, state.target.topology());
+    const MeshMap origins = appended_map(sides.opened.map, sides.part.map, state.target.topology());
     result.merged.provenance = composed(sewn.map, origins);
     result.report.euler_characteristic = euler_characteristic(sewn.mesh.topology());
     result.report.expected_characteristic = euler_characteristic(state.target.topology()) +

@@ -59,8 +59,8 @@ double PasteEnergy::cost(const RingEdge& edge, const PasteSimilarity& similarity
     const double root = std::sqrt(similarity.scale);
     double cost = (root * turned - edge.image / root).norm() + lambda_ * length;
     if (mu_ > 0.0) {
-        cost += mu_ * length *
-                (similarity.rotation * edge.source_normal - edge.target_normal).norm();
+        cost +=
+            mu_ * length * (similarity.rotation * edge.source_normal - edge.target_normal).norm();
     }
     return cost;
 }
@@ -174,9 +174,8 @@ std::vector<Index> first_loop(const PasteRegions& regions, const PasteEnergy& en
 }  // namespace
 
 PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, const LoopSearch& ring,
-                          std::span<const ImagePoint> images,
-                          std::span<const Index> start, const EnergyOptions& options,
-                          const Context& context) {
+                          std::span<const ImagePoint> images, std::span<const Index> start,
+                          const EnergyOptions& options, const Context& context) {
     PasteEnergy energy(map, ring, images, options);
     PasteLoop result;
     PasteSearch& report = result.report;

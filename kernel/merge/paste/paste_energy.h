@@ -45,8 +45,8 @@ struct EnergyOptions {
 /// The ring's edges with their images, as energies see them.
 class PasteEnergy {
   public:
-    PasteEnergy(const PasteMap& map, const LoopSearch& ring,
-                std::span<const ImagePoint> images, const EnergyOptions& options);
+    PasteEnergy(const PasteMap& map, const LoopSearch& ring, std::span<const ImagePoint> images,
+                const EnergyOptions& options);
 
     /// The numbers of a loop's edges, or nothing where one has no image or is not in the ring.
     std::vector<Index> edges_of(std::span<const Index> loop) const;
@@ -86,8 +86,7 @@ struct PasteLoop {
 /// Errors: invalid_argument, naming vertices, where no loop around the feature has an image on the
 /// target's region; cancelled.
 PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, const LoopSearch& ring,
-                          std::span<const ImagePoint> images,
-                          std::span<const Index> start, const EnergyOptions& options,
-                          const Context& context);
+                          std::span<const ImagePoint> images, std::span<const Index> start,
+                          const EnergyOptions& options, const Context& context);
 
 }  // namespace lissom

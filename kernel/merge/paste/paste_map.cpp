@@ -128,9 +128,12 @@ Index PasteChart::place_of(Index vertex) const {
 }
 
 MapQuality PasteChart::quality() const {
-    return {count_of(map.face),  count_of(map.flipped),
-            map.flipped_fill,    map.boundary_crossings,
-            map.least_scale,     map.greatest_scale,
+    return {count_of(map.face),
+            count_of(map.flipped),
+            map.flipped_fill,
+            map.boundary_crossings,
+            map.least_scale,
+            map.greatest_scale,
             map.method == ParameterizeMethod::arap};
 }
 

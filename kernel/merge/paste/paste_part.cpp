@@ -65,8 +65,8 @@ PasteDistortion distortion_of(const Mesh& rest, const Mesh& moved, double scale,
         const auto [greatest, least] = stretches(a, b);
         if (!std::isfinite(greatest) || !(least > 0.0)) continue;
         ratios.push_back(greatest / least);
-        result.energy += size * (std::pow(greatest / scale - 1.0, 2) +
-                                 std::pow(least / scale - 1.0, 2));
+        result.energy +=
+            size * (std::pow(greatest / scale - 1.0, 2) + std::pow(least / scale - 1.0, 2));
         area += size;
     }
     result.faces = count_of(faces);

@@ -127,14 +127,21 @@ FaceSet deep_faces(const Mesh& source, const FaceSet& region, double share,
         throw Error(ErrorCode::region_empty,
                     "the region has no outline inside its mesh; mark a part of the surface only");
     }
-    const std::vector<double> distance = edge_distances(
-        source, outline, std::numeric_limits<double>::infinity(), context);
+    const std::vector<double> distance =
+        edge_distances(source, outline, std::numeric_limits<double>::infinity(), context);
     double deepest = 0.0;
     for (const Index f : region.faces()) {
         for (const Index v : source.topology().face(f)) {
             if (std::isfinite(distance[at(v)])) deepest = std::max(deepest, distance[at(v)]);
         }
     }
+    // A feature that stands out is deep itself: the ring is no wider than the outline allows.
+    double around = 0.0;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        around += (source.position(outline[(k + 1) % outline.size()]) - source.position(outline[k]))
+                      .norm();
+    }
+    deepest = std::min(deepest, around / (2.0 * kPi));
     FaceSet deep(source.topology(), {});
     for (const Index f : region.faces()) {
         const std::span<const Index> face = source.topology().face(f);
@@ -193,12 +200,11 @@ void require_annulus(const FaceSet& ring) {
     const std::vector<std::vector<Index>> loops = ring.loops();
     const Index chi = ring.euler_characteristic();
     if (loops.size() == 2 && chi == 0 && ring.parts().size() == 1) return;
-    const Elements elements =
-        vertices_named(loops.empty() ? std::vector<Index>() : loops.back());
+    const Elements elements = vertices_named(loops.empty() ? std::vector<Index>() : loops.back());
     const std::string found = loops.size() == 2 && chi != 0
                                   ? "has a handle"
-                                  : "has " + std::to_string(loops.size()) +
-                                        " boundaries, of " + sizes_of(loops) + " vertices";
+                                  : "has " + std::to_string(loops.size()) + " boundaries, of " +
+                                        sizes_of(loops) + " vertices";
     throw Error(ErrorCode::not_a_disk,
                 "the ring between the feature and the outline of its region " + found +
                     " and must have two and no handle; take holes and handles into the feature, "
@@ -210,11 +216,10 @@ void require_annulus(const FaceSet& ring) {
 void require_disk(const FaceSet& set) {
     const std::vector<std::vector<Index>> loops = set.loops();
     if (loops.size() == 1 && set.euler_characteristic() == 1) return;
-    const Elements elements =
-        vertices_named(loops.empty() ? std::vector<Index>() : loops.back());
+    const Elements elements = vertices_named(loops.empty() ? std::vector<Index>() : loops.back());
     throw Error(ErrorCode::not_a_disk,
-                "the region of the target has " + std::to_string(loops.size()) +
-                    " boundaries (" + sizes_of(loops) + " vertices) and Euler characteristic " +
+                "the region of the target has " + std::to_string(loops.size()) + " boundaries (" +
+                    sizes_of(loops) + " vertices) and Euler characteristic " +
                     std::to_string(set.euler_characteristic()) +
                     "; it must be a disk: leave holes and handles out of it, or fill them first" +
                     (elements.ids.empty() ? "" : "; the smallest is at " + describe(elements)),

@@ -26,7 +26,8 @@ struct PasteRegions {
 /// Cleans what was marked: of the region the part that holds most of the feature stays, both grow
 /// where their faces meet at a vertex only, islands in them are filled, and several parts of a
 /// feature are joined by the faces between them. Without a feature it is what lies farther from the
-/// region's outline than `share` of the way to the farthest vertex, along edges; 0 to 1.
+/// region's outline, along edges, than `share`, 0 to 1, of the way to the farthest vertex or of the
+/// outline's radius, its length over 2 pi, whichever is less.
 /// The feature may have any genus, and open boundaries of its own.
 /// Errors, naming vertices: topology_mismatch for regions of another mesh; region_empty where
 /// region or feature holds no face, or the region has no outline; invalid_argument for a share out

@@ -40,8 +40,9 @@ Cut cut(const Mesh& mesh, const CutContour& contour, const CutOptions& options,
     require_values(mesh, contour);
     const LevelSet levels = level_set(mesh.topology(), contour.value, 0.0);
     CutLines found{trace_contours(mesh, levels, context), {}, {}};
-    require(!found.lines.empty(), "the function has no line on which it is 0; its values must be "
-                                  "above 0 at some vertices and below at others");
+    require(!found.lines.empty(),
+            "the function has no line on which it is 0; its values must be "
+            "above 0 at some vertices and below at others");
     CutSides sides = sides_of_values(mesh, contour, found.lines);
     return cut_along(mesh, std::move(found), std::move(sides), options, context);
 } catch (const std::bad_alloc&) {

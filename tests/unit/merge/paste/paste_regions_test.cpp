@@ -1,0 +1,67 @@
+// The regions of a paste: cleaned, or refused with what to change.
+#include "kernel/merge/paste/paste_regions.h"
+
+#include "kernel/merge/paste/face_set.h"
+#include "tests/unit/merge/paste/paste_shapes.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+PasteRegions regions_of(const Mesh& mesh, const Region& region,
+                        const std::optional<Region>& feature = std::nullopt) {
+    return paste_regions(mesh, region, feature, 0.5, {});
+}
+
+void check_annulus(const Mesh& mesh, const PasteRegions& regions) {
+    const FaceSet ring(mesh.topology(), regions.ring);
+    CHECK(ring.euler_characteristic() == 0);
+    CHECK(ring.loops().size() == 2);
+    CHECK(regions.ring.size() + regions.feature.size() == regions.region.size());
+}
+
+}  // namespace
+
+TEST_CASE("paste regions: a feature is found, and the ring around it is an annulus") {
+    const Mesh mesh = horned_ball();
+    check_annulus(mesh, regions_of(mesh, around_horn(mesh)));
+    check_annulus(mesh, regions_of(mesh, around_horn(mesh), around_horn(mesh, 0.6)));
+}
+
+TEST_CASE("paste regions: specks go, islands are filled, parts of a feature are joined") {
+    const Mesh mesh = horned_ball();
+    const Region region = around_horn(mesh);
+    const Region speck = select_sphere(mesh, {0, -1, 0}, 0.2);
+    const Region hole = select_sphere(mesh, {0, 1.9, 0}, 0.15);
+    const PasteRegions plain = regions_of(mesh, region, around_horn(mesh, 0.6));
+    const PasteRegions holed =
+        regions_of(mesh, region.united(speck).minus(hole), around_horn(mesh, 0.6));
+    CHECK(holed.region == plain.region);
+    const Region sides = select_sphere(mesh, {0.35, 0.95, 0}, 0.15)
+                             .united(select_sphere(mesh, {-0.35, 0.95, 0}, 0.15));
+    check_annulus(mesh, regions_of(mesh, region, sides));
+}
+
+TEST_CASE("paste regions: bad ones are refused, with ids") {
+    const Mesh mesh = horned_ball(), other = egg();
+    const Region region = around_horn(mesh);
+    const Error touching = error_of([&] { regions_of(mesh, region, region); });
+    CHECK(touching.code() == ErrorCode::boundary_conflict);
+    CHECK(!touching.elements().ids.empty());
+    CHECK(error_of([&] { regions_of(other, region); }).code() == ErrorCode::topology_mismatch);
+    CHECK(error_of([&] { regions_of(mesh, Region::none(mesh.shared_topology())); }).code() ==
+          ErrorCode::region_empty);
+    CHECK(error_of([&] { regions_of(mesh, Region::all(mesh.shared_topology())); }).code() ==
+          ErrorCode::region_empty);
+    CHECK(error_of([&] {
+              regions_of(mesh, region, select_sphere(mesh, {0, -1, 0}, 0.3));
+          }).code() == ErrorCode::region_empty);
+    // A band around a tube of a torus has no disk inside.
+    const Mesh torus = make_torus();
+    const Region half = select_plane(torus, {0, 0, 0}, {1, 0, 0});
+    const Error handle = error_of([&] { target_faces(torus, half, {}); });
+    CHECK(handle.code() == ErrorCode::not_a_disk);
+    CHECK(!handle.elements().ids.empty());
+}
