@@ -26,8 +26,9 @@ namespace {
 constexpr int kAngles = 12;
 // Another angle than that of the base direction must fit this much better.
 constexpr double kClearlyBetterAngle = 0.95;
-// The disk of the target is this many times as wide as the ring on it.
-constexpr double kRoom = 1.5;
+// The disk of the target is this many times as wide as the ring on it. Ways along edges are up to
+// 1.4 times as long as the surface is wide, so that one that does not cover the ring is widened.
+constexpr double kRoom = 1.5, kMoreRoom = 2.1;
 constexpr int kClosestRounds = 4;
 constexpr Index kWarmIterations = 3;
 // A seam without a collar must be this much better than one with it.
@@ -76,8 +77,10 @@ struct Paste::State {
     bool optimized = false;
     Placed placed;
 
-    std::unique_ptr<PasteMap> map_around(const PastePlacement& placement,
+    std::unique_ptr<PasteMap> map_around(const PastePlacement& placement, double room,
                                          const Context& context) const;
+    void place_on_disk(const PastePlacement& placement, std::span<const Index> start,
+                       Index iterations, const Context& context);
     double misfit_at(const PasteMap& on, const std::vector<ImagePoint>& images) const;
     void choose_angle(const PasteMap& on, Placed& place, const Context& context) const;
     Placed place(const PasteMap& on, const PastePlacement& placement, std::span<const Index> start,
@@ -89,7 +92,7 @@ struct Paste::State {
                        const PasteSimilarity& similarity, const Context& context) const;
 };
 
-std::unique_ptr<PasteMap> Paste::State::map_around(const PastePlacement& placement,
+std::unique_ptr<PasteMap> Paste::State::map_around(const PastePlacement& placement, double room,
                                                    const Context& context) const {
     require(placement.scale > 0.0 && std::isfinite(placement.scale),
             "the scale of a placement must be above 0");
@@ -97,7 +100,7 @@ std::unique_ptr<PasteMap> Paste::State::map_around(const PastePlacement& placeme
         throw Error(ErrorCode::not_finite, "the point of a placement is NaN or infinite");
     }
     const SurfacePoint point = SpatialTree(target, context).nearest(placement.at);
-    const double radius = kRoom * placement.scale * source_map.length_ratio * source_map.reach +
+    const double radius = room * placement.scale * source_map.length_ratio * source_map.reach +
                           placement.offset.norm();
     const std::vector<Index> faces = disk_around(target, point, radius, context);
     return std::make_unique<PasteMap>(source, target, source_map,
@@ -180,6 +183,28 @@ void Paste::State::draw_closer(const PasteMap& on, Placed& place, const Context&
     }
 }
 
+// Lays a disk of the target out and places the part there; the wider one where that holds more.
+void Paste::State::place_on_disk(const PastePlacement& placement, std::span<const Index> start,
+                                 Index iterations, const Context& context) {
+    std::unique_ptr<PasteMap> on = map_around(placement, kRoom, context);
+    std::optional<Placed> found;
+    try {
+        found = place(*on, placement, start, iterations, context);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::invalid_argument) throw;
+    }
+    if (!found || !covers(*found)) {
+        std::unique_ptr<PasteMap> wide = map_around(placement, kMoreRoom, context);
+        Placed again = place(*wide, placement, start, iterations, context);
+        if (!found || covers(again)) {
+            on = std::move(wide);
+            found = std::move(again);
+        }
+    }
+    map = std::move(on);
+    placed = std::move(*found);
+}
+
 // Whether all of the ring has an image.
 bool Paste::State::covers(const Placed& place) const {
     return std::all_of(regions.outer.begin(), regions.outer.end(),
@@ -233,11 +258,13 @@ Paste::Paste(const Mesh& source, const Mesh& target, const Region& region,
         state.map = std::make_unique<PasteMap>(
             state.source, state.target, state.source_map,
             target_chart(state.target, faces, method_for(options), context));
-    } else {
-        state.map = state.map_around(placement, context);
     }
     progress.step(0.1);
-    state.placed = state.place(*state.map, placement, {}, 0, context);
+    if (onto) {
+        state.placed = state.place(*state.map, placement, {}, 0, context);
+    } else {
+        state.place_on_disk(placement, {}, 0, context);
+    }
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
 }
@@ -300,9 +327,7 @@ void Paste::move(const PastePlacement& placement, const Context& context) try {
         if (error.code() != ErrorCode::invalid_argument) throw;
     }
     // The region that was laid out does not reach there.
-    std::unique_ptr<PasteMap> map = state.map_around(placement, context);
-    state.placed = state.place(*map, placement, start, iterations, context);
-    state.map = std::move(map);
+    state.place_on_disk(placement, start, iterations, context);
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
 }

@@ -44,9 +44,16 @@ TEST_CASE("paste: a horn comes to stand where it is put, watertight and little d
 }
 
 TEST_CASE("paste: a feature may have a handle") {
-    const Mesh torus = make_torus(), target = egg();
-    const Region region = select_sphere(torus, {1.35, 0, 0}, 0.3).inverted();
-    const Region feature = select_sphere(torus, {1.35, 0, 0}, 0.8).inverted();
+    // A ring on a foot that widens like a funnel.
+    Mesh torus = make_torus();
+    const Mesh target = egg();
+    const Vec3 foot(1.35, 0, 0);
+    const Region region = select_sphere(torus, foot, 0.2).inverted();
+    const Region feature = select_sphere(torus, foot, 0.6).inverted();
+    for (Vec3& p : torus.edit_positions()) {
+        const double near = std::max(0.0, 0.6 - (p - foot).norm());
+        p += Vec3(near, 6.0 * near * p.y(), 6.0 * near * p.z());
+    }
     Paste paste(torus, target, region, feature, std::nullopt, {.at = {0, 2, 0}, .scale = 0.5});
     paste.optimize();
     const PasteResult result = paste.merge();
