@@ -267,6 +267,49 @@
 ---@field prepare_seconds number Time to check, trim and factor.
 ---@field solve_seconds number Time to deform and sew.
 
+---What the search for a boundary found.
+---@class lissom.PasteSearch
+---@field energy number[] Of the first loop and after each iteration.
+---@field misfit number[] The mean difference of the loop's edges from their images, over their length.
+---@field outline_energy number|nil Of the outline of the region, where all of it lies on the target's region.
+---@field outline_misfit number|nil The same of the misfit.
+---@field stop string converged, iterations or cycle: why it ended.
+---@field kept_outline boolean Nothing better than the outline was found.
+---@field scale number How much the loop grows.
+---@field loop_size integer Vertices of the loop.
+---@field closest_rounds integer Rounds of nearest points that were kept.
+
+---What the map of a surface into the plane is like.
+---@class lissom.PasteMapQuality
+---@field method string arap or lscm.
+---@field faces integer Faces that were laid out.
+---@field flipped integer Faces that are turned over.
+---@field flipped_fill integer Of those that close the hole of the feature.
+---@field crossings integer Pairs of boundary edges that cross.
+---@field least_scale number Least factor by which it changes a length.
+---@field greatest_scale number The greatest.
+
+---How much faces of the part were distorted.
+---@class lissom.PasteDistortion
+---@field anisotropy number 95th percentile of greatest over least stretch of a face.
+---@field energy number Mean squared difference of the stretches from 1, after scaling.
+---@field faces integer How many faces that is of.
+
+---What a paste found and did.
+---@class lissom.PasteReport
+---@field search lissom.PasteSearch Of the boundary.
+---@field source_map lissom.PasteMapQuality The map of the ring.
+---@field target_map lissom.PasteMapQuality The map of the target's region.
+---@field angle number Angle of the placement, in degrees.
+---@field angle_chosen boolean It was not given.
+---@field scale number How much the part grew.
+---@field near lissom.PasteDistortion Within three rings of the boundary.
+---@field feature lissom.PasteDistortion In the feature.
+---@field outline_near lissom.PasteDistortion|nil Near the outline of the region, were it the boundary.
+---@field kept_outline boolean The outline was pasted along, since the surface there is distorted less.
+---@field euler_characteristic integer Of the result.
+---@field expected_characteristic integer What those of the target and of the part make it.
+
 ---A vector that a hairstyle gives its field at a grid point.
 ---@class lissom.StyleConstraint
 ---@field point number[] {x, y, z}, in mesh units.
@@ -1408,6 +1451,56 @@ function Provenance:face(face) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Provenance:close() end
+
+---A feature of one mesh that is being put onto another: it can be moved, its boundary sought, and pasted, as often as one likes.
+---@class lissom.Paste
+local Paste = {}
+
+---@class lissom.Paste.OptimizeOptions
+---@field iterations? integer At most. Default: 20.
+
+---Seeks the loop around the feature whose shape on the target differs least from its shape on the source, by turns with the similarity between both (thesis 3.4.3).
+---@param options? lissom.Paste.OptimizeOptions
+---@return lissom.Path loop # The loop, on the source.
+---@return lissom.PasteSearch report # What was found.
+function Paste:optimize(options) end
+
+---@class lissom.Paste.MergeOptions
+---@field smooth? integer Umbrella steps at the seam, at most, as in lissom.merge. Default: 3.
+---@field collar? boolean Makes faces anew beside the seam where one side is coarser. Default: true.
+---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
+---@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or what the placement says. Default: "boundary".
+---@field compare? boolean Pastes along the outline of the region as well, and takes that where the surface near the boundary is distorted less. Default: true.
+
+---Opens the target along the loop's image and pastes the part inside the loop, deformed to fit, as a new mesh. Without `optimize` the loop is the outline of the region.
+---@param options? lissom.Paste.MergeOptions
+---@return lissom.Mesh mesh # The target with the feature.
+---@return lissom.MergeReport report # As of lissom.merge; its field `paste` is a lissom.PasteReport.
+function Paste:merge(options) end
+
+---@class lissom.Paste.MoveOptions
+---@field at? lissom.Vector The middle of the feature comes to lie on the point of the target that is nearest to this. Default: as it was.
+---@field toward? "x"|"y"|"z"|lissom.Vector The way on the target that `up` of the source is to point, as far as both lie in the surfaces. Default: as it was.
+---@field up? "x"|"y"|"z"|lissom.Vector The direction of the source that belongs to it. Default: as it was.
+---@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: as it was.
+---@field scale? number Size of the part on the target over its size on the source. Default: as it was.
+---@field offset? number[] {x, y}: moves the part in the plane of the target's map, in lengths of the target; the way of placing of thesis 3.4.1. Default: as it was.
+
+---Places the feature anew, and seeks its boundary again from the one it had where `optimize` was called. What is left out stays. Where the feature does not fit there, the last good placement stays.
+---@param options? lissom.Paste.MoveOptions
+---@return lissom.Paste paste # The same paste.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Paste:move(options) end
+
+---The loop that `merge` pastes along, and where it lies on the target.
+---@return lissom.Path loop # On the source.
+---@return lissom.Path image # Points of the target's surface.
+function Paste:loop() end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function Paste:close() end
 
 ---Where hair grows on a head, and the frame in which styles fit any head. It is that of the head's shape when it was made.
 ---@class lissom.Scalp
@@ -2918,6 +3011,34 @@ function lissom.merge(options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function lissom.merging(options) end
+
+---@class lissom.PasteOptions.Placement
+---@field at lissom.Vector The middle of the feature comes to lie on the point of the target that is nearest to this.
+---@field toward? "x"|"y"|"z"|lissom.Vector The way on the target that `up` of the source is to point, as far as both lie in the surfaces. Default: the same as `up`.
+---@field up? "x"|"y"|"z"|lissom.Vector The direction of the source that belongs to it. Default: y.
+---@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: 0 where `toward` is given, else what fits best of twelve.
+---@field scale? number Size of the part on the target over its size on the source. Default: 1.
+---@field offset? number[] {x, y}: moves the part in the plane of the target's map, in lengths of the target; the way of placing of thesis 3.4.1. Default: {0, 0}.
+
+---@class lissom.PasteOptions
+---@field source lissom.Mesh The mesh that has the feature; it stays as it is.
+---@field target lissom.Mesh The mesh that it is pasted onto; it stays as it is.
+---@field region lissom.Region Part of the source around the feature, marked casually: the boundary is sought between its outline and the feature.
+---@field feature? lissom.Region|"auto" Part of the source that keeps out of the search; of any genus, and of several parts. auto: what lies farther from the region's outline than the share `ring` of the way to its middle, or of the outline's radius where that is less. Default: auto.
+---@field onto? lissom.Region Part of the target that the feature may go to: without holes and handles, and larger than the region of the source will be. Default: a disk around the placement.
+---@field placement lissom.PasteOptions.Placement Where the feature goes.
+---@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
+---@field correspondence? "map"|"closest" map: vertices lie where the plane maps of both surfaces put them. closest: then, in rounds, on the nearest point of the target, where that lowers the misfit. Default: "map".
+---@field normals? number Weight of the normals in the energy of a boundary; .1 to .3 help where the feature overhangs. Default: 0.
+---@field fidelity? "lissom"|"thesis" thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, and its deformation, for comparison. Default: "lissom".
+
+---Puts a feature of one mesh onto another, wherever that is and however it is curved (thesis section 3.4): a nose, an ear, a horn, a handle. Lays the surface around the feature and the target out in one plane; `optimize` then finds the best boundary and `merge` makes the new mesh.
+---@param options lissom.PasteOptions
+---@return lissom.Paste paste # The paste, placed and not optimised yet.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.paste(options) end
 
 ---@class lissom.ScalpOptions
 ---@field region? lissom.Region Where hair grows. Default: the region "scalp", or what is above an average hairline.
