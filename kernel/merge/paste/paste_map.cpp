@@ -53,8 +53,12 @@ std::vector<Triangle> lid_over(const Mesh& source, const std::vector<Index>& loo
     std::vector<Vec3> points;
     for (const Index v : loop) points.push_back(source.position(v));
     const auto taken = [&](Index a, Index b) {
-        const auto ring = source.topology().neighbors(loop[at(a)]);
-        return std::find(ring.begin(), ring.end(), loop[at(b)]) != ring.end();
+        // Polygons are triangulated: a diagonal of one may be an edge as well.
+        const auto around = source.topology().faces_around(loop[at(a)]);
+        return std::any_of(around.begin(), around.end(), [&](Index f) {
+            const std::span<const Index> face = source.topology().face(f);
+            return std::find(face.begin(), face.end(), loop[at(b)]) != face.end();
+        });
     };
     std::vector<Triangle> lid = minimum_area_triangles(points, taken, context);
     for (Triangle& triangle : lid) {

@@ -1,0 +1,80 @@
+-- Pasting by script: features put onto other surfaces, and what may come in between.
+local lissom = require "lissom"
+
+local ball, egg, region
+
+local function horned(segments)
+    local mesh = lissom.shapes.sphere{ segments = segments, kind = "triangles" }
+    for i = 1, mesh:vertex_count() do
+        local x, y, z = mesh:position(i)
+        if y > 0 then
+            local rise = math.exp(-14 * (x * x + z * z))
+            mesh:set_position(i, x + 0.35 * rise * rise, y + 0.9 * rise, z)
+        end
+    end
+    return mesh
+end
+
+local function pasted(options)
+    local all = { source = ball, target = egg, region = region, placement = { at = { 0, 2, 0 }, scale = 0.8 } }
+    for name, value in pairs(options or {}) do all[name] = value end
+    return lissom.paste(all)
+end
+
+test.before(function()
+    ball = horned(24)
+    egg = lissom.shapes.sphere{ segments = 20 }:transform{ scale = { 1.4, 2, 1.6 } }
+    region = ball:region{ sphere = { center = { 0, 1.3, 0 }, radius = 0.9 } }
+end)
+
+test("a horn is pasted where it is put, and the meshes stay as they are", function()
+    local before = { ball:hash(), egg:hash() }
+    local paste = pasted()
+    local loop, search = paste:optimize()
+    expect.truthy(loop:closed())
+    expect.truthy(search.energy[#search.energy] <= search.energy[1])
+    local mesh, report = paste:merge()
+    expect.truthy(mesh:is_closed())
+    expect.equal(mesh:components(), 1)
+    expect.truthy(report.ok)
+    expect.truthy(mesh:bounds().max[2] > 2.4)
+    expect.equal(report.paste.euler_characteristic, report.paste.expected_characteristic)
+    expect.equal(ball:hash(), before[1])
+    expect.equal(egg:hash(), before[2])
+end)
+
+test("the part may be moved, and a move that fails leaves it where it was", function()
+    local paste = pasted{ onto = egg:region{ plane = { point = { 0, 0.2, 0 }, normal = { 0, 1, 0 } } } }
+    paste:optimize()
+    local before = select(2, paste:loop()):points()
+    local moved, message, code = paste:move{ at = { 0, -2, 0 } }
+    expect.equal(moved, nil)
+    expect.equal(code, "invalid_argument")
+    expect.truthy(message:find("outside the region", 1, true))
+    expect.equal(#select(2, paste:loop()):points(), #before)
+    expect.truthy(paste:move{ at = { 0.5, 1.7, 0.4 }, scale = 0.6, angle = 90 })
+    expect.truthy(paste:merge():is_closed())
+end)
+
+test("regions that cannot be pasted are refused", function()
+    local _, message, code = pasted{ feature = region }
+    expect.equal(code, "boundary_conflict")
+    expect.truthy(message:find("touches the outline", 1, true))
+    _, message, code = pasted{ region = egg:region{ all = true } }
+    expect.equal(code, "topology_mismatch", message)
+    _, message, code = pasted{ onto = egg:region{ sphere = { center = { 0, 2, 0 }, radius = 0.4 } } }
+    expect.equal(code, "invalid_argument")
+    expect.truthy(message:find("does not fit", 1, true))
+end)
+
+test("attributes and regions of both come along", function()
+    ball:set_region("tip", ball:region{ sphere = { center = { 0.3, 1.9, 0 }, radius = 0.3 } })
+    egg:set_region("bottom", egg:region{ plane = { point = { 0, -1, 0 }, normal = { 0, -1, 0 } } })
+    local paste = pasted()
+    paste:optimize()
+    local mesh, report = paste:merge{ scale = "lock" }
+    expect.near(report.paste.scale, 0.8)
+    expect.equal(#mesh:region("bottom"), #egg:region("bottom"))
+    expect.equal(#mesh:region("tip"), #ball:region("tip"))
+    expect.equal(report.provenance:vertex(1)[1].side, "target")
+end)
