@@ -31,7 +31,7 @@ test("a horn is pasted where it is put, and the meshes stay as they are", functi
     local before = { ball:hash(), egg:hash() }
     local paste = pasted()
     local loop, search = paste:optimize()
-    expect.truthy(loop:closed())
+    expect.truthy(loop:is_closed())
     expect.truthy(search.energy[#search.energy] <= search.energy[1])
     local mesh, report = paste:merge()
     expect.truthy(mesh:is_closed())
@@ -49,7 +49,7 @@ test("the part may be moved, and a move that fails leaves it where it was", func
     local before = select(2, paste:loop()):points()
     local moved, message, code = paste:move{ at = { 0, -2, 0 } }
     expect.equal(moved, nil)
-    expect.equal(code, "invalid_argument")
+    expect.equal(code, "boundary_conflict")
     expect.truthy(message:find("outside the region", 1, true))
     expect.equal(#select(2, paste:loop()):points(), #before)
     expect.truthy(paste:move{ at = { 0.5, 1.7, 0.4 }, scale = 0.6, angle = 90 })
@@ -60,10 +60,11 @@ test("regions that cannot be pasted are refused", function()
     local _, message, code = pasted{ feature = region }
     expect.equal(code, "boundary_conflict")
     expect.truthy(message:find("touches the outline", 1, true))
-    _, message, code = pasted{ region = egg:region{ all = true } }
-    expect.equal(code, "topology_mismatch", message)
+    local ok, text = pcall(pasted, { region = egg:region{ all = true } })
+    expect.falsy(ok)
+    expect.truthy(text:find("topology_mismatch", 1, true))
     _, message, code = pasted{ onto = egg:region{ sphere = { center = { 0, 2, 0 }, radius = 0.4 } } }
-    expect.equal(code, "invalid_argument")
+    expect.equal(code, "boundary_conflict")
     expect.truthy(message:find("does not fit", 1, true))
 end)
 

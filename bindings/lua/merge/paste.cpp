@@ -252,7 +252,7 @@ Type paste_type() {
               .errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed,
                          ErrorCode::cancelled},
               .example = horn + R"(local loop, report = paste:optimize()
-assert(loop:closed() and report.misfit[#report.misfit] <= report.misfit[1]))"},
+assert(loop:is_closed() and report.misfit[#report.misfit] <= report.misfit[1]))"},
              {.name = "merge",
               .body = merge_paste,
               .summary = "Opens the target along the loop's image and pastes the part inside the "
@@ -278,8 +278,9 @@ assert(report.paste.scale > 0.5))"},
                   "there, the last good placement stays.",
               .options = placement_fields(true),
               .results = {{"lissom.Paste", "paste", "The same paste."}},
-              .errors = {ErrorCode::invalid_argument, ErrorCode::not_a_disk, ErrorCode::not_finite,
-                         ErrorCode::handle_removed, ErrorCode::memory_limit, ErrorCode::cancelled},
+              .errors = {ErrorCode::boundary_conflict, ErrorCode::invalid_argument,
+                         ErrorCode::not_a_disk, ErrorCode::not_finite, ErrorCode::handle_removed,
+                         ErrorCode::memory_limit, ErrorCode::cancelled},
               .example = horn + R"(paste:optimize()
 assert(paste:move{ at = { 0, 0, 2 }, angle = 30 })
 assert(paste:merge():is_closed()))"},

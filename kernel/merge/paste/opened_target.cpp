@@ -89,7 +89,7 @@ bool crosses_itself(std::span<const Vec2> loop) {
 OpenedTarget open_target(const Mesh& target, const PasteChart& chart, std::span<const Vec2> loop,
                          const Context& context) {
     if (crosses_itself(loop)) {
-        throw Error(ErrorCode::invalid_argument,
+        throw Error(ErrorCode::boundary_conflict,
                     "the boundary of the paste crosses itself on the target; choose a smaller "
                     "scale, a smoother place, or another angle");
     }
@@ -106,14 +106,14 @@ OpenedTarget open_target(const Mesh& target, const PasteChart& chart, std::span<
         any = any || value > 0.0;
     }
     if (!any) {
-        throw Error(ErrorCode::invalid_argument,
+        throw Error(ErrorCode::boundary_conflict,
                     "the target has no vertex under the part; subdivide the target there, or make "
                     "the part larger");
     }
     leave_one_hole(target.topology(), chart, 1e-3 * step, contour.value);
     Cut parts = cut(target, contour, {CutLoops::all, 0.25}, context);
     if (parts.lines.size() != 1 || !parts.lines.front().rest.closed()) {
-        throw Error(ErrorCode::invalid_argument,
+        throw Error(ErrorCode::boundary_conflict,
                     "the target is too coarse under the part to be opened along one line; "
                     "subdivide it there, or make the part larger");
     }

@@ -24,7 +24,7 @@ struct OpenedTarget {
 /// Cuts out of the target what lies inside a loop that is given in the plane of its chart,
 /// counter-clockwise. The boundary runs near the loop, on the surface: it is the line along which
 /// the distance to the loop, linear on triangles, is 0, so that there are no slivers and no teeth.
-/// Errors: invalid_argument where no vertex of the target, or all of its region, lies inside, or
+/// Errors: boundary_conflict where no vertex of the target, or all of its region, lies inside, or
 /// where the loop crosses itself; as `cut`; cancelled.
 OpenedTarget open_target(const Mesh& target, const PasteChart& chart, std::span<const Vec2> loop,
                          const Context& context);

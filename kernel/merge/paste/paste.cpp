@@ -191,7 +191,7 @@ void Paste::State::place_on_disk(const PastePlacement& placement, std::span<cons
     try {
         found = place(*on, placement, start, iterations, context);
     } catch (const Error& error) {
-        if (error.code() != ErrorCode::invalid_argument) throw;
+        if (error.code() != ErrorCode::boundary_conflict) throw;
     }
     if (!found || !covers(*found)) {
         std::unique_ptr<PasteMap> wide = map_around(placement, kMoreRoom, context);
@@ -324,7 +324,7 @@ void Paste::move(const PastePlacement& placement, const Context& context) try {
             return;
         }
     } catch (const Error& error) {
-        if (error.code() != ErrorCode::invalid_argument) throw;
+        if (error.code() != ErrorCode::boundary_conflict) throw;
     }
     // The region that was laid out does not reach there.
     state.place_on_disk(placement, start, iterations, context);

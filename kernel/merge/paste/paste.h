@@ -94,9 +94,10 @@ class Paste {
     /// change or die afterwards. `onto` absent: a disk of the target around the placement, large
     /// enough for the ring.
     /// Errors: topology_mismatch, region_empty, boundary_conflict, not_a_disk for regions (see
-    /// paste_regions and target_faces); invalid_argument for options out of range, for a point
-    /// outside the target's region, and where the feature's outline does not fit into it, naming
-    /// vertices; not_finite; mesh_empty; not_positive_definite; memory_limit; cancelled.
+    /// paste_regions and target_faces); boundary_conflict for a point outside the target's region,
+    /// and where the feature's outline does not fit into it, naming vertices; invalid_argument for
+    /// options out of range; not_finite; mesh_empty; not_positive_definite; memory_limit;
+    /// cancelled.
     Paste(const Mesh& source, const Mesh& target, const Region& region,
           const std::optional<Region>& feature, const std::optional<Region>& onto,
           const PastePlacement& placement, const PasteOptions& options = {},
@@ -118,7 +119,7 @@ class Paste {
     Path image() const;
 
     /// Opens the target along the loop's image and pastes the part. Watertight where the target
-    /// is. Errors: invalid_argument where the target is too coarse under the part or the boundary
+    /// is. Errors: boundary_conflict where the target is too coarse under the part or the boundary
     /// crosses itself; as `sew`; zero_area; skin_mismatch; memory_limit; cancelled.
     PasteResult merge(const PasteMergeOptions& options = {}, const Context& context = {});
 

@@ -164,7 +164,7 @@ std::vector<Index> first_loop(const PasteRegions& regions, const PasteEnergy& en
     for (const Index v : regions.inner) {
         if (!images[at(chart.place_of(v))].inside) elements.add(v);
     }
-    throw Error(ErrorCode::invalid_argument,
+    throw Error(ErrorCode::boundary_conflict,
                 "the part does not fit into the target's region: " + describe(elements) +
                     " of its feature's outline lie outside it; move the placement inward, make "
                     "its scale smaller, or mark a larger region",

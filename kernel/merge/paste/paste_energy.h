@@ -83,7 +83,7 @@ struct PasteLoop {
 
 /// Alternates similarity and loop. Starts from `start` where it is not empty, else from the
 /// outline of the region, or where that has no image from the feature's.
-/// Errors: invalid_argument, naming vertices, where no loop around the feature has an image on the
+/// Errors: boundary_conflict, naming vertices, where no loop around the feature has an image on the
 /// target's region; cancelled.
 PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, const LoopSearch& ring,
                           std::span<const ImagePoint> images, std::span<const Index> start,

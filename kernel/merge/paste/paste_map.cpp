@@ -235,7 +235,7 @@ Vec2 PasteMap::point_of(const PastePlacement& placement) const {
         if (place == kNoIndex) {
             Elements elements{ElementKind::face, 0, {}};
             elements.add(point.face);
-            throw Error(ErrorCode::invalid_argument,
+            throw Error(ErrorCode::boundary_conflict,
                         "the placement's point lies on " + describe(elements) +
                             " of the target, outside the region that is pasted onto; choose a "
                             "point in it, or a larger region",

@@ -71,8 +71,8 @@ class PasteMap {
     const PasteChart& target() const { return target_; }
 
     /// The map of the plane that a placement asks for, `angle` being the whole angle from the
-    /// base direction. Errors: invalid_argument where the point is not on the target's region;
-    /// not_finite; for a scale that is not above 0.
+    /// base direction. Errors: boundary_conflict where the point is not on the target's region;
+    /// invalid_argument for a scale that is not above 0 or a direction without length; not_finite.
     PlanarMap planar(const PastePlacement& placement, double angle) const;
     /// One image a place of the source's chart.
     std::vector<ImagePoint> images(const PlanarMap& plane) const;

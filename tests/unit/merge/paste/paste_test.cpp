@@ -69,10 +69,10 @@ TEST_CASE("paste: a move that does not fit keeps the last good place") {
     paste.optimize();
     const std::vector<Index> loop = paste.loop().vertices();
     const Error outside = error_of([&] { paste.move({.at = {0, -2, 0}, .scale = 0.6}); });
-    CHECK(outside.code() == ErrorCode::invalid_argument);
+    CHECK(outside.code() == ErrorCode::boundary_conflict);
     CHECK(!outside.elements().ids.empty());
     const Error large = error_of([&] { paste.move({.at = {0, 2, 0}, .scale = 9.0}); });
-    CHECK(large.code() == ErrorCode::invalid_argument);
+    CHECK(large.code() == ErrorCode::boundary_conflict);
     CHECK(paste.loop().vertices() == loop);
     CHECK(paste.placement().scale == 0.6);
     check_sound(paste.merge());
