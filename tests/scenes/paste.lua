@@ -16,7 +16,8 @@ local function horned(segments)
 end
 
 local function pasted(options)
-    local all = { source = ball, target = egg, region = region, placement = { at = { 0, 2, 0 }, scale = 0.8 } }
+    local all = { source = ball, target = egg, region = region,
+        placement = { at = { 0, 2, 0 }, scale = 0.8 } }
     for name, value in pairs(options or {}) do all[name] = value end
     return lissom.paste(all)
 end
