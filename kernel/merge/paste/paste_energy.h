@@ -11,6 +11,7 @@
 #include "kernel/merge/paste/loop_search.h"
 #include "kernel/merge/paste/paste_map.h"
 #include "kernel/merge/paste/paste_options.h"
+#include "kernel/merge/paste/paste_regions.h"
 
 namespace lissom {
 

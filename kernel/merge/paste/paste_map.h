@@ -12,6 +12,7 @@
 #include "kernel/core/index.h"
 #include "kernel/merge/paste/paste_options.h"
 #include "kernel/merge/paste/paste_regions.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/parameterize/parameterize.h"
 #include "kernel/mesh/parameterize/uv_grid.h"

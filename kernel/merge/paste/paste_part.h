@@ -10,6 +10,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/boundary/boundary_deformer.h"
+#include "kernel/deform/stats.h"
 #include "kernel/merge/loop/loop_pair.h"
 #include "kernel/merge/paste/opened_target.h"
 #include "kernel/merge/paste/paste.h"
