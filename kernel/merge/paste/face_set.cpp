@@ -4,16 +4,9 @@
 #include <unordered_map>
 
 #include "kernel/core/error.h"
+#include "kernel/merge/loop/face_angles.h"
 
 namespace lissom {
-
-Index face_left_of(const Topology& topology, Index a, Index b) {
-    const std::span<const Index> ring = topology.neighbors(a), fan = topology.faces_around(a);
-    for (std::size_t i = 0; i < fan.size(); ++i) {
-        if (ring[i] == b) return fan[i];
-    }
-    return kNoIndex;
-}
 
 FaceSet::FaceSet(const Topology& topology, std::span<const Index> faces)
     : topology_(&topology), inside_(at(topology.face_count()), 0) {

@@ -47,7 +47,4 @@ class FaceSet {
     Index size_ = 0;
 };
 
-/// The face on the left of the edge from `a` to `b`, or kNoIndex.
-Index face_left_of(const Topology& topology, Index a, Index b);
-
 }  // namespace lissom

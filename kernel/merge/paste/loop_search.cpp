@@ -11,7 +11,7 @@
 namespace lissom {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
 // Sheets of the ring's covering that a loop may visit: -1, 0 and 1.
 constexpr int kSheets = 3;
 
@@ -69,7 +69,7 @@ Index LoopSearch::edge_between(Index a, Index b) const {
 
 // The shortest way from the outer boundary to the inner one that touches each only at its end.
 void LoopSearch::find_cut(const Mesh& source, const PasteRegions& regions) {
-    std::vector<double> distance(vertices_.size(), kFar);
+    std::vector<double> distance(vertices_.size(), kUnreached);
     std::vector<Index> from(vertices_.size(), kNoIndex);
     std::vector<char> last(vertices_.size(), 0);
     for (const Index v : regions.inner) last[at(local(v))] = 1;
@@ -147,7 +147,7 @@ void LoopSearch::label(const Mesh& source, const PasteRegions& regions) {
 double LoopSearch::search_from(Index start, std::span<const double> cost, double limit,
                                std::vector<Index>& loop) const {
     const auto node = [](Index v, int sheet) { return v * kSheets + sheet + 1; };
-    std::vector<double> distance(vertices_.size() * kSheets, kFar);
+    std::vector<double> distance(vertices_.size() * kSheets, kUnreached);
     std::vector<Index> from(distance.size(), kNoIndex);
     NearestFirst queue;
     distance[at(node(start, 0))] = 0.0;
@@ -156,7 +156,7 @@ double LoopSearch::search_from(Index start, std::span<const double> cost, double
     while (!queue.empty()) {
         const auto [length, here] = queue.top();
         queue.pop();
-        if (length >= limit) return kFar;
+        if (length >= limit) return kUnreached;
         if (length > distance[at(here)]) continue;
         if (here == goal) break;
         const int sheet = here % kSheets - 1;
@@ -171,7 +171,7 @@ double LoopSearch::search_from(Index start, std::span<const double> cost, double
             queue.push({reached, there});
         }
     }
-    if (!(distance[at(goal)] < limit)) return kFar;
+    if (!(distance[at(goal)] < limit)) return kUnreached;
     loop.clear();
     for (Index step = from[at(goal)]; step != kNoIndex; step = from[at(step)]) {
         loop.push_back(vertices_[at(step / kSheets)]);
@@ -183,7 +183,7 @@ double LoopSearch::search_from(Index start, std::span<const double> cost, double
 std::vector<Index> LoopSearch::cheapest(std::span<const double> cost,
                                         const Context& context) const {
     std::vector<Index> best, loop;
-    double least = kFar;
+    double least = kUnreached;
     for (const Index start : cut_) {
         context.checkpoint();
         const double found = search_from(start, cost, least, loop);

@@ -8,6 +8,7 @@
 #include "kernel/core/rotation.h"
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/merge/loop/correspondence.h"
+#include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/loop/loop.h"
 #include "kernel/merge/paste/face_set.h"
 #include "kernel/merge/turned.h"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kernel/core/error.h"
+#include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/paste/face_set.h"
 #include "kernel/mesh/query/distances.h"
 
