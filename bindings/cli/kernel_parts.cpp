@@ -1,5 +1,6 @@
 #include "bindings/cli/program.h"
 #include "bindings/cli/verbs.h"
+#include "kernel/core/build_info.h"
 
 namespace lissom::cli {
 
@@ -15,13 +16,12 @@ ProgramParts kernel_parts() {
                    {"explain", "[CODE]", "Says what an error code means.", explain}};
     parts.libraries = {lua::kernel_library};
     parts.version_lines = {"Lissom's own code is under the MIT licence."};
-#ifdef LISSOM_HAS_GPL
     parts.version_lines.emplace_back(
-        "This build links CHOLMOD's supernodal module, which is under the GNU GPL, version 2 or "
-        "later: "
-        "the program as a whole is under the GPL. Configure with LISSOM_GPL=OFF for one that is "
-        "not.");
-#endif
+        build_info().gpl
+            ? "This build links CHOLMOD, parts of which are under the GNU GPL, version 2 or later: "
+              "the program as a whole may be distributed under the GPL only. Configure with "
+              "LISSOM_GPL=OFF for one that links nothing under the GPL."
+            : "This build links nothing under the GPL.");
     return parts;
 }
 

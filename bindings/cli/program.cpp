@@ -11,9 +11,9 @@
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/cli/terminal/progress_bar.h"
 #include "bindings/cli/terminal/terminal.h"
+#include "kernel/core/build_info.h"
 #include "kernel/core/nearest.h"
 #include "kernel/core/version.h"
-#include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom::cli {
 
@@ -165,17 +165,20 @@ void print_help(const ProgramParts& parts) {
 }
 
 int print_version(const ProgramParts& parts, bool json) {
-    const std::string backend = sparse_backend();
+    const BuildInfo build = build_info();
     if (json) {
         std::cout << json_text({{"name", "lissom"},
                                 {"version", LISSOM_VERSION},
                                 {"lua", LUA_RELEASE},
-                                {"solver", backend},
+                                {"licence", build.licence},
+                                {"gpl", build.gpl},
+                                {"threads", build.tbb ? "oneTBB" : "none"},
                                 {"details", parts.version_lines}})
                   << std::endl;
         return kSuccess;
     }
-    std::cout << "lissom " LISSOM_VERSION "\n" LUA_RELEASE ", sparse solver: " << backend << "\n";
+    std::cout << "lissom " LISSOM_VERSION ", licence of this build: " << build.licence
+              << "\n" LUA_RELEASE << (build.tbb ? ", parallel loops: oneTBB\n" : "\n");
     for (const std::string& line : parts.version_lines) std::cout << line << "\n";
     return kSuccess;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bindings/lua/core/listeners.h"
+#include "kernel/core/build_info.h"
 #include "kernel/core/version.h"
 #include "kernel/mesh/report.h"
 
@@ -63,7 +64,11 @@ Library kernel_library() {
         .summary =
             "Modeling by few handles: meshes, regions, paths, deformation, merging, hair and "
             "scenes."};
-    library.constants = {{"version", LISSOM_VERSION, "Version of the library."}};
+    library.constants = {
+        {"version", LISSOM_VERSION, "Version of the library."},
+        {"licence", build_info().licence,
+         "The licence that this build may be distributed under: \"MIT\", or \"GPL-2.0-or-later\" "
+         "where it links CHOLMOD, as builds without LISSOM_GPL=OFF do."}};
     add(library.functions, mesh_file_functions());
     add(library.functions, mesh_functions());
     add(library.functions, shape_functions());

@@ -712,7 +712,8 @@ std::vector<Parameter> style_fields() {
                     "left, y up, z to the front. Hair ends at its faces.")
                 .optional("around the head, down to the chest"),
             choice("solver", {"dual", "cholesky"},
-                   "dual is fast; cholesky is the thesis's way, a reference.")
+                   "dual is fast; cholesky is the thesis's way, a reference: it updates its factor, or "
+                   "makes it again where the build is without CHOLMOD.")
                 .defaults("dual"),
             choice("boundary", {"zero_flux", "thesis"}, "How the field behaves at the box.")
                 .optional("\"zero_flux\"")

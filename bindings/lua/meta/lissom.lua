@@ -2796,6 +2796,7 @@ function Params:close() end
 ---Modeling by few handles: meshes, regions, paths, deformation, merging, hair and scenes.
 ---@class lissom
 ---@field version string Version of the library.
+---@field licence string The licence that this build may be distributed under: "MIT", or "GPL-2.0-or-later" where it links CHOLMOD, as builds without LISSOM_GPL=OFF do.
 local lissom = {}
 
 lissom.shapes = {}
@@ -3077,7 +3078,7 @@ function lissom.load_style(path, head, options) end
 ---@field scalp? lissom.Scalp Where hair grows. Default: guessed.
 ---@field resolution? integer Grid points of the field. 25,000 do for smooth styles, 50,000 for ponytails. Default: 50000.
 ---@field volume? lissom.HairstyleOptions.Volume A box in metres of an average head, around the center of its frame: x to its left, y up, z to the front. Hair ends at its faces. Default: around the head, down to the chest.
----@field solver? "dual"|"cholesky" dual is fast; cholesky is the thesis's way, a reference. Default: "dual".
+---@field solver? "dual"|"cholesky" dual is fast; cholesky is the thesis's way, a reference: it updates its factor, or makes it again where the build is without CHOLMOD. Default: "dual".
 ---@field boundary? "zero_flux"|"thesis" How the field behaves at the box. Default: "zero_flux"; as in the thesis "thesis".
 ---@field tension? number Keeps the field from growing far from the curves. Default: 0.03; as in the thesis 0.
 ---@field fidelity? "default"|"thesis" thesis: chapter 4 to the letter, for comparison. It changes what holds where no option says otherwise, also for the curves and for `grow`; the page thesis.md of the reference names all of it. Default: "default".

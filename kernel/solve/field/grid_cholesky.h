@@ -15,7 +15,7 @@ namespace lissom {
 /// updates and downdates of section 4.4.2; where very many change it is made again, which is then
 /// cheaper. The ordering is nested dissection of the grid. CHOLMOD factors in supernodes, which
 /// are then converted to the L D L' that it can change. Where the build is without GPL, every
-/// change factors again. For use by one thread at a time.
+/// change of points or weights factors again, by SparseSystem. For use by one thread at a time.
 class GridCholesky {
   public:
     explicit GridCholesky(const GridLaplacian& laplacian);

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "kernel/solve/sparse/elimination_tree.h"
+
 namespace lissom {
 namespace {
 
@@ -21,15 +23,10 @@ void sum_up(std::vector<Index>& first) {
     std::partial_sum(first.begin(), first.end(), first.begin());
 }
 
-std::vector<Index> inverse(const std::vector<Index>& permutation) {
-    std::vector<Index> to(permutation.size());
-    for (std::size_t i = 0; i < to.size(); ++i) to[permutation[i]] = index_of(i);
-    return to;
-}
-
 // Groups the entries of the matrix by the supernode they belong to.
 void map_entries(const Supernodes& nodes, const SymmetricMatrix& pattern, FactorPlan& plan) {
-    const std::vector<Index> to = inverse(nodes.permutation), node_of = nodes.nodes_of_columns();
+    const std::vector<Index> to = inverse_permutation(nodes.permutation),
+                             node_of = nodes.nodes_of_columns();
     plan.first_entry.assign(at(nodes.count()) + 1, 0);
     for (Index column = 0; column < pattern.size(); ++column) {
         for (Index k = pattern.begin[column]; k < pattern.begin[column + 1]; ++k) {
@@ -187,6 +184,15 @@ std::size_t FactorPlan::extension_bytes() const {
     std::size_t sum = 0;
     for (const Subtree& t : subtrees) sum += t.above.size() * t.above.size() * sizeof(double);
     return sum;
+}
+
+// Each row of a supernode begins at most one update, and one more through an extension.
+std::size_t planning_bytes(const Supernodes& nodes, const SymmetricMatrix& pattern) {
+    const std::size_t updates = 2 * nodes.row.size(), count = at(nodes.count());
+    return pattern.nonzeros() * (sizeof(FactorPlan::Entry) + 2 * sizeof(Index)) +
+           updates * (sizeof(FactorPlan::Update) + sizeof(Index)) +
+           nodes.permutation.size() * 4 * sizeof(Index) +
+           count * (sizeof(FactorPlan::Subtree) + 10 * sizeof(Index));
 }
 
 FactorPlan plan_factor(const Supernodes& nodes, const SymmetricMatrix& pattern) {

@@ -51,6 +51,9 @@ struct FactorPlan {
     std::size_t extension_bytes() const;
 };
 
+/// Bytes that plan_factor takes at most, its result included.
+std::size_t planning_bytes(const Supernodes& nodes, const SymmetricMatrix& pattern);
+
 FactorPlan plan_factor(const Supernodes& nodes, const SymmetricMatrix& pattern);
 
 }  // namespace lissom

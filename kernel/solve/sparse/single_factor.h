@@ -34,7 +34,7 @@ class SingleFactor {
   private:
     friend class SparseSystem;
 
-    /// Supernodes as CHOLMOD lays them out: supernode s holds the columns [super[s], super[s + 1])
+    /// Supernode s holds the columns [super[s], super[s + 1])
     /// as one dense column-major block at value[first_value[s]], of the rows [first_row[s],
     /// first_row[s + 1]) of `row`. Values are divided by `scale`.
     struct Supernodes {

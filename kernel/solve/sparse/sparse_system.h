@@ -15,17 +15,19 @@ namespace lissom {
 
 /// What analysis and factorisation cost.
 struct FactorStats {
-    /// Entries of the Cholesky factor, and the bytes it takes, known after `analyze`.
+    /// Entries of the Cholesky factor, and the bytes it takes with its analysis, known after
+    /// `analyze`.
     std::size_t factor_nonzeros = 0, factor_bytes = 0;
+    /// The part of factor_bytes that `analyze` has charged.
+    std::size_t analysis_bytes = 0;
     /// Further bytes that `factor` takes while it runs.
     std::size_t working_bytes = 0;
     double analyze_seconds = 0, factor_seconds = 0;
 };
 
 /// A factored symmetric positive definite matrix. Several threads may solve with it at once; one
-/// alone analyses and factors. Supernodal Cholesky, ordered and analysed by CHOLMOD; without GPL,
-/// Eigen's SimplicialLDLT. `factor` runs on the threads of its context, and its result does not
-/// depend on their number.
+/// alone analyses and factors. Supernodal Cholesky, ordered by approximate minimum degree. `factor`
+/// runs on the threads of its context, and its result does not depend on their number.
 class SparseSystem {
   public:
     SparseSystem();
@@ -33,8 +35,11 @@ class SparseSystem {
     SparseSystem(SparseSystem&&) noexcept;
     SparseSystem& operator=(SparseSystem&&) noexcept;
 
-    /// Orders the unknowns and predicts the factor. Only the pattern of `matrix` matters.
-    /// Errors: invalid_argument for an empty matrix; cancelled.
+    /// Orders the unknowns and predicts the factor. Only the pattern of `matrix` matters. Memory
+    /// is charged before it is taken, and what is kept is held as long as the analysis. After an
+    /// error the analysis before stays.
+    /// Errors: invalid_argument for an empty matrix; memory_limit, also for a factor of more than
+    /// 2^31 - 1 entries; cancelled.
     void analyze(const SymmetricMatrix& matrix, const Context& context = {});
     /// Factors `matrix`, which must have the pattern analysed; memory is charged first and held as
     /// long as the factor. May be called again with new values. After an error there is no factor.
@@ -64,8 +69,5 @@ class SparseSystem {
     struct State;
     std::unique_ptr<State> state_;
 };
-
-/// "cholmod" or "eigen": which library factors in this build.
-const char* sparse_backend();
 
 }  // namespace lissom

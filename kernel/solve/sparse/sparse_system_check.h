@@ -1,4 +1,4 @@
-/// Checks shared by the two implementations of SparseSystem; private to kernel/solve.
+/// Checks of what SparseSystem is given and finds; private to kernel/solve.
 #pragma once
 
 #include <span>

@@ -9,7 +9,7 @@
 
 namespace lissom {
 
-/// A supernodal factor L as CHOLMOD lays it out. Supernode s holds the columns super[s] ..
+/// A supernodal factor L. Supernode s holds the columns super[s] ..
 /// super[s + 1] - 1 as one dense column-major block at value[first_value[s]]; its rows are
 /// row[first_row[s]] .. row[first_row[s + 1] - 1], of which the first are those columns themselves.
 template <typename Real>

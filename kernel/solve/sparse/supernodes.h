@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/core/index.h"
+#include "kernel/solve/sparse/elimination_tree.h"
 #include "kernel/solve/sparse/sparse_matrix.h"
 
 namespace lissom {
@@ -28,9 +30,16 @@ struct Supernodes {
     std::vector<Index> parents() const;
 };
 
+/// The supernodes of a tree, without their rows: columns of equal pattern, joined further to their
+/// parents where that stores few zeros.
+/// Errors: memory_limit where there are more rows or values than an Index counts.
+Supernodes join_columns(EliminationTree tree);
+
 /// Orders the unknowns by approximate minimum degree, postorders the elimination tree and joins
-/// columns of similar pattern, with CHOLMOD. May run in several threads at the same time.
-/// Errors: memory_limit where the factor is too large for this machine or for its indices.
-Supernodes analyze_supernodes(const SymmetricMatrix& matrix);
+/// columns of similar pattern. What it takes on the way is charged before it is taken, and released
+/// at the end. May run in several threads at the same time.
+/// Errors: memory_limit, also where the factor is too large for its indices; cancelled, in the
+/// ordering and between the stages.
+Supernodes analyze_supernodes(const SymmetricMatrix& matrix, const Context& context = {});
 
 }  // namespace lissom

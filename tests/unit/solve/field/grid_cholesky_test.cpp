@@ -1,9 +1,8 @@
 #include <random>
-#include <string_view>
 #include <vector>
 
+#include "kernel/core/build_info.h"
 #include "kernel/solve/field/grid_field.h"
-#include "kernel/solve/sparse/sparse_system.h"
 #include "tests/unit/solve/grid/grids.h"
 #include "tests/unit/support.h"
 
@@ -18,7 +17,7 @@ GridFieldOptions cholesky() {
 }
 
 bool updates() {
-    return std::string_view(sparse_backend()) == "cholmod";
+    return build_info().gpl;
 }
 
 }  // namespace

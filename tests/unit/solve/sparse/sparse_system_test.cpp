@@ -151,8 +151,9 @@ TEST_CASE("factor: memory is predicted, charged before factoring and released") 
     ContextOptions options;
     options.memory_limit = needed - 1;
     const Context tight(options);
+    probe.analyze(a, tight);
     CHECK(test::error_of([&] { probe.factor(a, tight); }).code() == ErrorCode::memory_limit);
-    CHECK(tight.memory()->used() == 0);
+    CHECK(tight.memory()->used() == probe.stats().analysis_bytes);
 
     options.memory_limit = needed;
     const Context enough(options);

@@ -1,7 +1,7 @@
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <functional>
-#include <string>
 #include <thread>
 #include <vector>
 
@@ -107,8 +107,37 @@ TEST_CASE("factor: a cancel at any moment leaves no factor, and a system to fact
             CHECK(host.context().memory()->used() == 0);
         }
     }
-    if (std::string(sparse_backend()) == "cholmod") CHECK(stops > 8);
+    CHECK(stops > 8);
     std::vector<double> x(expected.size(), 1.0);
     system.solve(x, x, 1);
     CHECK(x == expected);
+}
+
+TEST_CASE("analyze: a cancel at any moment leaves the analysis before") {
+    const SymmetricMatrix small = test::grid(3, 3), a = test::grid(220, 220, 2);
+    SparseSystem system;
+    system.analyze(small);
+    const auto cancelled_after = [&](std::chrono::microseconds delay) {
+        const Context context;
+        if (delay.count() == 0) context.cancel();
+        std::thread watch([&] {
+            std::this_thread::sleep_for(delay);
+            context.cancel();
+        });
+        bool stopped = false;
+        try {
+            system.analyze(a, context);
+        } catch (const Error& error) {
+            stopped = error.code() == ErrorCode::cancelled;
+            CHECK(context.memory()->used() == 0);
+            CHECK(system.size() == 9);
+        }
+        watch.join();
+        return stopped;
+    };
+    CHECK(cancelled_after(std::chrono::microseconds(0)));
+    int stops = 0;
+    for (auto delay = std::chrono::microseconds(200); cancelled_after(delay); delay *= 2) ++stops;
+    CHECK(stops > 2);
+    CHECK(system.size() == a.size());
 }

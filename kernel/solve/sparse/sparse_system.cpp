@@ -12,6 +12,8 @@
 namespace lissom {
 namespace {
 
+constexpr const char* kPlanning = "analysing the linear system";
+
 // Least pivot relative to its diagonal entry, and the row it belongs to.
 std::pair<double, Index> least_pivot(const Supernodes& nodes, const double* value,
                                      const SymmetricMatrix& matrix) {
@@ -28,6 +30,10 @@ std::pair<double, Index> least_pivot(const Supernodes& nodes, const double* valu
     return least;
 }
 
+std::size_t supernode_bytes(const Supernodes& nodes) {
+    return (3 * nodes.super.size() + nodes.row.size() + nodes.permutation.size()) * sizeof(Index);
+}
+
 }  // namespace
 
 struct SparseSystem::State {
@@ -39,7 +45,8 @@ struct SparseSystem::State {
     std::mutex scratch_lock;
     std::vector<Index> begin, row;
     bool factored = false;
-    MemoryCharge charge;
+    // Of the analysis and of the values.
+    MemoryCharge analysis_charge, charge;
     FactorStats stats;
 };
 
@@ -53,15 +60,21 @@ void SparseSystem::analyze(const SymmetricMatrix& matrix, const Context& context
     context.checkpoint();
     const auto start = Clock::now();
     auto next = std::make_unique<State>();
-    next->nodes = analyze_supernodes(matrix);
+    next->nodes = analyze_supernodes(matrix, context);
     context.checkpoint();
-    next->plan = plan_factor(next->nodes, matrix);
+    {
+        const MemoryCharge planning = context.charge(
+            supernode_bytes(next->nodes) + planning_bytes(next->nodes, matrix), kPlanning);
+        next->plan = plan_factor(next->nodes, matrix);
+    }
     next->begin = matrix.begin;
     next->row = matrix.row;
+    const std::size_t kept = supernode_bytes(next->nodes) + next->plan.bytes() +
+                             (next->begin.size() + next->row.size()) * sizeof(Index);
+    next->analysis_charge = context.charge(kept, kPlanning);
     next->stats.factor_nonzeros = next->nodes.value_count();
-    next->stats.factor_bytes =
-        next->nodes.value_count() * sizeof(double) + next->nodes.row.size() * sizeof(Index) +
-        4 * next->nodes.permutation.size() * sizeof(Index) + next->plan.bytes();
+    next->stats.analysis_bytes = kept;
+    next->stats.factor_bytes = kept + next->nodes.value_count() * sizeof(double);
     next->stats.working_bytes = factoring_bytes(next->nodes, next->plan);
     next->stats.analyze_seconds = seconds_since(start);
     state_ = std::move(next);
@@ -75,7 +88,7 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
     state.charge = {};
     std::unique_ptr<double[]> value = std::move(state.value);
     const char* purpose = "factoring the linear system";
-    MemoryCharge charge = context.charge(state.stats.factor_bytes, purpose);
+    MemoryCharge charge = context.charge(state.nodes.value_count() * sizeof(double), purpose);
     const MemoryCharge working = context.charge(state.stats.working_bytes, purpose);
     const auto start = Clock::now();
     if (!value) value = std::make_unique_for_overwrite<double[]>(state.nodes.value_count());
@@ -149,10 +162,6 @@ bool SparseSystem::factored() const {
 
 const FactorStats& SparseSystem::stats() const {
     return state_->stats;
-}
-
-const char* sparse_backend() {
-    return "cholmod";
 }
 
 }  // namespace lissom

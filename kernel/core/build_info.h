@@ -1,0 +1,21 @@
+/// What a build of the library is made of.
+#pragma once
+
+namespace lissom {
+
+struct BuildInfo {
+    /// Whether CHOLMOD is linked (CMake: LISSOM_GPL), parts of which are under the GNU GPL. A
+    /// product that is not under the GPL is built without.
+    bool gpl = false;
+    /// Whether oneTBB runs parallel loops (CMake: LISSOM_TBB); without it they are serial unless
+    /// a host runs them.
+    bool tbb = false;
+    /// The licence that a binary with this build may be distributed under, as an SPDX name: "MIT",
+    /// or "GPL-2.0-or-later" with CHOLMOD.
+    const char* licence = "MIT";
+};
+
+/// Of this build.
+BuildInfo build_info();
+
+}  // namespace lissom
