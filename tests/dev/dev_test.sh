@@ -65,7 +65,7 @@ silent() { [ ! -s "$sandbox/log" ]; }
 reset 0 debian ""
 dev setup build
 expect "a bare Debian is set up" test "$status" = 0
-expect "every package is named with its reason" says "CHOLMOD, which plans sparse Cholesky factors"
+expect "every package is named with its reason" says "CHOLMOD, which changes sparse Cholesky factors"
 expect "the package lists are fetched first" logged '^apt-get update'
 expect "missing packages are installed" logged '^apt-get install .*libopenmesh-dev'
 expect "packages of other commands are not" eval '! logged "clang-tidy|libcgal-dev|valgrind"'

@@ -1,5 +1,5 @@
-/// Reads lines from a person, with editing, completion and a history that is kept in a file where
-/// the build has readline, or from a file.
+/// Reads lines from a person, with editing, completion and a history that is kept in a file, or
+/// from a file.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bindings/cli/repl/completion.h"
+#include "bindings/cli/terminal/history.h"
 
 namespace lissom::cli {
 
@@ -47,6 +48,7 @@ class LineEditor {
 
     LineEditorOptions options_;
     bool interactive_;
+    History history_;
 };
 
 /// The file of the history: $LISSOM_HISTORY, which may be empty for none; else lissom/history in

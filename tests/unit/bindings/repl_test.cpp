@@ -10,7 +10,7 @@
 #include "bindings/cli/terminal/line_editor.h"
 #include "tests/unit/bindings/program_run.h"
 
-#if defined(__linux__) && defined(LISSOM_HAS_READLINE)
+#ifdef __linux__
 #include <poll.h>
 #include <pty.h>
 #include <sys/wait.h>
@@ -35,7 +35,6 @@ class Terminal {
         process_ = forkpty(&terminal_, nullptr, nullptr, nullptr);
         if (process_ != 0) return;
         setenv("LISSOM_HISTORY", folder.path("state/history").c_str(), 1);
-        setenv("INPUTRC", "/dev/null", 1);
         setenv("TERM", "dumb", 1);
         execl("/proc/self/exe", "test", "--test-case=a prompt for other tests", "--no-skip",
               nullptr);
@@ -146,6 +145,57 @@ TEST_CASE("Tab completes, and lines come back from the file of the history") {
     terminal.wait_for("> ");
     terminal.type("\x10\x10\n");
     terminal.wait_for("\n8\r\n");
+    CHECK(terminal.end() == 0);
+}
+
+TEST_CASE("a line is edited where the cursor is") {
+    const Folder folder;
+    Terminal terminal(folder);
+    terminal.wait_for("> ");
+    // Left before the 2, a digit, to the end; Home and a name; a word cut and put back twice.
+    terminal.type("12\x1b[D3\x05 + 4\n");
+    terminal.wait_for("\n136\r\n");
+    terminal.wait_for("> ");
+    terminal.type("= 5\x1b[Hvalue \n");
+    terminal.wait_for("> ");
+    terminal.type("value * 10\x17\x19\x19\n");
+    terminal.wait_for("\n5050\r\n");
+    // Characters are erased whole.
+    terminal.type("#'\xc3\xa4\xe6\xbc\xa2\x7f\x7f'\n");
+    terminal.wait_for("\n0\r\n");
+    CHECK(terminal.end() == 0);
+}
+
+TEST_CASE("Tab lists what there is, and completes names of files in strings") {
+    const Folder folder;
+    std::ofstream(folder.path("only_one.txt")) << "here";
+    Terminal terminal(folder);
+    terminal.wait_for("> ");
+    terminal.type("lissom.shapes.b\t\x15");
+    terminal.wait_for("bar");
+    terminal.wait_for("box");
+    terminal.type("io.open('" + folder.path("") + "/only\t'):read()\n");
+    terminal.wait_for("here");
+    CHECK(terminal.end() == 0);
+}
+
+TEST_CASE("Ctrl-R finds a line by a part of it, Ctrl-G goes back") {
+    const Folder folder;
+    Terminal terminal(folder);
+    terminal.wait_for("> ");
+    terminal.type("10 + 1\n10 + 2\n20 + 3\n");
+    terminal.wait_for("\n23\r\n");
+    terminal.type(
+        "\x12"
+        "10\x12\n");
+    terminal.wait_for("\n11\r\n");
+    terminal.type(
+        "70\x12"
+        "20 +\x07 + 7\n");
+    terminal.wait_for("\n77\r\n");
+    // The line that was begun is there below the last of the history.
+    terminal.type("90\x1b[A\x1b[A\x1b[B\x1b[B + 9\n");
+    terminal.wait_for("\n99\r\n");
     CHECK(terminal.end() == 0);
 }
 

@@ -1,0 +1,34 @@
+/// Lines that were typed, kept in a file.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lissom::cli {
+
+/// The last thousand lines, the oldest first. The file has a line each; several programs may add
+/// to it, and what cannot be written is kept for this run.
+class History {
+  public:
+    /// Reads what is there; an empty path is no file.
+    explicit History(std::filesystem::path file);
+
+    std::size_t size() const { return lines_.size(); }
+    const std::string& line(std::size_t i) const { return lines_[i]; }
+
+    /// Adds a line, unless it is empty or that before it, to the file as well.
+    void add(const std::string& line);
+    /// The last line before line `end` that holds `text`.
+    std::optional<std::size_t> find(const std::string& text, std::size_t end) const;
+    /// Shortens the file to the lines that are kept.
+    void shorten_file() const;
+
+  private:
+    std::filesystem::path file_;
+    std::vector<std::string> lines_;
+};
+
+}  // namespace lissom::cli
