@@ -57,7 +57,7 @@ std::size_t width_at(std::string_view text, std::size_t at) {
     return is_in(kWide, code) ? 2 : 1;
 }
 
-bool is_word(char c) {
+bool is_word_byte(char c) {
     const auto byte = static_cast<unsigned char>(c);
     return byte >= 0x80 || std::isalnum(byte) || c == '_';
 }
@@ -131,15 +131,15 @@ void EditedLine::transpose() {
 
 std::size_t EditedLine::word_begin() const {
     std::size_t at = cursor_;
-    while (at > 0 && !is_word(text_[at - 1])) --at;
-    while (at > 0 && is_word(text_[at - 1])) --at;
+    while (at > 0 && !is_word_byte(text_[at - 1])) --at;
+    while (at > 0 && is_word_byte(text_[at - 1])) --at;
     return at;
 }
 
 std::size_t EditedLine::word_end() const {
     std::size_t at = cursor_;
-    while (at < text_.size() && !is_word(text_[at])) ++at;
-    while (at < text_.size() && is_word(text_[at])) ++at;
+    while (at < text_.size() && !is_word_byte(text_[at])) ++at;
+    while (at < text_.size() && is_word_byte(text_[at])) ++at;
     return at;
 }
 

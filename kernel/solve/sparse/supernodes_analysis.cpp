@@ -112,7 +112,7 @@ std::vector<Run> relaxed_runs(const EliminationTree& tree) {
 
 // The rows of each supernode, ascending. Row k is in all those on the paths in the tree of
 // supernodes from the columns of the matrix in that row up to its own.
-void fill_rows(Supernodes& nodes, const Adjacency& graph, const std::vector<Index>& column_parent) {
+void list_rows(Supernodes& nodes, const Adjacency& graph, const std::vector<Index>& column_parent) {
     const std::vector<Index> column_of = inverse_permutation(nodes.permutation),
                              node_of = nodes.nodes_of_columns();
     std::vector<Index> parent(at(nodes.count()), kNoIndex), last(parent), next(nodes.first_row);
@@ -174,7 +174,7 @@ Supernodes analyze_supernodes(const SymmetricMatrix& matrix, const Context& cont
     Supernodes nodes = join_columns(std::move(tree));
     context.checkpoint();
     const MemoryCharge rows = context.charge(at(nodes.first_row.back()) * sizeof(Index), kAnalysis);
-    fill_rows(nodes, graph, parent);
+    list_rows(nodes, graph, parent);
     return nodes;
 }
 
