@@ -702,31 +702,32 @@ assert(first.curve == 1 and (first.kind == 'stream' or first.kind == 'stop')))"}
 }
 
 std::vector<Parameter> style_fields() {
-    return {object("scalp", "lissom.Scalp", "Where hair grows.").optional("guessed"),
-            integer("resolution",
-                    "Grid points of the field. 25,000 do for smooth styles, 50,000 for ponytails.")
-                .defaults(index_of(HairstyleOptions{}.resolution))
-                .between(kMinimumResolution, kMaximumResolution),
-            options("volume", {vector("min", "A corner."), vector("max", "The opposite corner.")},
-                    "A box in metres of an average head, around the center of its frame: x to its "
-                    "left, y up, z to the front. Hair ends at its faces.")
-                .optional("around the head, down to the chest"),
-            choice("solver", {"dual", "cholesky"},
-                   "dual is fast; cholesky is the thesis's way, a reference: it updates its factor, or "
-                   "makes it again where the build is without CHOLMOD.")
-                .defaults("dual"),
-            choice("boundary", {"zero_flux", "thesis"}, "How the field behaves at the box.")
-                .optional("\"zero_flux\"")
-                .thesis("4.4.1", "\"thesis\""),
-            number("tension", "Keeps the field from growing far from the curves.")
-                .optional(shown(HairField::default_options().tension))
-                .thesis("4.4.1", "0")
-                .at_least(0),
-            choice("fidelity", {"default", "thesis"},
-                   "thesis: chapter 4 to the letter, for comparison. It changes what holds where "
-                   "no option says otherwise, also for the curves and for `grow`; the page "
-                   "thesis.md of the reference names all of it.")
-                .defaults("default")};
+    return {
+        object("scalp", "lissom.Scalp", "Where hair grows.").optional("guessed"),
+        integer("resolution",
+                "Grid points of the field. 25,000 do for smooth styles, 50,000 for ponytails.")
+            .defaults(index_of(HairstyleOptions{}.resolution))
+            .between(kMinimumResolution, kMaximumResolution),
+        options("volume", {vector("min", "A corner."), vector("max", "The opposite corner.")},
+                "A box in metres of an average head, around the center of its frame: x to its "
+                "left, y up, z to the front. Hair ends at its faces.")
+            .optional("around the head, down to the chest"),
+        choice("solver", {"dual", "cholesky"},
+               "dual is fast; cholesky is the thesis's way, a reference: it updates its factor, "
+               "or makes it again where the build is without CHOLMOD.")
+            .defaults("dual"),
+        choice("boundary", {"zero_flux", "thesis"}, "How the field behaves at the box.")
+            .optional("\"zero_flux\"")
+            .thesis("4.4.1", "\"thesis\""),
+        number("tension", "Keeps the field from growing far from the curves.")
+            .optional(shown(HairField::default_options().tension))
+            .thesis("4.4.1", "0")
+            .at_least(0),
+        choice("fidelity", {"default", "thesis"},
+               "thesis: chapter 4 to the letter, for comparison. It changes what holds where "
+               "no option says otherwise, also for the curves and for `grow`; the page "
+               "thesis.md of the reference names all of it.")
+            .defaults("default")};
 }
 
 }  // namespace
