@@ -1,11 +1,13 @@
 -- A transition region (Figure 3.7): within a band on either side of the seam, details of both parts fade
--- into each other.
+-- into each other. Beside it the thesis's, to the letter: its regions overlap, so that the source begins
+-- where the target's region ends and the whole is shorter by it; the source's connectivity is kept there.
 --
 --     lissom run examples/merge/figure_3_7.lua --width 1.5
 --     lissom run examples/merge/figure_3_7.lua --models ../shared/data/models --pair dinosaur_on_feline
 
 local blocks = require "blocks"
 local figures = require "figures"
+local merge_pictures = require "merge_pictures"
 local merge_script = require "merge_script"
 local merging = require "merging"
 local transplant_head = require "recipes.transplant_head"
@@ -44,8 +46,43 @@ figures.claim(report.transition_kept > 0.9, "the transition is made")
 figures.claim(report.seam.after.greatest_dihedral < math.max(20, plain_report.seam.after.greatest_dihedral),
     "the seam is hidden")
 
+-- The thesis's. Where the far end of the target's region is too jagged for its band of new faces, the seam is
+-- sewn as by default.
+local letter = {}
+for name, value in pairs(options) do letter[name] = value end
+letter.fidelity, letter.seam = "thesis", "band"
+local literal, literal_report = merging.join(source, target, letter)
+if not literal then
+    print("the thesis's seam: " .. literal_report)
+    letter.seam = "conform"
+    literal, literal_report = assert(merging.join(source, target, letter))
+end
+print(string.format("to the letter: %.2f degrees, %d of %d vertices without a counterpart",
+    bends(literal, literal_report), literal_report.transition[1].source.unmapped,
+    literal_report.transition[1].source.vertices))
+figures.claim(#literal:boundaries() == #plain:boundaries() and literal:genus() == plain:genus(),
+    "the thesis's seam is closed")
+figures.claim(#literal_report.target < #report.target, "the thesis's regions overlap")
+
+-- The parts with their regions in the colours of the merged sides.
+local function with_region(boundary, width)
+    local copy = boundary:mesh():copy()
+    copy:remove_attribute("color")
+    local region = copy:region{ geodesic = { from = boundary:vertices(), radius = width } }
+    local colors = copy:add_attribute{ name = "color", domain = "vertex", width = 4 }
+    for v = 1, #copy do
+        local color = region:contains(v) and merge_pictures.sand or { 0.8, 0.8, 0.8, 1 }
+        for k = 1, 4 do colors[4 * v - 4 + k] = color[k] end
+    end
+    return copy
+end
+
+local joined = parts.joins[1]
 figures.write{
-    name = "figure_3_7_compared", out = params.out, size = { 1400, 640 },
-    panels = { { parts.source, "source" }, { parts.targets[1], "target" },
-        { plain, "merged" }, { mesh, "with a transition" } }, fit = "each",
+    name = "figure_3_7_compared", out = params.out, size = { 1800, 1000 }, columns = 3, fit = "each",
+    panels = { { with_region(joined.source, options.transition.source), "source and its region" },
+        { with_region(joined.target, options.transition.target), "target and its region" },
+        { plain, "merged without" }, { mesh, "with a transition" },
+        { literal, "to the letter: regions overlap" },
+        { merge_pictures.colored(literal, literal_report), "which side each comes from" } },
 }

@@ -66,7 +66,7 @@ std::size_t Merge::memory_bytes() const {
 }
 
 MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
-                      const MergedSides& merged) {
+                      const Moved& moved, const MergedSides& merged) {
     MergeReport report;
     report.source_rim = preparation.source_rim;
     report.target_rim = preparation.target_rim;
@@ -80,6 +80,7 @@ MergeReport report_of(const MergePreparation& preparation, const Matching& match
         report.warnings.insert(report.warnings.end(), told->begin(), told->end());
     }
     report.deform = preparation.stats;
+    report.deform_seconds = moved.seconds;
     report.seam = merged.sewn.report;
     report.transition = merged.transition;
     report.intersections = merged.intersections;
@@ -99,7 +100,7 @@ MergeResult Merge::solve(const Context& context) try {
     const Moved moved = deform_source(preparation, matching, context);
     progress.step(0.5);
     MergedSides merged = sew_sides(preparation, matching, moved, context);
-    MergeReport report = report_of(preparation, matching, merged);
+    MergeReport report = report_of(preparation, matching, moved, merged);
     report.solve_seconds = seconds_since(start);
     const Boundaries& from = preparation.boundaries;
     const MeshMap origins =

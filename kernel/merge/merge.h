@@ -36,6 +36,16 @@ namespace lissom {
 /// or stays where it was put and only bends to meet the target (3.3.2).
 enum class Configuration { free, fixed };
 
+/// How a feature that keeps its shape in the free configuration finds the similarity it moves by.
+enum class FeatureMotion {
+    /// Its Laplacian coordinates share a deformation gradient that is an unknown of the systems
+    /// (section 3.5).
+    common,
+    /// The surface is deformed without it first, and the similarity that fits what became of the
+    /// feature is kept in a second deformation, with factors of its own.
+    fitted,
+};
+
 /// Two boundaries to be joined.
 struct Join {
     /// An open boundary of the source, and one of a target.
@@ -52,6 +62,8 @@ struct MergeOptions {
     /// whole, by a similarity of its own (the extension of thesis section 3.5); in the fixed one it
     /// stays where it is.
     std::vector<Region> fixed = {};
+    /// Of the free configuration.
+    FeatureMotion feature_motion = FeatureMotion::common;
     /// In the fixed configuration: how far from its boundaries the source deforms, along its edges
     /// and in its unit; what is farther stays. Absent: all of it where features are fixed, else
     /// three radii of the largest boundary.
@@ -80,7 +92,9 @@ struct MergeOptions {
     bool trim = true;
     double greatest_turn = 20.0 * kPi / 180.0;
     /// Splits the faces at a boundary of the source once where its edges are more than 1.5 times as
-    /// long as those it meets (section 2.5).
+    /// long as those it meets. Where they are more than 3 times as long as edges inside the source,
+    /// a few vertices rule many (section 2.5): they are split until they are not, 4 times at most,
+    /// and those of the target with them, until its edges are at most 1.5 times as long.
     bool refine = true;
     /// Looks for faces that run through others and did not before; see
     /// MergeReport::intersections.
@@ -88,9 +102,16 @@ struct MergeOptions {
     /// Directions of source and targets that are to lie the same way, for joins without keys. They
     /// count as far as they lie in the planes of the boundaries.
     std::vector<DirectionPair> directions = {};
-    /// The thesis to the letter: raw frames, scales from tangent lengths, its operators; |M| / sqrt
-    /// 3 and (2.11); its transition. Seam and trimming are as chosen.
+    /// The thesis's formulas (3.3): arc length, normals and frames of the loops as they are, scales
+    /// from tangent lengths, vertices that meet only where they coincide; its operators, |M| / sqrt
+    /// 3 and (2.11); umbrella steps without a guard, no edges flipped after them, no collar; its
+    /// transition. The other options are as chosen: `literal` chooses them too.
     bool thesis = false;
+
+    /// Section 3.3 to the letter: `thesis`, seams by a band, no collar, no trimming, no refinement,
+    /// and in the fixed configuration frames that keep their directions. `smooth` stays: the thesis
+    /// makes "several" umbrella steps, but none with a transition, where it is to be 0.
+    static MergeOptions literal(Configuration configuration = Configuration::free);
 };
 
 /// What was found and done at one join.
@@ -106,8 +127,8 @@ struct JoinReport {
     /// Mean turn of the loops, in radians, as given; and whether they were trimmed.
     double source_turn = 0.0, target_turn = 0.0;
     bool source_trimmed = false, target_trimmed = false;
-    /// Whether faces of the source were split for it.
-    bool refined = false;
+    /// Whether faces of the source, and of the target, were split for it.
+    bool refined = false, target_refined = false;
 };
 
 /// What a merge found and did.
@@ -128,6 +149,8 @@ struct MergeReport {
     /// Things the user should look at, in plain words.
     std::vector<std::string> warnings;
     DeformStats deform;
+    /// Of the deformation in the last solve.
+    BoundaryTimes deform_seconds;
     SewReport seam;
     /// Bands of the transition region, where there is one.
     TransitionReport transition;

@@ -17,6 +17,11 @@ namespace {
 
 // Edges of the source's boundary this many times as long as those they meet are coarse.
 constexpr double kCoarse = 1.5;
+// And those this many times as long as edges of its region are few; so often it is split for them.
+constexpr double kFew = 3.0;
+constexpr int kMostLevels = 4;
+// Edges of a region are looked at about so many of its vertices.
+constexpr Index kSampledVertices = 1000;
 // How far the source deforms in the fixed configuration, in radii of its largest boundary.
 constexpr double kReach = 3.0;
 
@@ -232,27 +237,109 @@ void combine_targets(std::vector<MergeSide>& sides, const GivenMeshes& given, Bo
     }
 }
 
-void make_loops(Boundaries& boundaries) {
+void make_loops(Boundaries& boundaries, LoopMeasure measure) {
     boundaries.source_curves.clear();
     boundaries.target_curves.clear();
     for (std::size_t j = 0; j < boundaries.target_loops.size(); ++j) {
         const std::vector<Index>& loop = boundaries.source.loops[j];
-        boundaries.source_curves.emplace_back(boundaries.source.mesh,
-                                              std::vector<Index>(loop.rbegin(), loop.rend()));
-        boundaries.target_curves.emplace_back(boundaries.target, boundaries.target_loops[j]);
+        boundaries.source_curves.emplace_back(
+            boundaries.source.mesh, std::vector<Index>(loop.rbegin(), loop.rend()), measure);
+        boundaries.target_curves.emplace_back(boundaries.target, boundaries.target_loops[j],
+                                              measure);
     }
 }
 
-void refine_coarse(Boundaries& boundaries, const Context& context) {
-    for (std::size_t j = 0; j < boundaries.refined.size(); ++j) {
-        const Loop &from = boundaries.source_curves[j], &to = boundaries.target_curves[j];
-        const double scale = loop_scale(from, to);
-        const double edge = scale * from.length() / from.size(), other = to.length() / to.size();
-        if (edge <= kCoarse * other) continue;
-        refine_loop(boundaries.source, j, context);
-        boundaries.refined[j] = 1;
+double loop_edge(const Loop& loop) {
+    return loop.length() / loop.size();
+}
+
+// The median length of edges inside the part of a mesh that a loop bounds, of some that lie evenly
+// among them; 0 where there are none.
+double inner_edge(const Mesh& mesh, const Loop& loop) {
+    const Topology& topology = mesh.topology();
+    const Index part = topology.components()[loop.vertices().front()];
+    const Index stride = std::max(1, mesh.vertex_count() / kSampledVertices);
+    std::vector<double> lengths;
+    for (Index v = 0; v < mesh.vertex_count(); v += stride) {
+        if (topology.components()[v] != part || topology.is_boundary(v)) continue;
+        for (const Index n : topology.neighbors(v)) {
+            if (topology.is_boundary(n)) continue;
+            lengths.push_back((mesh.position(v) - mesh.position(n)).norm());
+        }
     }
-    make_loops(boundaries);
+    if (lengths.empty()) return 0.0;
+    const auto middle = lengths.begin() + std::ssize(lengths) / 2;
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
+}
+
+void refine_source(Boundaries& boundaries, std::size_t join, LoopMeasure measure,
+                   const Context& context) {
+    refine_loop(boundaries.source, join, context);
+    boundaries.refined[join] = 1;
+    make_loops(boundaries, measure);
+}
+
+// New vertices and faces of the targets come after those of all of them.
+void refine_target(Boundaries& boundaries, std::size_t join, LoopMeasure measure,
+                   const Context& context) {
+    MergeSide side{std::move(boundaries.target),
+                   std::move(boundaries.target_map),
+                   std::move(boundaries.target_loops),
+                   {},
+                   {},
+                   {},
+                   false};
+    refine_loop(side, join, context);
+    boundaries.target = std::move(side.mesh);
+    boundaries.target_map = std::move(side.map);
+    boundaries.target_loops = std::move(side.loops);
+    boundaries.target_refined[join] = 1;
+    make_loops(boundaries, measure);
+}
+
+// Two coarse loops beside a dense source say too little about how it lies: a shake of one of their
+// vertices would shake all of it (2.5). Both are split until they are as fine as they may be
+// coarse.
+void refine_few(Boundaries& boundaries, std::size_t join, LoopMeasure measure,
+                const Context& context) {
+    for (int level = 0; level < kMostLevels; ++level) {
+        const Loop& from = boundaries.source_curves[join];
+        if (!(loop_edge(from) > kFew * inner_edge(boundaries.source.mesh, from))) break;
+        if (inner_edge(boundaries.source.mesh, from) == 0.0) break;
+        refine_source(boundaries, join, measure, context);
+    }
+    for (int level = 0; boundaries.refined[join] && level < kMostLevels; ++level) {
+        const Loop &from = boundaries.source_curves[join], &to = boundaries.target_curves[join];
+        if (!(loop_edge(to) > kCoarse * loop_scale(from, to) * loop_edge(from))) break;
+        refine_target(boundaries, join, measure, context);
+    }
+}
+
+void refine_coarse(Boundaries& boundaries, LoopMeasure measure, const Context& context) {
+    for (std::size_t j = 0; j < boundaries.refined.size(); ++j) {
+        refine_few(boundaries, j, measure, context);
+        const Loop &from = boundaries.source_curves[j], &to = boundaries.target_curves[j];
+        if (loop_scale(from, to) * loop_edge(from) <= kCoarse * loop_edge(to)) continue;
+        refine_source(boundaries, j, measure, context);
+    }
+}
+
+// Takes the regions off the targets, which end at their far ends then.
+void open_targets(double width, Boundaries& boundaries, const Context& context) {
+    OpenedForOverlap opened =
+        open_for_overlap(boundaries.target, boundaries.target_loops, width, context);
+    boundaries.target_map = composed(opened.map, boundaries.target_map);
+    boundaries.target = std::move(opened.mesh);
+    boundaries.target_loops = std::move(opened.loops);
+    boundaries.overlap.emplace(
+        Overlap{std::move(opened.whole), std::move(boundaries.target_curves)});
+    boundaries.target_curves.clear();
+    const OverlapTarget& whole = boundaries.overlap->target;
+    for (std::size_t j = 0; j < whole.ends.size(); ++j) {
+        boundaries.target_curves.push_back(Loop(whole.mesh, whole.ends[j], LoopMeasure::raw)
+                                               .renumbered(boundaries.target_loops[j]));
+    }
 }
 
 // Features on parts without a join need no care: these go as a whole, or stay.
@@ -315,26 +402,39 @@ void factor(MergePreparation& made, const Context& context) {
     const MergeSide& source = made.boundaries.source;
     const Region region = deforming(made);
     const Region loops = region_of_loops(source.mesh, source.loops);
-    Region held = loops, with_features = loops;
-    for (const Region& feature : made.features) {
-        with_features = with_features.united(feature.intersected(region));
-    }
-    const bool fixed = made.options.configuration == Configuration::fixed;
-    if (fixed) held = with_features;
-    const auto deformer_with = [&](const Region& of) {
-        return std::make_unique<BoundaryDeformer>(source.mesh, region, of, made.method.deform,
-                                                  context);
+    Region kept = loops;
+    for (const Region& feature : made.features) kept = kept.united(feature.intersected(region));
+    made.kept = kept;
+    BoundaryDeformOptions how = made.method.deform;
+    const auto deformer_with = [&](const Region& held) {
+        return std::make_unique<BoundaryDeformer>(source.mesh, region, held, how, context);
     };
-    made.deformer = deformer_with(held);
-    if (!fixed && !made.features.empty()) made.featured = deformer_with(with_features);
+    if (made.options.configuration == Configuration::fixed) {
+        made.deformer = deformer_with(kept);
+    } else if (made.options.feature_motion == FeatureMotion::fitted) {
+        made.deformer = deformer_with(loops);
+        if (!made.features.empty()) made.featured = deformer_with(kept);
+    } else {
+        how.features = made.features;
+        made.deformer = deformer_with(loops);
+    }
     made.stats = made.deformer->stats();
 }
 
 }  // namespace
 
+MergeOptions MergeOptions::literal(Configuration configuration) {
+    MergeOptions options;
+    options.configuration = configuration;
+    options.turn_frames = configuration == Configuration::free;
+    options.seam = SeamKind::band;
+    options.collar = options.trim = options.refine = false;
+    options.thesis = true;
+    return options;
+}
+
 MergeMethod method_of(const MergeOptions& options) {
     MergeMethod method;
-    method.collar = options.collar;
     method.values.turn = options.configuration == Configuration::free || options.turn_frames;
     if (!options.thesis) return method;
     if (options.suit_transition) {
@@ -342,11 +442,17 @@ MergeMethod method_of(const MergeOptions& options) {
                     "the thesis's transition needs its widths: it does not choose them");
     }
     method.deform = BoundaryDeformOptions::thesis();
-    method.values.turn = options.configuration == Configuration::free;
     method.values.sigma = 0.0;
     method.values.tangent_scales = true;
-    method.collar = false;
+    method.loops = LoopMeasure::raw;
+    method.guard = false;
     method.own_transition = options.source_transition > 0.0 || options.target_transition > 0.0;
+    if (method.own_transition &&
+        !(options.source_transition > 0.0 && options.target_transition > 0.0)) {
+        throw Error(ErrorCode::invalid_argument,
+                    "the thesis's transition needs a region on both sides: give widths above 0 for "
+                    "source and target");
+    }
     return method;
 }
 
@@ -367,11 +473,14 @@ Boundaries find_boundaries(Sides sides, std::span<const Join> joins, const Merge
                            const Context& context) {
     Boundaries result;
     result.refined.assign(joins.size(), 0);
+    result.target_refined = result.refined;
     result.target_loops = all_target_loops(sides, joins);
     combine_targets(sides.targets, sides.given, result, context);
     result.source = std::move(sides.source);
-    make_loops(result);
-    if (options.refine) refine_coarse(result, context);
+    const MergeMethod method = method_of(options);
+    make_loops(result, method.loops);
+    if (options.refine) refine_coarse(result, method.loops, context);
+    if (method.own_transition) open_targets(options.target_transition, result, context);
     return result;
 }
 

@@ -65,11 +65,13 @@ double greatest_angles(const SewReport& report) {
     return report.after.greatest_dihedral + report.after.greatest_near;
 }
 
-SewOptions sewing(const MergeOptions& options, bool collar) {
+SewOptions sewing(const MergePreparation& preparation, bool collar) {
+    const MergeOptions& options = preparation.options;
     SewOptions how;
     how.kind = options.seam;
     how.smooth = options.smooth;
     how.collar = collar;
+    how.guard = how.flip = preparation.method.guard;
     return how;
 }
 
@@ -127,12 +129,13 @@ MergedSides sew_well(const MergePreparation& preparation, const Matching& matchi
     const Mesh& target = preparation.boundaries.target;
     const auto sew_with = [&](bool collar) {
         MergedSides merged;
-        merged.sewn = sew(target, moved.source, matching.pairs, sewing(options, collar), context);
+        merged.sewn =
+            sew(target, moved.source, matching.pairs, sewing(preparation, collar), context);
         finish_seams(options, matching, moved, merged, context);
         require_sound(merged.sewn, target, moved.source, matching.pairs);
         return merged;
     };
-    MergedSides merged = sew_with(preparation.method.collar);
+    MergedSides merged = sew_with(options.collar);
     const SewReport& report = merged.sewn.report;
     if (!(report.collar_added > 0 && report.after.greatest_dihedral > kVisible)) return merged;
     MergedSides plain = sew_with(false);

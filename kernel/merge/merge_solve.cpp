@@ -41,6 +41,47 @@ Index nearest_vertex(const Loop& loop, double parameter) {
     return (at.segment + (at.t > 0.5 ? 1 : 0)) % loop.size();
 }
 
+// Keys of one join on its loops, and, where regions overlap, the vertex of the target's boundary at
+// the first.
+struct PlacedKeys {
+    std::vector<ParameterPair> parameters;
+    Index start = 0;
+};
+
+// The cut of the target's region carries the first key to the far end, and arc length the others.
+void carry_to_end(const Overlap& overlap, const Loop& end, std::size_t join, PlacedKeys& keys) {
+    const Loop& loop = overlap.curves[join];
+    const OverlapTarget& whole = overlap.target;
+    keys.start = nearest_vertex(loop, keys.parameters.front().target);
+    const Index at = cut_end(whole.mesh, target_band_loop(whole.mesh, loop.vertices(), keys.start),
+                             whole.width, {});
+    const std::vector<Index>& ends = whole.ends[join];
+    const std::size_t place = std::find(ends.begin(), ends.end(), at) - ends.begin();
+    const double shift = end.parameters()[place] - loop.parameters()[keys.start];
+    for (ParameterPair& key : keys.parameters) {
+        key.target += shift - std::floor(key.target + shift);
+    }
+}
+
+PlacedKeys placed_keys(const MergePreparation& preparation, std::size_t join,
+                       std::span<const KeyPair> given) {
+    const GivenMeshes& meshes = preparation.given;
+    const Boundaries& from = preparation.boundaries;
+    const Loop& source = from.source_curves[join];
+    const Loop& target = from.overlap ? from.overlap->curves[join] : from.target_curves[join];
+    std::vector<KeyPair> keys;
+    for (std::size_t k = 0; k < given.size(); ++k) {
+        keys.push_back(
+            {worked_key(given[k].source, meshes.source_loops[join], source, k, "source"),
+             worked_key(given[k].target, meshes.target_loops[join], target, k, "target")});
+    }
+    PlacedKeys placed{key_parameters(source, target, keys), 0};
+    if (from.overlap && !keys.empty()) {
+        carry_to_end(*from.overlap, from.target_curves[join], join, placed);
+    }
+    return placed;
+}
+
 // The similarity that moves a feature as the surface around it would have moved it.
 BoundaryValue common_value(const Mesh& mesh, const Region& feature, const Region& region,
                            const BoundaryDeformation& free, Vec3& rest_center) {
@@ -127,7 +168,11 @@ BoundaryDeformation bent(const MergePreparation& preparation, const Matching& ma
                 move.position + move.scale * (move.rotation * arm), move.rotation, move.scale};
         }
     }
-    return featured.solve(values, context);
+    BoundaryDeformation result = featured.solve(values, context);
+    result.seconds.first += deformed.seconds.first;
+    result.seconds.polar += deformed.seconds.polar;
+    result.seconds.second += deformed.seconds.second;
+    return result;
 }
 
 // Parts of the source without a join go as a whole with what is nearest to them.
@@ -180,29 +225,19 @@ std::optional<ThesisMerge> thesis_merge(const MergePreparation& preparation,
     const bool scales = options.configuration == Configuration::free;
     std::vector<ThesisJoin> thesis;
     for (std::size_t j = 0; j < matching.pairs.size(); ++j) {
-        thesis.push_back({matching.pairs[j], matching.starts[j],
-                          scales ? matching.joins[j].scale : 1.0, options.target_transition,
-                          options.source_transition});
+        thesis.push_back({matching.pairs[j], matching.starts[j], matching.overlap_starts[j],
+                          scales ? matching.joins[j].scale : 1.0, options.source_transition});
     }
-    return std::make_optional<ThesisMerge>(preparation.boundaries.target,
-                                           preparation.boundaries.source.mesh, std::move(thesis),
-                                           options.transition_weight, context);
+    const Boundaries& from = preparation.boundaries;
+    return std::make_optional<ThesisMerge>(from.overlap->target, from.target, from.source.mesh,
+                                           std::move(thesis), options.transition_weight, context);
 }
 
 }  // namespace
 
 std::vector<ParameterPair> parameters_of(const MergePreparation& preparation, std::size_t join,
                                          std::span<const KeyPair> given) {
-    const GivenMeshes& meshes = preparation.given;
-    const Loop &source = preparation.boundaries.source_curves[join],
-               &target = preparation.boundaries.target_curves[join];
-    std::vector<KeyPair> keys;
-    for (std::size_t k = 0; k < given.size(); ++k) {
-        keys.push_back(
-            {worked_key(given[k].source, meshes.source_loops[join], source, k, "source"),
-             worked_key(given[k].target, meshes.target_loops[join], target, k, "target")});
-    }
-    return key_parameters(source, target, keys);
+    return placed_keys(preparation, join, given).parameters;
 }
 
 Matching match_boundaries(const MergePreparation& preparation,
@@ -216,7 +251,9 @@ Matching match_boundaries(const MergePreparation& preparation,
     result.joins = preparation.found.joins;
     for (std::size_t j = 0; j < given.size(); ++j) {
         const Loop &source = from.source_curves[j], &target = from.target_curves[j];
-        std::vector<ParameterPair> keys = parameters_of(preparation, j, given[j]);
+        PlacedKeys placed = placed_keys(preparation, j, given[j]);
+        std::vector<ParameterPair>& keys = placed.parameters;
+        result.overlap_starts.push_back(placed.start);
         JoinReport& join = result.joins[j];
         result.starts.push_back(keys.empty() ? 0 : nearest_vertex(source, keys.front().source));
         if (keys.empty()) {
@@ -230,8 +267,10 @@ Matching match_boundaries(const MergePreparation& preparation,
                     "or say which directions of both models belong together");
             }
         }
-        result.pairs.push_back(corresponding(source, target, keys));
+        result.pairs.push_back(
+            corresponding(source, target, keys, preparation.method.loops == LoopMeasure::robust));
         join.refined = from.refined[j] != 0;
+        join.target_refined = from.target_refined[j] != 0;
         join.source_size = source.size();
         join.target_size = target.size();
         join.scale = loop_scale(source, target);
@@ -243,10 +282,10 @@ Moved deform_source(const MergePreparation& preparation, const Matching& matchin
                     const Context& context) {
     const Mesh& rest = preparation.boundaries.source.mesh;
     BoundaryDeformation deformed = bent(preparation, matching, context);
-    Moved result{rest, thesis_merge(preparation, matching, context)};
+    Moved result{rest, deformed.seconds, thesis_merge(preparation, matching, context)};
     if (result.thesis) {
-        const auto& by = preparation.featured ? *preparation.featured : *preparation.deformer;
-        deformed = result.thesis->deform(by.region(), by.held(), deformed, context);
+        deformed = result.thesis->deform(preparation.deformer->region(), *preparation.kept,
+                                         deformed, context);
     }
     result.source.set_positions(all_positions(preparation, deformed));
     turn_directions(rest, preparation.deformer->region(), deformed, result.source);

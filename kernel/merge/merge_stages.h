@@ -28,6 +28,7 @@
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/merge/thesis/thesis_merge.h"
+#include "kernel/merge/thesis/thesis_overlap.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/self_intersections.h"
@@ -40,7 +41,10 @@ namespace lissom {
 struct MergeMethod {
     BoundaryDeformOptions deform;
     LoopValueOptions values;
-    bool collar = true;
+    /// How loops are measured; raw ones meet at vertices only where these coincide.
+    LoopMeasure loops = LoopMeasure::robust;
+    /// Whether steps at the seam are guarded, and edges flipped.
+    bool guard = true;
     /// Its own transition, where one is asked for.
     bool own_transition = false;
 };
@@ -81,11 +85,20 @@ struct Sides {
 Sides make_sides(const Mesh& source, std::span<const Mesh* const> targets,
                  std::span<const Join> joins, const MergeOptions& options, const Context& context);
 
+/// What the thesis's transition takes off the targets.
+struct Overlap {
+    OverlapTarget target;
+    /// The targets' boundaries as they were, by join.
+    std::vector<Loop> curves;
+};
+
 /// The loops to be joined, on the source and on all targets as one mesh.
 struct Boundaries {
     MergeSide source;
-    /// By join: whether the source's faces were split for it.
-    std::vector<char> refined;
+    /// By join: whether faces of the source, and of the targets, were split for it.
+    std::vector<char> refined, target_refined;
+    /// Where regions overlap, the target is without them, and its loops are their far ends.
+    std::optional<Overlap> overlap;
     Mesh target;
     MeshMap target_map;
     std::vector<std::vector<Index>> target_loops;
@@ -125,8 +138,10 @@ struct MergePreparation {
     LooseParts loose;
     SeamQuality source_rim, target_rim;
     std::unique_ptr<PartShapes> parts;
+    /// The vertices of loops and features that deform.
+    std::optional<Region> kept;
     std::unique_ptr<BoundaryDeformer> deformer;
-    /// With the features of a free configuration held as well.
+    /// Where features of a free configuration are fitted: with them held as well.
     std::unique_ptr<BoundaryDeformer> featured;
     DeformStats stats;
     double seconds = 0.0;
@@ -144,6 +159,8 @@ struct Matching {
     std::vector<LoopPair> pairs;
     /// By join the vertex of the source's loop at the first key, or the first.
     std::vector<Index> starts;
+    /// Where regions overlap, the place of the same key on the target's boundary, or 0.
+    std::vector<Index> overlap_starts;
     std::vector<JoinReport> joins;
     std::vector<std::string> warnings;
 };
@@ -154,6 +171,7 @@ Matching match_boundaries(const MergePreparation& preparation,
 /// The source brought to the target.
 struct Moved {
     Mesh source;
+    BoundaryTimes seconds;
     /// Where the thesis's transition is made.
     std::optional<ThesisMerge> thesis;
 };
@@ -177,6 +195,6 @@ std::vector<FacePair> new_intersections(const Mesh& target, const Mesh& source, 
                                         const Context& context);
 
 MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
-                      const MergedSides& merged);
+                      const Moved& moved, const MergedSides& merged);
 
 }  // namespace lissom

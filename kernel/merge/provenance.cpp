@@ -1,5 +1,7 @@
 #include "kernel/merge/provenance.h"
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 namespace lissom {
@@ -24,6 +26,19 @@ MeshMap identity_map(const Topology& topology) {
     return {ElementMap::identity(topology.vertex_count()),
             ElementMap::identity(topology.corner_count()),
             ElementMap::identity(topology.face_count())};
+}
+
+MeshMap part_map(const MeshPart& part, const Topology& old) {
+    MeshMap map{ElementMap::copies(part.vertex_map), {}, ElementMap::copies(part.face_map)};
+    for (Index f = 0; f < part.mesh.face_count(); ++f) {
+        const Index from = part.face_map[f];
+        const std::span<const Index> face = part.mesh.topology().face(f), was = old.face(from);
+        for (const Index v : face) {
+            const auto place = std::find(was.begin(), was.end(), part.vertex_map[v]);
+            map.corners.add_copy(old.first_corner(from) + index_of(place - was.begin()));
+        }
+    }
+    return map;
 }
 
 MeshMap flipped_map(const Topology& topology) {

@@ -6,12 +6,15 @@
 
 #include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
+#include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {
 
 /// Every element of a mesh from itself.
 MeshMap identity_map(const Topology& topology);
+/// Every element of a part from that of the mesh it was taken out of.
+MeshMap part_map(const MeshPart& part, const Topology& old);
 /// The map of a mesh whose faces were reversed, each from its first vertex (flip).
 MeshMap flipped_map(const Topology& topology);
 /// Where the elements of a mesh come from that was made in two steps: `outer` leads to the mesh in

@@ -67,9 +67,8 @@ struct Task {
                 t[static_cast<std::size_t>((0.3 + part) * static_cast<double>(t.size()))]};
     }
 
-    Merge prepared(bool find_intersections, const Context& context) const {
+    Merge prepared(MergeOptions options, bool find_intersections, const Context& context) const {
         const Mesh* targets[] = {&target.mesh};
-        MergeOptions options;
         options.find_intersections = find_intersections;
         return Merge(source.mesh, targets, {join}, options, context);
     }
@@ -79,10 +78,11 @@ struct Times {
     // The whole merge against its two factorisations, of each repeat.
     std::vector<double> quotients;
     double whole = 1e9, again = 1e9, first_factor = 1e9, second_factor = 1e9;
+    BoundaryTimes solve{1e9, 1e9, 1e9};
     Index free_vertices = 0, displaced = 0;
 };
 
-Times measure(Index vertices, int threads) {
+Times measure(Index vertices, int threads, const MergeOptions& how = {}) {
     const Task task(vertices);
     ContextOptions options;
     options.threads = threads;
@@ -90,11 +90,11 @@ Times measure(Index vertices, int threads) {
     Times times;
     for (int repeat = 0; repeat < 5; ++repeat) {
         auto start = Clock::now();
-        const MergeResult result = task.prepared(true, context).solve(context);
+        const MergeResult result = task.prepared(how, true, context).solve(context);
         const double whole = milliseconds(start);
         times.whole = std::min(times.whole, whole);
         // As a tool does while a key is dragged.
-        Merge merge = task.prepared(false, context);
+        Merge merge = task.prepared(how, false, context);
         merge.set_keys(0, {task.key(repeat + 1)});
         start = Clock::now();
         merge.solve(context);
@@ -104,41 +104,64 @@ Times measure(Index vertices, int threads) {
                                   (stats.first_factor_seconds + stats.second_factor_seconds));
         times.first_factor = std::min(times.first_factor, 1e3 * stats.first_factor_seconds);
         times.second_factor = std::min(times.second_factor, 1e3 * stats.second_factor_seconds);
+        const BoundaryTimes& solve = result.report.deform_seconds;
+        times.solve.first = std::min(times.solve.first, 1e3 * solve.first);
+        times.solve.polar = std::min(times.solve.polar, 1e3 * solve.polar);
+        times.solve.second = std::min(times.solve.second, 1e3 * solve.second);
         times.free_vertices = stats.free_vertices;
         times.displaced = stats.displaced_vertices;
     }
     return times;
 }
 
-/// Free vertices and milliseconds that the thesis gives for its factorisations (Table 3.1).
-struct ThesisRow {
+/// A column of the thesis's Table 3.1: its mesh, and milliseconds on a 3.2 GHz Pentium IV.
+struct ThesisColumn {
     const char* name;
-    Index free_vertices;
-    double first_factor, second_factor;
+    Index free_vertices, degenerate;
+    double first_factor, first_solve, second_factor, second_solve, svd;
 };
-constexpr ThesisRow kThesis[] = {{"feline (c)", 7733, 593, 203},
-                                 {"CAD", 9050, 563, 110},
-                                 {"feline (a)", 9434, 718, 125},
-                                 {"mannequin", 16219, 1437, 234},
-                                 {"skull", 16982, 1390, 203}};
+constexpr ThesisColumn kThesis[] = {{"feline (c)", 7733, 186, 593, 32, 203, 15, 125},
+                                    {"CAD", 9050, 1839, 563, 31, 110, 15, 156},
+                                    {"feline (a)", 9434, 206, 718, 32, 125, 16, 187},
+                                    {"mannequin", 16219, 534, 1437, 62, 234, 32, 328},
+                                    {"skull", 16982, 77, 1390, 62, 203, 31, 329}};
 
+/// One row of a column: the thesis, its formulas here, our default.
+void add_row(Report& report, const ThesisColumn& column, const char* what, double thesis,
+             double same, double ours) {
+    char text[160];
+    std::snprintf(text, sizeof text, "    %-22s %8.2f   %8.3f   %8.3f", what, thesis, same, ours);
+    report.line(text);
+    const std::string name = std::string("as ") + column.name + ": " + what;
+    report.add_to_json({name + ", thesis's way", same, "us/vertex"});
+    report.add_to_json({name + ", default", ours, "us/vertex"});
+}
+
+void run_column(Report& report, const ThesisColumn& column) {
+    const Index vertices = column.free_vertices * 4 / 3;
+    const Times same = measure(vertices, 1, MergeOptions::literal()), ours = measure(vertices, 1);
+    char text[160];
+    std::snprintf(text, sizeof text, "  %s: free vertices %d, %d, %d; degenerate %d, %d, %d",
+                  column.name, column.free_vertices, same.free_vertices, ours.free_vertices,
+                  column.degenerate, same.displaced, ours.displaced);
+    report.line(text);
+    const auto add = [&](const char* what, double thesis, double literal, double best) {
+        add_row(report, column, what, 1e3 * thesis / column.free_vertices,
+                1e3 * literal / same.free_vertices, 1e3 * best / ours.free_vertices);
+    };
+    add("factor (2.8)", column.first_factor, same.first_factor, ours.first_factor);
+    add("solve (2.8)", column.first_solve, same.solve.first, ours.solve.first);
+    add("factor (2.10/2.11)", column.second_factor, same.second_factor, ours.second_factor);
+    add("solve (2.10/2.11)", column.second_solve, same.solve.second, ours.solve.second);
+    add("polar decompositions", column.svd, same.solve.polar, ours.solve.polar);
+}
+
+/// Ours merges two cactuses of each column's size.
 void run_table(Report& report) {
-    report.title("Table 3.1, microseconds a free vertex, thesis / ours at its size, one thread");
-    for (const ThesisRow& row : kThesis) {
-        const Times times = measure(row.free_vertices * 4 / 3, 1);
-        const auto unit = [&](double ms, Index n) { return 1e3 * ms / n; };
-        char text[160];
-        std::snprintf(
-            text, sizeof text,
-            "  %-12s factor (2.8) %5.1f / %5.2f   factor (2.11) %5.1f / %5.2f   (%d free)",
-            row.name, unit(row.first_factor, row.free_vertices),
-            unit(times.first_factor, times.free_vertices),
-            unit(row.second_factor, row.free_vertices),
-            unit(times.second_factor, times.free_vertices), times.free_vertices);
-        report.line(text);
-        report.add_to_json({std::string("factor, as ") + row.name,
-                            unit(times.first_factor, times.free_vertices), "us/vertex"});
-    }
+    report.title(
+        "Table 3.1, microseconds a free vertex, one thread: the thesis, its formulas here, our "
+        "default");
+    for (const ThesisColumn& column : kThesis) run_column(report, column);
 }
 
 void run_merge(Report& report) {

@@ -165,6 +165,31 @@ test("every option is taken, and every way to sew closes the seam", function()
     end
 end)
 
+test("fidelity: section 3.3 to the letter, and options that are given count before it", function()
+    local function report_of(options)
+        options.joins = { join{ { from, to } } }
+        local sewn, literal = lissom.merge(options)
+        expect.truthy(sewn:is_closed())
+        return literal, sewn
+    end
+    local literal = report_of{ fidelity = "thesis" }
+    expect.truthy(literal.seam.band_removed > 0)
+    expect.equal(literal.seam.flipped, 0)
+    expect.equal(literal.seam.smoothed, 3)
+    for _, name in ipairs{ "first_solve_seconds", "polar_seconds", "second_solve_seconds" } do
+        expect.truthy(literal[name] >= 0, name)
+    end
+    local asked = report_of{ fidelity = "thesis", seam = "conform", smooth = 1, trim = true, refine = true }
+    expect.equal(asked.seam.band_removed, 0)
+    expect.truthy(asked.seam.inserted_into_target > 0)
+    expect.equal(asked.seam.smoothed, 1)
+    -- With a transition seams are not smoothed, and the target's region gives way to the source's.
+    local faded, overlapped = report_of{ fidelity = "thesis", transition = { source = 0.5, target = 1.5 } }
+    expect.equal(faded.seam.smoothed, 0)
+    expect.truthy(#faded.target < 0.9 * #bowl)
+    expect.truthy(faded.transition[1].source.vertices > 20 and overlapped:genus() == 0)
+end)
+
 test("a sparse side gets a collar: no slivers at the seam, and nothing worse than it was", function()
     local dense = half(lissom.shapes.sphere{ segments = 96 }, 0.1)
     local coarse = half(lissom.shapes.sphere{ segments = 12 }, 0.1)

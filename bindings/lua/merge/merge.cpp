@@ -34,13 +34,26 @@ std::vector<DirectionPair> given_directions(const Call& call) {
     return pairs;
 }
 
-MergeOptions merge_options(const Call& call) {
-    MergeOptions options;
-    options.configuration = call.choice<Configuration>("configuration");
-    options.turn_frames = call.integer("frames") == 0;
-    options.seam = call.choice<SeamKind>("seam");
+// Those whose defaults the fidelity changes.
+void read_steps(const Call& call, MergeOptions& options) {
+    const auto asks = [&](const char* name) { return !options.thesis || call.has(name); };
+    if (asks("frames")) options.turn_frames = call.integer("frames") == 0;
+    if (asks("seam")) options.seam = call.choice<SeamKind>("seam");
+    if (asks("collar")) options.collar = call.boolean("collar");
+    if (asks("trim")) options.trim = call.boolean("trim");
+    if (asks("refine")) options.refine = call.boolean("refine");
     options.smooth = call.integer("smooth");
-    options.collar = call.boolean("collar");
+    // The thesis smooths seams without a transition only.
+    if (options.thesis && call.has("transition") && !call.has("smooth")) options.smooth = 0;
+}
+
+MergeOptions merge_options(const Call& call) {
+    const auto configuration = call.choice<Configuration>("configuration");
+    MergeOptions options;
+    if (call.integer("fidelity") == 1) options = MergeOptions::literal(configuration);
+    options.configuration = configuration;
+    options.feature_motion = call.choice<FeatureMotion>("features");
+    read_steps(call, options);
     if (call.has("transition") && call.kind("transition") == Kind::boolean) {
         options.suit_transition = true;
     } else if (call.has("transition")) {
@@ -48,11 +61,8 @@ MergeOptions merge_options(const Call& call) {
         options.target_transition = call.number("transition.target");
         options.transition_weight = call.number("transition.weight");
     }
-    options.trim = call.boolean("trim");
     options.greatest_turn = call.number("greatest_turn") * kPi / 180.0;
-    options.refine = call.boolean("refine");
     options.find_intersections = call.boolean("intersections");
-    options.thesis = call.integer("fidelity") == 1;
     return options;
 }
 
@@ -247,6 +257,12 @@ std::vector<Parameter> merge_parameters(bool intersections) {
                 "Regions of the source that keep their shape: in the free configuration each "
                 "moves as a whole, in the fixed one it stays.")
             .optional("none"),
+        choice("features", {"common", "fitted"},
+               "How those of the free configuration find the similarity they move by. common: each "
+               "has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the "
+               "surface is deformed without them first, and again with what fits; this takes twice "
+               "the time.")
+            .defaults("common"),
         number("reach",
                "fixed configuration: how far from its boundaries the source deforms, along edges.")
             .above(0)
@@ -255,14 +271,16 @@ std::vector<Parameter> merge_parameters(bool intersections) {
         choice("frames", {"turn", "keep"},
                "fixed configuration: whether the surface at the boundary turns to meet the "
                "target's, or keeps its directions as in the thesis, which leaves a crease.")
-            .defaults("turn"),
+            .defaults("turn")
+            .thesis("3.3.2", "\"keep\""),
         choice(
             "seam", {"conform", "fair", "band"},
             "conform: vertices of both boundaries are inserted into the faces of the other "
             "side. fair: then the surface around the seam is bent smooth, unless a transition does "
             "that. band: a band of the "
             "target's faces is replaced, as in the thesis.")
-            .defaults("conform"),
+            .defaults("conform")
+            .thesis("3.3.1", "\"band\""),
         integer(
             "smooth",
             "Umbrella steps at the seam, at most: the first that would fold it is the last. With "
@@ -272,7 +290,8 @@ std::vector<Parameter> merge_parameters(bool intersections) {
         boolean("collar",
                 "Where the edges of one side are more than 1.5 times as long as the seam's, its "
                 "faces there are made anew, from small to large; sharp edges keep their shape.")
-            .defaults(true),
+            .defaults(true)
+            .thesis("3.3.1", "false"),
         options("transition",
                 {number("source", "Width on the source.")
                      .at_least(0)
@@ -295,7 +314,8 @@ std::vector<Parameter> merge_parameters(bool intersections) {
         boolean("trim",
                 "Boundaries with teeth are cut to smooth lines first, and the report says "
                 "so.")
-            .defaults(true),
+            .defaults(true)
+            .thesis("3.3.1", "false"),
         number("greatest_turn",
                "Mean turn of a boundary at its vertices above which it is trimmed.")
             .between(0, 180)
@@ -303,14 +323,17 @@ std::vector<Parameter> merge_parameters(bool intersections) {
             .defaults(20.0),
         boolean("refine",
                 "Faces of the source at a boundary are split once where its edges are "
-                "more than 1.5 times as long as those they meet.")
-            .defaults(true),
+                "more than 1.5 times as long as those they meet. Where they are more than 3 times "
+                "as long as edges inside the source, they are split until they are not, and those "
+                "of the target with them (thesis 2.5).")
+            .defaults(true)
+            .thesis("2.5", "false, as which boundaries have too few vertices is not said"),
         boolean("intersections",
                 "Looks for faces that run through one another and did not before, for the report.")
             .defaults(intersections),
         choice("fidelity", {"lissom", "thesis"},
-               "thesis: its frames, scales and systems to the letter, for comparison; the page "
-               "thesis.md of the reference names all of it.")
+               "thesis: section 3.3 to the letter, for comparison, where no other option says "
+               "otherwise; the page thesis.md of the reference names all of it.")
             .defaults("lissom")};
 }
 

@@ -43,7 +43,7 @@ void push_seam(const Call& call, const SewReport& seam) {
 }
 
 void push_join(const Call& call, const JoinReport& join) {
-    lua_createtable(call.lua(), 0, 10);
+    lua_createtable(call.lua(), 0, 11);
     call.set_field("source_size", call.push(join.source_size));
     call.set_field("target_size", call.push(join.target_size));
     call.set_field("scale", call.push(join.scale));
@@ -54,6 +54,7 @@ void push_join(const Call& call, const JoinReport& join) {
     call.set_field("source_trimmed", call.push(join.source_trimmed));
     call.set_field("target_trimmed", call.push(join.target_trimmed));
     call.set_field("refined", call.push(join.refined));
+    call.set_field("target_refined", call.push(join.target_refined));
 }
 
 void push_joins(const Call& call, const std::vector<JoinReport>& joins) {
@@ -77,6 +78,9 @@ void push_times(const Call& call, const MergeReport& report) {
     call.set_field("displaced_vertices", call.push(report.deform.displaced_vertices));
     call.set_field("first_factor_seconds", call.push(report.deform.first_factor_seconds));
     call.set_field("second_factor_seconds", call.push(report.deform.second_factor_seconds));
+    call.set_field("first_solve_seconds", call.push(report.deform_seconds.first));
+    call.set_field("polar_seconds", call.push(report.deform_seconds.polar));
+    call.set_field("second_solve_seconds", call.push(report.deform_seconds.second));
     call.set_field("prepare_seconds", call.push(report.prepare_seconds));
     call.set_field("solve_seconds", call.push(report.solve_seconds));
 }
@@ -231,7 +235,7 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     call.charge(provenance);
     lua_pushvalue(call.lua(), first);
     call.remember(owner.get());
-    lua_createtable(call.lua(), 0, 20);
+    lua_createtable(call.lua(), 0, 23);
     push_joins(call, result.report.joins);
     call.set_field("joins");
     call.set_field("ok", call.push(result.report.ok));
@@ -342,7 +346,8 @@ std::vector<Record> merge_records() {
           {"number", "target_turn", "The same of the target's."},
           {"boolean", "source_trimmed", "It was jagged and has been trimmed."},
           {"boolean", "target_trimmed", "The same of the target's."},
-          {"boolean", "refined", "Faces of the source were split there."}}},
+          {"boolean", "refined", "Faces of the source were split there."},
+          {"boolean", "target_refined", "Faces of the target were split there."}}},
         {"lissom.MergeReport",
          "What a merge found and did.",
          {{"boolean", "ok",
@@ -373,6 +378,9 @@ std::vector<Record> merge_records() {
           {"integer", "displaced_vertices", "Degenerate vertices displaced."},
           {"number", "first_factor_seconds", "Time to factor the first system."},
           {"number", "second_factor_seconds", "Time to factor the second."},
+          {"number", "first_solve_seconds", "Time to solve the first system."},
+          {"number", "polar_seconds", "Time for the rotations and sizes of all gradients."},
+          {"number", "second_solve_seconds", "Time to solve the second system."},
           {"number", "prepare_seconds", "Time to check, trim and factor."},
           {"number", "solve_seconds", "Time to deform and sew."}}}};
 }

@@ -243,6 +243,7 @@
 ---@field source_trimmed boolean It was jagged and has been trimmed.
 ---@field target_trimmed boolean The same of the target's.
 ---@field refined boolean Faces of the source were split there.
+---@field target_refined boolean Faces of the target were split there.
 
 ---What a merge found and did.
 ---@class lissom.MergeReport
@@ -264,6 +265,9 @@
 ---@field displaced_vertices integer Degenerate vertices displaced.
 ---@field first_factor_seconds number Time to factor the first system.
 ---@field second_factor_seconds number Time to factor the second.
+---@field first_solve_seconds number Time to solve the first system.
+---@field polar_seconds number Time for the rotations and sizes of all gradients.
+---@field second_solve_seconds number Time to solve the second system.
 ---@field prepare_seconds number Time to check, trim and factor.
 ---@field solve_seconds number Time to deform and sew.
 
@@ -2960,17 +2964,18 @@ function lissom.deform(mesh, options) end
 ---@field target_front? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field configuration? "free"|"fixed" free: the source comes from wherever it lies, turned and scaled as fits (thesis 3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2). Default: "free".
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
+---@field features? "common"|"fitted" How those of the free configuration find the similarity they move by. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with what fits; this takes twice the time. Default: "common".
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
----@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
----@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
+---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn"; as in the thesis "keep".
+---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform"; as in the thesis "band".
 ---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
----@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true.
+---@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
 ---@field transition? lissom.MergeOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
----@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
+---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true; as in the thesis false.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
----@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
+---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
----@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison; the page thesis.md of the reference names all of it. Default: "lissom".
+---@field fidelity? "lissom"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "lissom".
 
 ---Joins a source to one or several targets along open boundaries, into a new mesh. The source is deformed so that its boundaries meet those of the targets, wherever it lies and whatever its size; the targets stay. Vertices and faces of the targets come first, in their order, then those of the source; attributes, labels and regions of all are kept.
 ---@param options lissom.MergeOptions
@@ -2993,17 +2998,18 @@ function lissom.merge(options) end
 ---@field target_front? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field configuration? "free"|"fixed" free: the source comes from wherever it lies, turned and scaled as fits (thesis 3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2). Default: "free".
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
+---@field features? "common"|"fitted" How those of the free configuration find the similarity they move by. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with what fits; this takes twice the time. Default: "common".
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
----@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
----@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
+---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn"; as in the thesis "keep".
+---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform"; as in the thesis "band".
 ---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
----@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true.
+---@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
 ---@field transition? lissom.MergingOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
----@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
+---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true; as in the thesis false.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
----@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Default: true.
+---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: false.
----@field fidelity? "lissom"|"thesis" thesis: its frames, scales and systems to the letter, for comparison; the page thesis.md of the reference names all of it. Default: "lissom".
+---@field fidelity? "lissom"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "lissom".
 
 ---As lissom.merge, but returns an object that keeps what was prepared, so that a moved key costs a fraction of the first merge.
 ---@param options lissom.MergingOptions

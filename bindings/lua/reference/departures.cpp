@@ -14,8 +14,8 @@ namespace {
 // The description of an option names its default.
 void add_option_departures(std::vector<Departure>& list, const Function& function,
                            const std::string& call) {
-    // It changes what was made, and has no defaults.
-    if (function.name == "set") return;
+    // One changes what was made and has no defaults; the other has those of lissom.merge.
+    if (function.name == "set" || function.name == "merging") return;
     for (const Parameter& p : function.options) {
         if (p.thesis_text.empty()) continue;
         list.push_back({p.thesis_section, "`" + p.name + "` of `" + call + "`", p.default_text,
@@ -34,8 +34,13 @@ std::vector<Departure> deform_departures() {
 
 std::vector<Departure> merge_departures() {
     return {
-        {"3.3.1", "Frames along a boundary", "smoothed along it", "as they are at each vertex",
-         kByFidelity},
+        {"3.3.1", "Which points of two boundaries meet between keys",
+         "by arc length of both smoothed; vertices that nearly meet do",
+         "by arc length; each goes to its own place", kByFidelity},
+        {"3.3.1", "Boundaries without keys", "meet where they fit best", "always have keys", ""},
+        {"3.3.1", "Frames along a boundary",
+         "smoothed along it, with normals continued to it from within",
+         "as they are at each vertex", kByFidelity},
         {"3.3.1", "How much the source grows at a boundary",
          "one factor a join, from the spread of both boundaries",
          "the ratio of tangent lengths at each vertex", kByFidelity},
@@ -44,20 +49,20 @@ std::vector<Departure> merge_departures() {
         {"3.3.1", "Systems of the deformation",
          "as `lissom.deform` by default, with the second system blend",
          "as `lissom.deform` of the thesis, on the surface brought to unit size", kByFidelity},
-        {"3.3.1", "How the meshes are joined: `seam` of `lissom.merge`",
-         "vertices of both boundaries go into the faces of the other side",
-         "a band of the target's faces is replaced", "`seam = \"band\"`"},
-        {"3.3.1", "`smooth` of `lissom.merge`", "3 steps at the seam", "none", "`smooth = 0`"},
-        {"3.3.1", "`collar` of `lissom.merge`: faces beside the seam made anew", "where needed",
-         "never", kByFidelity},
-        {"3.3.1", "`trim` of `lissom.merge`: boundaries with teeth", "are cut to smooth lines",
-         "stay", "`trim = false`"},
-        {"3.3.2", "`frames` of `lissom.merge`, fixed configuration",
-         "the surface turns to meet the target's", "it keeps its directions", kByFidelity},
+        {"3.3.1", "Umbrella steps at the seam: `smooth` of `lissom.merge`",
+         "3, none of which may fold it; slivers are flipped away; also before a transition",
+         "several, of seam and neighbours here; none with a transition", kByFidelity},
+        {"3.3.1", "Meshes that are inside out", "are turned over, and a warning says so",
+         "not said", ""},
+        {"3.3.1", "Parts of the source without a boundary that is joined",
+         "go along with what is nearest", "not said", ""},
         {"3.3.3", "Transition regions",
-         "coordinates along the surface, and a harmonic blend of both shapes",
-         "bands cut open and laid over the unit square, and the term E_T with `transition.weight`",
-         kByFidelity}};
+         "lie side by side at the seam, which is blended with coordinates along the surface",
+         "overlap, and the source's is kept; bands cut open and laid over the unit square, and the "
+         "term E_T with `transition.weight`",
+         kByFidelity},
+        {"3.3.3", "Laplacian coordinates that are interpolated",
+         "by area, as those of meshes of unlike density differ otherwise", "not said", ""}};
 }
 
 std::vector<Departure> field_departures() {

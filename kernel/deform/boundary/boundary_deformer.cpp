@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/core/clock.h"
+#include "kernel/deform/boundary/common_gradients.h"
 #include "kernel/deform/holds/constraints.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/rotation/polar.h"
@@ -92,14 +93,29 @@ void require_values(std::span<const BoundaryValue> values, Index count) {
     }
 }
 
+void require_none(const Region& wrong, ErrorCode code, const char* why) {
+    if (wrong.empty()) return;
+    Elements vertices{ElementKind::vertex, 0, {}};
+    for (const Index v : wrong.vertices()) vertices.add(v);
+    throw Error(code, describe(vertices) + why, vertices);
+}
+
 void require_inside(const Region& region, const Region& held) {
     if (held.empty()) throw Error(ErrorCode::region_empty, "hold at least one vertex");
-    const Region outside = held.minus(region);
-    if (outside.empty()) return;
-    Elements vertices{ElementKind::vertex, 0, {}};
-    for (const Index v : outside.vertices()) vertices.add(v);
-    throw Error(ErrorCode::handle_outside_region,
-                describe(vertices) + " cannot be held: they lie outside the region", vertices);
+    require_none(held.minus(region), ErrorCode::handle_outside_region,
+                 " cannot be held: they lie outside the region");
+}
+
+void require_features(const Region& region, const Region& held,
+                      const std::vector<Region>& features) {
+    Region taken = held;
+    for (const Region& feature : features) {
+        require_none(feature.minus(region), ErrorCode::handle_outside_region,
+                     " cannot be of a feature: they lie outside the region");
+        require_none(feature.intersected(taken), ErrorCode::handle_overlap,
+                     " cannot be of a feature: they are held, or of another");
+        taken = taken.united(feature);
+    }
 }
 
 }  // namespace
@@ -120,6 +136,9 @@ struct BoundaryDeformer::State {
           const BoundaryDeformOptions& chosen, const Context& context);
 
     void find_knowledge();
+    void know_features();
+    Index local_vertex(Index v) const;
+    std::vector<std::vector<Index>> local_features() const;
     void require_area() const;
     void factor(const Context& context);
     template <typename System>
@@ -132,8 +151,14 @@ struct BoundaryDeformer::State {
     Mat3 gathered(Index v, const Mat3& base) const;
     std::vector<Mat3> gradients_of(const Base& base, const Context& context) const;
     void find_sizes(const Context& context);
+    void turn_features(const Base& base);
+    double harmonic_weight(Index entry) const;
+    void factor_sizes(const Context& context);
     void interpolate_sizes(const Context& context);
+    template <typename Use>
+    void for_each_harmonic_entry(const Use& use) const;
     void find_turns(const Base& base, const Context& context);
+    void solve_second(const Context& context);
     BoundaryDeformation result(std::span<const BoundaryValue> values, const Base& base) const;
 
     Region region, held;
@@ -148,11 +173,12 @@ struct BoundaryDeformer::State {
     GradientStencils stencils;
     std::unique_ptr<GradientSystem> first;
     std::unique_ptr<RotationSystem> second;
-    /// Null for the thesis's weights.
     std::unique_ptr<GradientResidual> residual;
+    std::unique_ptr<CommonGradients> common;
     /// Harmonic interpolation over the vertices that are not held, made when scales first differ.
     std::unique_ptr<SparseSystem> harmonic;
-    std::vector<Index> harmonic_row, harmonic_vertex;
+    std::vector<Index> harmonic_row;
+    Index harmonic_rows = 0;
     DeformStats stats;
 
     /// Of the present solve, relative to the base: deviations of positions and of known gradients,
@@ -177,19 +203,19 @@ BoundaryDeformer::State::State(const Mesh& mesh, const Region& given, const Regi
     require_area();
     find_knowledge();
     require_constraints(work, known);
+    know_features();
     progress.step(0.3);
     const auto start = Clock::now();
     const Patch& patch = work.patch;
     stencils = make_gradients(patch, work.rings, work.geometry, known, -patch.origin, options);
     first = std::make_unique<GradientSystem>(work, stencils, known, options, context);
     second = std::make_unique<RotationSystem>(work, known.position, options, context);
-    if (options.coherence == 1 && options.scale_free) {
-        residual =
-            std::make_unique<GradientResidual>(work, stencils, known, options.coherence_weight);
-    }
+    residual = std::make_unique<GradientResidual>(work, stencils, known, options);
+    common = std::make_unique<CommonGradients>(work, local_features(), *first, *residual, *second);
     stats.assemble_seconds = seconds_since(start);
     progress.step(0.7);
     factor(context);
+    common->prepare(context);
 }
 
 // Outside the region, and without faces, vertices stay; held ones go where they are told.
@@ -203,15 +229,36 @@ void BoundaryDeformer::State::find_knowledge() {
         known.position[i] = known.gradient[i] = 1;
         surrounded = surrounded || !lonely;
     }
-    const std::vector<Index>& ids = region.vertices();
-    for (const Index v : held.vertices()) {
-        const auto row = std::lower_bound(ids.begin(), ids.end(), v) - ids.begin();
-        held_local.push_back(patch.of_region[row]);
-        known.position[held_local.back()] = known.gradient[held_local.back()] = 1;
-    }
+    for (const Index v : held.vertices()) held_local.push_back(local_vertex(v));
+    for (const Index v : held_local) known.position[v] = known.gradient[v] = 1;
     for (Index i = 0; i < patch.surface_count; ++i) {
         known.gradient_wanted[i] = !known.gradient[i] && work.rings.count(i) > 0;
     }
+}
+
+// To the systems features are known; what they are is found afterwards.
+void BoundaryDeformer::State::know_features() {
+    for (const std::vector<Index>& feature : local_features()) {
+        for (const Index v : feature) {
+            known.position[v] = known.gradient[v] = 1;
+            known.gradient_wanted[v] = 0;
+        }
+    }
+}
+
+Index BoundaryDeformer::State::local_vertex(Index v) const {
+    const std::vector<Index>& ids = region.vertices();
+    return work.patch.of_region[std::lower_bound(ids.begin(), ids.end(), v) - ids.begin()];
+}
+
+std::vector<std::vector<Index>> BoundaryDeformer::State::local_features() const {
+    std::vector<std::vector<Index>> result;
+    for (const Region& feature : asked.features) {
+        if (feature.empty()) continue;
+        result.emplace_back();
+        for (const Index v : feature.vertices()) result.back().push_back(local_vertex(v));
+    }
+    return result;
 }
 
 void BoundaryDeformer::State::require_area() const {
@@ -302,7 +349,8 @@ void BoundaryDeformer::State::solve_first() {
     for (std::size_t r = 0; r < rows; ++r) {
         deviation[free[r]] = {columns[r], columns[rows + r], columns[2 * rows + r]};
     }
-    for (int step = 0; residual && step < kCorrections; ++step) correct_first();
+    const bool corrects = options.coherence == 1 && options.scale_free;
+    for (int step = 0; corrects && step < kCorrections; ++step) correct_first();
 }
 
 // Takes out what rounding errors of the matrix have left.
@@ -323,6 +371,21 @@ void BoundaryDeformer::State::correct_first() {
 Mat3 BoundaryDeformer::State::gathered(Index v, const Mat3& base) const {
     return known.gradient[v] ? Mat3(base + known_turn[v])
                              : Mat3(base + stencils.gather(work.rings, deviation, v));
+}
+
+// What the features turn and grow by in the second system, from M_i of the first.
+void BoundaryDeformer::State::turn_features(const Base& base) {
+    for (Index f = 0; f < common->size(); ++f) {
+        const Index one = common->vertices(f).front();
+        const Mat3 m = base.rotation + known_turn[one];
+        if (asked.size == SizeField::gradient) size[one] = uniform_scale(m);
+        const Mat3 turn = size[one] * nearest_rotation(m) - base.rotation;
+        for (const Index v : common->vertices(f)) {
+            deviation[v] += (turn - known_turn[v]) * common->arm(v);
+            size[v] = size[one];
+        }
+        for (const Index v : common->vertices(f)) known_turn[v] = turn;
+    }
 }
 
 // M_i after the first system; where it does not exist, the mean of those around it.
@@ -349,65 +412,80 @@ std::vector<Mat3> BoundaryDeformer::State::gradients_of(const Base& base,
     return m;
 }
 
-void BoundaryDeformer::State::interpolate_sizes(const Context& context) {
-    const Index n = work.patch.surface_count;
-    const auto weight = [&](Index e) { return std::max(work.geometry.cotangent[e], kLeastWeight); };
-    if (!harmonic) {
-        harmonic_row.assign(n, kNoIndex);
-        for (Index v = 0; v < n; ++v) {
-            if (known.position[v]) continue;
-            harmonic_row[v] = count_of(harmonic_vertex);
-            harmonic_vertex.push_back(v);
-        }
-        std::vector<Triplet> entries;
-        for (const Index v : harmonic_vertex) {
-            double sum = 0.0;
-            for (Index e = work.rings.begin[v]; e < work.rings.begin[v + 1]; ++e) {
-                const Index other = harmonic_row[work.rings.neighbor[e]];
-                sum += weight(e);
-                if (other != kNoIndex && other < harmonic_row[v]) {
-                    entries.push_back({harmonic_row[v], other, -weight(e)});
-                }
-            }
-            entries.push_back({harmonic_row[v], harmonic_row[v], sum});
-        }
-        const SymmetricMatrix matrix = symmetric_from_triplets(count_of(harmonic_vertex), entries);
-        harmonic = std::make_unique<SparseSystem>();
-        harmonic->analyze(matrix, context);
-        harmonic->factor(matrix, context);
-    }
-    std::vector<double> b(harmonic_vertex.size(), 0.0);
-    for (std::size_t r = 0; r < b.size(); ++r) {
-        const Index v = harmonic_vertex[r];
+// Calls use(row, neighbour, weight) for all neighbours of what has a row in the interpolation of
+// sizes; those of one row do not count for it.
+template <typename Use>
+void BoundaryDeformer::State::for_each_harmonic_entry(const Use& use) const {
+    for (Index v = 0; v < count_of(harmonic_row); ++v) {
+        const Index row = harmonic_row[v];
+        if (row == kNoIndex) continue;
         for (Index e = work.rings.begin[v]; e < work.rings.begin[v + 1]; ++e) {
             const Index u = work.rings.neighbor[e];
-            if (harmonic_row[u] == kNoIndex) b[r] += weight(e) * std::log(size[u]);
+            if (harmonic_row[u] != row) use(row, u, harmonic_weight(e));
         }
     }
+}
+
+double BoundaryDeformer::State::harmonic_weight(Index entry) const {
+    return std::max(work.geometry.cotangent[entry], kLeastWeight);
+}
+
+// One row a free vertex, and one a feature.
+void BoundaryDeformer::State::factor_sizes(const Context& context) {
+    harmonic_row.assign(at(work.patch.surface_count), kNoIndex);
+    harmonic_rows = common->size();
+    for (Index v = 0; v < work.patch.surface_count; ++v) {
+        harmonic_row[v] = common->feature_of(v);
+        if (!known.position[v]) harmonic_row[v] = harmonic_rows++;
+    }
+    std::vector<Triplet> entries;
+    for_each_harmonic_entry([&](Index row, Index u, double weight) {
+        entries.push_back({row, row, weight});
+        const Index other = harmonic_row[u];
+        if (other != kNoIndex && other < row) entries.push_back({row, other, -weight});
+    });
+    const SymmetricMatrix matrix = symmetric_from_triplets(harmonic_rows, entries);
+    harmonic = std::make_unique<SparseSystem>();
+    harmonic->analyze(matrix, context);
+    harmonic->factor(matrix, context);
+}
+
+void BoundaryDeformer::State::interpolate_sizes(const Context& context) {
+    if (!harmonic) factor_sizes(context);
+    std::vector<double> b(at(harmonic_rows), 0.0);
+    for_each_harmonic_entry([&](Index row, Index u, double weight) {
+        if (harmonic_row[u] == kNoIndex) b[at(row)] += weight * std::log(size[u]);
+    });
     harmonic->solve(b, b, 1);
-    for (std::size_t r = 0; r < b.size(); ++r) size[harmonic_vertex[r]] = std::exp(b[r]);
+    for (std::size_t v = 0; v < harmonic_row.size(); ++v) {
+        if (harmonic_row[v] != kNoIndex) size[v] = std::exp(b[at(harmonic_row[v])]);
+    }
 }
 
 // Of all vertices from those that are known.
 void BoundaryDeformer::State::find_sizes(const Context& context) {
     double least = size[held_local.front()], most = least;
+    const auto is_given = [&](Index v) {
+        return known.position[v] && common->feature_of(v) == kNoIndex && work.rings.count(v) > 0;
+    };
     for (Index v = 0; v < work.patch.surface_count; ++v) {
-        if (!known.position[v] || work.rings.count(v) == 0) continue;
+        if (!is_given(v)) continue;
         least = std::min(least, size[v]);
         most = std::max(most, size[v]);
     }
     if (most > least * (1.0 + kSameScale)) {
-        if (!second->free_vertices().empty()) interpolate_sizes(context);
+        if (common->size() > 0 || !second->free_vertices().empty()) interpolate_sizes(context);
         return;
     }
     for (Index v = 0; v < work.patch.surface_count; ++v) {
-        if (!known.position[v]) size[v] = least;
+        if (!known.position[v] || common->feature_of(v) != kNoIndex) size[v] = least;
     }
 }
 
 // S_i of the second system less the base's: rotations without shear, times the size.
 void BoundaryDeformer::State::find_turns(const Base& base, const Context& context) {
     if (asked.size == SizeField::harmonic) find_sizes(context);
+    turn_features(base);
     std::vector<Mat3> m = gradients_of(base, context);
     if (asked.size == SizeField::gradient) {
         for (Index v = 0; v < work.patch.real_count; ++v) {
@@ -420,6 +498,14 @@ void BoundaryDeformer::State::find_turns(const Base& base, const Context& contex
         turns[v] = known.gradient[v] ? padded_columns(known_turn[v])
                                      : padded_columns(size[v] * m[v] - base.rotation);
     }
+}
+
+void BoundaryDeformer::State::solve_second(const Context& context) {
+    std::vector<Vec4> x;
+    for (const Vec3& d : deviation) x.push_back(padded(d));
+    if (!second->free_vertices().empty()) second->solve(turns, x, false, context);
+    common->release_second(turns, x, context);
+    for (std::size_t v = 0; v < x.size(); ++v) deviation[v] = x[v].head<3>();
 }
 
 BoundaryDeformation BoundaryDeformer::State::result(std::span<const BoundaryValue> values,
@@ -445,6 +531,10 @@ BoundaryDeformer::BoundaryDeformer(const Mesh& mesh, const Region& region, const
     require_same_topology(mesh, region.topology(), "the region");
     require_same_topology(mesh, held.topology(), "the held vertices");
     require_inside(region, held);
+    for (const Region& feature : options.features) {
+        require_same_topology(mesh, feature.topology(), "a feature");
+    }
+    require_features(region, held, options.features);
     state_ = std::make_unique<State>(mesh, region, held, options, context);
 }
 
@@ -469,16 +559,21 @@ BoundaryDeformation BoundaryDeformer::solve(std::span<const BoundaryValue> value
     const Base base = state.find_base(values);
     state.place_held(values, base);
     const bool has_free = !state.second->free_vertices().empty();
+    BoundaryTimes seconds;
+    auto start = Clock::now();
     if (has_free) state.solve_first();
+    state.common->release_first(state.deviation, state.known_turn);
+    seconds.first = seconds_since(start);
     context.checkpoint();
+    start = Clock::now();
     state.find_turns(base, context);
-    if (has_free) {
-        std::vector<Vec4> x;
-        for (const Vec3& d : state.deviation) x.push_back(padded(d));
-        state.second->solve(state.turns, x, false, context);
-        for (std::size_t v = 0; v < x.size(); ++v) state.deviation[v] = x[v].head<3>();
-    }
-    return state.result(values, base);
+    seconds.polar = seconds_since(start);
+    start = Clock::now();
+    if (has_free || state.common->size() > 0) state.solve_second(context);
+    seconds.second = seconds_since(start);
+    BoundaryDeformation deformed = state.result(values, base);
+    deformed.seconds = seconds;
+    return deformed;
 }
 
 }  // namespace lissom

@@ -40,10 +40,21 @@ struct BoundaryDeformOptions {
     double degenerate_threshold = 2e4;
     double displacement = 0.2;
     bool scale_free = true;
+    /// Parts of the region that keep their shape: all vertices of one share a deformation gradient,
+    /// which is an unknown of the first system, and its rotation and size in the second, where the
+    /// part moves as a whole (the extension of thesis section 3.5). None may hold a vertex of
+    /// another, or one that is held.
+    std::vector<Region> features = {};
 
     /// Thesis to the letter: |M| / sqrt 3, second system (2.11), coherence 2, literal weights on
     /// the surface brought to unit size.
     static BoundaryDeformOptions thesis();
+};
+
+/// Seconds that the steps of a solve took: the first system (Eq 2.8), the rotations and sizes of
+/// all deformation gradients, the second system (Eq 2.10 and 2.11).
+struct BoundaryTimes {
+    double first = 0.0, polar = 0.0, second = 0.0;
 };
 
 /// A deformed region.
@@ -52,6 +63,7 @@ struct BoundaryDeformation {
     std::vector<Vec3> positions;
     /// How the surface turned and grew at them: scale times rotation.
     std::vector<Mat3> transforms;
+    BoundaryTimes seconds = {};
 };
 
 /// Deforms one region of one mesh. Vertices outside it stay. Factors are kept: new values cost no
@@ -61,7 +73,8 @@ class BoundaryDeformer {
   public:
     /// Takes the present shape of `mesh` as rest shape; it may change or die afterwards.
     /// Errors: region_empty without held vertices; topology_mismatch; handle_outside_region for
-    /// held vertices outside the region; unconstrained naming a connected part that nothing holds;
+    /// vertices held, or of a feature, outside the region; handle_overlap for a feature that
+    /// overlaps another, or what is held; unconstrained naming a connected part that nothing holds;
     /// zero_area; not_positive_definite; memory_limit; cancelled.
     BoundaryDeformer(const Mesh& mesh, const Region& region, const Region& held,
                      const BoundaryDeformOptions& options = {}, const Context& context = {});

@@ -1,15 +1,17 @@
 #include "kernel/deform/system/gradient_residual.h"
 
+#include <algorithm>
+
 #include "kernel/deform/system/gradient_system.h"
 
 namespace lissom {
 
 GradientResidual::GradientResidual(const WorkingPatch& work, const GradientStencils& gradients,
-                                   const KnownMask& known, double coherence_weight)
+                                   const KnownMask& known, const DeformOptions& options)
     : work_(work),
       gradients_(gradients),
       known_(known),
-      coherence_weight_(coherence_weight),
+      options_(options),
       delta_(work.rings.size(), Vec3::Zero()) {
     for (Index v = 0; v < work.rings.size(); ++v) {
         if (has_gradient(v))
@@ -47,9 +49,25 @@ void GradientResidual::add_coherence_term(Index v, const std::vector<Mat3>& m, M
     for (Index e = work_.rings.begin[v]; e < work_.rings.begin[v + 1]; ++e) {
         const Index n = work_.rings.neighbor[e];
         if (!has_gradient(n)) continue;
-        const double weight = scale_free_coherence(work_.geometry.cotangent[e]);
-        pull -= coherence_weight_ * weight * (m[v] - m[n]);
+        const double weight = edge_coherence(options_, work_.geometry.cotangent[e]);
+        pull -= options_.coherence_weight * weight * (m[v] - m[n]);
     }
+    if (options_.coherence == 2) add_second_ring(v, m, pull);
+}
+
+void GradientResidual::add_second_ring(Index v, const std::vector<Mat3>& m, Mat3& pull) const {
+    const std::span<const Index> ring = work_.rings.ring(v);
+    std::vector<Index> second;
+    for (const Index n : ring) {
+        for (const Index far : work_.rings.ring(n)) {
+            const bool near = far == v || std::binary_search(ring.begin(), ring.end(), far);
+            if (!near && has_gradient(far)) second.push_back(far);
+        }
+    }
+    std::sort(second.begin(), second.end());
+    second.erase(std::unique(second.begin(), second.end()), second.end());
+    const double weight = options_.coherence_weight * second_ring_coherence(options_);
+    for (const Index far : second) pull -= weight * (m[v] - m[far]);
 }
 
 void GradientResidual::scatter(Index v, const Mat3& pull, std::vector<Vec3>& residual) const {
@@ -59,16 +77,22 @@ void GradientResidual::scatter(Index v, const Mat3& pull, std::vector<Vec3>& res
     }
 }
 
-std::vector<Vec3> GradientResidual::find(std::span<const Vec3> x, std::span<const Mat3> m) const {
+std::vector<Vec3> GradientResidual::find(std::span<const Vec3> x, std::span<const Mat3> m,
+                                         std::vector<Mat3>* pulls) const {
+    if (pulls) pulls->assign(work_.rings.size(), Mat3::Zero());
     const std::vector<Mat3> gradient = all_gradients(x, m);
     std::vector<Vec3> residual(work_.rings.size(), Vec3::Zero());
     for (Index v = 0; v < work_.rings.size(); ++v) {
         if (!has_gradient(v)) continue;
         Mat3 pull = Mat3::Zero();
         if (work_.laplacian.weight[v] > 0.0) add_laplacian_term(v, x, gradient[v], residual, pull);
-        if (known_.gradient[v]) continue;
+        if (known_.gradient[v] && !pulls) continue;
         add_coherence_term(v, gradient, pull);
-        scatter(v, pull, residual);
+        if (known_.gradient[v]) {
+            (*pulls)[v] = pull;
+        } else {
+            scatter(v, pull, residual);
+        }
     }
     return residual;
 }

@@ -9,9 +9,6 @@
 namespace lissom {
 namespace {
 
-// Pairs two rings apart weigh as an edge between equilateral triangles.
-constexpr double kSecondRingCoherence = 0.57735026918962576;
-
 // sum_b w_ab (M_a - M_b) as coefficients of unknown or known positions, and of known gradients.
 struct CoherenceRows {
     std::vector<Index> begin{0}, column;
@@ -99,18 +96,15 @@ class Assembler {
     bool has_gradient(Index i) const { return known_.gradient[i] || gradients_.defined[i]; }
     bool has_row(Index i) const { return has_gradient(i) && laplacian_.weight[i] > 0.0; }
 
-    double edge_coherence(Index a, Index b, Index entry) const {
-        const double stiffness = work_.stiffness_between(a, b);
-        // Eq 2.7 counts every pair from both its ends.
-        if (!options_.scale_free) return 2.0 * stiffness;
-        return stiffness * scale_free_coherence(geometry_.cotangent[entry]);
+    double coherence_of(Index a, Index b, Index entry) const {
+        return work_.stiffness_between(a, b) * edge_coherence(options_, geometry_.cotangent[entry]);
     }
 
     // Calls use(b, weight) for every pair (a, b) of SF in Eq 2.7 where both have gradients.
     template <typename Use>
     void for_each_pair(Index a, RowAccumulator<double>& pairs, const Use& use) const {
         if (options_.coherence == 2) {
-            const double second = options_.scale_free ? kSecondRingCoherence : 2.0;
+            const double second = second_ring_coherence(options_);
             for (const Index b : rings_.ring(a)) {
                 for (const Index c : rings_.ring(b)) {
                     if (c != a && !is_neighbor(a, c)) pairs.add(c, 0.0);
@@ -122,7 +116,7 @@ class Assembler {
         }
         for (Index e = rings_.begin[a]; e < rings_.begin[a + 1]; ++e) {
             const Index b = rings_.neighbor[e];
-            if (has_gradient(b)) use(b, edge_coherence(a, b, e));
+            if (has_gradient(b)) use(b, coherence_of(a, b, e));
         }
     }
 

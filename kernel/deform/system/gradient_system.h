@@ -27,6 +27,16 @@ inline double scale_free_coherence(double cotangent_weight) {
     return std::max(cotangent_weight, kLeast);
 }
 
+/// Weight of a pair of neighbours in Eq 2.7, which counts every pair from both its ends, in the
+/// form that the options ask for; and of a pair two rings apart, which weighs as an edge between
+/// equilateral triangles.
+inline double edge_coherence(const DeformOptions& options, double cotangent_weight) {
+    return options.scale_free ? scale_free_coherence(cotangent_weight) : 2.0;
+}
+inline double second_ring_coherence(const DeformOptions& options) {
+    return options.scale_free ? 0.57735026918962576 : 2.0;
+}
+
 /// Normal equations of Eq 2.8 with the known quantities moved to the right-hand side:
 /// A x_free = - (known_positions X + known_gradients W). Rows are free vertices; columns of the two
 /// couplings are local vertices. Ties add their terms; anchors are known.

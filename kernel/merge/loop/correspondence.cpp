@@ -14,8 +14,10 @@ namespace {
 constexpr double kOffLoop = 0.1;
 // Keys closer than this part of the loop are at one place.
 constexpr double kSamePlace = 1e-9;
-// Part of the local spacing within which vertices meet.
+// Part of the local spacing within which vertices meet: where they snap, and where only rounding
+// keeps them apart.
 constexpr double kSnap = 0.3;
+constexpr double kRoundedApart = 1e-9;
 
 double wrapped(double u) {
     const double w = u - std::floor(u);
@@ -122,7 +124,8 @@ double spacing(const std::vector<double>& u, Index k) {
 
 // The vertex of the target that each source vertex meets, or kNoIndex. Each target vertex meets the
 // nearest one only; as places ascend, so do the vertices met.
-std::vector<Index> meetings(const std::vector<double>& source, const std::vector<double>& target) {
+std::vector<Index> meetings(const std::vector<double>& source, const std::vector<double>& target,
+                            double reach) {
     const auto n = count_of(source), m = count_of(target);
     std::vector<Index> met(source.size(), kNoIndex), taker(target.size(), kNoIndex);
     std::vector<double> gap(target.size(), 1.0);
@@ -131,7 +134,7 @@ std::vector<Index> meetings(const std::vector<double>& source, const std::vector
         const Index right = index_of(after - target.begin()) % m;
         for (const Index j : {(right + m - 1) % m, right}) {
             const double d = std::min(ahead(target[j], source[i]), ahead(source[i], target[j]));
-            if (d > kSnap * std::min(spacing(source, i), spacing(target, j)) || d >= gap[j])
+            if (d > reach * std::min(spacing(source, i), spacing(target, j)) || d >= gap[j])
                 continue;
             gap[j] = d;
             taker[j] = i;
@@ -163,14 +166,14 @@ std::vector<ParameterPair> key_parameters(const Loop& source, const Loop& target
     return sorted;
 }
 
-LoopPair corresponding(const Loop& source, const Loop& target,
-                       std::span<const ParameterPair> keys) {
+LoopPair corresponding(const Loop& source, const Loop& target, std::span<const ParameterPair> keys,
+                       bool snap) {
     LoopPair pair{source.vertices(), target.vertices(), {}, {}};
     std::vector<double> at;
     for (const double u : source.parameters()) {
         at.push_back(carried(u, keys, &ParameterPair::source, &ParameterPair::target));
     }
-    const std::vector<Index> met = meetings(at, target.parameters());
+    const std::vector<Index> met = meetings(at, target.parameters(), snap ? kSnap : kRoundedApart);
     for (Index i = 0; i < source.size(); ++i) {
         pair.on_target.push_back(met[i] != kNoIndex ? LoopPoint{met[i], 0.0}
                                                     : target.place_at(at[i]));

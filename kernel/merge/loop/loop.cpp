@@ -71,9 +71,13 @@ Vec3 boundary_normal(const Mesh& mesh, Index v) {
         .normalized();
 }
 
-std::vector<Vec3> normals_at(const Mesh& mesh, std::span<const Index> vertices) {
+std::vector<Vec3> normals_at(const Mesh& mesh, std::span<const Index> vertices,
+                             LoopMeasure measure) {
     std::vector<Vec3> normals;
-    for (const Index v : vertices) normals.push_back(boundary_normal(mesh, v));
+    for (const Index v : vertices) {
+        normals.push_back(measure == LoopMeasure::raw ? fan_normal(mesh, v).normal
+                                                      : boundary_normal(mesh, v));
+    }
     return normals;
 }
 
@@ -91,7 +95,8 @@ Vec3 across(const Vec3& v) {
 
 }  // namespace
 
-Loop::Loop(const Mesh& mesh, std::vector<Index> vertices) : vertices_(std::move(vertices)) {
+Loop::Loop(const Mesh& mesh, std::vector<Index> vertices, LoopMeasure measure)
+    : vertices_(std::move(vertices)) {
     const auto refuse = [&](const char* why) {
         Elements elements{ElementKind::vertex, 0, {}};
         for (const Index v : vertices_) elements.add(v);
@@ -106,10 +111,16 @@ Loop::Loop(const Mesh& mesh, std::vector<Index> vertices) : vertices_(std::move(
         length_ += edges_.back();
     }
     if (!(length_ > 0.0)) refuse(" has no length; cut the mesh there");
-    normals_ = normals_at(mesh, vertices_);
+    normals_ = normals_at(mesh, vertices_, measure);
     find_moments();
-    find_parameters();
+    find_parameters(measure);
     if (!(radius_ > 1e-9 * length_)) refuse(" encloses nothing; cut the mesh there");
+}
+
+Loop Loop::renumbered(std::vector<Index> vertices) const {
+    Loop result = *this;
+    result.vertices_ = std::move(vertices);
+    return result;
 }
 
 void Loop::find_moments() {
@@ -159,7 +170,11 @@ std::vector<Vec3> Loop::smoothed(std::span<const Vec3> values, double sigma) con
 }
 
 // A little of the true length keeps parameters apart where smoothing brings points together.
-void Loop::find_parameters() {
+void Loop::find_parameters(LoopMeasure measure) {
+    if (measure == LoopMeasure::raw) {
+        for (const double arc : arc_) parameters_.push_back(arc / length_);
+        return;
+    }
     const std::vector<Vec3> curve = smoothed(points_, kLengthSigma);
     double total = 0.0;
     for (Index k = 0; k < size(); ++k) {

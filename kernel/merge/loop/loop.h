@@ -12,12 +12,20 @@
 
 namespace lissom {
 
+/// How a loop is measured: so that a jagged one counts as the smooth line along it and its normals
+/// are those on the boundary itself; or as it is (the thesis).
+enum class LoopMeasure { robust, raw };
+
 /// A closed curve through vertices of a mesh, taken at the mesh's present shape.
 class Loop {
   public:
     /// Takes the vertices in the given order. Errors: boundary_conflict where the loop has fewer
     /// than 3 vertices or no length.
-    Loop(const Mesh& mesh, std::vector<Index> vertices);
+    Loop(const Mesh& mesh, std::vector<Index> vertices, LoopMeasure measure = LoopMeasure::robust);
+
+    /// The same loop with other ids of its vertices, in their order, as a part of the mesh has
+    /// them.
+    Loop renumbered(std::vector<Index> vertices) const;
 
     Index size() const { return count_of(vertices_); }
     const std::vector<Index>& vertices() const { return vertices_; }
@@ -25,7 +33,8 @@ class Loop {
     double length() const { return length_; }
 
     /// Where each vertex lies along the loop, 0 to 1 and ascending from 0: arc length of the curve
-    /// smoothed by sigma .03 of its length, so that a jagged loop is not longer than a smooth one.
+    /// smoothed by sigma .03 of its length, so that a jagged loop is not longer than a smooth one;
+    /// of a raw loop its own arc length.
     const std::vector<double>& parameters() const { return parameters_; }
     /// The parameter of a place, and the place at a parameter; any real number counts modulo 1.
     double parameter_of(const LoopPoint& place) const;
@@ -34,8 +43,9 @@ class Loop {
     LoopPoint nearest(const Vec3& point, double& distance) const;
 
     /// Frames (tangent, normal, binormal) in columns at every vertex: tangents of the loop and
-    /// normals of the surface on its one side, weighted by angle, both smoothed along the loop by
-    /// `sigma` of its length; 0 takes them as they are.
+    /// normals of the surface on its one side, weighted by angle and, but for a raw loop, continued
+    /// to the boundary; both smoothed along the loop by `sigma` of its length; 0 takes them as they
+    /// are.
     std::vector<Mat3> frames(double sigma) const;
     /// Length of the tangent at every vertex: the mean of the two edges there.
     std::vector<double> tangent_lengths() const;
@@ -51,7 +61,7 @@ class Loop {
   private:
     std::vector<Vec3> smoothed(std::span<const Vec3> values, double sigma) const;
     void find_moments();
-    void find_parameters();
+    void find_parameters(LoopMeasure measure);
     double edge(Index k) const { return edges_[at(k)]; }
 
     std::vector<Index> vertices_;

@@ -136,7 +136,8 @@ Sewn finish(const SeamWork& work, const SeamFaces& faces, const SewOptions& opti
     sewn.report = work.report;
     sewn.report.before = seam_quality(sewn.mesh, sewn.seams);
     if (options.collar) make_collars(sewn, context);
-    sewn.report.smoothed = smooth_seams(sewn.mesh, sewn.seams, options.smooth, context);
+    sewn.report.smoothed =
+        smooth_seams(sewn.mesh, sewn.seams, options.smooth, options.guard, context);
     if (options.flip && sewn.report.smoothed > 0) flip_near_seams(sewn, context);
     sewn.report.after = seam_quality(sewn.mesh, sewn.seams);
     return sewn;

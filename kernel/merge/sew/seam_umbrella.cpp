@@ -33,31 +33,60 @@ std::vector<Index> umbrella_vertices(const Topology& topology, std::span<const I
     return vertices;
 }
 
+// Where one step takes the given vertices.
+template <typename Position>
+std::vector<Vec3> umbrella_places(const Topology& topology, std::span<const Index> on_seam,
+                                  std::span<const Index> moving, const Position& position) {
+    std::vector<Vec3> to;
+    for (const Index v : moving) {
+        Vec3 mean = Vec3::Zero();
+        for (const Index w : topology.neighbors(v)) mean += position(w);
+        mean /= topology.valence(v);
+        const bool is_on = std::binary_search(on_seam.begin(), on_seam.end(), v);
+        to.push_back(position(v) + (is_on ? kStep : 0.5 * kStep) * (mean - position(v)));
+    }
+    return to;
+}
+
+// The positions after up to `times` steps, none of which does harm; `made` counts them.
+std::vector<Vec3> guarded_steps(const Mesh& mesh, std::span<const std::vector<Index>> seams,
+                                std::span<const Index> on_seam, std::span<const Index> moving,
+                                Index times, Index& made, const Context& context) {
+    SeamGuard guard(mesh, seams, {moving.begin(), moving.end()}, context);
+    const auto position = [&](Index v) -> const Vec3& { return guard.position(v); };
+    for (; made < times; ++made) {
+        const auto to = umbrella_places(mesh.topology(), on_seam, guard.moving(), position);
+        if (!(guard.move(to) > 0.0)) break;
+    }
+    return {guard.positions().begin(), guard.positions().end()};
+}
+
+std::vector<Vec3> whole_steps(const Mesh& mesh, std::span<const Index> on_seam,
+                              std::span<const Index> moving, Index times, const Context& context) {
+    std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
+    const auto position = [&](Index v) -> const Vec3& { return positions[v]; };
+    for (Index step = 0; step < times; ++step) {
+        context.checkpoint();
+        const auto to = umbrella_places(mesh.topology(), on_seam, moving, position);
+        for (std::size_t k = 0; k < to.size(); ++k) positions[moving[k]] = to[k];
+    }
+    return positions;
+}
+
 }  // namespace
 
-Index smooth_seams(Mesh& mesh, std::span<const std::vector<Index>> seams, Index times,
+Index smooth_seams(Mesh& mesh, std::span<const std::vector<Index>> seams, Index times, bool guarded,
                    const Context& context) {
-    const Topology& topology = mesh.topology();
     const std::vector<Index> on_seam = vertices_of(seams);
-    Index made = 0;
+    const std::vector<Index> moving = umbrella_vertices(mesh.topology(), on_seam);
+    Index made = guarded ? 0 : times;
     std::vector<std::pair<Index, Vec3>> moved;
     if (times > 0) {
-        SeamGuard guard(mesh, seams, umbrella_vertices(topology, on_seam), context);
-        std::vector<Vec3> to(guard.moving().size());
-        for (; made < times; ++made) {
-            for (std::size_t k = 0; k < to.size(); ++k) {
-                const Index v = guard.moving()[k];
-                Vec3 mean = Vec3::Zero();
-                for (const Index w : topology.neighbors(v)) mean += guard.position(w);
-                mean /= topology.valence(v);
-                const bool is_on = std::binary_search(on_seam.begin(), on_seam.end(), v);
-                const double step = is_on ? kStep : 0.5 * kStep;
-                to[k] = guard.position(v) + step * (mean - guard.position(v));
-            }
-            if (!(guard.move(to) > 0.0)) break;
-        }
-        for (const Index v : guard.moving()) {
-            if (guard.position(v) != mesh.position(v)) moved.emplace_back(v, guard.position(v));
+        const std::vector<Vec3> positions =
+            guarded ? guarded_steps(mesh, seams, on_seam, moving, times, made, context)
+                    : whole_steps(mesh, on_seam, moving, times, context);
+        for (const Index v : moving) {
+            if (positions[v] != mesh.position(v)) moved.emplace_back(v, positions[v]);
         }
     }
     std::vector<Index> vertices;

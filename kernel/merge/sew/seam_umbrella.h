@@ -12,10 +12,10 @@ namespace lissom {
 
 /// Moves the vertices of `seams` and, half as far, those next to them by the umbrella operator
 /// (Kobbelt et al. 1998): half of the way to the mean of their neighbours, up to `times` times.
-/// Each step is guarded (SeamGuard); the first that would do harm is the last. Vertices on open
-/// boundaries stay; normals turn with the surface and become those of the surface on the seams.
-/// Returns how many steps were made.
-Index smooth_seams(Mesh& mesh, std::span<const std::vector<Index>> seams, Index times,
+/// With `guarded` each step is guarded (SeamGuard), and the first that would do harm is the last;
+/// otherwise all are made whole. Vertices on open boundaries stay; normals turn with the surface
+/// and become those of the surface on the seams. Returns how many steps were made.
+Index smooth_seams(Mesh& mesh, std::span<const std::vector<Index>> seams, Index times, bool guarded,
                    const Context& context);
 
 }  // namespace lissom

@@ -39,6 +39,8 @@ struct SewOptions {
     /// Neighbours on the seam that are closer than this many mean seam edges become one vertex, 0
     /// to 1: that of the target, if one is. Two of the target stay apart. `band` does not use it.
     double snap = 0.5;
+    /// False makes every umbrella step whole, whatever it folds (the thesis).
+    bool guard = true;
     /// Flips edges within two rings of the seam that make slivers.
     bool flip = true;
     /// Remeshes the collar: the faces beside a seam on a side whose edges there are more than 1.5

@@ -22,7 +22,7 @@ namespace {
 
 // Cotangents count as at least this, so that no triangle of the square turns over.
 constexpr double kLeastCotangent = 0.05;
-constexpr double kUnreached = std::numeric_limits<double>::infinity();
+constexpr double kNotReached = std::numeric_limits<double>::infinity();
 
 using Edge = std::pair<Index, Index>;
 
@@ -37,29 +37,53 @@ double fraction_of(double turn) {
 }
 
 // The faces of the region, with those that hang together with the loop.
-MeshPart region_of(const Mesh& mesh, const BandLoop& loop, double width,
-                   std::span<const double> path, const Context& context) {
+MeshPart region_of(const Mesh& mesh, SeamSide side, std::span<const Index> loop, double width,
+                   const Context& context) {
+    const std::vector<double> path = edge_distances(mesh, loop, width, context);
     std::vector<Index> faces;
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const std::span<const Index> face = mesh.topology().face(f);
         const auto near = [&](Index v) { return path[v] < width; };
         if (std::all_of(face.begin(), face.end(), near)) faces.push_back(f);
     }
-    if (faces.empty()) refuse(loop.side, "is narrower than its faces; make it wider");
+    if (faces.empty()) refuse(side, "is narrower than its faces; make it wider");
     // Attributes stay behind.
     const Mesh shape({mesh.positions().begin(), mesh.positions().end()}, mesh.shared_topology());
     const MeshPart all = extract_faces(shape, faces, context);
     const std::vector<Index>& component = all.mesh.topology().components();
     Index wanted = kNoIndex;
     for (Index v = 0; v < all.mesh.vertex_count() && wanted == kNoIndex; ++v) {
-        if (all.vertex_map[v] == loop.vertices[loop.start]) wanted = component[v];
+        if (all.vertex_map[v] == loop.front()) wanted = component[v];
     }
     std::vector<Index> kept;
     for (Index f = 0; f < all.mesh.face_count(); ++f) {
         if (component[all.mesh.topology().face(f)[0]] == wanted) kept.push_back(all.face_map[f]);
     }
-    if (kept.empty()) refuse(loop.side, "is narrower than its faces; make it wider");
+    if (kept.empty()) refuse(side, "is narrower than its faces; make it wider");
     return extract_faces(shape, kept, context);
+}
+
+// The outlines of a region beside that at one of its vertices, the longest first.
+std::vector<std::vector<Index>> other_outlines(const Mesh& region, Index at_loop) {
+    const auto length = [&](const std::vector<Index>& outline) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < outline.size(); ++k) {
+            sum +=
+                (region.position(outline[(k + 1) % outline.size()]) - region.position(outline[k]))
+                    .norm();
+        }
+        return sum;
+    };
+    std::vector<std::vector<Index>> others;
+    for (const std::vector<Index>& outline : region.topology().boundary_loops()) {
+        if (std::find(outline.begin(), outline.end(), at_loop) != outline.end()) continue;
+        others.push_back(outline);
+    }
+    const auto farthest =
+        std::max_element(others.begin(), others.end(),
+                         [&](const auto& a, const auto& b) { return length(a) < length(b); });
+    if (farthest != others.end()) std::iter_swap(others.begin(), farthest);
+    return others;
 }
 
 // The region opened to a disk and laid over the square. Vertices are those of the region, and
@@ -131,24 +155,9 @@ void Square::require_band() const {
 }
 
 void Square::close_outlines() {
-    const auto length = [&](const std::vector<Index>& outline) {
-        double sum = 0.0;
-        for (std::size_t k = 0; k < outline.size(); ++k) {
-            sum += (points_[outline[(k + 1) % outline.size()]] - points_[outline[k]]).norm();
-        }
-        return sum;
-    };
-    std::vector<std::vector<Index>> others;
-    for (const std::vector<Index>& outline : region_.topology().boundary_loops()) {
-        if (std::find(outline.begin(), outline.end(), loop_[start_]) != outline.end()) continue;
-        others.push_back(outline);
-    }
-    const auto farthest =
-        std::max_element(others.begin(), others.end(),
-                         [&](const auto& a, const auto& b) { return length(a) < length(b); });
-    far_ = *farthest;
-    others.erase(farthest);
-    for (const std::vector<Index>& outline : others) {
+    const std::vector<std::vector<Index>> others = other_outlines(region_, loop_[start_]);
+    far_ = others.front();
+    for (const std::vector<Index>& outline : std::span(others).subspan(1)) {
         const auto center = count_of(points_);
         Vec3 sum = Vec3::Zero();
         for (std::size_t k = 0; k < outline.size(); ++k) {
@@ -161,7 +170,7 @@ void Square::close_outlines() {
 
 // The shortest path from a vertex of the loop to the far end that leaves the loop at once.
 std::vector<Index> Square::path_from(Index first) const {
-    std::vector<double> way(region_.vertex_count(), kUnreached);
+    std::vector<double> way(region_.vertex_count(), kNotReached);
     std::vector<Index> before(way.size(), kNoIndex);
     std::vector<char> barred(way.size(), 0), end(way.size(), 0);
     for (const Index v : loop_) barred[v] = 1;
@@ -299,23 +308,61 @@ std::vector<Vec2> Square::solve(const Context& context) const {
     return result;
 }
 
-std::vector<double> target_fractions(const Mesh& target, const LoopPair& pair) {
+std::vector<double> own_fractions(const Mesh& mesh, std::span<const Index> loop) {
     std::vector<Vec3> points;
-    for (const Index v : pair.target) points.push_back(target.position(v));
+    for (const Index v : loop) points.push_back(mesh.position(v));
     return loop_fractions(points);
+}
+
+// A region with the loop in its numbers.
+struct LocalRegion {
+    MeshPart part;
+    std::vector<Index> loop;
+};
+
+LocalRegion local_region(const Mesh& mesh, SeamSide side, std::span<const Index> loop, double width,
+                         const Context& context) {
+    LocalRegion result;
+    result.part = region_of(mesh, side, loop, width, context);
+    std::map<Index, Index> local;
+    for (std::size_t i = 0; i < result.part.vertex_map.size(); ++i) {
+        local.emplace(result.part.vertex_map[i], index_of(i));
+    }
+    for (const Index v : loop) {
+        if (local.count(v) == 0) refuse(side, "is narrower than its faces; make it wider");
+        result.loop.push_back(local.at(v));
+    }
+    return result;
 }
 
 }  // namespace
 
-BandLoop target_band_loop(const Mesh& target, const LoopPair& pair, Index start) {
-    const LoopPoint& key = pair.on_target[start];
-    const auto size = count_of(pair.target);
-    return {SeamSide::target, pair.target, target_fractions(target, pair),
-            (key.segment + (key.t > 0.5 ? 1 : 0)) % size};
+BandLoop target_band_loop(const Mesh& target, std::vector<Index> loop, Index start) {
+    std::vector<double> fractions = own_fractions(target, loop);
+    return {SeamSide::target, std::move(loop), std::move(fractions), start};
+}
+
+ThesisRegion make_thesis_region(const Mesh& mesh, SeamSide side, std::span<const Index> loop,
+                                double width, const Context& context) {
+    const LocalRegion region = local_region(mesh, side, loop, width, context);
+    const auto others = other_outlines(region.part.mesh, region.loop.front());
+    if (others.empty()) {
+        refuse(side, "reaches beyond the farthest vertex of its part; make it narrower");
+    }
+    ThesisRegion result{region.part.face_map, {}};
+    for (const Index v : others.front()) result.end.push_back(region.part.vertex_map[v]);
+    std::reverse(result.end.begin(), result.end.end());
+    return result;
+}
+
+Index cut_end(const Mesh& mesh, const BandLoop& loop, double width, const Context& context) {
+    LocalRegion region = local_region(mesh, loop.side, loop.vertices, width, context);
+    const Square square(region.part.mesh, loop, std::move(region.loop));
+    return region.part.vertex_map[square.cut().back()];
 }
 
 BandLoop source_band_loop(const Mesh& target, const LoopPair& pair, Index start) {
-    const std::vector<double> at = target_fractions(target, pair);
+    const std::vector<double> at = own_fractions(target, pair.target);
     BandLoop loop{SeamSide::source, pair.source, {}, start};
     for (const LoopPoint& place : pair.on_target) {
         const std::size_t k = place.segment;
@@ -327,18 +374,9 @@ BandLoop source_band_loop(const Mesh& target, const LoopPair& pair, Index start)
 
 ThesisBand make_thesis_band(const Mesh& mesh, const BandLoop& loop, double width,
                             const Context& context) {
-    const std::vector<double> path = edge_distances(mesh, loop.vertices, width, context);
-    const MeshPart region = region_of(mesh, loop, width, path, context);
-    std::map<Index, Index> local;
-    for (std::size_t i = 0; i < region.vertex_map.size(); ++i) {
-        local.emplace(region.vertex_map[i], index_of(i));
-    }
-    std::vector<Index> local_loop;
-    for (const Index v : loop.vertices) {
-        if (local.count(v) == 0) refuse(loop.side, "is narrower than its faces; make it wider");
-        local_loop.push_back(local.at(v));
-    }
-    const Square square(region.mesh, loop, std::move(local_loop));
+    LocalRegion local = local_region(mesh, loop.side, loop.vertices, width, context);
+    const MeshPart& region = local.part;
+    const Square square(region.mesh, loop, std::move(local.loop));
     const std::vector<Vec2> at = square.solve(context);
     ThesisBand band;
     band.width = width;
@@ -349,7 +387,6 @@ ThesisBand make_thesis_band(const Mesh& mesh, const BandLoop& loop, double width
     for (std::size_t i = 0; i < at.size(); ++i) {
         band.chart.angle.push_back(fraction_of(origin + at[i].x()));
         band.chart.distance.push_back(width * at[i].y());
-        band.path.push_back(path[region.vertex_map[i]]);
     }
     for (const Index v : square.cut()) band.cut.push_back(region.vertex_map[v]);
     return band;

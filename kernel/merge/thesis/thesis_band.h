@@ -2,6 +2,7 @@
 /// unit square; private to kernel/merge.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -23,10 +24,23 @@ struct BandLoop {
     Index start = 0;
 };
 
-/// The two boundaries of a join; `start` is the place of a key in `pair.source`. The target's cut
-/// begins at the vertex nearest to where that key goes.
-BandLoop target_band_loop(const Mesh& target, const LoopPair& pair, Index start);
+/// The boundary of a target by its own arc length, and that of the source by where its vertices go
+/// on the target's; `start` is the place of a key in `loop` and in `pair.source`.
+BandLoop target_band_loop(const Mesh& target, std::vector<Index> loop, Index start);
 BandLoop source_band_loop(const Mesh& target, const LoopPair& pair, Index start);
+
+/// The faces of a transition region, and its far end in the direction of the surface that lies
+/// beyond: the longest of its outlines beside the loop.
+struct ThesisRegion {
+    std::vector<Index> faces, end;
+};
+/// Errors: as make_thesis_band.
+ThesisRegion make_thesis_region(const Mesh& mesh, SeamSide side, std::span<const Index> loop,
+                                double width, const Context& context);
+
+/// Where the region's cut that begins at a vertex of the loop ends at its far end.
+/// Errors: as make_thesis_band.
+Index cut_end(const Mesh& mesh, const BandLoop& loop, double width, const Context& context);
 
 /// A transition region over the unit square.
 struct ThesisBand {
@@ -35,8 +49,6 @@ struct ThesisBand {
     /// width. Triangles that fill a hole of the region are left out.
     BandChart chart;
     double width = 0.0;
-    /// For each vertex of the chart the length of the shortest path along edges to the loop.
-    std::vector<double> path;
     /// Vertices of the mesh along the cut, from the loop to the far end.
     std::vector<Index> cut;
 };

@@ -12,7 +12,6 @@
 #include "kernel/deform/system/rotation_system.h"
 #include "kernel/merge/blend/band_map.h"
 #include "kernel/merge/blend/band_system.h"
-#include "kernel/merge/blend/seam_core.h"
 #include "kernel/mesh/edit/extract.h"
 
 namespace lissom {
@@ -20,17 +19,6 @@ namespace {
 
 // Rings of the target around its regions that the energy's terms reach.
 constexpr Index kRings = 3;
-// Rings at a seam whose faces sewing may have changed, itself among them.
-constexpr Index kCore = 3;
-
-void require_widths(const ThesisJoin& join) {
-    for (const double width : {join.target_width, join.source_width}) {
-        if (width > 0.0 && std::isfinite(width)) continue;
-        throw Error(ErrorCode::invalid_argument,
-                    "the thesis's transition needs a region on both sides: give finite widths "
-                    "above 0 for source and target");
-    }
-}
 
 // Regions of two joins must not share a vertex.
 void require_disjoint(std::span<const ThesisBand> bands, Index vertices, const char* side) {
@@ -139,21 +127,6 @@ void remove_shear(const TransitionMesh& side, TransitionShape& shape, const Cont
     }
 }
 
-// Coordinates with those of the core interpolated: their curvatures and the normals, as vectors
-// that turn around the seam would come out too short.
-std::vector<Vec3> filled(const BandSystem& band, const SeamCore& core, std::vector<Vec3> values,
-                         const Context& context) {
-    std::vector<double> curvature(values.size(), 0.0);
-    for (Index i = 0; i < band.vertex_count(); ++i) {
-        if (band.is_row(i)) curvature[i] = values[i].dot(band.normal(i));
-    }
-    const std::vector<Vec3> relaxed = core.relaxed(band, curvature, context);
-    for (Index i = 0; i < band.vertex_count(); ++i) {
-        if (core.contains(i)) values[i] = relaxed[i];
-    }
-    return values;
-}
-
 std::vector<Vec3> coordinates_of(const BandSystem& band) {
     std::vector<Vec3> result(band.vertex_count(), Vec3::Zero());
     for (Index i = 0; i < band.vertex_count(); ++i) {
@@ -176,23 +149,50 @@ std::vector<Index> sewn_vertices(const Sewn& sewn, Index first, Index count) {
 
 }  // namespace
 
-ThesisMerge::ThesisMerge(const Mesh& target, const Mesh& source, std::vector<ThesisJoin> joins,
-                         double weight, const Context& context)
-    : target_(target), source_(source), joins_(std::move(joins)), weight_(weight) {
-    for (const ThesisJoin& join : joins_) {
-        require_widths(join);
-        target_bands_.push_back(make_thesis_band(
-            target, target_band_loop(target, join.pair, join.start), join.target_width, context));
+ThesisMerge::ThesisMerge(const OverlapTarget& whole, const Mesh& opened, const Mesh& source,
+                         std::vector<ThesisJoin> joins, double weight, const Context& context)
+    : whole_(whole),
+      target_(whole.mesh),
+      opened_(opened),
+      source_(source),
+      joins_(std::move(joins)),
+      weight_(weight) {
+    for (std::size_t j = 0; j < joins_.size(); ++j) {
+        const ThesisJoin& join = joins_[j];
+        target_bands_.push_back(
+            make_thesis_band(target_, target_band_loop(target_, whole.loops[j], join.target_start),
+                             whole.width, context));
+        turn_to_end(j);
         source_bands_.push_back(make_thesis_band(
-            source, source_band_loop(target, join.pair, join.start), join.source_width, context));
+            source, source_band_loop(opened, join.pair, join.start), join.source_width, context));
     }
-    require_disjoint(target_bands_, target.vertex_count(), "target");
+    require_disjoint(target_bands_, target_.vertex_count(), "target");
     require_disjoint(source_bands_, source.vertex_count(), "source");
     for (std::size_t j = 0; j < joins_.size(); ++j) {
-        of_target_.push_back(match(target_bands_[j], source_bands_[j], target, source));
-        of_source_.push_back(match(source_bands_[j], target_bands_[j], source, target));
+        of_target_.push_back(match(target_bands_[j], source_bands_[j], target_, source));
+        of_source_.push_back(match(source_bands_[j], target_bands_[j], source, target_));
         of_source_.back().report.width *= joins_[j].scale;
     }
+}
+
+// Angles count along the far end from where its loop begins, as those of the source do.
+void ThesisMerge::turn_to_end(std::size_t join) {
+    BandChart& chart = target_bands_[join].chart;
+    const std::vector<Index>& loop = joins_[join].pair.target;
+    std::vector<Vec3> points;
+    for (const Index v : loop) points.push_back(opened_.position(v));
+    const std::vector<double> fraction = loop_fractions(points);
+    const Index end = target_bands_[join].cut.back();
+    double turn = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        if (whole_.vertex_of[loop[k]] == end) turn = fraction[k];
+    }
+    for (std::size_t i = 0; i < chart.vertex.size(); ++i) {
+        if (chart.vertex[i] != end) continue;
+        turn -= chart.angle[i];
+        break;
+    }
+    for (double& angle : chart.angle) angle = angle + turn - std::floor(angle + turn);
 }
 
 // Vertices of open boundaries have no counterpart and are none.
@@ -204,14 +204,16 @@ ThesisMerge::Matches ThesisMerge::match(const ThesisBand& own, const ThesisBand&
     std::vector<char> seen(mesh.vertex_count(), 0);
     for (std::size_t i = 0; i < own.chart.vertex.size(); ++i) {
         const Index v = own.chart.vertex[i];
-        if (mesh.topology().is_boundary(v) || std::exchange(seen[v], 1)) continue;
+        const double height = own.chart.distance[i] / own.width;
+        if (height <= 0.0 || std::exchange(seen[v], 1)) continue;
         result.members.push_back(v);
-        const double angle = own.chart.angle[i], away = own.chart.distance[i] / own.width;
+        if (mesh.topology().is_boundary(v)) continue;
+        const double angle = own.chart.angle[i], away = 1.0 - height;
         std::optional<BandPlace> place = map.locate(angle, away);
         result.report.unmapped += place ? 0 : 1;
         if (!place) place = map.nearest(angle, away);
         if (!place || !leave_boundary(*place, across.topology())) continue;
-        result.matches.push_back({v, *place, 0.5 + 0.5 * own.path[i] / own.width});
+        result.matches.push_back({v, *place, height});
     }
     result.report.vertices = count_of(result.members);
     return result;
@@ -255,12 +257,19 @@ ThesisMerge::Frames ThesisMerge::frames(const Region& region, const Region& held
     return f;
 }
 
-std::vector<Index> ThesisMerge::members_of_target() const {
-    std::vector<Index> members;
-    for (const Matches& band : of_target_) {
-        members.insert(members.end(), band.members.begin(), band.members.end());
+// Those of the regions, their boundaries among them, but for the far ends.
+std::vector<Index> ThesisMerge::moving_of_target() const {
+    std::vector<char> stays(target_.vertex_count(), 0);
+    for (const std::vector<Index>& end : whole_.ends) {
+        for (const Index v : end) stays[v] = 1;
     }
-    return members;
+    std::vector<Index> moving;
+    for (const ThesisBand& band : target_bands_) {
+        for (const Index v : band.chart.vertex) {
+            if (!std::exchange(stays[v], 1)) moving.push_back(v);
+        }
+    }
+    return moving;
 }
 
 // Of the source what is held goes where the merge without transition took it, and what is outside
@@ -299,10 +308,10 @@ BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held
                                         const BoundaryDeformation& ordinary,
                                         const Context& context) {
     const Frames frame = frames(region, held, ordinary);
-    const Region moving(target_.shared_topology(), members_of_target());
+    const Region moving(target_.shared_topology(), moving_of_target());
     std::vector<Index> near = moving.vertices();
-    for (const ThesisJoin& join : joins_) {
-        near.insert(near.end(), join.pair.target.begin(), join.pair.target.end());
+    for (const std::vector<Index>& end : whole_.ends) {
+        near.insert(near.end(), end.begin(), end.end());
     }
     const Surroundings around(target_, near, context);
     const Mesh target_rest =
@@ -322,11 +331,8 @@ BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held
     remove_shear(target, solved.target, context);
     remove_shear(source, solved.source, context);
 
-    target_shift_.assign(target_.vertex_count(), Vec3::Zero());
-    for (const Index v : moving.vertices()) {
-        const Index i = around.local[v];
-        target_shift_[v] = frame.unit * (solved.target.positions[i] - target_rest.position(i));
-    }
+    for (Vec3& p : solved.target.positions) p = frame.position_back(p);
+    keep_coordinates(around.part.mesh, around.part.vertex_map, solved.target.positions, moving);
     BoundaryDeformation result = ordinary;
     for (std::size_t row = 0; row < region.vertices().size(); ++row) {
         const Index v = region.vertices()[row];
@@ -337,82 +343,94 @@ BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held
     return result;
 }
 
-// The bands of the sewn mesh: all vertices of the regions and seams, those of them that may move,
-// and its positions with the target's regions deformed.
-struct ThesisMerge::SewnBands {
-    std::vector<Index> target_at, source_at;
-    std::vector<Index> all, moving;
-    std::vector<Vec3> shape;
-};
-
-ThesisMerge::SewnBands ThesisMerge::sewn_bands(const Sewn& sewn) const {
-    SewnBands bands{sewn_vertices(sewn, 0, target_.vertex_count()),
-                    sewn_vertices(sewn, target_.vertex_count(), source_.vertex_count()),
-                    {},
-                    {},
-                    {sewn.mesh.positions().begin(), sewn.mesh.positions().end()}};
-    const auto add = [&](Index v, bool moves) {
-        if (v == kNoIndex) return;
-        bands.all.push_back(v);
-        if (moves) bands.moving.push_back(v);
-    };
-    for (const Index v : members_of_target()) {
-        const Index at = bands.target_at[v];
-        if (at != kNoIndex) bands.shape[at] += target_shift_[v];
-        add(at, true);
+// Of what moves, and of the far ends.
+void ThesisMerge::keep_coordinates(const Mesh& part, std::span<const Index> vertices,
+                                   std::span<const Vec3> positions, const Region& moving) {
+    std::vector<Index> moves;
+    for (Index i = 0; i < part.vertex_count(); ++i) {
+        if (moving.contains(vertices[i])) moves.push_back(i);
     }
-    for (const Matches& band : of_source_) {
-        for (const Index v : band.members) add(bands.source_at[v], !source_held_[v]);
+    const Region region(part.shared_topology(), std::move(moves));
+    const BandSystem band(region, region, positions);
+    coordinates_.assign(target_.vertex_count(), Vec3::Zero());
+    has_coordinates_.assign(target_.vertex_count(), 0);
+    for (Index i = 0; i < band.vertex_count(); ++i) {
+        const Index v = vertices[band.mesh_vertex(i)];
+        if (!band.is_row(i) || target_.topology().is_boundary(v)) continue;
+        coordinates_[v] = band.coordinates(i);
+        has_coordinates_[v] = 1;
     }
-    for (const std::vector<Index>& seam : sewn.seams) {
-        for (const Index v : seam) add(v, true);
-    }
-    return bands;
 }
 
-// Moves the coordinates of vertices of one side, given by local number, towards those of their
-// counterparts.
-void ThesisMerge::interpolate(std::span<const Match> matches, std::span<const Index> local,
-                              std::span<const Index> across, std::span<const Vec3> own,
-                              std::vector<Vec3>& wanted) {
-    for (const Match& m : matches) {
-        if (local[m.vertex] == kNoIndex) continue;
-        Vec3 other = Vec3::Zero();
-        double sum = 0.0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Index i = across[m.place.vertices[k]];
-            if (i == kNoIndex || !(m.place.weights[k] > 0.0)) continue;
-            other += m.place.weights[k] * own[i];
-            sum += m.place.weights[k];
-        }
-        if (!(sum > 0.0)) continue;
-        const Index i = local[m.vertex];
-        wanted[i] = m.fraction * own[i] + (1.0 - m.fraction) / sum * other;
+// The target's coordinates at one of its places.
+Vec3 ThesisMerge::seen_in_target(const BandPlace& place, const Vec3& otherwise) const {
+    Vec3 sum = Vec3::Zero();
+    double weights = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!has_coordinates_[place.vertices[k]]) continue;
+        sum += place.weights[k] * coordinates_[place.vertices[k]];
+        weights += place.weights[k];
     }
+    return weights > 0.0 ? Vec3(sum / weights) : otherwise;
+}
+
+// The vertices of the source's boundaries lie on far ends.
+void ThesisMerge::want_at_seams(const BandSystem& band, std::span<const Index> local,
+                                std::vector<Vec3>& wanted) const {
+    for (const ThesisJoin& join : joins_) {
+        const std::vector<Index>& loop = join.pair.target;
+        for (std::size_t k = 0; k < join.pair.source.size(); ++k) {
+            const Index i = local[join.pair.source[k]];
+            if (i == kNoIndex || !band.is_row(i)) continue;
+            const LoopPoint& at = join.pair.on_target[k];
+            const Index first = whole_.vertex_of[loop[at.segment]];
+            const Index next = whole_.vertex_of[loop[(at.segment + 1) % count_of(loop)]];
+            wanted[i] = seen_in_target({{first, next, next}, {1.0 - at.t, at.t, 0.0}}, wanted[i]);
+        }
+    }
+}
+
+void ThesisMerge::want_in_regions(std::span<const Index> local, std::vector<Vec3>& wanted) const {
+    for (const Matches& region : of_source_) {
+        for (const Match& m : region.matches) {
+            const Index i = local[m.vertex];
+            if (i == kNoIndex) continue;
+            const Vec3 other = seen_in_target(m.place, wanted[i]);
+            wanted[i] = m.fraction * wanted[i] + (1.0 - m.fraction) * other;
+        }
+    }
+}
+
+Region ThesisMerge::moving_in(const Sewn& sewn, std::span<const Index> source_at) const {
+    std::vector<Index> moving;
+    for (const Matches& region : of_source_) {
+        for (const Index v : region.members) {
+            const Index at = source_at[v];
+            if (source_held_[v] || at == kNoIndex || sewn.mesh.topology().is_boundary(at)) continue;
+            moving.push_back(at);
+        }
+    }
+    return {sewn.mesh.shared_topology(), std::move(moving)};
 }
 
 TransitionReport ThesisMerge::reconstruct(Sewn& sewn, const Context& context) const {
-    SewnBands bands = sewn_bands(sewn);
-    const Region read(sewn.mesh.shared_topology(), bands.all);
-    const Region moving(sewn.mesh.shared_topology(), bands.moving);
-    BandSystem band(read, moving, bands.shape);
-    std::vector<Index> local(bands.shape.size(), kNoIndex);
-    for (Index i = 0; i < band.vertex_count(); ++i) local[band.mesh_vertex(i)] = i;
-    for (std::vector<Index>* side : {&bands.target_at, &bands.source_at}) {
-        for (Index& v : *side) v = v == kNoIndex ? kNoIndex : local[v];
+    const std::vector<Index> source_at =
+        sewn_vertices(sewn, opened_.vertex_count(), source_.vertex_count());
+    const Region moving = moving_in(sewn, source_at);
+    BandSystem band(moving, moving, sewn.mesh.positions());
+    std::vector<Index> local_of(sewn.mesh.vertex_count(), kNoIndex), local(source_at.size());
+    for (Index i = 0; i < band.vertex_count(); ++i) local_of[band.mesh_vertex(i)] = i;
+    for (std::size_t v = 0; v < local.size(); ++v) {
+        local[v] = source_at[v] == kNoIndex ? kNoIndex : local_of[source_at[v]];
     }
-    const SeamCore core(band, seam_rings(sewn.mesh.topology(), sewn.seams, kCore), kCore);
-    const std::vector<Vec3> own = filled(band, core, coordinates_of(band), context);
-    std::vector<Vec3> wanted = own;
-    TransitionReport report;
-    for (std::size_t j = 0; j < joins_.size(); ++j) {
-        interpolate(of_target_[j].matches, bands.target_at, bands.source_at, own, wanted);
-        interpolate(of_source_[j].matches, bands.source_at, bands.target_at, own, wanted);
-        report.target.push_back(of_target_[j].report);
-        report.source.push_back(of_source_[j].report);
-    }
-    band.bend(filled(band, core, std::move(wanted), context), context);
+    std::vector<Vec3> wanted = coordinates_of(band);
+    want_at_seams(band, local, wanted);
+    want_in_regions(local, wanted);
+    band.bend(wanted, context);
     band.write(sewn.mesh);
+    TransitionReport report;
+    for (const Matches& region : of_target_) report.target.push_back(region.report);
+    for (const Matches& region : of_source_) report.source.push_back(region.report);
     report.moved = moving.vertices();
     return report;
 }

@@ -1,11 +1,14 @@
 /// Merging with the transition regions of the thesis, to the letter (section 3.3.3); private to
-/// kernel/merge. Both meshes deform at once, so that the Laplacian coordinates of one transition
-/// region draw near those of the other (E_T); after sewing both regions are reconstructed from
-/// linearly interpolated coordinates.
+/// kernel/merge. A region of the source comes to lie on one of the target: its boundary on the far
+/// end of the target's region, its far end on the target's boundary. Both deform at once, so that
+/// the Laplacian coordinates of one region draw near those of the other (E_T). As the solution does
+/// not bring them together exactly, one is kept: that of the source, sewn to what is left of the
+/// target and reconstructed from linearly interpolated coordinates.
 ///
-///     ThesisMerge thesis(target, source, joins, 0.1, context);
+///     const OpenedForOverlap opened = open_for_overlap(target, loops, width, context);
+///     ThesisMerge thesis(opened.whole, opened.mesh, source, joins, 0.1, context);
 ///     const BoundaryDeformation deformed = thesis.deform(region, held, ordinary, context);
-///     Sewn sewn = sew(target, moved_by(deformed), pairs);
+///     Sewn sewn = sew(opened.mesh, moved_by(deformed), pairs);
 ///     const TransitionReport report = thesis.reconstruct(sewn, context);
 #pragma once
 
@@ -17,10 +20,12 @@
 #include "kernel/core/index.h"
 #include "kernel/deform/boundary/boundary_deformer.h"
 #include "kernel/merge/blend/band_place.h"
+#include "kernel/merge/blend/band_system.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/loop_pair.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/merge/thesis/thesis_band.h"
+#include "kernel/merge/thesis/thesis_overlap.h"
 #include "kernel/merge/thesis/thesis_transition.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
@@ -28,28 +33,29 @@
 namespace lissom {
 
 struct ThesisJoin {
+    /// Of the source's boundary and the far end of the target's region.
     LoopPair pair;
-    /// Place in `pair.source` of a key, where the cuts begin.
-    Index start = 0;
+    /// Places in `pair.source` and in the target's boundary of a key, where the cuts begin.
+    Index start = 0, target_start = 0;
     /// How much the source grows at this join; 1 where it stays as it was put.
     double scale = 1.0;
-    /// Of the transition regions: along edges, each in its mesh's own unit.
-    double target_width = 0.0, source_width = 0.0;
+    /// Width of the source's region along edges, in its own unit.
+    double source_width = 0.0;
 };
 
-/// What the thesis leaves open is done as follows. The regions lie side by side at the seam, as the
-/// meshes do, so that a vertex corresponds to one as far from the seam on its other side. The
-/// target stays outside its regions, at its loops and at open boundaries. Both meshes are brought
-/// to one scale, by the mean of the joins' (geometric), and to unit size. Laplacian coordinates at
-/// open boundaries are not curvatures and take no part in E_T. Interpolation runs from one region's
-/// end to the other's over the lengths of paths in widths, with halves of both at the seam.
+/// What the thesis leaves open is done as follows. The target stays outside its regions, and its
+/// boundaries are as free as they. Both meshes are brought to one scale, by the mean of the joins'
+/// (geometric), and to unit size. Laplacian coordinates at open boundaries are not curvatures and
+/// take no part in E_T. Interpolation is linear in the height of the unit square: all of the
+/// target's at the source's boundary, all of the source's at its region's far end. Coordinates are
+/// those by area, as loops of unlike density have others without.
 class ThesisMerge {
   public:
     /// Parameterises the regions. The meshes must stay as they are meanwhile.
-    /// Errors: invalid_argument for widths that are not finite and above 0, where a region is no
-    /// band (see make_thesis_band), or where regions of two joins meet; memory_limit; cancelled.
-    ThesisMerge(const Mesh& target, const Mesh& source, std::vector<ThesisJoin> joins,
-                double weight, const Context& context);
+    /// Errors: invalid_argument where a region is no band (see make_thesis_band), or where regions
+    /// of two joins meet; memory_limit; cancelled.
+    ThesisMerge(const OverlapTarget& whole, const Mesh& opened, const Mesh& source,
+                std::vector<ThesisJoin> joins, double weight, const Context& context);
 
     /// Eq 2.8 with w_T E_T for both meshes, and the removal of shear (Eq 2.11). `region` of the
     /// source deforms, `held` of it keeps what `ordinary`, the merge without transition, gave it.
@@ -57,12 +63,11 @@ class ThesisMerge {
     BoundaryDeformation deform(const Region& region, const Region& held,
                                const BoundaryDeformation& ordinary, const Context& context);
 
-    /// After `deform` and sewing: the target's regions take their deformed shape, and then the
-    /// vertices of all regions and seams those positions whose Laplacian coordinates are nearest
-    /// to the interpolated ones, in the least squares weighted by area. Those of the seam and of
-    /// two rings beside it, which sewing has changed, are interpolated harmonically from what is
-    /// around. Everything else stays to the bit. "normal" attributes turn with the surface.
-    /// Errors: not_positive_definite; memory_limit; cancelled. The mesh is then unchanged.
+    /// After `deform` and sewing: the vertices of the source's regions, without its boundaries,
+    /// take those positions whose Laplacian coordinates are nearest to the interpolated ones, in
+    /// the least squares weighted by area; at the seam these are the target's. Everything else
+    /// stays to the bit. "normal" attributes turn with the surface. Errors: not_positive_definite;
+    /// memory_limit; cancelled. The mesh is then unchanged.
     TransitionReport reconstruct(Sewn& sewn, const Context& context) const;
 
     const std::vector<ThesisBand>& target_bands() const { return target_bands_; }
@@ -73,41 +78,47 @@ class ThesisMerge {
     struct Match {
         Index vertex = kNoIndex;
         BandPlace place;
-        /// Fraction of its own coordinates, one half to 1.
+        /// Fraction of its own coordinates, 0 to 1.
         double fraction = 0.5;
     };
-    /// The vertices of a region that are on no open boundary, and those of them with a place.
+    /// The vertices of a region without its boundary's, and those of them with a place.
     struct Matches {
         std::vector<Index> members;
         std::vector<Match> matches;
         TransitionBand report;
     };
     struct Frames;
-    struct SewnBands;
 
     static Matches match(const ThesisBand& own, const ThesisBand& other, const Mesh& mesh,
                          const Mesh& across);
-    static void interpolate(std::span<const Match> matches, std::span<const Index> local,
-                            std::span<const Index> across, std::span<const Vec3> own,
-                            std::vector<Vec3>& wanted);
-    std::vector<Index> members_of_target() const;
+    void turn_to_end(std::size_t join);
+    std::vector<Index> moving_of_target() const;
     Frames frames(const Region& region, const Region& held,
                   const BoundaryDeformation& ordinary) const;
     void hold_source(const Region& region, const BoundaryDeformation& ordinary, const Frames& frame,
                      TransitionMesh& source) const;
     void add_counterparts(std::span<const Index> target_local, TransitionMesh& target,
                           TransitionMesh& source) const;
-    SewnBands sewn_bands(const Sewn& sewn) const;
+    void keep_coordinates(const Mesh& part, std::span<const Index> vertices,
+                          std::span<const Vec3> positions, const Region& moving);
+    Vec3 seen_in_target(const BandPlace& place, const Vec3& otherwise) const;
+    void want_at_seams(const BandSystem& band, std::span<const Index> local,
+                       std::vector<Vec3>& wanted) const;
+    void want_in_regions(std::span<const Index> local, std::vector<Vec3>& wanted) const;
+    Region moving_in(const Sewn& sewn, std::span<const Index> source_at) const;
 
+    const OverlapTarget& whole_;
     const Mesh& target_;
+    const Mesh& opened_;
     const Mesh& source_;
     std::vector<ThesisJoin> joins_;
     double weight_;
     std::vector<ThesisBand> target_bands_, source_bands_;
     std::vector<Matches> of_target_, of_source_;
-    /// Of the last `deform`: how far each vertex of the target moved, and which of the source stay.
-    std::vector<Vec3> target_shift_;
-    std::vector<char> source_held_;
+    /// Of the last `deform`: the coordinates of the target's vertices where they are known, and
+    /// which of the source stay.
+    std::vector<Vec3> coordinates_;
+    std::vector<char> has_coordinates_, source_held_;
 };
 
 }  // namespace lissom

@@ -7,6 +7,7 @@
 #include "bindings/lua/reference/departures.h"
 #include "kernel/deform/options.h"
 #include "kernel/hair/hairstyle.h"
+#include "kernel/merge/merge.h"
 #include "tests/unit/bindings/lua_state.h"
 
 namespace lissom::lua {
@@ -38,6 +39,34 @@ Names of_deformation() {
     note(names, "transition", transition != t.transition);
     // A matter without an option.
     CHECK(scale_free != t.scale_free);
+    return names;
+}
+
+Names of_merge() {
+    const auto& [configuration, fixed, motion, reach, frames, seam, smooth, collar, source_width,
+                 target_width, suit, weight, trim, turn, refine, intersections, directions,
+                 thesis] = MergeOptions{};
+    const MergeOptions t = MergeOptions::literal(Configuration::fixed);
+    CHECK(MergeOptions::literal().configuration == configuration);
+    CHECK(MergeOptions::literal().turn_frames);
+    Names names;
+    note(names, "fixed", fixed.size() != t.fixed.size());
+    note(names, "features", motion != t.feature_motion);
+    note(names, "reach", reach != t.reach);
+    note(names, "frames", frames != t.turn_frames);
+    note(names, "seam", seam != t.seam);
+    note(names, "smooth", smooth != t.smooth);
+    note(names, "collar", collar != t.collar);
+    note(names, "transition",
+         suit != t.suit_transition || source_width != t.source_transition ||
+             target_width != t.target_transition);
+    note(names, "weight", weight != t.transition_weight);
+    note(names, "trim", trim != t.trim);
+    note(names, "greatest_turn", turn != t.greatest_turn);
+    note(names, "refine", refine != t.refine);
+    note(names, "intersections", intersections != t.find_intersections);
+    CHECK(directions.size() == t.directions.size());
+    CHECK(thesis != t.thesis);
     return names;
 }
 
@@ -170,6 +199,7 @@ Names told_of(const std::vector<Departure>& all, const std::string& call) {
 TEST_CASE("the table of what differs from the thesis names every option that fidelity changes") {
     const std::vector<Departure> all = departures(kernel_registry());
     CHECK(told_of(all, "lissom.deform") == of_deformation());
+    CHECK(told_of(all, "lissom.merge") == of_merge());
     CHECK(told_of(all, "lissom.hairstyle") == of_style());
     CHECK(told_of(all, "hairstyle:stream") == of_stream());
     CHECK(told_of(all, "hairstyle:dividing") == of_dividing());

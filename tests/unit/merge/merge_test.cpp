@@ -160,11 +160,28 @@ TEST_CASE("a fixed feature keeps its shape in the free configuration, and moves 
     MergeOptions options;
     const double bent =
         shape_difference(rest, positions_of(merged(source, pressed, options, keys)));
-    options.fixed = {feature};
-    const MergeResult kept = merged(source, pressed, options, keys);
     CHECK(bent > 1e-3);
-    CHECK(shape_difference(rest, positions_of(kept)) < 1e-9);
-    CHECK(kept.mesh.topology().is_closed());
+    options.fixed = {feature};
+    std::vector<std::vector<Vec3>> places;
+    for (const bool thesis : {false, true}) {
+        for (const FeatureMotion motion : {FeatureMotion::common, FeatureMotion::fitted}) {
+            options.thesis = thesis;
+            options.feature_motion = motion;
+            const MergeResult kept = merged(source, pressed, options, keys);
+            places.push_back(positions_of(kept));
+            CHECK(shape_difference(rest, places.back()) < 1e-9);
+            CHECK(kept.mesh.topology().is_closed());
+        }
+    }
+    // Two ways, near each other.
+    for (const std::size_t k : {0, 2}) {
+        double apart = 0.0;
+        for (std::size_t i = 0; i < rest.size(); ++i) {
+            apart = std::max(apart, (places[k][i] - places[k + 1][i]).norm());
+        }
+        CHECK(apart > 1e-6);
+        CHECK(apart < 0.3);
+    }
 }
 
 TEST_CASE("the fixed configuration leaves the source where it is, apart from its end") {
@@ -343,6 +360,107 @@ TEST_CASE("the thesis to the letter still gives one surface, whatever the unit")
     for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
         CHECK((result.mesh.position(v) - same.mesh.position(v)).norm() < 1e-7);
     }
+}
+
+TEST_CASE("section 3.3 to the letter: raw loops and a band, and nothing is mended") {
+    // A jagged loop of few vertices on a dense dome, so that everything would like to be mended.
+    Mesh source = bumpy_dome(24, 40);
+    const Path boundary = opening(source);
+    for (std::size_t k = 0; k < boundary.vertices().size(); k += 2) {
+        Vec3 p = source.position(boundary.vertices()[k]);
+        p.z() -= 0.12;
+        source.set_position(boundary.vertices()[k], p);
+    }
+    const Mesh target = bowl(57, 20);
+    const KeyPair key{boundary.vertices()[5], opening(target).vertices()[11]};
+    MergeOptions options = MergeOptions::literal();
+    options.smooth = 0;
+    const MergeResult result = merged(source, target, options, {key});
+    CHECK(result.report.seam.band_removed > 0);
+    CHECK(result.report.seam.collar_added == 0);
+    CHECK(result.report.seam.flipped == 0);
+    CHECK(!result.report.joins[0].source_trimmed);
+    CHECK(!result.report.joins[0].refined);
+    CHECK(result.mesh.topology().is_closed());
+    // The seam is the source's loop, each vertex where arc length has it on the target's.
+    REQUIRE(result.seams[0].size() == boundary.vertices().size());
+    const auto fractions = [](const Mesh& mesh, std::vector<Index> loop, Index first) {
+        std::rotate(loop.begin(), std::find(loop.begin(), loop.end(), first), loop.end());
+        std::vector<double> at{0.0};
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const Index next = loop[(k + 1) % loop.size()];
+            at.push_back(at.back() + (mesh.position(next) - mesh.position(loop[k])).norm());
+        }
+        return std::pair(loop, at);
+    };
+    std::vector<Index> against(boundary.vertices().rbegin(), boundary.vertices().rend());
+    const auto [from, s] = fractions(source, against, std::get<Index>(key.source));
+    const auto [to, t] = fractions(target, opening(target).vertices(), std::get<Index>(key.target));
+    for (std::size_t k = 0; k < from.size(); ++k) {
+        const double u = s[k] / s.back() * t.back();
+        std::size_t segment = 0;
+        while (segment + 1 < to.size() && t[segment + 1] <= u + 1e-12) ++segment;
+        const double part = (u - t[segment]) / (t[segment + 1] - t[segment]);
+        const Vec3 place = (1.0 - part) * target.position(to[segment]) +
+                           part * target.position(to[(segment + 1) % to.size()]);
+        double nearest = 1e9;
+        for (const Index v : result.seams[0]) {
+            nearest = std::min(nearest, (result.mesh.position(v) - place).norm());
+        }
+        CHECK(nearest < 1e-9);
+    }
+    // Options that are given count.
+    options.trim = options.collar = true;
+    options.seam = SeamKind::conform;
+    const MergeReport asked = merged(source, target, options, {key}).report;
+    CHECK(asked.seam.band_removed == 0);
+    CHECK(asked.joins[0].source_trimmed);
+}
+
+TEST_CASE("two coarse loops beside a dense source are split on both sides, and it lies firmer") {
+    // Rings that thin out to six vertices at the open end.
+    const auto dense_dome = [] {
+        Mesh dome = bumpy_dome(96, 60);
+        FaceList faces = dome.topology().faces();
+        std::vector<Vec3> points(dome.positions().begin(), dome.positions().end());
+        const Path rim = opening(dome);
+        const auto n = count_of(rim.vertices());
+        std::vector<Index> coarse;
+        for (Index k = 0; k < 6; ++k) {
+            coarse.push_back(count_of(points));
+            points.push_back(points[rim.vertices()[k * n / 6]] - Vec3(0, 0, 0.3));
+        }
+        for (Index k = 0; k < n; ++k) {
+            const Index a = rim.vertices()[k], b = rim.vertices()[(k + 1) % n];
+            const Index at = (6 * k + n / 2) / n, next = (6 * (k + 1) + n / 2) / n;
+            faces.add({b, a, coarse[at % 6]});
+            if (next != at) faces.add({b, coarse[at % 6], coarse[next % 6]});
+        }
+        return Mesh(std::move(points), faces);
+    };
+    const Mesh source = dense_dome(), target = bowl(6, 20);
+    Mesh shaken = target;
+    const Index corner = opening(target).vertices()[2];
+    shaken.set_position(corner, target.position(corner) + Vec3(0, 0, 0.2));
+    const std::vector<KeyPair> keys{{Vec3(1, 0, -0.3), Vec3(2, 0, 0)}};
+    const auto top = [&](const Mesh& below, const MergeOptions& options) {
+        const MergeResult result = merged(source, below, options, keys);
+        CHECK(result.mesh.topology().is_closed());
+        CHECK(result.report.joins[0].refined == options.refine);
+        CHECK(result.report.joins[0].target_refined == options.refine);
+        if (options.refine) {
+            CHECK(result.report.joins[0].source_size >= 24);
+            CHECK(result.report.joins[0].target_size >= 24);
+        }
+        const Index highest = above(source, 2.45).vertices().front();
+        return result.mesh.position(result_vertex(result, target.vertex_count(), highest));
+    };
+    MergeOptions options;
+    const double refined = (top(shaken, options) - top(target, options)).norm();
+    options.refine = false;
+    const double plain = (top(shaken, options) - top(target, options)).norm();
+    MESSAGE("the top moves by " << refined << ", and by " << plain << " without");
+    CHECK(refined < 0.8 * plain);
 }
 
 TEST_CASE("without keys a merge is the same wherever its source lies") {

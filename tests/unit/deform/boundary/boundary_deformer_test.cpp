@@ -60,6 +60,19 @@ std::vector<BoundaryValue> bent(const Mesh& mesh, const Region& held) {
     return values;
 }
 
+// Two patches of the bowl.
+std::vector<Region> two_bumps(const Mesh& mesh) {
+    std::vector<Region> result;
+    for (const Vec3& at : {Vec3(-0.4, 0.1, 0.0), Vec3(0.5, 0.2, 0.2)}) {
+        std::vector<Index> near;
+        for (Index v = 0; v < mesh.vertex_count(); ++v) {
+            if ((mesh.position(v) - at).norm() < 0.3) near.push_back(v);
+        }
+        result.emplace_back(mesh.shared_topology(), near);
+    }
+    return result;
+}
+
 double greatest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double greatest = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
@@ -75,7 +88,9 @@ TEST_CASE("a similarity of the boundary is one of the whole surface, in every fo
     BoundaryDeformOptions poisson, thesis = BoundaryDeformOptions::thesis();
     poisson.second = SecondSystem::poisson;
     poisson.size = SizeField::gradient;
-    for (const BoundaryDeformOptions& how : {BoundaryDeformOptions{}, poisson, thesis}) {
+    BoundaryDeformOptions featured = thesis;
+    featured.features = two_bumps(mesh);
+    for (const BoundaryDeformOptions& how : {BoundaryDeformOptions{}, poisson, thesis, featured}) {
         BoundaryDeformer deformer(mesh, all, held, how);
         const BoundaryDeformation result = deformer.solve(moved(mesh, held, map));
         std::vector<Vec3> expected;
@@ -176,4 +191,41 @@ TEST_CASE("what cannot be solved is refused by name") {
     CHECK_THROWS_AS(deformer.solve(values), Error);
     values.back() = {Vec3::Constant(std::nan("")), Mat3::Identity(), 1.0};
     CHECK_THROWS_AS(deformer.solve(values), Error);
+}
+
+TEST_CASE("features keep their shape, each by a similarity of its own that is an unknown") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    BoundaryDeformOptions ours, thesis = BoundaryDeformOptions::thesis();
+    for (BoundaryDeformOptions how : {ours, thesis}) {
+        BoundaryDeformer without(mesh, all, held, how);
+        how.features = two_bumps(mesh);
+        BoundaryDeformer deformer(mesh, all, held, how);
+        const BoundaryDeformation free = without.solve(bent(mesh, held));
+        const BoundaryDeformation result = deformer.solve(bent(mesh, held));
+        std::vector<Mat3> turns;
+        for (const Region& feature : how.features) {
+            const Index first = feature.vertices().front();
+            const Mat3& m = result.transforms[first];
+            for (const Index v : feature.vertices()) {
+                const Vec3 arm = m * (mesh.position(v) - mesh.position(first));
+                CHECK((result.positions[v] - result.positions[first] - arm).norm() < 1e-9);
+            }
+            const double scale = std::cbrt(m.determinant());
+            CHECK((m.transpose() * m - scale * scale * Mat3::Identity()).norm() < 1e-9);
+            // Near where the surface without features has it.
+            CHECK((result.positions[first] - free.positions[first]).norm() < 0.2);
+            CHECK((m - free.transforms[first]).norm() < 0.5);
+            turns.push_back(m / scale);
+        }
+        CHECK((turns[0] - turns[1]).norm() > 0.1);
+        // Values are new, factors are not.
+        const BoundaryDeformation again = deformer.solve(bent(mesh, held));
+        CHECK(greatest_difference(result.positions, again.positions) == 0.0);
+    }
+    BoundaryDeformOptions wrong;
+    wrong.features = {held};
+    CHECK_THROWS_AS(BoundaryDeformer(mesh, all, held, wrong), Error);
+    wrong.features = {two_bumps(mesh)[0], two_bumps(mesh)[0]};
+    CHECK_THROWS_AS(BoundaryDeformer(mesh, all, held, wrong), Error);
 }

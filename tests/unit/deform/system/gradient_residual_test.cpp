@@ -84,8 +84,7 @@ TEST_CASE("the residual of the energy is that of the matrix") {
     std::vector<Vec3> x;
     std::vector<Mat3> m;
     bowl.solve(x, m);
-    const GradientResidual residual(bowl.work, bowl.gradients, bowl.known,
-                                    bowl.options.coherence_weight);
+    const GradientResidual residual(bowl.work, bowl.gradients, bowl.known, bowl.options);
     const std::vector<Vec3> at_solution = residual.find(x, m);
     // A step off the solution comes back by the matrix.
     const std::vector<Index>& free = bowl.system.free_vertices();

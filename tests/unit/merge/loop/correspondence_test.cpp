@@ -121,3 +121,22 @@ TEST_CASE("keys that contradict each other are refused by name") {
     CHECK(error_of(source, target, {{Index{3}, Index{0}}, {Index{3}, Index{10}}}));
     CHECK(error_of(source, target, {{Index{3}, Index{7}}, {Index{9}, Index{7}}}));
 }
+
+TEST_CASE("without snapping every vertex goes to its own place; those that are one still meet") {
+    const Mesh a = round_tube(60, 3), b = round_tube(61, 3);
+    const Loop source = ring(a, 60), target = ring(b, 61);
+    const auto keys = key_parameters(source, target, std::vector<KeyPair>{{Index{0}, Index{0}}});
+    const LoopPair snapped = corresponding(source, target, keys);
+    const LoopPair raw = corresponding(source, target, keys, false);
+    CHECK(raw.on_target[0] == LoopPoint{0, 0.0});
+    CHECK(raw.on_source[0] == LoopPoint{0, 0.0});
+    Index met = 0;
+    for (Index i = 0; i < 60; ++i) {
+        met += snapped.on_target[i].t == 0.0 ? 1 : 0;
+        const double u = target.parameter_of(raw.on_target[i]);
+        CHECK(u == doctest::Approx(source.parameters()[i]).epsilon(1e-9));
+    }
+    CHECK(met > 20);
+    check_order(target, raw.on_target);
+    check_order(source, raw.on_source);
+}

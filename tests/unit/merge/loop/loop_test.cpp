@@ -9,6 +9,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/merge/loop/loop_values.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "tests/unit/merge/loop/loop_shapes.h"
 
 using namespace lissom;
@@ -207,4 +208,41 @@ TEST_CASE("values at a boundary are those of the similarity that moved it") {
             CHECK(value.scale == doctest::Approx(2.5).epsilon(1e-9));
         }
     }
+}
+
+TEST_CASE("a raw loop is measured as it is: its own arc length, and the normals of its faces") {
+    const Mesh mesh = tube(90, 4, [](double angle, double height) {
+        // A row of teeth, on a cone that curves.
+        const double tooth = height == 0.0 ? 0.02 * std::cos(45.0 * angle) : 0.0;
+        const double r = 1.0 + 0.3 * height * height + tooth;
+        return Vec3(r * std::cos(angle), 0.7 * r * std::sin(angle), height + tooth);
+    });
+    const Loop raw(mesh, ascending(90), LoopMeasure::raw), robust(mesh, ascending(90));
+    double arc = 0.0, apart = 0.0;
+    for (Index k = 0; k < 90; ++k) {
+        CHECK(raw.parameters()[k] == doctest::Approx(arc / raw.length()));
+        apart = std::max(apart, std::abs(raw.parameters()[k] - robust.parameters()[k]));
+        arc += (mesh.position((k + 1) % 90) - mesh.position(k)).norm();
+        // Each face counts by its angle, and there are no others.
+        Vec3 normal = Vec3::Zero();
+        const Triangulation around =
+            triangulate_faces(mesh.topology(), mesh.positions(), mesh.topology().faces_around(k));
+        for (const Triangle& t : around.triangles) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                if (t[c] != k) continue;
+                const Vec3 a = mesh.position(t[(c + 1) % 3]) - mesh.position(k);
+                const Vec3 b = mesh.position(t[(c + 2) % 3]) - mesh.position(k);
+                normal += std::atan2(a.cross(b).norm(), a.dot(b)) * a.cross(b).normalized();
+            }
+        }
+        const Mat3 frame = raw.frames(0.0)[k];
+        const Vec3 tangent = frame.col(0);
+        normal -= normal.dot(tangent) * tangent;
+        CHECK((frame.col(1) - normal.normalized()).norm() < 1e-9);
+    }
+    CHECK(apart > 1e-4);
+    CHECK((raw.frames(0.0)[7].col(1) - robust.frames(0.0)[7].col(1)).norm() > 1e-3);
+    const Loop same = raw.renumbered(std::vector<Index>(90, 5));
+    CHECK(same.vertices().front() == 5);
+    CHECK(same.parameters() == raw.parameters());
 }

@@ -470,3 +470,35 @@ TEST_CASE("the turn of a boundary is told where it is not trimmed too") {
     CHECK(result.report.joins[0].target_turn == doctest::Approx(15.0 * kStepDegree));
     CHECK_FALSE(result.report.joins[0].source_trimmed);
 }
+
+TEST_CASE("steps without a guard are made whole, and as many as are asked for") {
+    // A fan between a dense and a sparse loop folds at once.
+    const SewScene scene = bent_tubes(8, 300);
+    SewOptions guarded;
+    guarded.flip = false;
+    guarded.smooth = 4;
+    SewOptions plain = guarded;
+    plain.guard = false;
+    const Sewn kept = sewn_tubes(scene, guarded), folded = sewn_tubes(scene, plain);
+    CHECK(folded.report.smoothed == 4);
+    CHECK(folded.report.after.greatest_dihedral > 2.0 * kept.report.after.greatest_dihedral);
+    // One step: half of the way to the mean of the neighbours on the seam, a quarter beside it.
+    plain.smooth = 0;
+    const Mesh before = sewn_tubes(scene, plain).mesh;
+    plain.smooth = 1;
+    const Sewn after = sewn_tubes(scene, plain);
+    const std::set<Index> on(after.seams[0].begin(), after.seams[0].end());
+    Index moved = 0;
+    for (Index v = 0; v < before.vertex_count(); ++v) {
+        if (after.mesh.position(v) == before.position(v)) continue;
+        Vec3 mean = Vec3::Zero();
+        for (const Index n : before.topology().neighbors(v)) {
+            mean += before.position(n) / before.topology().valence(v);
+        }
+        const Vec3 to =
+            before.position(v) + (on.contains(v) ? 0.5 : 0.25) * (mean - before.position(v));
+        CHECK((after.mesh.position(v) - to).norm() < 1e-12);
+        ++moved;
+    }
+    CHECK(moved > 300);
+}

@@ -84,39 +84,66 @@ TEST_CASE("two tubes that are one tube stay as they are") {
         CHECK(side[0].unmapped == 0);
         CHECK(side[0].flipped == 0);
     }
+    double highest = -1.0;
     for (const Vec3& p : result.mesh.positions()) {
         CHECK(std::hypot(p.x(), p.z()) == Approx(1.0).epsilon(1e-6));
+        highest = std::max(highest, p.y());
     }
+    // The source begins where the target's region ends.
+    CHECK(highest == Approx(2.0 - 0.875).epsilon(1e-6));
 }
 
-TEST_CASE("details fade into the target, and what is outside the regions stays to the bit") {
+TEST_CASE("regions overlap: the source's is kept, and its details fade into the target's") {
     Tubes tubes(0.1);
     const MergeResult result = tubes.merged();
     tubes.options.source_transition = tubes.options.target_transition = 0.0;
     const MergeResult without = tubes.merged();
     CHECK(result.mesh.topology().boundary_loops().size() == 2);
     CHECK(result.mesh.topology().component_count() == 1);
-    CHECK(result.mesh.face_count() == without.mesh.face_count());
-    // None below, much at the seam and ever less towards the region's end.
-    CHECK(roughness(tubes, without, -0.95, -0.05) < 1e-7);
-    double last = 0.3 * roughness(tubes, without, 0.05, 0.95);
-    CHECK(roughness(tubes, result, -0.2, -0.05) > last);
-    last = roughness(tubes, result, 0.05, 0.2);
-    for (const double y : {-0.125, -0.25, -0.375, -0.5, -0.625, -0.75, -0.875}) {
-        const double now = roughness(tubes, result, y - 0.05, y + 0.05);
-        CHECK(now < last);
-        last = now;
+    CHECK(result.mesh.face_count() == without.mesh.face_count() - 7 * 32);
+    CHECK(result.report.transition.moved.size() == 7 * 32);
+    // The plain surface at the seam, ever more of the bumps towards the region's other end.
+    double last = 0.0;
+    for (const double y : {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875}) {
+        const double share = roughness(tubes, result, y - 0.05, y + 0.05) /
+                             roughness(tubes, without, y - 0.05, y + 0.05);
+        CAPTURE(y);
+        CHECK(share > last - 0.02);
+        last = share;
     }
-    CHECK(roughness(tubes, result, 0.55, 0.95) < 0.99 * roughness(tubes, without, 0.55, 0.95));
+    CHECK(roughness(tubes, result, 0.05, 0.2) < 0.6 * roughness(tubes, without, 0.05, 0.2));
+    CHECK(last > 0.7);
+    // The target stays to the bit.
     Index kept = 0;
     for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
         const Index from = result.provenance.vertices.main_source(v);
         if (from >= tubes.target.vertex_count()) continue;
-        if (tubes.target.position(from).y() > -kWidth) continue;
+        CHECK(tubes.target.position(from).y() < -0.87);
+        if (tubes.target.position(from).y() > -0.9) continue;
         CHECK(result.mesh.position(v) == tubes.target.position(from));
         ++kept;
     }
     CHECK(kept == 9 * 32);
+}
+
+TEST_CASE("keys on the target's boundary go to the far end along the cut, whatever they are") {
+    Tubes tubes(0.1);
+    const Mesh plain = tubes.merged().mesh;
+    const KeyPair given = tubes.join.keys[0];
+    const Vec3 place = tubes.target.position(std::get<Index>(given.target));
+    tubes.join.keys = {{given.source, place}};
+    CHECK(test::greatest_move(tubes.merged().mesh, plain) < 1e-9);
+    // A quarter of a turn on turns the source.
+    const Index quarter = test::farthest(tubes.target, tubes.join.target, Vec3::UnitZ());
+    tubes.join.keys = {{given.source, quarter}};
+    const MergeResult turned = tubes.merged();
+    const Index first = tubes.target.vertex_count() + std::get<Index>(given.source);
+    for (Index v = 0; v < turned.mesh.vertex_count(); ++v) {
+        for (const auto& from : turned.provenance.vertices[v]) {
+            if (from.element != first) continue;
+            CHECK((turned.mesh.position(v) - Vec3(0.0, -0.875, 1.0)).norm() < 1e-6);
+        }
+    }
 }
 
 TEST_CASE("the weight counts") {
@@ -160,7 +187,7 @@ TEST_CASE("in the fixed configuration what is held stays") {
         ++held;
     }
     CHECK(held == 4 * 32);
-    CHECK(roughness(tubes, result, -0.9, -0.1) > 1e-3);
+    CHECK(roughness(tubes, result, 0.3, 0.9) > 1e-3);
 }
 
 TEST_CASE("a source between two targets has a region at either end, and they must not meet") {
@@ -189,9 +216,9 @@ TEST_CASE("a source between two targets has a region at either end, and they mus
 
 TEST_CASE("it is another transition than the robust one, and needs regions that are bands") {
     Tubes tubes(0.1);
-    const Mesh thesis = tubes.merged().mesh;
+    const Index thesis = tubes.merged().mesh.face_count();
     tubes.options.thesis = false;
-    CHECK(test::greatest_move(tubes.merged().mesh, thesis) > 1e-3);
+    CHECK(tubes.merged().mesh.face_count() > thesis);
     tubes.options.thesis = true;
     const auto refuses = [&](double source, double target) {
         tubes.options.source_transition = source;
@@ -227,12 +254,12 @@ TEST_CASE(
         options.target_transition = 0.9 * radius;
         options.source_transition = 0.9 * radius / before.report.joins[0].scale;
         const MergeResult result = Merge(source->mesh, targets, {join}, options).solve();
-        CHECK(result.mesh.face_count() == before.mesh.face_count());
+        CHECK(result.mesh.face_count() < before.mesh.face_count());
         CHECK(result.mesh.topology().boundary_loops().size() ==
               before.mesh.topology().boundary_loops().size());
         CHECK(result.report.seam.after.greatest_dihedral < (pair.dihedral + 2.0) * kPi / 180.0);
         CHECK(result.report.seam.after.greatest_near <
-              before.report.seam.after.greatest_near + 3.0 * kPi / 180.0);
+              before.report.seam.after.greatest_near + 5.0 * kPi / 180.0);
         CHECK(result.report.transition.target[0].unmapped == 0);
         CHECK(result.report.transition.source[0].unmapped == 0);
         ++pairs;
