@@ -19,6 +19,17 @@ std::size_t picture_bytes(const RenderOptions& options) {
     return 4 * at(options.width) * options.height;
 }
 
+double least_opacity(const Snapshot& snapshot) {
+    double least = 1.0;
+    for (const DrawnMesh& drawn : snapshot.meshes) {
+        const double opacity = drawn.style.opacity;
+        require(opacity >= 0.0 && opacity <= 1.0, "the opacity of a mesh must be 0 to 1",
+                ErrorCode::out_of_range);
+        least = std::min(least, opacity);
+    }
+    return least;
+}
+
 std::string text_of(GLenum name) {
     const GLubyte* const text = glGetString(name);
     return text ? reinterpret_cast<const char*>(text) : "";
@@ -66,6 +77,18 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Image Renderer::render(const Snapshot& snapshot, const Camera& camera, const RenderOptions& options,
                        const Context& context) {
     require_valid(options);
+    const double opacity = least_opacity(snapshot);
+    if (opacity == 1.0) return render_solid(snapshot, camera, options, context);
+    Snapshot solid = snapshot, open = snapshot;
+    solid.revision = open.revision = 0;
+    for (DrawnMesh& drawn : solid.meshes) drawn.style.opacity = 1.0;
+    std::erase_if(open.meshes, [](const DrawnMesh& drawn) { return drawn.style.opacity < 1.0; });
+    const Image behind = render_solid(open, camera, options, context);
+    return mixed(behind, render_solid(solid, camera, options, context), opacity);
+}
+
+Image Renderer::render_solid(const Snapshot& snapshot, const Camera& camera,
+                             const RenderOptions& options, const Context& context) {
     Progress progress(context, "render");
     const MemoryCharge charge = context.charge(picture_bytes(options), "the picture");
     const PlatformScope scope(*state_->platform);

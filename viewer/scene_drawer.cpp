@@ -174,8 +174,23 @@ void SceneDrawer::draw_surfaces(const Tile& tile) const {
         const double wire_width = style.wire ? style.wire_width : 0.0;
         program.set("u_wire_width", static_cast<float>(wire_width * options_.supersample));
         program.set("u_wire_color", linear(style.wire_color));
-        surface->draw();
+        draw_through(program, *surface);
     }
+}
+
+// Of a surface that is seen through, only a share of the samples or pixels is drawn, always the
+// same: so what is behind it needs no order, and its own inside is not seen.
+void SceneDrawer::draw_through(const gl::Program& program, const GpuSurface& surface) const {
+    const double opacity = surface.drawn.style.opacity;
+    const bool has_samples = options_.samples > 1;
+    program.set("u_opacity", static_cast<float>(opacity));
+    program.set("u_dithered", opacity < 1.0 && !has_samples ? 1 : 0);
+    if (opacity == 1.0 || !has_samples) return surface.draw();
+    glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+    glEnable(GL_SAMPLE_ALPHA_TO_ONE);
+    surface.draw();
+    glDisable(GL_SAMPLE_ALPHA_TO_ONE);
+    glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
 // Lines don't write depths, so that their soft edges hide nothing.

@@ -55,6 +55,7 @@ class SceneDrawer {
   private:
     gl::Framebuffer compute_occlusion() const;
     void draw_surfaces(const Tile& tile) const;
+    void draw_through(const gl::Program& program, const GpuSurface& surface) const;
     void draw_marks(const Tile& tile) const;
     void use_for_marks(const gl::Program& program, const Tile& tile) const;
     void finish(const DrawTarget& target, const gl::Program& output) const;

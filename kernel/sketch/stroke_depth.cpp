@@ -23,18 +23,21 @@ void require_points(std::span<const Vec2> stroke) {
         throw Error(ErrorCode::invalid_argument, "a stroke needs at least one point");
 }
 
-// What is seen at a pixel: the depth of the first surface there, and whether it may be drawn on.
+// What is seen at a pixel: the depth of the first surface there, whether it may be drawn on, and
+// whether it is seen from behind. A part of a surface, such as hair grows on, has one side alone.
 struct Seen {
     double depth = kNothing;
-    bool counts = false;
+    bool counts = false, from_behind = false;
 };
 
 Seen look(const Vec2& pixel, const View& view, const DrawnSurface& surface) {
     const Ray ray = view.ray(pixel);
     const auto hit = surface.tree.pick(ray.origin, ray.direction);
     if (!hit) return {};
+    const bool all = surface.faces.empty();
+    const bool from_behind = !all && hit->normal.dot(ray.direction) > 0.0;
     return {view.camera.to_camera(hit->position).z(),
-            surface.faces.empty() || surface.faces[hit->face] != 0};
+            all || (surface.faces[hit->face] != 0 && !from_behind), from_behind};
 }
 
 std::vector<Seen> look_along(std::span<const Vec2> stroke, const View& view,
@@ -49,7 +52,10 @@ std::vector<Seen> look_along(std::span<const Vec2> stroke, const View& view,
 
 [[noreturn]] void refuse_start(const Seen& start) {
     throw Error(ErrorCode::invalid_argument,
-                std::isfinite(start.depth)
+                start.from_behind
+                    ? "the stroke starts on the inside of the surface: the camera is in the head, "
+                      "or looks through a hole; move it out, and start on the outside"
+                : std::isfinite(start.depth)
                     ? "the stroke starts on a part that is not to be drawn on; start on the marked "
                       "region, or look at it from another side"
                     : "the stroke starts beside the surface; start it on the surface");

@@ -1,10 +1,13 @@
 --- Cuts a mesh in two. Both parts become objects of the scene; the mesh itself stays there, hidden.
 --
 -- by line: drag a line across the mesh; it is cut by the plane that is seen as that line.
+-- by draw: draw a line across the mesh, from beside it to beside it, and it is cut through; or on it, back to
+-- where the line began.
 -- by path: click points around the mesh, from all sides, and press Enter: it is cut along a smooth line near
 -- the shortest path through them. Backspace takes the last point back.
 -- by region: Enter cuts along the outline of what is selected.
 local lissom = require "lissom"
+local drawn_line = require "tools.support.drawn_line"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
 local vectors = require "vectors"
@@ -65,15 +68,17 @@ local function forget(self) self.mesh, self.points, self.lines = nil, {}, nil en
 
 return lissom.tool{
     name = "cut",
-    help = "Drag a line across the mesh; by path: click around it, then Enter; by region: Enter.",
+    help = "Drag a line across the mesh; by draw: any line across it, or round on it; by path: click around "
+        .. "it, then Enter; by region: Enter.",
     params = {
-        by = { type = "choice", default = "line", choices = { "line", "path", "region" } },
+        by = { type = "choice", default = "line", choices = { "line", "draw", "path", "region" } },
         all = { type = "boolean", default = false,
             help = "By line: cuts wherever the plane meets the mesh, not only at the line's middle." },
     },
     points = {},
     press = function(self, ev)
         self.edge = nil
+        if self.params.by == "draw" then self.line = { { ev.x, ev.y } } end
         local hit = self.params.by == "path" and ev:pick{ kinds = { "vertex", "face" } }
         if not hit or (clicked(self, ev.scene) and not rawequal(hit.mesh, self.mesh)) then return end
         for _, vertex in ipairs(self.points) do
@@ -83,6 +88,7 @@ return lissom.tool{
         table.insert(self.points, hit.vertex)
     end,
     drag = function(self, ev)
+        if self.params.by == "draw" and self.line then table.insert(self.line, { ev.x, ev.y }) end
         if self.params.by ~= "line" then return end
         self.line, self.lines = { ev.start, { ev.x, ev.y } }, nil
         local one, plane = plane_of(self, ev)
@@ -91,7 +97,14 @@ return lissom.tool{
         if found and lines then self.lines = { place = one.place, list = lines } end
     end,
     release = function(self, ev)
+        local drawn = self.line
         self.line, self.lines = nil, nil
+        if self.params.by == "draw" and drawn then
+            local pixels = ev.camera:stroke{ points = drawn, size = ev.size, spacing = 6 }.pixels
+            if #pixels < 3 then return end
+            local line, one = drawn_line.loop(ev, pixels)
+            cut(self, ev.scene, one, { path = line })
+        end
         if self.params.by ~= "line" then return end
         local one, plane = plane_of(self, ev)
         if one then cut(self, ev.scene, one, { plane = plane }) end

@@ -10,10 +10,11 @@ local vectors = require "vectors"
 
 local colors = { length = "#40c060", density = "#4080e0", parting = "#e04038" }
 
--- The place on the head under the cursor; nil beside it.
+-- The place on the outside of the head under the cursor; nil beside it.
 local function under(ev, one)
-    local hit = one.scalp:head():pick(hair.camera(ev.camera, one):ray(ev.x, ev.y, ev.size))
-    return hit and hit.position
+    local origin, direction = hair.camera(ev.camera, one):ray(ev.x, ev.y, ev.size)
+    local hit = one.scalp:head():pick(origin, direction)
+    return hit and vectors.dot(hit.normal, direction) < 0 and hit.position or nil
 end
 
 local function radius_in(one, params) return params.radius * one.scalp:scale() end

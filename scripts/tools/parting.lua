@@ -6,7 +6,7 @@
 -- it is a parting wherever it begins. Click a parting, or press tab, to choose it; drag its handles: how far
 -- off the crest of the hair stands (sigma), how high it is (height), and how firmly both sides are kept apart
 -- (separation); one whose way is seen end-on is left out. Backspace takes its tilt strokes away, delete the
--- parting.
+-- parting. With `symmetric` each parting beside the middle has a mirror image, which does the same.
 local curve_handles = require "tools.support.curve_handles"
 local curve_tool = require "tools.support.curve_tool"
 local hair = require "tools.support.hair"
@@ -34,14 +34,16 @@ function slides.sigma(length) return math.max(0.003, math.min(0.04, length)) end
 function slides.height(length) return math.max(0, math.min(0.04, (length - rise) / 0.39)) end
 function slides.separation(length) return math.max(0, math.min(1, (length - rise) / firm)) end
 
+local function create(self, one, points)
+    local options = curve_handles.options(self.params, "parting")
+    options.points, options.name = points, "parting"
+    return one.style:dividing(options)
+end
+
 local function readings(self, ev, one, curve)
     local camera = hair.camera(ev.camera, one)
     local line = camera:stroke{ points = self.pixels, on = one.scalp, depth = "last", size = ev.size }.points
-    local list = { { name = "parting", act = function()
-        local options = curve_handles.options(self.params, "parting")
-        options.points, options.name = line, "parting"
-        return one.style:dividing(options)
-    end } }
+    local list = { { name = "parting", act = function() return create(self, one, line) end } }
     local near = curve and hair.distance(curve:course(), line[1]) < beside * one.scalp:scale()
     if near and not ev.shift then
         table.insert(list, 1, { name = "tilt", act = function() curve:add_hint(line) end })
@@ -86,6 +88,7 @@ return curve_tool.make{
     handles = handles,
     slide = function(curve, held, length) curve:set{ [held.option] = slides[held.option](length) } end,
     readings = readings,
+    create = create,
     remember = function(curve) return curve:hints() end,
     put_back = function(curve, hints)
         curve:remove_hints()

@@ -5,16 +5,21 @@
 -- tool stream: seen from aside, a quarter turn away (v: from this view on), its depth. What a stroke is taken
 -- for stands at the cursor; Alt takes it otherwise, and with shift it is a spine wherever it begins. Click a
 -- tail, or press tab, to choose it; drag its handles: from where to where hair is drawn into the tie, and how
--- firmly. Delete takes it away, backspace what was drawn round and along it.
+-- firmly. Delete takes it away, backspace what was drawn round and along it. With `symmetric` each tail
+-- beside the middle has a mirror image, which does the same.
 local curve_handles = require "tools.support.curve_handles"
 local curve_tool = require "tools.support.curve_tool"
 local hair = require "tools.support.hair"
 local tail = require "tools.support.tail"
 
-local function new_tail(self, ev, one)
+local function create(self, one, spine)
     local options = curve_handles.options(self.params, "ponytail")
-    options.spine, options.name = tail.spine(ev, one, self.pixels), "ponytail"
-    local curve = one.style:ponytail(options)
+    options.spine, options.name = spine, "ponytail"
+    return one.style:ponytail(options)
+end
+
+local function new_tail(self, ev, one)
+    local curve = create(self, one, tail.spine(ev, one, self.pixels))
     self.state.viewpoint, self.advice = hair.camera(ev.camera, one), hair.guessed
     return curve
 end
@@ -42,6 +47,7 @@ return curve_tool.make{
     handles = tail.handles,
     slide = tail.drag,
     readings = readings,
+    create = create,
     remember = function(curve)
         local profiles = curve:profiles()
         return { spine = curve:points(), section = curve:section(), profiles = profiles }

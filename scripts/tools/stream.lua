@@ -49,7 +49,7 @@ return require("lissom").tool{
     params = hair.with_params{
         by = { type = "choice", default = "draw", choices = { "draw", "pull", "rub" } },
         stop = { type = "boolean", default = true, help = "Hair ends where the streams do that are drawn." },
-        symmetric = { type = "boolean", default = false, help = "The other side of the head follows." },
+        symmetric = hair.symmetric,
         surface = { type = "choice", default = "auto", choices = { "auto", "strip", "ruled" },
             help = "Of hints: strip changes how a stream looks, ruled its depth, seen from aside." },
         reach = { type = "number", default = 0.05, min = 0.005, max = 0.3, unit = "metres",
@@ -61,7 +61,7 @@ return require("lissom").tool{
         self.advice = nil
         local under, near = hair.curve_at(ev, one, { kind = "stream", preferred = chosen(self, one) })
         self.under, self.near, self.target = under, near, under or chosen(self, one)
-        self.pixels, self.turn, self.alt = { { ev.x, ev.y } }, 0, ev.alt
+        hair.begin_stroke(self, ev)
         if self.params.by ~= "draw" and not under and self.target then
             near = hair.nearest(self.target:course(), hair.camera(ev.camera, one), ev.size, ev.x, ev.y)
             self.near = near
@@ -79,10 +79,7 @@ return require("lissom").tool{
     drag = function(self, ev)
         local one = self.pixels and hair.find(ev.scene, self.params)
         if not one then return end
-        if ev.alt and not self.alt then self.turn = self.turn + 1 end
-        self.alt = ev.alt
-        table.insert(self.pixels, { ev.x, ev.y })
-        if #self.pixels < 3 or hair.is_click(self.pixels) then return end
+        if not hair.goes_on(self, ev) or #self.pixels < 3 or hair.is_click(self.pixels) then return end
         stream_hands.follow(self, one, ev, draft_share)
     end,
     release = function(self, ev)

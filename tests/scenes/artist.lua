@@ -188,6 +188,34 @@ function artist:ring(center, wide, high, share)
     return self:pixels(list)
 end
 
+-- ---- Streams
+
+--- How far a curve is from the line that it was drawn after, but for the root, in metres of an average head:
+-- the root of the mean square.
+function artist:off(curve, route)
+    local sum, course, scale = 0, curve:points(), self.style:scalp():scale()
+    for i = 2, #route do sum = sum + (hair.distance(course, route[i]) / scale) ^ 2 end
+    return math.sqrt(sum / (#route - 1))
+end
+
+--- Draws a stream as it is seen from one side, and where there is a second one again from there:
+-- { azimuth, elevation } each. Returns how far off it is then, and how far it was before.
+function artist:stream(places, first, second)
+    local points, before = self.route(places), #self.style:curves()
+    self:look(first[1], first[2]):stroke(points)
+    local curve = self.style:curves()[before + 1]
+    expect.truthy(curve)
+    local guessed = self:off(curve, points)
+    if not second then return guessed, guessed end
+    self:look(second[1], second[2])
+    local seen = self:seen(points)
+    seen[1] = self:seen{ curve:course()[1] }[1]
+    self:choose(curve):pixels(seen)
+    self.host:click{ x = 5, y = 5 }
+    expect.equal(#self.style:curves(), before + (self.hand.tool.params.symmetric and 2 or 1))
+    return self:off(curve, points), guessed
+end
+
 --- Says how many strokes it took, and replays what was recorded in a scene of `fresh` objects: to one hash.
 function artist:done(name, fresh)
     print(string.format("%-18s %2d strokes, %2d clicks, %4.1f s by hand", name, self.strokes,

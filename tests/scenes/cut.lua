@@ -172,3 +172,53 @@ test("far from the origin, with a hole and 40,000 faces", function()
     expect.equal(#second:boundaries(), 2)
     expect.near(math.max(first:bounds().min[2], second:bounds().min[2]), far + 1, 1e-6)
 end)
+
+-- Drags over points of a bow across the bar, from beside it to beside it.
+local function bow(x)
+    local list = {}
+    for i = 0, 12 do
+        local t = i / 12
+        list[i + 1] = { x * (2 * t - 1), 1 + 0.6 * math.sin(math.pi * t), 0 }
+    end
+    return list
+end
+
+test("by draw: a line of any form across the bar cuts it through, as it was drawn", function()
+    local fine = lissom.shapes.bar{ across = 16, along = 80 }
+    h = hand.new("cut", { bar = fine })
+    local before = h.scene:hash()
+    h.host:set{ by = "draw" }
+    h:drag(bow(1.2))
+    expect.equal(h.scene:names(), { "bar", "bar 2", "bar 3" })
+    local first, second = h.scene:get("bar 2"), h.scene:get("bar 3")
+    expect.near(first:area() + second:area(), fine:area(), 1e-6)
+    local line = first:boundaries()
+    expect.equal(#line, 1)
+    local low, high = math.huge, -math.huge
+    for _, p in ipairs(line[1]:points()) do low, high = math.min(low, p[2]), math.max(high, p[2]) end
+    expect.near({ low, high }, { 1.476, 1.6 }, 0.05)
+    expect.equal(h:steps(), 1)
+    expect.equal(h:there_and_back(), before)
+end)
+
+test("by draw: round on the surface; lines that end on it say what to do", function()
+    local ball = lissom.shapes.sphere{ kind = "triangles", segments = 24 }
+    h = hand.new("cut", { ball = ball }, { ortho = 3 })
+    h.host:set{ by = "draw" }
+    local ring, steps = {}, h:steps()
+    for i = 0, 24 do
+        local turn = 2 * math.pi * i / 24
+        ring[i + 1] = { 0.5 * math.cos(turn), 0.5 * math.sin(turn), 0 }
+    end
+    h:drag(ring)
+    expect.equal(h:steps(), steps + 1)
+    local areas = { h.scene:get("ball 2"):area(), h.scene:get("ball 3"):area() }
+    -- A cap of the unit ball: 2 pi (1 - cos 30).
+    expect.near(math.min(areas[1], areas[2]), 2 * math.pi * (1 - math.sqrt(0.75)), 0.05)
+    h.host:undo()
+    local before = h.scene:hash()
+    expect.error(function() h:drag{ { -0.3, 0, 0 }, { 0, 0.1, 0 }, { 2, 0, 0 } } end, "from beside the mesh")
+    expect.error(function() h:drag{ { 2, 2, 0 }, { 2, 2.5, 0 }, { 3, 2, 0 } } end, "draw over a mesh")
+    h:drag{ { 0, 0, 0 }, { 0, 0, 0 } }
+    expect.equal(h.scene:hash(), before)
+end)

@@ -3,7 +3,7 @@ local hand = require "hand"
 local lissom = require "lissom"
 
 local trials = tonumber(os.getenv("LISSOM_TRIALS") or "") or 1
-local tools = { "select", "deform", "cut", "merge", "transform", "measure", "smooth" }
+local tools = { "select", "deform", "cut", "merge", "transform", "measure", "smooth", "line" }
 local keys = { "enter", "escape", "backspace", "delete", "tab", "p", "f", "w", "e", "r", "x", "y", "z", "+",
     "-", "i", "a", "d", "h", "1", "2", "5", ".", "0" }
 

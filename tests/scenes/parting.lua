@@ -170,8 +170,29 @@ test("the style goes, or there is none; Escape in the middle", function()
     h:key("tab", "delete", "backspace")
     h.host:set{ gap = 3 }
     h.host:draw()
+    h.scene:remove("head")
     expect.error(function() h:press(on_head(0, 40)) end, "no hairstyle")
     while h:steps() > 0 do h.host:undo() end
     draw(front_to_back)
     expect.equal(#style:curves(), 1)
+end)
+
+test("symmetric: a parting beside the middle has a mirror image, which does the same", function()
+    h.host:set{ symmetric = true }
+    draw(front_to_back)
+    expect.equal(#style:curves(), 1)
+    draw{ { 50, 35 }, { 65, 40 }, { 80, 38 } }
+    expect.equal(#style:curves(), 3)
+    draw{ { 58, 45 }, { 64, 52 }, { 70, 60 } }
+    local a, b = parting(2), parting(3)
+    expect.equal(#a:hints(), 1)
+    expect.equal(#b:hints(), 1)
+    local one, other = a:tilt(), b:tilt()
+    expect.truthy(one.left.pieces > 0 or one.right.pieces > 0)
+    expect.near({ one.left.start, one.left.finish }, { other.right.start, other.right.finish }, 2)
+    h.host:set{ sigma = 22 }
+    expect.near({ a:options().sigma, b:options().sigma }, { 0.022, 0.022 }, 1e-12)
+    h:key("delete")
+    expect.equal(#style:curves(), 1)
+    h:there_and_back()
 end)

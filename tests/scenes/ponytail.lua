@@ -269,8 +269,46 @@ test("the style goes, or there is none; Escape in the middle", function()
     h:key("tab", "delete")
     h.host:set{ fullness = 2 }
     h.host:draw()
+    h.scene:remove("head")
     expect.error(function() h:press(at(0, 0.03, -0.085)) end, "no hairstyle")
     while h:steps() > 0 do h.host:undo() end
     draw_spine()
     expect.equal(#tails(), 1)
+end)
+
+test("symmetric: two tails at once, tie, profile, cut and handles too", function()
+    begin(nil, { 0.75, 0.1, -0.1 })
+    h.host:set{ symmetric = true }
+    local before = h.scene:hash()
+    h:drag({ at(0.075, 0.03, -0.03), at(0.11, 0.03, -0.05), at(0.14, -0.04, -0.06), at(0.15, -0.18, -0.06) },
+        {}, 12)
+    expect.equal(#tails(), 2)
+    expect.equal(h:steps(), 1)
+    draw_ring(h.world(tails()[1]:course()[4]), 0.017)
+    draw_profile(0.03)
+    local function alike(list, image)
+        expect.equal(#list, #image)
+        for i, point in ipairs(list) do
+            local p, q = scalp:to_metres(point), scalp:to_metres(image[i])
+            expect.near({ p[1], p[2], p[3] }, { -q[1], q[2], q[3] }, 1e-6)
+        end
+    end
+    local function are_alike()
+        alike(tails()[1]:points(), tails()[2]:points())
+        alike(tails()[1]:section(), tails()[2]:section())
+        alike(tails()[1]:profiles()[1], tails()[2]:profiles()[1])
+    end
+    are_alike()
+    expect.truthy(#tails()[2]:section() > 5 and #tails()[2]:profiles()[1] > 5)
+    local middle = pixel(tails()[1]:course()[math.floor(0.7 * #tails()[1]:course())])
+    draw_pixels{ { middle[1] - 50, middle[2] + 4 }, { middle[1] + 50, middle[2] - 4 } }
+    are_alike()
+    h.host:set{ tightness = 0.8 }
+    expect.near(tails()[2]:options().tightness, 0.8)
+    h:press(h.world(tails()[1]:course()[6]))
+    h.host:cancel()
+    are_alike()
+    h:key("delete")
+    expect.equal(#tails(), 0)
+    expect.equal(h:there_and_back(), before)
 end)

@@ -25,16 +25,6 @@ local function sketch(tool, seed, volume)
     return a, objects.style
 end
 
--- How far curves are from the lines that they were drawn after, in metres: the root of the mean square.
-local function off(style, curve, route)
-    local sum, course = 0, curve:points()
-    local scale = style:scalp():scale()
-    local cut = {}
-    for i = 2, #route do cut[#cut + 1] = route[i] end
-    for _, point in ipairs(cut) do sum = sum + (hair.distance(course, point) / scale) ^ 2 end
-    return math.sqrt(sum / #cut)
-end
-
 -- A tail: its spine from behind, then from another side, where its depth is right, and the ring of its tie.
 local function tail(a, places, first, second, radius)
     local points, before = a.route(places), #a.style:curves()
@@ -54,7 +44,7 @@ local function tail(a, places, first, second, radius)
         expect.near(curve:tie().radius, radius * a.style:scalp():scale(), 0.004)
     end
     expect.equal(#a.style:curves(), before + 1)
-    return curve, off(a.style, curve, points)
+    return curve, a:off(curve, points)
 end
 
 -- Both profiles of a tail, so far from its spine at each share of it.
@@ -71,26 +61,6 @@ local function profiles(a, curve, widths)
         a:pixels(line)
     end
     expect.truthy(#curve:profiles()[1] > 2 and #curve:profiles()[2] > 2)
-end
-
--- A stream drawn as it is seen from one side, and again from another: { azimuth, elevation } each.
-local function stream(a, places, first, second)
-    local points = a.route(places)
-    a:look(first[1], first[2])
-    local before = #a.style:curves()
-    a:stroke(points)
-    expect.truthy(#a.style:curves() > before)
-    if second then
-        local curve = a.style:curves()[before + 1]
-        a:look(second[1], second[2])
-        local seen = a:seen(points)
-        seen[1] = a:seen{ curve:course()[1] }[1]
-        a:choose(curve)
-        a:pixels(seen)
-        a.host:click{ x = 5, y = 5 }
-        expect.equal(#a.style:curves(), before + (a.hand.tool.params.symmetric and 2 or 1))
-    end
-    return off(a.style, a.style:curves()[before + 1], points)
 end
 
 test("an asymmetric bob: ten streams", function()
@@ -117,7 +87,7 @@ test("an asymmetric bob: ten streams", function()
             { -150, 15 }, { -90, 5 } },
         { { { 175, 62, 8 }, { 172, 25, 20 }, { 172, -15, 22 }, by(0, -60, 6), by(0, -30, 4) }, { 170, 15 },
             { 90, 5 } },
-    } do worst = math.max(worst, stream(a, table.unpack(one))) end
+    } do worst = math.max(worst, a:stream(table.unpack(one))) end
     expect.truthy(worst < 0.015, worst)
     a:use("stream", { cut = 0.1, slant = 20 })
     a.hair_length = 0.25
@@ -146,7 +116,7 @@ test("a centre parting with tilt strokes on both sides", function()
             { 180, 10 } },
         { { { 170, 62, 12 }, { 165, 32, 20 }, { 165, -5, 22 }, by(0, -60, 2), by(0, -70, 0) }, { 165, 15 },
             { 90, 10 } },
-    } do stream(a, one[1], one[2], one[3]) end
+    } do a:stream(one[1], one[2], one[3]) end
     expect.equal(#a.style:curves(), 9)
     a.hair_length = 0.27
     a:done("centre parting", begin())
@@ -167,7 +137,7 @@ test("a high ponytail with a drawn section and profiles", function()
         { { { 62, 14, 4 }, { 92, 34, 7 }, { 130, 48, 9 }, { 168, 50, 14 } }, { 95, 20 } },
         { { { 125, -10, 4 }, { 140, 12, 7 }, { 158, 32, 9 }, { 172, 44, 14 } }, { 140, 15 } },
         { { { 172, -38, 4 }, { 172, -5, 7 }, { 174, 22, 9 }, { 177, 40, 14 } }, { 180, 10 } },
-    } do stream(a, one[1], one[2]) end
+    } do a:stream(one[1], one[2]) end
     a.hair_length, a.high, a.low = 0.6, 0.62, -0.02
     a:done("high ponytail", begin(volume))
 end)
@@ -190,7 +160,7 @@ test("two tails", function()
         { { { 10, 40, 4 }, { 32, 50, 8 }, { 72, 44, 9 }, { 98, 28, 10 }, { 113, 16, 18 } }, { 60, 30 } },
         { { { 168, -30, 4 }, { 163, -8, 7 }, { 145, 8, 10 }, { 125, 14, 18 } }, { 150, 10 } },
         { { { 168, 66, 4 }, { 150, 50, 8 }, { 130, 28, 10 }, { 122, 18, 18 } }, { 140, 35 } },
-    } do stream(a, one[1], one[2]) end
+    } do a:stream(one[1], one[2]) end
     a.hair_length, a.high, a.low = 0.5, 0.62, -0.05
     a:done("two tails", begin(volume))
 end)
@@ -208,13 +178,13 @@ test("a pony with fringe", function()
         { { { 64, 12, 4 }, { 96, 26, 8 }, { 140, 28, 9 }, { 168, 26, 14 } }, { 100, 15 } },
         { { { 20, 72, 4 }, { 120, 76, 8 }, { 172, 50, 10 }, { 178, 34, 14 } }, { 140, 50 } },
         { { { 160, -36, 4 }, { 165, -8, 7 }, { 172, 12, 10 }, { 177, 22, 14 } }, { 170, 10 } },
-    } do stream(a, one[1], one[2]) end
+    } do a:stream(one[1], one[2]) end
     a:use("stream", { stop = true })
     for _, one in ipairs{
         { { { 6, 62, 8 }, { 7, 46, 16 }, { 8, 30, 14 }, { 9, 18, 12 } }, { 0, 20 } },
         { { { 26, 58, 8 }, { 27, 44, 16 }, { 27, 30, 14 }, { 26, 16, 12 } }, { 15, 20 } },
         { { { 44, 52, 8 }, { 46, 38, 16 }, { 46, 26, 14 }, { 44, 10, 12 } }, { 35, 20 } },
-    } do stream(a, one[1], one[2]) end
+    } do a:stream(one[1], one[2]) end
     a:use("parting", { strands = 100, height = 0, gap = 0 })
     a:look(0, 70):stroke(a.route{ { -58, 42 }, { -35, 62 }, { 0, 68 }, { 35, 62 }, { 58, 42 } })
     a.hair_length, a.high, a.low = 0.5, 0.62, -0.05

@@ -232,6 +232,23 @@ test("m and tab: a mirror image, and the next stream", function()
     expect.equal(#style:curves(), 1)
 end)
 
+test("c: a copy that begins at the cursor; beside the head it says where to go", function()
+    local curve = drawn()
+    choose(curve)
+    local root = pixel(curve:points()[1])
+    local over_there = { root[1] - 60, root[2] + 10 }
+    h.host:move{ x = over_there[1], y = over_there[2] }
+    h.host:key{ key = "c" }
+    local copy = style:curves()[2]
+    local x, y = h.camera:project(copy:points()[1], { 1280, 960 })
+    expect.near({ x, y }, over_there, 1)
+    expect.near(length(copy:points()), length(curve:points()), 0.02 * length(curve:points()))
+    expect.equal(h:steps(), 2)
+    h.host:move{ x = 20, y = 20 }
+    expect.error(function() h.host:key{ key = "c" } end, "where the copy's root shall be")
+    expect.equal(#style:curves(), 2)
+end)
+
 test("Escape, undo and the style's end in the middle of a stroke", function()
     local before = h.scene:hash()
     for _, interrupt in ipairs{ function() h.host:cancel() end, function() h.host:undo() end,
@@ -260,4 +277,28 @@ end)
 test("without a hairstyle the tool says what to do", function()
     h = hand.new("stream", { box = lissom.shapes.box{} })
     expect.error(function() h:drag{ { 0, 0, 0 }, { 1, 0, 0 } } end, "no hairstyle")
+end)
+
+test("on a head alone the first stroke begins a hairstyle, in its own step", function()
+    head = lissom.shapes.head{ vertices = 6000 }
+    local bounds = head:bounds()
+    h = hand.new("stream", { person = head }, { target = bounds.center, ortho = 1.6 * bounds.diagonal,
+        eye = { bounds.center[1], bounds.center[2], bounds.center[3] + 4 * bounds.diagonal } })
+    h.host:set{ strands = 100 }
+    h.scene:clear_history()
+    local before, other = h.scene:hash(), lissom.hairstyle(head, { resolution = 2000 })
+    local x, y = h.camera:project((other:at{ azimuth = 20, elevation = 62 }), { 1280, 960 })
+    draw{ { x, y }, { x + 90, y + 40 }, { x + 120, y + 200 } }
+    expect.equal(h.scene:names(), { "person", "person style", "person style hair" })
+    expect.equal(#h.scene:get("person style"):curves(), 1)
+    expect.equal(h:steps(), 1)
+    draw{ { x - 40, y }, { x - 120, y + 40 }, { x - 140, y + 200 } }
+    expect.equal(#h.scene:get("person style"):curves(), 2)
+    expect.equal(h:steps(), 2)
+    expect.error(function() draw{ { 5, 5 }, { 50, 90 }, { 80, 120 } } end, "starts beside")
+    expect.equal(h:there_and_back(), before)
+    h.host:undo()
+    h.host:undo()
+    expect.error(function() draw{ { 5, 5 }, { 50, 90 }, { 80, 120 } } end, "starts beside")
+    expect.equal(h.scene:hash(), before)
 end)

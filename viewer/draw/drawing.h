@@ -35,6 +35,9 @@ struct MeshStyle {
     Shading shading = Shading::smooth;
     /// Angle in radians between the normals of faces above which their edge is sharp.
     double crease = 50.0 * kPi / 180.0;
+    /// 1: hides what is behind it, strands and lines too; below that they are seen through it, its
+    /// own inside is not. Meshes of one picture that are seen through share the least.
+    double opacity = 1.0;
 
     /// Draw the polygons' own edges.
     bool wire = false;

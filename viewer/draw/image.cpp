@@ -1,6 +1,7 @@
 #include "viewer/draw/image.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -63,6 +64,22 @@ void Image::paste(const Image& part, int x, int y) {
     for (int row = 0; row < part.height; ++row) {
         std::copy_n(part.pixel(0, row), 4 * at(part.width), pixel(x, y + row));
     }
+}
+
+Image mixed(const Image& a, const Image& b, double share) {
+    Image image = a;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        const double from = (1.0 - share) * a.rgba[i + 3], to = share * b.rgba[i + 3];
+        image.rgba[i + 3] = static_cast<std::uint8_t>(std::lround(from + to));
+        if (from + to == 0.0) continue;
+        for (std::size_t k = i; k < i + 3; ++k) {
+            const double light = from * srgb_to_linear(a.rgba[k] / 255.0) +
+                                 to * srgb_to_linear(b.rgba[k] / 255.0);
+            image.rgba[k] = static_cast<std::uint8_t>(
+                std::lround(255.0 * linear_to_srgb(light / (from + to))));
+        }
+    }
+    return image;
 }
 
 std::string encode_png(const Image& image) {

@@ -38,6 +38,9 @@ struct Image {
     std::size_t offset(int x, int y) const { return 4 * (at(y) * width + x); }
 };
 
+/// A share of `b`, the rest `a`, in linear light: two images of one size.
+Image mixed(const Image& a, const Image& b, double share);
+
 /// The bytes of a PNG file; without an alpha channel where every pixel is opaque. The same image
 /// gives the same bytes. Errors: invalid_argument for an image without pixels; memory_limit.
 std::string encode_png(const Image& image);

@@ -49,6 +49,7 @@ class MarkMaker {
         }
         if (marks_.constraints) add_constraints();
         if (marks_.field) add_slice(*marks_.field);
+        if (marks_.volume) add_volume();
         return std::move(lines_);
     }
 
@@ -139,6 +140,21 @@ class MarkMaker {
         add_arrow(point, vector, side.normalized(), full, marks_.field_color);
     }
 
+    // The edges of the box along each axis.
+    void add_volume() {
+        const Box box = style_.layout().box();
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int corner = 0; corner < 4; ++corner) {
+                Vec3 from = box.min;
+                if (corner & 1) from[(axis + 1) % 3] = box.max[(axis + 1) % 3];
+                if (corner & 2) from[(axis + 2) % 3] = box.max[(axis + 2) % 3];
+                Vec3 to = from;
+                to[axis] = box.max[axis];
+                add_line({from, to}, false, marks_.field_color, line_share(marks_));
+            }
+        }
+    }
+
     const Hairstyle& style_;
     const StyleMarks& marks_;
     std::vector<DrawnLine> lines_;
@@ -179,7 +195,10 @@ std::vector<LegendPart> style_legend(const Hairstyle& style, const StyleMarks& m
 }
 
 NamedMarks field_marks(const Hairstyle& style) {
-    StyleMarks marks{.curves = false, .constraints = true, .field_color = {0.43, 0.52, 0.68}};
+    StyleMarks marks{.curves = false,
+                     .constraints = true,
+                     .volume = true,
+                     .field_color = {0.43, 0.52, 0.68}};
     if (style.solved()) marks.field = FieldSlice{};
     return {style_lines(style, marks), style_legend(style, marks)};
 }

@@ -32,6 +32,8 @@ struct StyleMarks {
     bool constraints = false;
     /// Arrows of the field; they are as long as it, and stand outside the head.
     std::optional<FieldSlice> field = std::nullopt;
+    /// The box that the field fills, in the field's colour.
+    bool volume = false;
     Color field_color{0.16, 0.22, 0.34};
     /// Of curves, in pixels; arrows have a third of it.
     double width = 4.0;
@@ -50,8 +52,9 @@ struct NamedMarks {
     std::vector<LegendPart> names = {};
 };
 
-/// Figure 4.2 of the thesis: the constraints of a style, and where it was solved its field in the
-/// middle of the head, from the front to the back, in a colour that reads on dark and on light.
+/// Figure 4.2 of the thesis: the constraints of a style and its bounding volume, and where it was
+/// solved its field in the middle of the head, from the front to the back, in a colour that reads on
+/// dark and on light.
 NamedMarks field_marks(const Hairstyle& style);
 
 }  // namespace lissom

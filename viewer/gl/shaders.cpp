@@ -198,6 +198,8 @@ uniform vec3 u_hair_key;               // along its axes: towards the main light
 uniform vec3 u_hair_up;
 uniform float u_hair_slope;            // of light from all around
 uniform vec3 u_scalp_color;
+uniform float u_opacity;               // with several samples: the share of them that is covered
+uniform int u_dithered;                // with one sample, of the pixels
 out vec4 o_color;
 
 const vec3 kFillDirection = normalize(vec3(0.80, 0.05, 0.55));
@@ -297,6 +299,16 @@ float edge_cover() {
     return cover;
 }
 
+// The place of a pixel in a block of 4 x 4, 0 to 1, in an order that is even at each share.
+float order_of(ivec2 pixel) {
+    int order = 0;
+    for (int bit = 0; bit < 2; ++bit) {
+        int x = (pixel.x >> bit) & 1, y = (pixel.y >> bit) & 1;
+        order = order * 4 + 2 * (x ^ y) + y;
+    }
+    return (float(order) + 0.5) / 16.0;
+}
+
 void main() {
     vec3 flat_normal = cross(dFdx(v_position), dFdy(v_position));
     vec3 normal = dot(v_normal, v_normal) > 0.0 ? v_normal : flat_normal;
@@ -309,7 +321,8 @@ void main() {
     color = mix(color, u_scalp_color, hair.z);
     color = lit(color, normal, to_viewer, openness(-v_position.z), has_value ? 0.5 : 0.0, hair);
     if (u_wire_width > 0.0) color = mix(color, u_wire_color, 0.8 * edge_cover());
-    o_color = vec4(min(color, vec3(1.0)), 1.0);
+    if (u_dithered == 1 && u_opacity <= order_of(ivec2(gl_FragCoord.xy))) discard;
+    o_color = vec4(min(color, vec3(1.0)), u_dithered == 1 ? 1.0 : u_opacity);
 }
 )";
 

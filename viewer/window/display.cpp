@@ -7,6 +7,7 @@ namespace {
 
 constexpr Color kDarkBackground{0.17, 0.18, 0.20};
 constexpr Color kLightBackground{0.93, 0.935, 0.94};
+constexpr double kSeenThrough = 0.5;
 
 bool is_hidden(const DisplaySettings& settings, std::size_t mesh) {
     return mesh < settings.hidden.size() && settings.hidden[mesh];
@@ -16,6 +17,7 @@ void apply(const DisplaySettings& settings, MeshStyle& style) {
     if (settings.wire) style.wire = true;
     if (settings.flat) style.shading = Shading::flat;
     if (settings.boundaries) style.boundaries = true;
+    if (settings.see_through) style.opacity = std::min(style.opacity, kSeenThrough);
     if (settings.vertex_normals) style.vertex_normals = true;
     if (settings.face_normals) style.face_normals = true;
 }

@@ -13,6 +13,8 @@ struct DisplaySettings {
     bool wire = false;
     bool flat = false;
     bool boundaries = false;
+    /// Meshes are seen through: what is behind them shows, hair above all.
+    bool see_through = false;
     bool vertex_normals = false, face_normals = false;
     /// Occlusion and all samples once nothing moves.
     bool sharp = true;

@@ -370,6 +370,7 @@ void Panel::State::view_section(const PanelContent& content, DisplaySettings& se
     ImGui::Checkbox("normals", &settings.vertex_normals);
     ImGui::SameLine(0.5f * ImGui::GetWindowWidth());
     ImGui::Checkbox("of faces", &settings.face_normals);
+    ImGui::Checkbox("see through", &settings.see_through);
     draw_colors(content, answers);
 }
 

@@ -8,11 +8,15 @@
 --   slide(curve, held, metres)        takes a handle to a length from its base
 --   readings(self, ev, one, curve)    what the stroke may mean, likeliest first: a list of { name =, act = },
 --                             where act returns the curve that it has made, if any, and more to say
---   remember(curve), put_back(curve, before)    what strokes change of a curve, before one
+--   create(self, one, points)         a curve through points, with the tool's parameters
+--   remember(curve), put_back(curve, before)    what strokes change of a curve, before one: points alone
 --   keys                      functions of (curve, self, ev, one) by key
 --   draw(view, one, curve)    what belongs to the chosen one
+--
+-- Where its parameter `symmetric` is set, the mirror image of a curve does what the curve does.
 local lissom = require "lissom"
 local curve_handles = require "tools.support.curve_handles"
+local curves = require "tools.support.curves"
 local hair = require "tools.support.hair"
 local hair_view = require "tools.support.hair_view"
 
@@ -30,13 +34,31 @@ end
 
 local function forget(self)
     self.held, self.pixels, self.target, self.before, self.draft = nil, nil, nil, nil, nil
-    self.support, self.said = nil, nil
+    self.twin, self.twin_before, self.twin_draft, self.support, self.said = nil, nil, nil, nil, nil
 end
 
 local function put_back(self)
     if self.target then self.own.put_back(self.target, self.before) end
+    if self.twin then self.own.put_back(self.twin, self.twin_before) end
     if self.draft then self.draft:remove() end
-    self.draft, self.support = nil, nil
+    if self.twin_draft then self.twin_draft:remove() end
+    self.draft, self.twin_draft, self.support = nil, nil, nil
+end
+
+-- The mirror image of a curve where the tool is symmetric; nil where there is none.
+local function twin_of(self, one, curve)
+    return self.params.symmetric and curve and curves.partner(one, curve) or nil
+end
+
+-- What the stroke has done, done on the other side.
+local function mirror(self, one)
+    if not self.params.symmetric then return end
+    local own = self.own
+    if self.draft and not curves.is_middle(one, self.draft) then
+        self.twin_draft = own.create(self, one, curves.mirrored(one.scalp, self.draft:points()))
+    elseif self.twin and not self.draft then
+        own.put_back(self.twin, curves.mirror_image(one.scalp, own.remember(self.target)))
+    end
 end
 
 local function act(self, ev, one)
@@ -46,6 +68,7 @@ local function act(self, ev, one)
     local done, made, said = pcall(reading.act)
     if not done then error(hair.message(made) .. more, 0) end
     self.draft = made
+    mirror(self, one)
     return reading.name .. (said and ": " .. said or "") .. more
 end
 
@@ -53,14 +76,19 @@ end
 local function follow(self, ev, one, share)
     put_back(self)
     local done, said = pcall(act, self, ev, one)
-    if not done then put_back(self) end
-    hair.grow(ev.scene, one, share)
+    if done then done, said = hair.try_grow(ev.scene, one, share, said) end
+    if not done then
+        put_back(self)
+        hair.grow(ev.scene, one, share)
+    end
     self.said = hair.message(said)
     return done
 end
 
 local function drag_handle(self, ev, one)
-    self.own.slide(self.target, self.held, curve_handles.slide(ev, one, self.held))
+    local length = curve_handles.slide(ev, one, self.held)
+    self.own.slide(self.target, self.held, length)
+    if self.twin then self.own.slide(self.twin, self.held, length) end
 end
 
 -- The target where it is still there; without one a stroke only makes something.
@@ -74,16 +102,16 @@ function calls.press(self, ev)
     self.target, self.advice = chosen(self, one), nil
     self.curve = self.target
     self.before = self.target and self.own.remember(self.target)
+    self.twin = twin_of(self, one, self.target)
+    self.twin_before = self.twin and self.own.remember(self.twin)
     self.held = self.target and curve_handles.pick(ev, one, self.own.handles(one, self.target))
-    self.pixels, self.turn, self.alt = { { ev.x, ev.y } }, 0, ev.alt
+    hair.begin_stroke(self, ev)
 end
 
 function calls.drag(self, ev)
     local one = self.pixels and hair.find(ev.scene, self.params)
     if not one or has_lost_target(self, one) then return end
-    if ev.alt and not self.alt then self.turn = self.turn + 1 end
-    self.alt = ev.alt
-    table.insert(self.pixels, { ev.x, ev.y })
+    if not hair.goes_on(self, ev) then return end
     if self.held then
         drag_handle(self, ev, one)
         hair.grow(ev.scene, one, draft_share)
@@ -115,7 +143,10 @@ function calls.key(self, ev)
     if ev.key == "tab" then return choose(self, hair.next_curve(ev, one, self.own.kind, curve)) end
     local action = self.own.keys and self.own.keys[ev.key]
     if ev.key ~= "delete" and not action then return end
-    if action then action(curve, self, ev, one) else curve:remove() end
+    local twin = twin_of(self, one, curve)
+    for _, each in ipairs{ curve, twin } do
+        if action then action(each, self, ev, one) else each:remove() end
+    end
     hair.grow(ev.scene, one)
 end
 
@@ -123,7 +154,10 @@ function calls.changed(self, ev)
     local one = hair.find(ev.scene, self.params)
     local curve = one and chosen(self, one)
     local changes = curve_handles.options(self.params, self.own.name, ev.parameter)
-    if curve and next(changes) then curve:set(changes) end
+    local twin = twin_of(self, one, curve)
+    for _, each in ipairs{ curve, twin } do
+        if next(changes) then each:set(changes) end
+    end
     if one and not hair.is_seen_only(ev.parameter) then hair.grow(ev.scene, one) end
 end
 
@@ -147,6 +181,7 @@ calls.cancel, calls.deactivate = forget, forget
 
 --- The tool of its own part.
 function curve_tool.make(own)
+    own.params.symmetric = hair.symmetric
     local tool = { name = own.name, help = own.help, params = hair.with_params(own.params), own = own }
     for name, call in pairs(calls) do tool[name] = call end
     return lissom.tool(tool)

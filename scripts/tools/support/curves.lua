@@ -1,5 +1,6 @@
 --- What a hand does to style curves: hint strokes on a supporting surface, pulling, rubbing, mirror images.
 -- Cameras and points are of the head's own space.
+local hair = require "tools.support.hair"
 local vectors = require "vectors"
 
 local curves = {}
@@ -12,6 +13,25 @@ function curves.mirrored(scalp, points)
         list[i] = scalp:from_metres(-p[1], p[2], p[3])
     end
     return list
+end
+
+--- The same of what holds points: a point, a list of points, lists of those.
+function curves.mirror_image(scalp, given)
+    if type(given[1]) == "number" then return curves.mirrored(scalp, { given })[1] end
+    local image = {}
+    for key, value in pairs(given) do image[key] = curves.mirror_image(scalp, value) end
+    return image
+end
+
+local in_middle = 0.008            -- metres from its mirror image within which a curve is in the middle
+
+--- Whether a curve runs in the middle of the head: it is its own mirror image.
+function curves.is_middle(one, curve)
+    local points, metre = curve:points(), one.scalp:scale()
+    for _, point in ipairs(curves.mirrored(one.scalp, points)) do
+        if hair.distance(points, point) > in_middle * metre then return false end
+    end
+    return true
 end
 
 -- With two arguments in every Lua.

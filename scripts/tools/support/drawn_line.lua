@@ -1,4 +1,5 @@
 --- A line of a mesh that a hand has drawn along, and where a second stroke draws it.
+local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
 
 local drawn_line = {}
@@ -69,6 +70,41 @@ end
 function drawn_line.on(ev, mesh, pixels) return apart(hits_along(ev, mesh, pixels)) end
 
 local function distance(a, b) return math.sqrt((a[1] - b[1]) ^ 2 + (a[2] - b[2]) ^ 2) end
+
+-- Where a pixel's ray meets a mesh, in the mesh's own space: first and last; nil where it does not.
+local function through(ev, one, pixel)
+    local first, last
+    local under = { scene = ev.scene, x = pixel[1], y = pixel[2], size = ev.size, through = true }
+    for _, hit in ipairs(ev.camera:pick_all(under)) do
+        if rawequal(hit.mesh, one.mesh) then first, last = first or hit, hit end
+    end
+    if not first then return nil end
+    local back = matrices.inverse(one.place)
+    return matrices.point(back, first.position), matrices.point(back, last.position)
+end
+
+--- The closed line that a stroke draws on the mesh under it, and the mesh as meshes.find has it. A stroke
+-- back to where it began runs round on the side that is seen; one from beside the mesh across it to beside it
+-- also comes back behind. An error says what to do where it is neither.
+function drawn_line.loop(ev, pixels)
+    local mesh = drawn_line.mesh(ev, pixels)
+    local one = mesh and meshes.find(ev.scene, mesh)
+    if not one then error("draw over a mesh", 0) end
+    local line, behind, first, last = {}, {}, pixels[1], pixels[#pixels]
+    for _, pixel in ipairs(pixels) do
+        local front, rear = through(ev, one, pixel)
+        if front then
+            table.insert(line, front)
+            table.insert(behind, 1, rear)
+        end
+    end
+    if #line == #pixels and distance(first, last) < stays then return line, one end
+    if look(ev, first[1], first[2], mesh) or look(ev, last[1], last[2], mesh) then
+        error("draw back to where the line began, or from beside the mesh across it to beside it", 0)
+    end
+    table.move(behind, 1, #behind, #line + 1, line)
+    return line, one
+end
 
 --- The pixels where the points of such a line go: at the same shares of a new stroke, whichever way it runs.
 -- Ends that are near to where they were stay.

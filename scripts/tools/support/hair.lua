@@ -2,6 +2,7 @@
 -- an object "<name of the style> hair" beside it.
 local lissom = require "lissom"
 local matrices = require "matrices"
+local meshes = require "tools.support.meshes"
 local vectors = require "vectors"
 
 local hair = {}
@@ -19,6 +20,9 @@ hair.params = {
     field = { type = "boolean", default = false, group = "hair",
         help = "Arrows around the cursor: which way hair grows there." },
 }
+
+--- A parameter of tools that may draw on both sides.
+hair.symmetric = { type = "boolean", default = false, help = "The other side of the head follows." }
 
 --- The parameters of a tool with those above.
 function hair.with_params(own)
@@ -46,10 +50,26 @@ function hair.find(scene, params)
     return nil
 end
 
---- The same; an error that says what to do where there is none.
+local room = { min = { -0.24, -0.42, -0.3 }, max = { 0.24, 0.22, 0.18 } }     -- for tails and long hair
+local surely = 0.5              -- confidence from which a mesh is taken for a head
+
+-- Begins a hairstyle on a head: the only mesh that is to be seen, or the one of which something is selected.
+local function begin(scene)
+    local one = meshes.subject(scene)
+    local found, scalp = pcall(lissom.scalp, one and one.mesh)
+    if not found or not scalp or scalp:confidence() < surely then
+        error("no hairstyle is to be seen, and no mesh that is surely a head" .. (one and "" or ", alone")
+            .. ": add one, as scene:add('style', lissom.hairstyle(head))", 0)
+    end
+    local style = assert(lissom.hairstyle(one.mesh, { scalp = scalp, volume = room }))
+    scene:add(meshes.unused_name(scene, one.name .. " style"), style, { transform = one.place })
+end
+
+--- The same; where there is none a style is begun on the head that is to be seen. An error says what to do
+-- where there is no head either.
 function hair.need(scene, params)
+    if not hair.find(scene) then begin(scene) end
     return hair.find(scene, params)
-        or error("no hairstyle is to be seen: add one, as scene:add('style', lissom.hairstyle(head))", 0)
 end
 
 --- A camera that sees the head's own space as `camera` sees the world.
@@ -211,6 +231,35 @@ function hair.grow(scene, one, share)
         length = one.length, cut = hair.cut(one), into = old })
     if not old then scene:add(name, strands, { transform = one.place }) end
     return strands
+end
+
+--- The same where it may fail: whether it did not, and `said`, else why.
+function hair.try_grow(scene, one, share, said)
+    local done, message = pcall(hair.grow, scene, one, share)
+    return done, done and said or message
+end
+
+local fine, step = 0.5, 2       -- pixels from the last one from which an event counts, and from which it acts
+
+--- Begins a stroke of a tool: its `pixels`, and how often Alt was pressed in it, its `turn`.
+function hair.begin_stroke(tool, ev)
+    tool.pixels, tool.turn, tool.alt, tool.last = { { ev.x, ev.y } }, 0, ev.alt, nil
+end
+
+local function is_near(ev, pixel, pixels)
+    return pixel and math.abs(ev.x - pixel[1]) + math.abs(ev.y - pixel[2]) < pixels
+end
+
+--- Takes an event into the stroke; whether there is anything to be done about it, so that slow hands with
+-- thousands of events do not wait for each.
+function hair.goes_on(tool, ev)
+    local is_turned = ev.alt and not tool.alt
+    if is_turned then tool.turn = tool.turn + 1 end
+    tool.alt = ev.alt
+    if not is_near(ev, tool.pixels[#tool.pixels], fine) then table.insert(tool.pixels, { ev.x, ev.y }) end
+    if is_near(ev, tool.last, step) and not is_turned then return false end
+    tool.last = { ev.x, ev.y }
+    return true
 end
 
 --- Whether what was drawn is a click: all of it within 6 pixels.

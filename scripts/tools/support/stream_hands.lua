@@ -80,8 +80,11 @@ end
 function stream_hands.follow(self, one, ev, share)
     put_back(self, one)
     local done, said = pcall(hands[self.params.by], self, one, ev, hair.camera(ev.camera, one))
-    if not done then put_back(self, one) end
-    hair.grow(ev.scene, one, share)
+    if done then done, said = hair.try_grow(ev.scene, one, share, said) end
+    if not done then
+        put_back(self, one)
+        hair.grow(ev.scene, one, share)
+    end
     self.said = hair.message(said)
     return done
 end

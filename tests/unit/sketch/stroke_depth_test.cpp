@@ -154,6 +154,18 @@ TEST_CASE("a stroke that starts beside the hair says where, and a near one is mo
     CHECK(head().tree.nearest(points[0]).distance < 1e-6 * head().metre);
 }
 
+TEST_CASE("from inside the head, and through a hole onto its inside, a stroke is refused") {
+    Camera camera({.eye = head().bounds.center(), .target = head().bounds.max});
+    const View inside{camera, kDrawnPicture};
+    const Vec3 top(head().bounds.center().x(), head().bounds.max.y(), head().bounds.center().z());
+    const Vec3 seen = inside.project(top);
+    CHECK(refusal({seen.x(), seen.y()}, inside).find("move it out") != std::string::npos);
+    const std::vector<Vec2> stroke{{seen.x(), seen.y()}, {seen.x() + 5, seen.y()}};
+    const Error error =
+        test::error_of([&] { (void)stroke_on_surface(stroke, inside, head().surface()); });
+    CHECK(error.message().find("move it out") != std::string::npos);
+}
+
 TEST_CASE("on a surface a stroke follows it, and beyond it keeps the last depth") {
     const Mesh box = make_box();
     const SpatialTree tree(box);

@@ -78,6 +78,39 @@ TEST_CASE("strands change what is near them, and shade the rest") {
     CHECK(test::brightness(shaded.color(86, 50)) < test::brightness(haired.color(86, 50)) - 0.01);
 }
 
+TEST_CASE("what is behind a mesh that is seen through shows: meshes, lines and strands") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    Snapshot drawing = drawing_of(square);
+    Overlay line;
+    line.lines.push_back({{Vec3(-0.5, 0, -0.5), Vec3(0.5, 0, -0.5)}, false, {0, 0, 1}, 8.0});
+    drawing.overlays.push_back(std::make_shared<const Overlay>(line));
+    const Strands strands({-5e-4f, 4e-4f, -3e-4f, 5e-4f, 4e-4f, -3e-4f}, {0, 2});
+    StrandStyle style;
+    style.unit = 0.001;
+    style.shadow = style.scalp_tint = 0.0;
+    drawing.strands.push_back({test::shared(strands), style, {}});
+    const auto picture = [&](double opacity) {
+        drawing.meshes[0].style.opacity = opacity;
+        return renderer->render(drawing, front_camera(2.4), small_options());
+    };
+    const Image solid = picture(1.0), half = picture(0.5), open = picture(0.0);
+    CHECK(solid.color(64, 48) == solid.color(64, 60));
+    const double blue = half.color(64, 48).b - half.color(64, 48).r;
+    CHECK(blue > 0.2);
+    CHECK(open.color(64, 48).b - open.color(64, 48).r > blue);
+    const auto dark = [](const Image& image) {
+        double least = 1.0;
+        for (int y = 24; y < 40; ++y) least = std::min(least, test::brightness(image.color(64, y)));
+        return least;
+    };
+    CHECK(dark(half) < dark(solid));
+    drawing.meshes[0].style.opacity = 1.5;
+    CHECK(test::error_of([&] { renderer->render(drawing, front_camera(2.4), small_options()); })
+              .code() == ErrorCode::out_of_range);
+}
+
 TEST_CASE("the same input gives the same pixels, in any order") {
     const auto renderer = test::make_renderer();
     if (!renderer) return;

@@ -104,6 +104,15 @@ TEST_CASE("style marks: a legend names the colours that are drawn, and no others
         return line.color == marks.names.back().color;
     };
     CHECK(std::count_if(marks.lines.begin(), marks.lines.end(), is_field) > 100);
+    const Box box = style.layout().box();
+    const auto is_edge = [&](const DrawnLine& line) {
+        const auto corner = [&](const Vec3& point) {
+            const Vec3 p = style.scalp().to_metres(point);
+            return (p - box.min).cwiseAbs().cwiseMin((box.max - p).cwiseAbs()).maxCoeff() < 1e-9;
+        };
+        return line.points.size() == 2 && corner(line.points[0]) && corner(line.points[1]);
+    };
+    CHECK(std::count_if(marks.lines.begin(), marks.lines.end(), is_edge) == 12);
     // A field that is behind its curves is not shown.
     style.remove(style.curves()[2]);
     marks = field_marks(style);

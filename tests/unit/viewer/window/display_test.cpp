@@ -40,11 +40,13 @@ TEST_CASE("display: settings come on top of what the script has asked for") {
     CHECK_FALSE(plain.meshes[1].style.wire);
     CHECK(plain.options.width == 100);
     CHECK(plain.options.background == background_of(settings));
-    settings.wire = settings.flat = settings.boundaries = true;
+    CHECK(plain.meshes[1].style.opacity == 1.0);
+    settings.wire = settings.flat = settings.boundaries = settings.see_through = true;
     plain = displayed(picture, settings, Camera(), 100, 80);
     CHECK(plain.meshes[1].style.wire);
     CHECK(plain.meshes[1].style.shading == Shading::flat);
     CHECK(plain.meshes[1].style.boundaries);
+    CHECK(plain.meshes[1].style.opacity == 0.5);
 }
 
 TEST_CASE("display: hidden meshes are left out, and what grows on them") {
