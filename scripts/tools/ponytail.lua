@@ -6,7 +6,8 @@
 -- for stands at the cursor; Alt takes it otherwise, and with shift it is a spine wherever it begins. Click a
 -- tail, or press tab, to choose it; drag its handles: from where to where hair is drawn into the tie, and how
 -- firmly. Delete takes it away, backspace what was drawn round and along it. With `symmetric` each tail
--- beside the middle has a mirror image, which does the same.
+-- beside the middle has a mirror image, which does the same. Where hair misses the tie, g draws streams into
+-- it from all around.
 local curve_handles = require "tools.support.curve_handles"
 local curve_tool = require "tools.support.curve_tool"
 local hair = require "tools.support.hair"
@@ -33,7 +34,8 @@ end
 return curve_tool.make{
     name = "ponytail",
     help = "Drag from the head away: a spine; round it: the tie; along it: how it swells; from it or across: "
-        .. "another spine (Alt: otherwise, shift: another tail). Handles, click, tab, backspace, delete.",
+        .. "another spine (Alt: otherwise, shift: another tail). g gathers hair into it. Handles, click, "
+        .. "tab, backspace, delete.",
     kind = "ponytail",
     color = "#b060d0",
     params = {
@@ -55,6 +57,7 @@ return curve_tool.make{
     put_back = function(curve, before) curve:set(before) end,
     keys = {
         backspace = function(curve) curve:set{ section = {}, profiles = { {}, {} } } end,
+        g = function(curve, _, _, one) tail.gather(one, curve) end,
         v = function(_, self, ev, one) self.state.viewpoint = hair.camera(ev.camera, one) end,
     },
     draw = tail.draw,

@@ -312,3 +312,37 @@ test("symmetric: two tails at once, tie, profile, cut and handles too", function
     expect.equal(#tails(), 0)
     expect.equal(h:there_and_back(), before)
 end)
+
+test("g: streams gather hair into the tie, once; more of the hair is in it then", function()
+    draw_spine()
+    local function through_tie()
+        local strands, count = h.scene:get("style hair"), 0
+        local tie = tails()[1]:tie()
+        for i = 1, #strands do
+            local points, is_in = strands:strand(i), false
+            for k = 1, #points, 3 do
+                local off = vectors.plus({ points[k], points[k + 1], points[k + 2] }, tie.center, -1)
+                is_in = is_in or vectors.length(off) < 1.6 * tie.radius
+            end
+            count = count + (is_in and 1 or 0)
+        end
+        return count / #strands
+    end
+    local alone = through_tie()
+    h:key("g")
+    local streams = hair.curves(hair.find(h.scene), "stream")
+    expect.truthy(#streams >= 5 and #streams <= 8, #streams)
+    for _, stream in ipairs(streams) do
+        local points = stream:points()
+        expect.truthy(vectors.length(vectors.plus(points[#points], tails()[1]:tie().center, -1)) < 0.03)
+    end
+    expect.equal(h:steps(), 2)
+    local share = through_tie()
+    expect.truthy(share > alone and share > 0.98, share .. " against " .. alone)
+    local hash = h.scene:hash()
+    h:key("g")
+    expect.equal(#hair.curves(hair.find(h.scene), "stream"), #streams)
+    h.host:undo()
+    expect.equal(h.scene:hash(), hash)
+    h:there_and_back()
+end)

@@ -3,6 +3,7 @@
 local curves = require "tools.support.curves"
 local hair = require "tools.support.hair"
 local hair_view = require "tools.support.hair_view"
+local hairdo = require "hairdo"
 local vectors = require "vectors"
 
 local tail = {}
@@ -219,6 +220,39 @@ function tail.drag(curve, held, length)
         outer = math.max(inner, math.min(length, 0.15))
     end
     curve:set{ inner = inner / options.radius, outer = outer / options.radius, ring = outer - inner }
+end
+
+-- With two arguments in every Lua.
+local atan2 = rawget(math, "atan2") or math.atan
+
+-- The direction of a tie from the middle of the head and its height over the head, as hairdo.gather has it.
+local function direction_of(scalp, tie)
+    local p = scalp:to_metres(tie.center)
+    local far = vectors.length(p)
+    local place = { azimuth = math.deg(atan2(p[1], p[3])), elevation = math.deg(math.asin(p[2] / far)) }
+    place.lift = far - vectors.length(scalp:to_metres((scalp:at(place))))
+    place.radius = tie.radius / scalp:scale()
+    return place
+end
+
+local gathered = { count = 8, reach = 0.14, low = 0.006 }       -- metres
+local in_tie = 0.03             -- metres from a tie within which streams end that were gathered into it
+
+--- Draws streams over the hair around a tail into its tie, in place of those that did so.
+function tail.gather(one, curve)
+    local tie, scalp = curve:tie(), one.scalp
+    for _, stream in ipairs(hair.curves(one, "stream")) do
+        local points = stream:points()
+        local off = vectors.length(vectors.plus(points[#points], tie.center, -1))
+        if stream:name():find("^gather ") and off < in_tie * scalp:scale() then stream:remove() end
+    end
+    local region, options = scalp:region(), {}
+    for key, value in pairs(gathered) do options[key] = value end
+    function options.skip(azimuth, elevation)
+        local found, at = pcall(scalp.at, scalp, { azimuth = azimuth, elevation = elevation })
+        return not found or not region:contains(scalp:head():nearest(at).vertex)
+    end
+    hairdo.gather(one.style, direction_of(scalp, tie), options)
 end
 
 -- A circle around a tie.
