@@ -19,14 +19,20 @@ local function create(self, one, spine)
     return one.style:ponytail(options)
 end
 
-local function new_tail(self, ev, one)
-    local curve = create(self, one, tail.spine(ev, one, self.pixels))
-    self.state.viewpoint, self.advice = hair.camera(ev.camera, one), hair.guessed
+local function new_tail(self, ev, one, in_middle)
+    local curve = create(self, one, tail.spine(ev, one, self.pixels, in_middle))
+    self.state.viewpoint = hair.camera(ev.camera, one)
+    self.advice = not in_middle and hair.guessed or nil
     return curve
 end
 
 local function readings(self, ev, one, curve)
     local list = curve and not ev.shift and tail.readings(self, ev, one, curve) or {}
+    if tail.is_in_middle(ev, one, self.pixels) then
+        table.insert(list, { name = "tail in the middle", act = function()
+            return new_tail(self, ev, one, true)
+        end })
+    end
     table.insert(list, { name = "tail", act = function() return new_tail(self, ev, one) end })
     return list
 end

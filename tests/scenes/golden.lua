@@ -31,7 +31,8 @@ local function replayed(path)
     return assert(load(text, "=events", "t", { require = function() return found end }))()
 end
 
-for _, name in ipairs{ "select", "deform", "cut", "merge", "transform", "measure", "smooth" } do
+for _, name in ipairs{ "select", "deform", "cut", "merge", "transform", "measure", "smooth", "ponytail",
+    "parting", "line" } do
     test("a hand with the tool " .. name .. " comes to the scene that it saw", function()
         local scene = replayed(folder .. name .. ".events.lua")
         local text = text_of(folder .. name .. ".calls.lua")

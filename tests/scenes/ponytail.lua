@@ -346,3 +346,32 @@ test("g: streams gather hair into the tie, once; more of the hair is in it then"
     expect.equal(h.scene:hash(), hash)
     h:there_and_back()
 end)
+
+test("in profile a stroke away from the head is a tail in its middle; Alt: beside it, as seen", function()
+    begin(nil, { 0.9, 0.05, -0.08 })
+    local route = { at(0, 0.06, -0.07), at(0, 0.075, -0.13), at(0, 0.03, -0.17), at(0, -0.1, -0.19) }
+    h:drag(route, {}, 12)
+    local function off()
+        local most = 0
+        for _, point in ipairs(tails()[1]:points()) do
+            most = math.max(most, math.abs(scalp:to_metres(point)[1]))
+        end
+        return most
+    end
+    expect.truthy(off() < 1e-6, off())
+    expect.falsy(h.tool.advice)
+    local height = head:nearest(tails()[1]:tie().center).distance / scalp:scale()
+    expect.truthy(height > 0.015 and height < 0.03, height)
+    h.host:undo()
+    h:press(route[1])
+    for i = 2, 4 do h:move(route[i]) end
+    expect.truthy(h.host:draw().labels[1].text:find("tail in the middle  (Alt: tail)", 1, true))
+    h:move(route[4], { alt = true })
+    h:release(route[4])
+    expect.truthy(off() > 0.01, off())
+    expect.truthy(h.tool.advice:find("guess"))
+    h.host:undo()
+    -- A tail at the side of the head stays there.
+    h:drag({ at(0.075, 0.03, -0.03), at(0.11, 0.02, -0.05), at(0.12, -0.03, -0.06) }, {}, 12)
+    expect.truthy(off() > 0.06, off())
+end)

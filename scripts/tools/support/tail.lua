@@ -144,16 +144,45 @@ function tail.readings(self, ev, one, curve)
     return hints
 end
 
---- The spine of a tail from a stroke over the head: from where it is high enough for a tie.
-function tail.spine(ev, one, pixels)
-    local points = hair.camera(ev.camera, one):stroke{ points = pixels, on = one.scalp, lift = lift,
-        size = ev.size }.points
-    local head, heights, highest = one.scalp:head(), {}, 0
+local in_profile = 0.94         -- cosine to the head's left within which it is seen in profile
+local aside = 0.065             -- metres off the middle within which a root may mean a tail in the middle
+
+--- Whether a stroke means a tail in the middle of the head: drawn in profile, away from the head.
+function tail.is_in_middle(ev, one, pixels)
+    local camera, beside = hair.camera(ev.camera, one), 0
+    if math.abs(vectors.dot(camera:forward(), one.scalp:left())) < in_profile then return false end
+    local root
+    for _, pixel in ipairs(pixels) do
+        local hit = one.scalp:head():pick(camera:ray(pixel[1], pixel[2], ev.size))
+        root = root or hit
+        beside = beside + (hit and 0 or 1)
+    end
+    local off = root and math.abs(one.scalp:to_metres(root.position)[1])
+    return off ~= nil and off < aside and beside > 0.4 * #pixels
+end
+
+-- How far a point is over the head, below 0 in it.
+local function height(head, point)
+    local near = head:nearest(point)
+    local is_out = vectors.dot(vectors.plus(point, near.position, -1), near.normal) >= 0
+    return is_out and near.distance or -near.distance
+end
+
+--- The spine of a tail from a stroke over the head, or in the middle of it: from where it is high enough for
+-- a tie.
+function tail.spine(ev, one, pixels, in_middle)
+    local scalp, given = one.scalp, { points = pixels, size = ev.size }
+    if in_middle then
+        given.plane = { point = scalp:center(), normal = scalp:left() }
+    else
+        given.on, given.lift = scalp, lift
+    end
+    local points, heights, highest = hair.camera(ev.camera, one):stroke(given).points, {}, 0
     for i, point in ipairs(points) do
-        heights[i] = head:nearest(point).distance
+        heights[i] = height(scalp:head(), point)
         highest = math.max(highest, heights[i])
     end
-    local wanted, first = math.min(tie_height * one.scalp:scale(), 0.8 * highest), 1
+    local wanted, first = math.min(tie_height * scalp:scale(), 0.8 * highest), 1
     while heights[first] < wanted do first = first + 1 end
     return table.move(points, first, #points, 1, {})
 end

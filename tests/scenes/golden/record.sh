@@ -15,7 +15,7 @@ end() {
     rm -rf "$work"
 }
 trap end EXIT
-cp "$folder"/{cactus,parts}.lua "$work"
+cp "$folder"/{cactus,head,parts}.lua "$work"
 cd "$work"
 export XDG_STATE_HOME=$work/state
 Xvfb -displayfd 3 -screen 0 1400x1000x24 -noreset -nolisten tcp 3>display >/dev/null 2>&1 &
@@ -169,3 +169,32 @@ drag 730 130 730 500 770 500 770 130
 drag 800 130 800 330
 shot smooth
 close_tool smooth
+
+# --- A tail in profile, gathered, cut and taken back; then how it swells
+open_tool ponytail head.lua
+click 172 77
+drag 690 150 620 110 560 150 530 260 520 420
+shot ponytail_spine
+keys g
+shot ponytail_gathered
+drag 480 330 580 340
+keys ctrl+z
+drag 590 170 575 260 575 360
+shot ponytail
+close_tool ponytail
+
+# --- A parting from above, its tilt, another one
+open_tool parting head.lua
+click 42 104
+drag 785 400 790 340 792 280
+drag 830 390 870 395 910 410
+shot parting
+close_tool parting
+
+# --- A line over the face, closed around an eye
+open_tool line head.lua
+click 42 77
+drag 640 200 700 180 760 200
+drag 690 300 720 285 750 300 720 315 690 300
+shot line
+close_tool line
