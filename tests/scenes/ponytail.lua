@@ -375,3 +375,16 @@ test("in profile a stroke away from the head is a tail in its middle; Alt: besid
     h:drag({ at(0.075, 0.03, -0.03), at(0.11, 0.02, -0.05), at(0.12, -0.03, -0.06) }, {}, 12)
     expect.truthy(off() > 0.06, off())
 end)
+
+test("a profile that begins beyond the tie leaves the tie where it is", function()
+    draw_spine()
+    local tie, course, points = tails()[1]:tie(), tails()[1]:course(), {}
+    for i = math.floor(0.4 * #course), #course - 1 do
+        points[#points + 1] = vectors.plus(h.world(course[i]), h.camera:right(), 0.03 * scalp:scale())
+    end
+    h:drag(points, {}, 4)
+    expect.truthy(#tails()[1]:profiles()[1] > 3)
+    expect.near(tails()[1]:tie().center, tie.center, 0.01)
+    expect.near(tails()[1]:tie().radius, tie.radius, 0.004)
+    h:there_and_back()
+end)

@@ -149,16 +149,16 @@ local aside = 0.065             -- metres off the middle within which a root may
 
 --- Whether a stroke means a tail in the middle of the head: drawn in profile, away from the head.
 function tail.is_in_middle(ev, one, pixels)
-    local camera, beside = hair.camera(ev.camera, one), 0
+    local camera, away = hair.camera(ev.camera, one), 0
     if math.abs(vectors.dot(camera:forward(), one.scalp:left())) < in_profile then return false end
     local root
     for _, pixel in ipairs(pixels) do
         local hit = one.scalp:head():pick(camera:ray(pixel[1], pixel[2], ev.size))
         root = root or hit
-        beside = beside + (hit and 0 or 1)
+        away = away + (hit and 0 or 1)
     end
     local off = root and math.abs(one.scalp:to_metres(root.position)[1])
-    return off ~= nil and off < aside and beside > 0.4 * #pixels
+    return off ~= nil and off < aside and away > 0.4 * #pixels
 end
 
 -- How far a point is over the head, below 0 in it.
@@ -187,18 +187,38 @@ function tail.spine(ev, one, pixels, in_middle)
     return table.move(points, first, #points, 1, {})
 end
 
--- From the spine to the middle of a line beside it.
-local function offset(spine, points)
-    local middle, best, nearest = points[math.ceil(#points / 2)], nil, math.huge
-    for _, at in ipairs(spine) do
-        local off = vectors.plus(middle, at, -1)
-        if vectors.length(off) < nearest then best, nearest = off, vectors.length(off) end
+-- From the spine to a point beside it, and how far along the spine that is.
+local function off_spine(spine, point)
+    local best, nearest, place, length = nil, math.huge, 0, 0
+    for i, at in ipairs(spine) do
+        local off = vectors.plus(point, at, -1)
+        if i > 1 then length = length + vectors.length(vectors.plus(at, spine[i - 1], -1)) end
+        if vectors.length(off) < nearest then best, nearest, place = off, vectors.length(off), length end
     end
-    return best
+    return best, place
+end
+
+-- The same to the middle of a line.
+local function offset(spine, points) return (off_spine(spine, points[math.ceil(#points / 2)])) end
+
+-- A profile from the tie on: where it begins farther on, and no section is drawn, the tie would go there.
+local function from_tie(curve, points)
+    local tie, spine, line = curve:tie(), curve:course(), { table.unpack(points) }
+    local off, place = off_spine(spine, line[1])
+    local other, last = off_spine(spine, line[#line])
+    if last < place then
+        for i = 1, #points do line[i] = points[#points + 1 - i] end
+        off, place = other, last
+    end
+    local across = vectors.plus(off, tie.direction, -vectors.dot(off, tie.direction))
+    if #curve:section() > 0 or place < tie.radius or vectors.length(across) < 1e-9 then return points end
+    table.insert(line, 1, vectors.plus(tie.center, vectors.unit(across), tie.radius))
+    return line
 end
 
 --- The profiles of a tail with a new one, which takes the place of that on its side.
 function tail.with_profile(curve, points)
+    points = from_tie(curve, points)
     local list, spine = curve:profiles(), curve:course()
     for side = 1, 2 do
         if #list[side] > 0 and vectors.dot(offset(spine, list[side]), offset(spine, points)) > 0 then

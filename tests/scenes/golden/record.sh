@@ -170,17 +170,14 @@ drag 800 130 800 330
 shot smooth
 close_tool smooth
 
-# --- A tail in profile, gathered, cut and taken back; then how it swells
+# --- A tail in profile, gathered and taken back
 open_tool ponytail head.lua
 click 172 77
-drag 690 150 620 110 560 150 530 260 520 420
+drag 690 150 560 150 520 400
 shot ponytail_spine
 keys g
-shot ponytail_gathered
-drag 480 330 580 340
-keys ctrl+z
-drag 590 170 575 260 575 360
 shot ponytail
+keys ctrl+z
 close_tool ponytail
 
 # --- A parting from above, its tilt, another one
@@ -191,7 +188,7 @@ drag 830 390 870 395 910 410
 shot parting
 close_tool parting
 
-# --- A line over the face, closed around an eye
+# --- A line over the face, and a closed one
 open_tool line head.lua
 click 42 77
 drag 640 200 700 180 760 200
