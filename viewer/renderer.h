@@ -39,8 +39,8 @@ class Renderer {
     const std::string& driver() const;
 
   private:
-    Image render_solid(const Snapshot& snapshot, const Camera& camera,
-                       const RenderOptions& options, const Context& context);
+    Image render_solid(const Snapshot& snapshot, const Camera& camera, const RenderOptions& options,
+                       const Context& context);
 
     struct State;
     std::unique_ptr<State> state_;

@@ -24,8 +24,8 @@ std::vector<Vec3> stroke_on_plane(std::span<const Vec2> stroke, const View& view
 /// A surface that is drawn on, where it stands in the world.
 struct DrawnSurface {
     const SpatialTree& tree;
-    /// Faces that may be drawn on from outside, one mark a face; empty for all, from both sides. The
-    /// others still hide them.
+    /// Faces that may be drawn on from outside, one mark a face; empty for all, from both sides.
+    /// The others still hide them.
     std::span<const char> faces;
 };
 

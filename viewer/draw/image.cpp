@@ -73,10 +73,10 @@ Image mixed(const Image& a, const Image& b, double share) {
         image.rgba[i + 3] = static_cast<std::uint8_t>(std::lround(from + to));
         if (from + to == 0.0) continue;
         for (std::size_t k = i; k < i + 3; ++k) {
-            const double light = from * srgb_to_linear(a.rgba[k] / 255.0) +
-                                 to * srgb_to_linear(b.rgba[k] / 255.0);
-            image.rgba[k] = static_cast<std::uint8_t>(
-                std::lround(255.0 * linear_to_srgb(light / (from + to))));
+            const double light =
+                from * srgb_to_linear(a.rgba[k] / 255.0) + to * srgb_to_linear(b.rgba[k] / 255.0);
+            image.rgba[k] =
+                static_cast<std::uint8_t>(std::lround(255.0 * linear_to_srgb(light / (from + to))));
         }
     }
     return image;

@@ -195,10 +195,8 @@ std::vector<LegendPart> style_legend(const Hairstyle& style, const StyleMarks& m
 }
 
 NamedMarks field_marks(const Hairstyle& style) {
-    StyleMarks marks{.curves = false,
-                     .constraints = true,
-                     .volume = true,
-                     .field_color = {0.43, 0.52, 0.68}};
+    StyleMarks marks{
+        .curves = false, .constraints = true, .volume = true, .field_color = {0.43, 0.52, 0.68}};
     if (style.solved()) marks.field = FieldSlice{};
     return {style_lines(style, marks), style_legend(style, marks)};
 }

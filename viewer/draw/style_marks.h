@@ -53,8 +53,8 @@ struct NamedMarks {
 };
 
 /// Figure 4.2 of the thesis: the constraints of a style and its bounding volume, and where it was
-/// solved its field in the middle of the head, from the front to the back, in a colour that reads on
-/// dark and on light.
+/// solved its field in the middle of the head, from the front to the back, in a colour that reads
+/// on dark and on light.
 NamedMarks field_marks(const Hairstyle& style);
 
 }  // namespace lissom

@@ -72,7 +72,6 @@ MeshStyle read_style(const Call& call) {
     style.vertex_colors = call.boolean("vertex_colors");
     style.shading = call.choice<Shading>("shading");
     if (call.has("crease")) style.crease = call.number("crease") * kDegree;
-    style.opacity = call.number("opacity");
     style.wire = call.boolean("wire");
     if (call.has("wire_width")) style.wire_width = call.number("wire_width");
     style.boundaries = call.boolean("boundaries");
@@ -307,7 +306,6 @@ StyleMarks read_marks(const Call& call, const Scalp& scalp) {
     if (!call.has("style_marks")) return marks;
     marks.curves = call.boolean("style_marks.curves");
     marks.constraints = call.boolean("style_marks.constraints");
-    marks.volume = call.boolean("style_marks.volume");
     if (!call.boolean("style_marks.field")) return marks;
     FieldSlice slice;
     if (call.has("style_marks.point")) {
@@ -395,7 +393,7 @@ void check_scene_options(const Call& call) {
         }
     }
     const bool plain = call.boolean("vertex_colors") && !call.boolean("wire") &&
-                       !call.boolean("boundaries") && call.number("opacity") == 1.0 &&
+                       !call.boolean("boundaries") &&
                        call.choice<Shading>("shading") == Shading::smooth;
     if (!plain || call.integer("columns") > 0) {
         call.reject("scene", "its objects say themselves how they look: use scene:set");
@@ -574,10 +572,6 @@ std::vector<Parameter> content_options() {
             .between(0.0, 180.0)
             .in("degrees")
             .optional("50"),
-        number("opacity",
-               "Of the meshes; below 1 what is behind them is seen through them, hair and curves too.")
-            .defaults(style.opacity)
-            .between(0.0, 1.0),
         boolean("wire", "Draws the edges of the faces.").defaults(style.wire),
         number("wire_width", "Their width.").above(0.0).in("pixels").optional("1"),
         either("strands",
@@ -601,7 +595,6 @@ std::vector<Parameter> content_options() {
                  .defaults(false),
              boolean("field", "Draws the field as arrows on a plane through the volume.")
                  .defaults(false),
-             boolean("volume", "Draws the box that the field fills.").defaults(false),
              boolean("legend", "Says at the right what the colours of arrows stand for.")
                  .defaults(false),
              vector("point", "A point of the plane.")

@@ -107,8 +107,9 @@ TEST_CASE("what is behind a mesh that is seen through shows: meshes, lines and s
     };
     CHECK(dark(half) < dark(solid));
     drawing.meshes[0].style.opacity = 1.5;
-    CHECK(test::error_of([&] { renderer->render(drawing, front_camera(2.4), small_options()); })
-              .code() == ErrorCode::out_of_range);
+    CHECK(test::error_of([&] {
+              renderer->render(drawing, front_camera(2.4), small_options());
+          }).code() == ErrorCode::out_of_range);
 }
 
 TEST_CASE("the same input gives the same pixels, in any order") {

@@ -46,7 +46,8 @@ TEST_CASE("screen: the legend takes the columns that it takes of a finished pict
     CHECK(screen.beside_legend(canvas) == canvas);
 }
 
-TEST_CASE("screen: while it moves, too, lines are seen through meshes that are to be seen through") {
+TEST_CASE(
+    "screen: while it moves, too, lines are seen through meshes that are to be seen through") {
     const auto platform = test::make_platform();
     if (!platform) return;
     const PlatformScope scope(*platform);
