@@ -87,7 +87,7 @@ test("an asymmetric bob: ten streams", function()
             { -150, 15 }, { -90, 5 } },
         { { { 175, 62, 8 }, { 172, 25, 20 }, { 172, -15, 22 }, by(0, -60, 6), by(0, -30, 4) }, { 170, 15 },
             { 90, 5 } },
-    } do worst = math.max(worst, a:stream(table.unpack(one))) end
+    } do worst = math.max(worst, (a:stream(table.unpack(one)))) end
     expect.truthy(worst < 0.015, worst)
     a:use("stream", { cut = 0.1, slant = 20 })
     a.hair_length = 0.25
