@@ -158,7 +158,7 @@ wait_for "line size	1.0"
 wait_for "at rest"
 shot script
 # The slider lies in the panel, below its heading.
-drag 60 383 9 0
+drag 60 409 9 0
 wait_for "line size	"
 wait_for "shown "
 sed -i 's/default = 1/default = 2/; s/return box/return missing()/' script.lua
