@@ -26,6 +26,17 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernel DESTINATION ${CMAKE_INSTALL_INCLU
 install(FILES ${PROJECT_SOURCE_DIR}/bindings/engine/lissom_basis.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom/bindings/engine)
 
+# The C ABI: its header, and the shared library, which needs nothing of the above.
+if(TARGET lissom_shared)
+    set_target_properties(lissom_shared PROPERTIES EXPORT_NAME shared)
+    target_include_directories(lissom_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lissom>)
+    install(TARGETS lissom_shared EXPORT lissom-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(FILES ${PROJECT_SOURCE_DIR}/bindings/c/lissom.h ${PROJECT_SOURCE_DIR}/bindings/c/lissom.hpp
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom/bindings/c)
+    configure_file(${PROJECT_SOURCE_DIR}/cmake/lissom.pc.in ${PROJECT_BINARY_DIR}/lissom.pc @ONLY)
+    install(FILES ${PROJECT_BINARY_DIR}/lissom.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()
+
 configure_package_config_file(
     ${PROJECT_SOURCE_DIR}/cmake/lissom-config.cmake.in ${PROJECT_BINARY_DIR}/lissom-config.cmake
     INSTALL_DESTINATION ${LISSOM_PACKAGE_DIR})

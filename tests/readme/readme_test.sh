@@ -51,6 +51,16 @@ run_program() {
         cmake --build "$work/$name" && (cd "$work" && "$work/$name/consumer")
 }
 
+# Compiled as C against the installed library, by what pkg-config says of it.
+run_c_program() {
+    local prefix=$work/prefix flags libraries
+    libraries=$(dirname "$(find "$prefix" -name 'liblissom.so' | head -n 1)") &&
+        flags=$(PKG_CONFIG_PATH=$libraries/pkgconfig pkg-config --cflags --libs lissom) || return 1
+    # shellcheck disable=SC2086
+    cc -std=c99 -Wall -Wextra -Werror "$1" $flags -o "$work/c_program" &&
+        LD_LIBRARY_PATH=$libraries "$work/c_program"
+}
+
 already_run() { # LINE COMMAND...
     local line=$1 command
     shift
@@ -78,6 +88,8 @@ for block in "$work"/blocks/*; do
     *.cpp) check "C++ block $(basename "$block")" run_program "$block" ;;
     esac
 done
+# After the C++ program, which installs the library.
+for block in "$work"/blocks/*.c; do check "C block $(basename "$block")" run_c_program "$block"; done
 
 while read -r link; do
     check "link to $link" test -e "$root/$link"

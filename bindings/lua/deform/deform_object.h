@@ -13,9 +13,11 @@ struct DeformObject {
     static constexpr const char* kTypeName = "lissom.Deformation";
 
     DeformObject(std::shared_ptr<MeshObject> owner, Deformer made)
+        : DeformObject(std::move(owner), std::make_shared<Deformer>(std::move(made))) {}
+    DeformObject(std::shared_ptr<MeshObject> owner, std::shared_ptr<Deformer> shared)
         : mesh(std::move(owner)),
           topology(mesh->mesh.shared_topology()),
-          content(std::make_shared<Deformer>(std::move(made))) {}
+          content(std::move(shared)) {}
 
     std::shared_ptr<MeshObject> mesh;
     std::shared_ptr<const Topology> topology;

@@ -25,7 +25,9 @@ struct HairstyleObject {
     static constexpr const char* kTypeName = "lissom.Hairstyle";
 
     HairstyleObject(std::shared_ptr<MeshObject> owner, Hairstyle made)
-        : head(std::move(owner)), content(std::make_shared<Hairstyle>(std::move(made))) {}
+        : HairstyleObject(std::move(owner), std::make_shared<Hairstyle>(std::move(made))) {}
+    HairstyleObject(std::shared_ptr<MeshObject> owner, std::shared_ptr<Hairstyle> shared)
+        : head(std::move(owner)), content(std::move(shared)) {}
 
     std::shared_ptr<MeshObject> head;
     /// Empty once it was closed.

@@ -1,0 +1,447 @@
+#include "bindings/c/context.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+#include "bindings/c/script_host.h"
+#include "kernel/core/version.h"
+
+namespace lissom::c {
+namespace {
+
+// Least and greatest number of bytes of a struct of options: of any version there may be.
+constexpr std::size_t kLeastOptions = 2 * sizeof(std::size_t), kGreatestOptions = 4096;
+
+// An id has 24 bits for the place, from 1, 24 for the generation and 16 for the context.
+constexpr int kPlaceBits = 24, kGenerationBits = 24;
+constexpr std::uint64_t kPlaceMask = (1u << kPlaceBits) - 1;
+constexpr std::uint32_t kLastGeneration = (1u << kGenerationBits) - 1;
+
+// Numbers of contexts, so that a handle of another one is told: the only state of the process.
+std::uint16_t next_context() {
+    static std::atomic<std::uint16_t> last{0};
+    return ++last;
+}
+
+lissom_status status_of(ErrorCode code) {
+    return static_cast<lissom_status>(static_cast<int>(code) + 1);
+}
+static_assert(static_cast<int>(ErrorCode::cancelled) + 1 == LISSOM_CANCELLED);
+static_assert(static_cast<int>(ErrorCode::unknown_format) + 1 == LISSOM_UNKNOWN_FORMAT);
+static_assert(static_cast<int>(ErrorCode::region_empty) + 1 == LISSOM_REGION_EMPTY);
+static_assert(static_cast<int>(ErrorCode::internal) + 1 == LISSOM_INTERNAL);
+
+ContextOptions kernel_options(const lissom_context_options& host) {
+    ContextOptions options;
+    options.threads = host.threads;
+    options.memory_limit = host.memory_limit;
+    if (host.log) {
+        options.log = [log = host.log, user = host.user](LogLevel level, std::string_view message) {
+            log(user, static_cast<lissom_log_level>(level), std::string(message).c_str());
+        };
+    }
+    if (host.progress) {
+        options.progress = [tell = host.progress, user = host.user](std::string_view label,
+                                                                    double fraction) {
+            tell(user, std::string(label).c_str(), fraction);
+        };
+    }
+    if (host.parallel_for) {
+        using Chunk = const std::function<void(std::size_t)>;
+        options.parallel_for = [loop = host.parallel_for, user = host.user](std::size_t count,
+                                                                            Chunk& chunk) {
+            const auto call = [](void* argument, std::size_t i) {
+                (*static_cast<Chunk*>(argument))(i);
+            };
+            loop(user, count, call, const_cast<void*>(static_cast<const void*>(&chunk)));
+        };
+    }
+    return options;
+}
+
+Mat3 axes_of(const lissom_space& space) {
+    Mat3 axes = Mat3::Identity();
+    if (space.z_up) axes << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+    if (space.left_handed) axes.row(2) *= -1.0;
+    return axes;
+}
+
+}  // namespace
+
+void CallError::guard(const std::function<void()>& work) noexcept {
+    try {
+        try {
+            status = LISSOM_OK;
+            message.clear();
+            elements = {};
+            work();
+        } catch (const Error& error) {
+            status = status_of(error.code());
+            message = error.message();
+            elements = error.elements();
+        } catch (const StatusError& error) {
+            status = error.status();
+            message = error.what();
+        } catch (const std::bad_alloc&) {
+            status = LISSOM_MEMORY_LIMIT;
+            message = "there is not enough memory";
+        } catch (const std::exception& error) {
+            status = LISSOM_INTERNAL;
+            message = error.what();
+        } catch (...) {
+            status = LISSOM_INTERNAL;
+            message = "an unknown exception was thrown";
+        }
+    } catch (...) {
+        // The text of the error needs memory that there is not.
+        status = LISSOM_MEMORY_LIMIT;
+    }
+}
+
+// ---- Objects
+
+std::uint64_t ObjectTable::id_of(std::size_t place) const {
+    return (place + 1) | std::uint64_t{objects_[place].generation} << kPlaceBits |
+           std::uint64_t{context_} << (kPlaceBits + kGenerationBits);
+}
+
+std::uint64_t ObjectTable::add(Kind kind, std::shared_ptr<void> content, MemoryCharge charge) {
+    if (free_.empty()) {
+        if (objects_.size() >= kPlaceMask) {
+            throw Error(ErrorCode::memory_limit, "there are too many objects; release some");
+        }
+        objects_.emplace_back();
+        free_.push_back(objects_.size() - 1);
+    }
+    const std::size_t place = free_.back();
+    Object& object = objects_[place];
+    object.kind = kind;
+    object.content = std::move(content);
+    object.charge = std::move(charge);
+    free_.pop_back();
+    ++size_;
+    return id_of(place);
+}
+
+ObjectTable::Object* ObjectTable::find(std::uint64_t id, Kind kind) {
+    const std::uint64_t place = (id & kPlaceMask) - 1;
+    if ((id & kPlaceMask) == 0 || place >= objects_.size() || id_of(place) != id) return nullptr;
+    Object& object = objects_[place];
+    return object.kind == kind ? &object : nullptr;
+}
+
+const ObjectTable::Object* ObjectTable::find(std::uint64_t id, Kind kind) const {
+    return const_cast<ObjectTable*>(this)->find(id, kind);
+}
+
+void ObjectTable::release(Object& object) {
+    const auto place = static_cast<std::size_t>(&object - objects_.data());
+    const std::uint32_t generation = object.generation + 1;
+    object = Object{};
+    object.generation = generation;
+    --size_;
+    // A place whose generations are used up stays empty: no handle comes twice.
+    if (generation < kLastGeneration) free_.push_back(place);
+}
+
+void ObjectTable::for_each(const std::function<void(std::uint64_t, Object&)>& visit) {
+    for (std::size_t place = 0; place < objects_.size(); ++place) {
+        if (objects_[place].kind != Kind::none) visit(id_of(place), objects_[place]);
+    }
+}
+
+// ---- Space
+
+Space::Space(const lissom_space& space) : axes_(axes_of(space)), reverses_(space.clockwise) {}
+
+Affine Space::to_kernel(const lissom_transform& transform) const {
+    Affine map;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            map.linear(row, column) = transform.m[4 * row + column];
+        }
+        map.translation[row] = transform.m[4 * row + 3];
+    }
+    return {axes_ * map.linear * axes_.transpose(), axes_ * map.translation};
+}
+
+lissom_transform Space::to_host(const Affine& map) const {
+    const Mat3 linear = axes_.transpose() * map.linear * axes_;
+    const Vec3 translation = axes_.transpose() * map.translation;
+    lissom_transform transform{};
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            transform.m[4 * row + column] = linear(row, column);
+        }
+        transform.m[4 * row + 3] = translation[row];
+    }
+    return transform;
+}
+
+// ---- Calls
+
+lissom_status run(lissom_context* context, const std::function<void()>& work) noexcept {
+    if (!context) return LISSOM_INVALID_HANDLE;
+    context->error.guard(work);
+    return context->error.status;
+}
+
+void require_given(const void* pointer, const char* name) {
+    if (!pointer) throw Error(ErrorCode::invalid_argument, std::string(name) + " is NULL");
+}
+
+void copy_options(const void* given, std::size_t given_size, void* options, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(given);
+    bool fits = given_size >= kLeastOptions && given_size <= kGreatestOptions;
+    // What a later version may ask for, this one must not leave out silently.
+    for (std::size_t i = size; fits && i < given_size; ++i) fits = bytes[i] == 0;
+    if (!fits) {
+        throw StatusError(LISSOM_BAD_STRUCT,
+                          "the options do not come from their lissom_default_ function, or ask for "
+                          "what a later version does");
+    }
+    std::memcpy(options, given, std::min(given_size, size));
+}
+
+Mesh& mesh_of(lissom_context& context, lissom_mesh mesh) {
+    return context.content<Mesh>(mesh.id, Kind::mesh);
+}
+
+const Region& region_of(lissom_context& context, lissom_region region) {
+    return context.content<Region>(region.id, Kind::region);
+}
+
+// ---- Jobs
+
+namespace {
+
+void run_job(void* argument) {
+    auto& job = *static_cast<Job*>(argument);
+    job.error.guard([&] { job.work(job.context); });
+    job.work = nullptr;
+    job.ended.store(true, std::memory_order_release);
+    job.ended.notify_all();
+}
+
+void hold(lissom_context& context, const Job& job, int change) {
+    for (const auto& [id, kind] : job.held) {
+        if (auto* object = context.objects.find(id, kind)) object->jobs += change;
+    }
+}
+
+std::shared_ptr<Job> find_job(const lissom_context& context, lissom_job job) {
+    const std::lock_guard lock(context.jobs_mutex);
+    const auto found = context.jobs.find(job.id);
+    return found == context.jobs.end() ? nullptr : found->second;
+}
+
+void wait_for(const lissom_context& context, Job& job) {
+    if (job.task) context.options.wait(context.options.user, std::exchange(job.task, nullptr));
+    job.ended.wait(false, std::memory_order_acquire);
+}
+
+}  // namespace
+
+void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kind>> held,
+               std::function<void(const Context&)> work, std::function<std::uint64_t()> take,
+               lissom_job* job) {
+    const auto made = std::make_shared<Job>(context.kernel.sibling());
+    made->work = std::move(work);
+    made->take = std::move(take);
+    made->held = std::move(held);
+    std::uint64_t id = 0;
+    {
+        const std::lock_guard lock(context.jobs_mutex);
+        id = context.next_job++;
+        context.jobs.emplace(id, made);
+    }
+    if (context.kernel.cancelled()) made->context.cancel();
+    hold(context, *made, 1);
+    if (context.options.enqueue) {
+        made->task = context.options.enqueue(context.options.user, run_job, made.get());
+    } else {
+        run_job(made.get());
+    }
+    job->id = id;
+}
+
+}  // namespace lissom::c
+
+using namespace lissom;
+using namespace lissom::c;
+
+lissom_context::lissom_context(const lissom_context_options& given)
+    : options(given), space(given.space), kernel(kernel_options(given)), objects(next_context()) {
+    // As of objects, ids of jobs tell the context.
+    next_job = objects.first_job();
+    connect_scripts(*this);
+}
+
+lissom_context::~lissom_context() {
+    // No job is left to work with what is freed here.
+    for (auto& [id, job] : jobs) job->context.cancel();
+    for (auto& [id, job] : jobs) wait_for(*this, *job);
+}
+
+const std::shared_ptr<void>& lissom_context::shared(std::uint64_t id, Kind kind) {
+    ObjectTable::Object* object = objects.find(id, kind);
+    if (!object) {
+        throw StatusError(LISSOM_INVALID_HANDLE,
+                          "the handle names no such object of this context: it was released, is of "
+                          "another kind, or comes from another context");
+    }
+    if (object->jobs > 0) {
+        throw StatusError(LISSOM_BUSY, "a job works with the object; finish the job first");
+    }
+    return object->content;
+}
+
+std::uint64_t lissom_context::add_mesh(Mesh&& mesh) {
+    const std::size_t taken = mesh.memory_bytes();
+    return add(Kind::mesh, sharing.make_mesh(std::move(mesh)), taken);
+}
+
+std::int32_t lissom_context::count(const std::function<std::int32_t()>& work) {
+    std::int32_t result = -1;
+    const lissom_status status = run(this, [&] { result = work(); });
+    return status == LISSOM_OK ? result : -1;
+}
+
+// ---- Contexts
+
+extern "C" {
+
+lissom_context_options lissom_default_context_options(void) {
+    lissom_context_options options{};
+    options.struct_size = sizeof options;
+    options.threads = 1;
+    return options;
+}
+
+lissom_status lissom_context_create(const lissom_context_options* options,
+                                    lissom_context** context) {
+    if (!context) return LISSOM_INVALID_ARGUMENT;
+    CallError error;
+    error.guard([&] {
+        const auto taken = take_options(options, lissom_default_context_options());
+        require(taken.threads >= 1, "threads must be 1 or more");
+        require(!taken.enqueue == !taken.wait, "enqueue and wait belong together");
+        *context = new lissom_context(taken);
+    });
+    return error.status;
+}
+
+void lissom_context_destroy(lissom_context* context) {
+    delete context;
+}
+
+const lissom_error* lissom_last_error(const lissom_context* context) {
+    static constexpr lissom_error kNoContext{LISSOM_INVALID_HANDLE,
+                                             "invalid_handle",
+                                             "the context is NULL",
+                                             LISSOM_NO_ELEMENT,
+                                             0,
+                                             nullptr,
+                                             0};
+    if (!context) return &kNoContext;
+    // What is shown is made of the error when it is asked for: calls that succeed pay nothing.
+    auto& own = *const_cast<lissom_context*>(context);
+    const CallError& error = own.error;
+    own.shown = {error.status,
+                 error.status == LISSOM_OK ? "" : lissom_status_name(error.status),
+                 error.message.c_str(),
+                 static_cast<lissom_element>(error.elements.kind),
+                 error.elements.count,
+                 error.elements.ids.data(),
+                 error.elements.ids.size()};
+    return &own.shown;
+}
+
+void lissom_cancel(lissom_context* context) {
+    if (!context) return;
+    context->kernel.cancel();
+    const std::lock_guard lock(context->jobs_mutex);
+    for (auto& [id, job] : context->jobs) job->context.cancel();
+}
+
+void lissom_clear_cancel(lissom_context* context) {
+    if (context) context->kernel.clear_cancel();
+}
+
+size_t lissom_memory_used(const lissom_context* context) {
+    return context ? context->kernel.memory()->used() : 0;
+}
+
+size_t lissom_memory_peak(const lissom_context* context) {
+    return context ? context->kernel.memory()->peak() : 0;
+}
+
+size_t lissom_object_count(const lissom_context* context) {
+    return context ? context->objects.size() : 0;
+}
+
+lissom_transform lissom_identity(void) {
+    return {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+}
+
+// ---- Jobs
+
+bool lissom_job_is_valid(const lissom_context* context, lissom_job job) {
+    return context && find_job(*context, job);
+}
+
+lissom_status lissom_job_poll(const lissom_context* context, lissom_job job,
+                              lissom_job_state* state) {
+    const auto found = context ? find_job(*context, job) : nullptr;
+    if (!found || !state) return LISSOM_INVALID_HANDLE;
+    *state = found->ended.load(std::memory_order_acquire) ? LISSOM_JOB_DONE : LISSOM_JOB_RUNNING;
+    return LISSOM_OK;
+}
+
+lissom_status lissom_job_cancel(const lissom_context* context, lissom_job job) {
+    const auto found = context ? find_job(*context, job) : nullptr;
+    if (!found) return LISSOM_INVALID_HANDLE;
+    found->context.cancel();
+    return LISSOM_OK;
+}
+
+lissom_status lissom_job_finish(lissom_context* context, lissom_job job, uint64_t* result) {
+    if (!context) return LISSOM_INVALID_HANDLE;
+    const auto found = find_job(*context, job);
+    if (!found) {
+        return run(context, [] {
+            throw StatusError(LISSOM_INVALID_HANDLE, "there is no such job: it was finished");
+        });
+    }
+    wait_for(*context, *found);
+    hold(*context, *found, -1);
+    {
+        const std::lock_guard lock(context->jobs_mutex);
+        context->jobs.erase(job.id);
+    }
+    context->error = found->error;
+    if (context->error.status != LISSOM_OK) return context->error.status;
+    return run(context, [&] {
+        const std::uint64_t made = found->take ? found->take() : 0;
+        if (result) {
+            *result = made;
+        } else if (made != 0) {
+            context->objects.for_each([&](std::uint64_t id, ObjectTable::Object& object) {
+                if (id == made) context->objects.release(object);
+            });
+        }
+    });
+}
+
+// ---- Version
+
+int32_t lissom_version(void) {
+    return LISSOM_VERSION_NUMBER;
+}
+
+const char* lissom_version_text(void) {
+    return LISSOM_VERSION;
+}
+
+}  // extern "C"

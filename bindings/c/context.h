@@ -1,0 +1,224 @@
+/// The state behind lissom_context: objects by handle, the last error, jobs; private to bindings/c.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings/c/lissom.h"
+#include "kernel/core/context.h"
+#include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
+#include "kernel/hair/strands/strands.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom::c {
+
+enum class Kind : std::uint8_t {
+    none,
+    mesh,
+    region,
+    deformer,
+    merge,
+    paste,
+    hairstyle,
+    strands,
+    script,
+    object,
+};
+
+/// A refusal that the kernel knows nothing of.
+class StatusError : public std::exception {
+  public:
+    StatusError(lissom_status status, std::string message)
+        : status_(status), message_(std::move(message)) {}
+
+    const char* what() const noexcept override { return message_.c_str(); }
+    lissom_status status() const { return status_; }
+
+  private:
+    lissom_status status_;
+    std::string message_;
+};
+
+/// What a call ran into, as lissom_last_error tells it.
+struct CallError {
+    lissom_status status = LISSOM_OK;
+    std::string message = {};
+    Elements elements = {};
+
+    /// Runs `work` and keeps what it throws.
+    void guard(const std::function<void()>& work) noexcept;
+};
+
+/// Objects by handle. An id holds the place in the table, how often that was used before, and the
+/// number of the context, so that stale and foreign handles are told from others.
+class ObjectTable {
+  public:
+    explicit ObjectTable(std::uint16_t context) : context_(context) {}
+
+    struct Object {
+        Kind kind = Kind::none;
+        std::uint32_t generation = 0;
+        /// Jobs that work with it.
+        int jobs = 0;
+        std::shared_ptr<void> content;
+        MemoryCharge charge;
+    };
+
+    std::uint64_t add(Kind kind, std::shared_ptr<void> content, MemoryCharge charge);
+    /// The object, or null for a handle that is not valid or of another kind.
+    Object* find(std::uint64_t id, Kind kind);
+    const Object* find(std::uint64_t id, Kind kind) const;
+    void release(Object& object);
+    std::size_t size() const { return size_; }
+    /// The id of the context's first job.
+    std::uint64_t first_job() const { return (std::uint64_t{context_} << 48) + 1; }
+    /// Calls visit(id, object) for every object.
+    void for_each(const std::function<void(std::uint64_t, Object&)>& visit);
+
+  private:
+    std::uint64_t id_of(std::size_t place) const;
+
+    std::uint16_t context_;
+    std::vector<Object> objects_;
+    std::vector<std::size_t> free_;
+    std::size_t size_ = 0;
+};
+
+/// How the host's space lies to the kernel's.
+class Space {
+  public:
+    explicit Space(const lissom_space& space);
+
+    Vec3 to_kernel(const Vec3& p) const { return axes_ * p; }
+    Vec3 to_host(const Vec3& p) const { return axes_.transpose() * p; }
+    Affine to_kernel(const lissom_transform& transform) const;
+    lissom_transform to_host(const Affine& map) const;
+    Vec3 to_kernel(const double p[3]) const { return axes_ * Vec3(p[0], p[1], p[2]); }
+    /// Faces run the other way.
+    bool reverses() const { return reverses_; }
+
+  private:
+    Mat3 axes_;
+    bool reverses_;
+};
+
+/// Work that runs beside the host's thread.
+struct Job {
+    explicit Job(Context own) : context(std::move(own)) {}
+
+    Context context;
+    std::function<void(const Context&)> work;
+    /// Takes over what was made, on the host's thread, and gives the handle of a new object, or 0.
+    std::function<std::uint64_t()> take;
+    std::vector<std::pair<std::uint64_t, Kind>> held;
+    CallError error;
+    std::atomic<bool> ended{false};
+    void* task = nullptr;
+};
+
+/// What scripts and lissom_call keep; null where the library was built without Lua.
+class ScriptHost;
+
+/// How objects are made and changed so that scripts can share them.
+struct Sharing {
+    std::function<std::shared_ptr<Mesh>(Mesh&&)> make_mesh = [](Mesh&& mesh) {
+        return std::make_shared<Mesh>(std::move(mesh));
+    };
+    std::function<std::shared_ptr<Strands>(Strands&&)> make_strands = [](Strands&& strands) {
+        return std::make_shared<Strands>(std::move(strands));
+    };
+    /// To be called after a change of a mesh.
+    std::function<void(const Mesh&)> changed = [](const Mesh&) {};
+    /// Tells which mesh an object was made for.
+    std::function<void(const void* object, const Mesh&)> belongs = [](const void*, const Mesh&) {};
+};
+
+}  // namespace lissom::c
+
+struct lissom_context {
+    explicit lissom_context(const lissom_context_options& given);
+    ~lissom_context();
+    lissom_context(const lissom_context&) = delete;
+    lissom_context& operator=(const lissom_context&) = delete;
+
+    lissom_context_options options;
+    lissom::c::Space space;
+    lissom::Context kernel;
+    lissom::c::ObjectTable objects;
+    /// Of the last call; `shown` points into it.
+    lissom::c::CallError error;
+    lissom_error shown{};
+    /// What lissom_bytes and texts of reports point to.
+    std::string bytes, text, more_text;
+    /// Jobs that were not finished; polled and cancelled from any thread.
+    mutable std::mutex jobs_mutex;
+    std::map<std::uint64_t, std::shared_ptr<lissom::c::Job>> jobs;
+    std::uint64_t next_job = 1;
+    lissom::c::Sharing sharing;
+    std::shared_ptr<lissom::c::ScriptHost> scripts;
+
+    std::uint64_t add_mesh(lissom::Mesh&& mesh);
+    template <typename T>
+    std::uint64_t add(lissom::c::Kind kind, std::shared_ptr<T> content,
+                      std::size_t bytes_taken = 0) {
+        return objects.add(kind, std::move(content),
+                           kernel.charge(bytes_taken, "an object of the host"));
+    }
+    /// The content of a valid handle that no job works with. Errors: StatusError.
+    template <typename T>
+    T& content(std::uint64_t id, lissom::c::Kind kind) {
+        return *static_cast<T*>(shared(id, kind).get());
+    }
+    template <typename T>
+    std::shared_ptr<T> share(std::uint64_t id, lissom::c::Kind kind) {
+        return std::static_pointer_cast<T>(shared(id, kind));
+    }
+    /// The number of a list of an object, or -1 for an invalid handle.
+    std::int32_t count(const std::function<std::int32_t()>& work);
+
+  private:
+    const std::shared_ptr<void>& shared(std::uint64_t id, lissom::c::Kind kind);
+};
+
+namespace lissom::c {
+
+/// Runs a call: `work` throws what went wrong.
+lissom_status run(lissom_context* context, const std::function<void()>& work) noexcept;
+
+/// Begins a job that works with `held`, and gives its handle.
+void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kind>> held,
+               std::function<void(const Context&)> work, std::function<std::uint64_t()> take,
+               lissom_job* job);
+
+/// Throws INVALID_ARGUMENT, naming it, where a pointer is NULL.
+void require_given(const void* pointer, const char* name);
+
+/// The options that a host gave over the defaults, whatever version of the header it was compiled
+/// with. Errors: BAD_STRUCT.
+template <typename Options>
+Options take_options(const Options* given, Options defaults);
+
+void copy_options(const void* given, std::size_t given_size, void* options, std::size_t size);
+
+template <typename Options>
+Options take_options(const Options* given, Options defaults) {
+    if (given) copy_options(given, given->struct_size, &defaults, sizeof(Options));
+    return defaults;
+}
+
+/// The mesh of a handle.
+Mesh& mesh_of(lissom_context& context, lissom_mesh mesh);
+/// The region of a handle.
+const Region& region_of(lissom_context& context, lissom_region region);
+
+}  // namespace lissom::c

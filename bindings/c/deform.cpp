@@ -1,0 +1,235 @@
+// Deformation by handles.
+#include "bindings/c/data.h"
+#include "kernel/deform/deformer.h"
+#include "kernel/io/basis_file.h"
+
+namespace lissom::c {
+namespace {
+
+DeformOptions deform_options(const lissom_deformer_options* given) {
+    const auto taken = take_options(given, lissom_default_deformer_options());
+    DeformOptions options = taken.thesis ? DeformOptions::thesis() : DeformOptions();
+    require(taken.second >= LISSOM_SECOND_BLEND && taken.second <= LISSOM_SECOND_POISSON,
+            "there is no such second system");
+    if (!taken.thesis) options.second = static_cast<SecondSystem>(taken.second);
+    if (taken.scale_details) options.local_size = LocalSize::scale;
+    options.refine = taken.refine;
+    options.transition = taken.transition;
+    return options;
+}
+
+HandleOptions handle_options(const lissom_handle_options* given) {
+    const auto taken = take_options(given, lissom_default_handle_options());
+    HandleOptions options;
+    options.position = taken.position;
+    options.gradient = taken.gradient;
+    if (taken.weight != 0.0) options.weight = taken.weight;
+    options.falloff = taken.falloff;
+    return options;
+}
+
+Deformer& deformer_of(lissom_context& context, lissom_deformer deformer) {
+    return context.content<Deformer>(deformer.id, Kind::deformer);
+}
+
+void find_surface(Deformer& deformer, lissom_quality quality, const Context& context) {
+    switch (quality) {
+        case LISSOM_PREVIEW:
+            deformer.preview(context);
+            return;
+        case LISSOM_DRAFT:
+            deformer.solve_draft(context);
+            return;
+        case LISSOM_FULL:
+            deformer.solve(context);
+            return;
+    }
+    throw Error(ErrorCode::invalid_argument, "there is no such quality");
+}
+
+VertexConstraint constraint_of(const lissom_context& context, Index vertex, const double* position,
+                               double weight) {
+    VertexConstraint constraint;
+    constraint.vertex = vertex;
+    if (position) constraint.position = context.space.to_kernel(position);
+    if (weight != 0.0) constraint.weight = weight;
+    return constraint;
+}
+
+}  // namespace
+}  // namespace lissom::c
+
+using namespace lissom;
+using namespace lissom::c;
+
+extern "C" {
+
+lissom_deformer_options lissom_default_deformer_options(void) {
+    lissom_deformer_options options{};
+    options.struct_size = sizeof options;
+    return options;
+}
+
+lissom_handle_options lissom_default_handle_options(void) {
+    lissom_handle_options options{};
+    options.struct_size = sizeof options;
+    options.position = true;
+    options.gradient = true;
+    return options;
+}
+
+lissom_status lissom_deformer_create(lissom_context* context, lissom_mesh mesh,
+                                     lissom_region region, const lissom_deformer_options* options,
+                                     lissom_deformer* deformer) {
+    return run(context, [&] {
+        require_given(deformer, "deformer");
+        const Mesh& own = mesh_of(*context, mesh);
+        auto made = std::make_shared<Deformer>(own, region_of(*context, region),
+                                               deform_options(options), context->kernel);
+        context->sharing.belongs(made.get(), own);
+        deformer->id = context->add(Kind::deformer, std::move(made));
+    });
+}
+
+lissom_status lissom_deformer_add_handle(lissom_context* context, lissom_deformer deformer,
+                                         lissom_region vertices,
+                                         const lissom_handle_options* options, int32_t* handle) {
+    return run(context, [&] {
+        require_given(handle, "handle");
+        *handle = deformer_of(*context, deformer)
+                      .add_handle(region_of(*context, vertices), handle_options(options))
+                      .value;
+    });
+}
+
+lissom_status lissom_deformer_remove_handle(lissom_context* context, lissom_deformer deformer,
+                                            int32_t handle) {
+    return run(context, [&] { deformer_of(*context, deformer).remove_handle(HandleId{handle}); });
+}
+
+lissom_status lissom_deformer_handle_center(lissom_context* context, lissom_deformer deformer,
+                                            int32_t handle, double center[3]) {
+    return run(context, [&] {
+        require_given(center, "center");
+        const Vec3 own =
+            context->space.to_host(deformer_of(*context, deformer).handle_center(HandleId{handle}));
+        for (int k = 0; k < 3; ++k) center[k] = own[k];
+    });
+}
+
+lissom_status lissom_deformer_set_transform(lissom_context* context, lissom_deformer deformer,
+                                            int32_t handle, const lissom_transform* transform) {
+    return run(context, [&] {
+        require_given(transform, "transform");
+        deformer_of(*context, deformer)
+            .set_transform(HandleId{handle}, context->space.to_kernel(*transform));
+    });
+}
+
+lissom_status lissom_deformer_get_transform(lissom_context* context, lissom_deformer deformer,
+                                            int32_t handle, lissom_transform* transform) {
+    return run(context, [&] {
+        require_given(transform, "transform");
+        *transform =
+            context->space.to_host(deformer_of(*context, deformer).transform(HandleId{handle}));
+    });
+}
+
+lissom_status lissom_deformer_constrain(lissom_context* context, lissom_deformer deformer,
+                                        int32_t vertex, const double position[3], double weight) {
+    return run(context, [&] {
+        require_given(position, "position");
+        deformer_of(*context, deformer)
+            .constrain(constraint_of(*context, vertex, position, weight));
+    });
+}
+
+lissom_status lissom_deformer_free(lissom_context* context, lissom_deformer deformer,
+                                   int32_t vertex) {
+    return run(context, [&] {
+        deformer_of(*context, deformer).constrain(constraint_of(*context, vertex, nullptr, 0.0));
+    });
+}
+
+lissom_status lissom_deformer_prepare(lissom_context* context, lissom_deformer deformer) {
+    return run(context, [&] { deformer_of(*context, deformer).prepare(context->kernel); });
+}
+
+lissom_status lissom_deformer_begin_prepare(lissom_context* context, lissom_deformer deformer,
+                                            lissom_job* job) {
+    return run(context, [&] {
+        require_given(job, "job");
+        const auto own = context->share<Deformer>(deformer.id, Kind::deformer);
+        begin_job(
+            *context, {{deformer.id, Kind::deformer}},
+            [own](const Context& inner) { own->prepare(inner); }, nullptr, job);
+    });
+}
+
+lissom_status lissom_deformer_solve(lissom_context* context, lissom_deformer deformer,
+                                    lissom_quality quality) {
+    return run(context,
+               [&] { find_surface(deformer_of(*context, deformer), quality, context->kernel); });
+}
+
+lissom_status lissom_deformer_begin_solve(lissom_context* context, lissom_deformer deformer,
+                                          lissom_quality quality, lissom_job* job) {
+    return run(context, [&] {
+        require_given(job, "job");
+        const auto own = context->share<Deformer>(deformer.id, Kind::deformer);
+        begin_job(
+            *context, {{deformer.id, Kind::deformer}},
+            [own, quality](const Context& inner) { find_surface(*own, quality, inner); }, nullptr,
+            job);
+    });
+}
+
+int32_t lissom_deformer_row_count(lissom_context* context, lissom_deformer deformer) {
+    if (!context) return -1;
+    return context->count([&] { return deformer_of(*context, deformer).region().size(); });
+}
+
+lissom_status lissom_deformer_read_rows(lissom_context* context, lissom_deformer deformer,
+                                        const lissom_output* vertices) {
+    return run(context, [&] {
+        write_integers(vertices, deformer_of(*context, deformer).region().vertices(), "vertices");
+    });
+}
+
+lissom_status lissom_deformer_read_positions(lissom_context* context, lissom_deformer deformer,
+                                             const lissom_output* positions) {
+    return run(context, [&] {
+        const std::vector<Vec3>& points = deformer_of(*context, deformer).positions();
+        write_points(positions, points.size(), "positions",
+                     [&](std::size_t i) { return context->space.to_host(points[i]); });
+    });
+}
+
+lissom_status lissom_deformer_apply(lissom_context* context, lissom_deformer deformer,
+                                    lissom_mesh mesh) {
+    return run(context, [&] {
+        Mesh& own = mesh_of(*context, mesh);
+        deformer_of(*context, deformer).apply_to(own);
+        context->sharing.changed(own);
+    });
+}
+
+lissom_status lissom_deformer_reset(lissom_context* context, lissom_deformer deformer) {
+    return run(context, [&] { deformer_of(*context, deformer).reset(); });
+}
+
+lissom_status lissom_deformer_rebase(lissom_context* context, lissom_deformer deformer) {
+    return run(context, [&] { deformer_of(*context, deformer).rebase(); });
+}
+
+lissom_status lissom_deformer_encode_basis(lissom_context* context, lissom_deformer deformer,
+                                           lissom_bytes* bytes) {
+    return run(context, [&] {
+        require_given(bytes, "bytes");
+        context->bytes =
+            encode_basis(make_engine_basis(deformer_of(*context, deformer), {}, context->kernel));
+        *bytes = {context->bytes.data(), context->bytes.size()};
+    });
+}
+
+}  // extern "C"

@@ -1,0 +1,901 @@
+/// lissom.h: Lissom for C, and for every language that calls C. Deformation of meshes by handles,
+/// merging, pasting, hair, scripts.
+///
+///     lissom_context_options options = lissom_default_context_options();
+///     lissom_context* context = NULL;
+///     if (lissom_context_create(&options, &context) != LISSOM_OK) return 1;
+///
+///     lissom_mesh mesh;
+///     if (lissom_mesh_load(context, "arm.obj", NULL, &mesh) != LISSOM_OK)
+///         puts(lissom_last_error(context)->message);
+///     ...
+///     lissom_context_destroy(context);                 // frees all that was made in it
+///
+/// Calls
+///     A function that can fail returns a lissom_status; results go through the last parameters and
+///     are written where it is LISSOM_OK only. After any other status everything is as it was, and
+///     lissom_last_error has the text, the code and the elements concerned, until the next call
+///     with this context. Nothing is thrown, printed, and no function ends the process. Ids count
+///     from 0, angles are in radians, texts and paths are UTF-8.
+///
+/// Options
+///     Structs of options begin with `struct_size`. Take one from its lissom_default_ function and
+///     change what you want; one that is only filled with zeros is refused (LISSOM_BAD_STRUCT).
+///     Where NULL is allowed it means the defaults. Later versions add fields at the end: programs
+///     that were compiled before go on working.
+///
+/// Objects
+///     An object is a handle of 8 bytes, passed by value. All bits zero is no object. A handle that
+///     was released, comes from another context or is of another kind is refused
+///     (LISSOM_INVALID_HANDLE) and never touches memory. Objects are independent: a deformer keeps
+///     what it needs of its mesh, which may be released. `lissom_X_release` frees one,
+///     `lissom_context_destroy` all.
+///
+/// Threads
+///     One context and its objects are for one thread at a time; any number of contexts may be used
+///     at once. Functions marked [any thread] may be called from elsewhere at any time. Callbacks
+///     say on which thread they run. The library starts threads only where `threads` asks for them.
+///
+/// Space
+///     The kernel is right-handed with y up, faces counter-clockwise seen from outside. A host with
+///     other axes says so once, in lissom_space: points, directions, transforms and triangles are
+///     converted in both directions on their way through this interface. Files keep the axes they
+///     are said to have.
+///
+/// MIT license, as all of Lissom.
+#ifndef LISSOM_H
+#define LISSOM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/// What stands before every function; define it before where a shared library is built or used.
+#ifndef LISSOM_API
+#define LISSOM_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Grows where a function or struct changes so that programs must be compiled again. A program that
+/// was compiled with another header than the library does not link: the number is part of the name
+/// of lissom_context_create.
+#define LISSOM_ABI_VERSION 1
+#define lissom_context_create lissom_context_create_abi1
+
+// ---- Status and errors
+
+typedef enum lissom_status {
+    LISSOM_OK = 0,
+    LISSOM_CANCELLED = 1,
+    LISSOM_INVALID_ARGUMENT = 2,
+    LISSOM_OUT_OF_RANGE = 3,
+    LISSOM_FILE_NOT_FOUND = 4,
+    LISSOM_FILE_IS_DIRECTORY = 5,
+    LISSOM_FILE_EMPTY = 6,
+    LISSOM_FILE_UNREADABLE = 7,
+    LISSOM_FILE_WRITE_FAILED = 8,
+    LISSOM_FILE_SYNTAX = 9,
+    LISSOM_FILE_TRUNCATED = 10,
+    LISSOM_FILE_TOO_LARGE = 11,
+    LISSOM_UNKNOWN_FORMAT = 12,
+    LISSOM_UNSAFE_PATH = 13,
+    LISSOM_NOT_FINITE = 14,
+    LISSOM_MESH_EMPTY = 15,
+    LISSOM_FACE_INDEX = 16,
+    LISSOM_FACE_TOO_SMALL = 17,
+    LISSOM_REPEATED_VERTEX = 18,
+    LISSOM_DUPLICATE_FACE = 19,
+    LISSOM_NONMANIFOLD_EDGE = 20,
+    LISSOM_NONMANIFOLD_VERTEX = 21,
+    LISSOM_INCONSISTENT_ORIENTATION = 22,
+    LISSOM_UNREFERENCED_VERTEX = 23,
+    LISSOM_ZERO_AREA = 24,
+    LISSOM_REGION_EMPTY = 25,
+    LISSOM_TOPOLOGY_MISMATCH = 26,
+    LISSOM_HANDLE_OUTSIDE_REGION = 27,
+    LISSOM_HANDLE_OVERLAP = 28,
+    LISSOM_HANDLE_REMOVED = 29,
+    LISSOM_SINGULAR_TRANSFORM = 30,
+    LISSOM_UNCONSTRAINED = 31,
+    LISSOM_NOT_A_BOUNDARY = 32,
+    LISSOM_NOT_A_DISK = 33,
+    LISSOM_BOUNDARY_CONFLICT = 34,
+    LISSOM_KEY_CONFLICT = 35,
+    LISSOM_SKIN_MISMATCH = 36,
+    LISSOM_NOT_POSITIVE_DEFINITE = 37,
+    LISSOM_MEMORY_LIMIT = 38,
+    LISSOM_UNSUPPORTED = 39,
+    LISSOM_NO_DISPLAY = 40,
+    LISSOM_INTERNAL = 41,
+    /// The handle names no object of this kind in this context.
+    LISSOM_INVALID_HANDLE = 100,
+    /// A job works with the object; finish the job first.
+    LISSOM_BUSY = 101,
+    /// A struct of options does not come from its lissom_default_ function.
+    LISSOM_BAD_STRUCT = 102,
+    /// The script failed; the message has its file and line.
+    LISSOM_SCRIPT_ERROR = 103
+} lissom_status;
+
+typedef enum lissom_element {
+    LISSOM_NO_ELEMENT = 0,
+    LISSOM_VERTEX = 1,
+    LISSOM_EDGE = 2,
+    LISSOM_FACE = 3,
+    LISSOM_CORNER = 4,
+    LISSOM_ROW = 5,
+    LISSOM_COMPONENT = 6,
+    LISSOM_LINE = 7,
+    LISSOM_STRAND = 8
+} lissom_element;
+
+/// What the last call that failed ran into.
+typedef struct lissom_error {
+    lissom_status status;
+    /// The name of the status in scripts and documentation: "file_not_found"; "" for LISSOM_OK.
+    const char* code;
+    /// What happened and what to do about it.
+    const char* message;
+    /// Elements concerned: their kind, their true number, and the ids of the first hundred (edges:
+    /// two vertices each).
+    lissom_element element;
+    size_t element_count;
+    const int32_t* ids;
+    size_t id_count;
+} lissom_error;
+
+/// "file_not_found", ...; "unknown" for no status. Lives for ever. [any thread]
+LISSOM_API const char* lissom_status_name(lissom_status status);
+/// One paragraph on what a status means and what to do about it. Lives for ever. [any thread]
+LISSOM_API const char* lissom_status_explanation(lissom_status status);
+
+// ---- Version
+
+/// 10000 * major + 100 * minor + patch of the library. [any thread]
+LISSOM_API int32_t lissom_version(void);
+/// "0.1.0". [any thread]
+LISSOM_API const char* lissom_version_text(void);
+/// Whether scripts and lissom_call are part of this library. [any thread]
+LISSOM_API bool lissom_has_scripts(void);
+
+// ---- Context
+
+typedef struct lissom_context lissom_context;
+
+typedef enum lissom_log_level {
+    LISSOM_DEBUG = 0,
+    LISSOM_INFO = 1,
+    LISSOM_WARNING = 2
+} lissom_log_level;
+
+/// How a host's space lies to the kernel's; see above. All zero is the kernel's own.
+typedef struct lissom_space {
+    /// z is up, and y points away from one who looks along it in a right-handed space.
+    bool z_up;
+    bool left_handed;
+    /// Faces are clockwise seen from outside.
+    bool clockwise;
+} lissom_space;
+
+/// Takes bytes; more than one call may bring a file. [called by the host]
+typedef void lissom_sink(void* argument, const void* bytes, size_t size);
+
+/// What a host lends to a context. Each function is optional and gets `user`.
+typedef struct lissom_context_options {
+    size_t struct_size;
+    void* user;
+    /// Receives messages, on the thread of the operation. Without it the library is silent.
+    void (*log)(void* user, lissom_log_level level, const char* message);
+    /// Receives what is being done and the fraction done, 0 to 1, on the thread of the operation.
+    void (*progress)(void* user, const char* label, double fraction);
+    /// Calls chunk(argument, i) once for each i below `count`, in any order, on any threads, and
+    /// returns when all have returned. Takes the place of threads of the library.
+    void (*parallel_for)(void* user, size_t count, void (*chunk)(void* argument, size_t i),
+                         void* argument);
+    /// Runs task(argument) once, on any thread, at once or later, and returns what `wait` gets.
+    /// Jobs run in it; without it a job runs when it begins. Must be given together with `wait`.
+    void* (*enqueue)(void* user, void (*task)(void* argument), void* argument);
+    /// Returns once that task has returned.
+    void (*wait)(void* user, void* task);
+    /// Reads a file: gives its bytes to the sink and returns true, or false where there is none.
+    /// With it the library opens no file for reading; files that refer to others (.gltf with .bin)
+    /// come in only as one file (.glb).
+    bool (*read_file)(void* user, const char* path, lissom_sink* sink, void* argument);
+    /// Writes a file, whole; false where it cannot. With it the library writes no file.
+    bool (*write_file)(void* user, const char* path, const void* bytes, size_t size);
+    /// Bytes that objects and operations may take together; 0 is no limit.
+    size_t memory_limit;
+    /// Threads of the library's own loops where there is no parallel_for; 1 starts none.
+    int32_t threads;
+    lissom_space space;
+} lissom_context_options;
+
+/// [any thread]
+LISSOM_API lissom_context_options lissom_default_context_options(void);
+/// Makes a context. `options` may be NULL. [any thread]
+/// Errors: BAD_STRUCT; INVALID_ARGUMENT for threads below 1, or `enqueue` without `wait`;
+/// MEMORY_LIMIT.
+LISSOM_API lissom_status lissom_context_create(const lissom_context_options* options,
+                                               lissom_context** context);
+/// Cancels jobs, waits for them, and frees the context with all its objects. NULL is allowed.
+LISSOM_API void lissom_context_destroy(lissom_context* context);
+/// Never NULL; of status LISSOM_OK where the last call succeeded.
+LISSOM_API const lissom_error* lissom_last_error(const lissom_context* context);
+/// Asks what runs to stop: it returns CANCELLED soon and has changed nothing. What begins later
+/// stops too, until lissom_clear_cancel. [any thread]
+LISSOM_API void lissom_cancel(lissom_context* context);
+LISSOM_API void lissom_clear_cancel(lissom_context* context);
+/// Bytes taken now, and at most so far, of objects and operations. [any thread]
+LISSOM_API size_t lissom_memory_used(const lissom_context* context);
+LISSOM_API size_t lissom_memory_peak(const lissom_context* context);
+/// Number of objects that were not released.
+LISSOM_API size_t lissom_object_count(const lissom_context* context);
+
+// ---- Data of the host
+
+typedef enum lissom_format {
+    LISSOM_FLOAT32 = 0,
+    LISSOM_FLOAT64 = 1,
+    LISSOM_UINT32 = 2,
+    LISSOM_INT32 = 3
+} lissom_format;
+
+/// A list in the host's memory that is read, for instance the positions among the vertices of an
+/// engine. Its elements are numbers or triples of numbers, as the function says.
+typedef struct lissom_input {
+    const void* data;
+    size_t count;
+    /// Bytes from one element to the next; 0: they follow each other without gaps.
+    size_t stride;
+    lissom_format format;
+} lissom_input;
+
+/// A list in the host's memory that is written: mapped vertex buffers too, as nothing is read from
+/// it. `count` is the number of elements there is room for; where it is too small the call is
+/// refused as OUT_OF_RANGE. The functions that tell the number stand beside.
+typedef struct lissom_output {
+    void* data;
+    size_t count;
+    size_t stride;
+    lissom_format format;
+} lissom_output;
+
+/// Bytes that the library made; a zero byte follows them, for texts. They live until the next call
+/// with the context.
+typedef struct lissom_bytes {
+    const void* data;
+    size_t size;
+} lissom_bytes;
+
+/// An affine map p' = m p: the rows of a 3 x 4 matrix.
+typedef struct lissom_transform {
+    double m[12];
+} lissom_transform;
+
+/// [any thread]
+LISSOM_API lissom_transform lissom_identity(void);
+
+// ---- Kinds of objects
+
+typedef struct lissom_mesh {
+    uint64_t id;
+} lissom_mesh;
+typedef struct lissom_region {
+    uint64_t id;
+} lissom_region;
+typedef struct lissom_deformer {
+    uint64_t id;
+} lissom_deformer;
+typedef struct lissom_merge {
+    uint64_t id;
+} lissom_merge;
+typedef struct lissom_paste {
+    uint64_t id;
+} lissom_paste;
+typedef struct lissom_hairstyle {
+    uint64_t id;
+} lissom_hairstyle;
+typedef struct lissom_strands {
+    uint64_t id;
+} lissom_strands;
+typedef struct lissom_job {
+    uint64_t id;
+} lissom_job;
+typedef struct lissom_script {
+    uint64_t id;
+} lissom_script;
+/// An object that only scripts and lissom_call know: a path, a curve, a scene, ...
+typedef struct lissom_object {
+    uint64_t id;
+} lissom_object;
+
+/// Whether the handle names an object of this context.
+LISSOM_API bool lissom_mesh_is_valid(const lissom_context* context, lissom_mesh mesh);
+LISSOM_API bool lissom_region_is_valid(const lissom_context* context, lissom_region region);
+LISSOM_API bool lissom_deformer_is_valid(const lissom_context* context, lissom_deformer deformer);
+LISSOM_API bool lissom_merge_is_valid(const lissom_context* context, lissom_merge merge);
+LISSOM_API bool lissom_paste_is_valid(const lissom_context* context, lissom_paste paste);
+LISSOM_API bool lissom_hairstyle_is_valid(const lissom_context* context, lissom_hairstyle style);
+LISSOM_API bool lissom_strands_is_valid(const lissom_context* context, lissom_strands strands);
+LISSOM_API bool lissom_job_is_valid(const lissom_context* context, lissom_job job);
+LISSOM_API bool lissom_script_is_valid(const lissom_context* context, lissom_script script);
+LISSOM_API bool lissom_object_is_valid(const lissom_context* context, lissom_object object);
+
+/// Frees an object. Errors: INVALID_HANDLE; BUSY while a job works with it.
+LISSOM_API lissom_status lissom_mesh_release(lissom_context* context, lissom_mesh mesh);
+LISSOM_API lissom_status lissom_region_release(lissom_context* context, lissom_region region);
+LISSOM_API lissom_status lissom_deformer_release(lissom_context* context, lissom_deformer deformer);
+LISSOM_API lissom_status lissom_merge_release(lissom_context* context, lissom_merge merge);
+LISSOM_API lissom_status lissom_paste_release(lissom_context* context, lissom_paste paste);
+LISSOM_API lissom_status lissom_hairstyle_release(lissom_context* context, lissom_hairstyle style);
+LISSOM_API lissom_status lissom_strands_release(lissom_context* context, lissom_strands strands);
+LISSOM_API lissom_status lissom_script_release(lissom_context* context, lissom_script script);
+LISSOM_API lissom_status lissom_object_release(lissom_context* context, lissom_object object);
+
+// ---- Jobs
+//
+// Functions with `begin` in their name start what takes long and return at once where the host has
+// given `enqueue`. Objects that the job works with are BUSY until it is finished. Progress and log
+// are told on the thread that the host runs the job on.
+
+typedef enum lissom_job_state { LISSOM_JOB_RUNNING = 0, LISSOM_JOB_DONE = 1 } lissom_job_state;
+
+/// Whether the job has ended, well or badly. Does not wait. [any thread]
+LISSOM_API lissom_status lissom_job_poll(const lissom_context* context, lissom_job job,
+                                         lissom_job_state* state);
+/// Asks this job alone to stop; finish it all the same. [any thread]
+LISSOM_API lissom_status lissom_job_cancel(const lissom_context* context, lissom_job job);
+/// Waits for the job where it still runs, takes over what it has made, and frees it. Returns what
+/// the function without `begin` would have returned; the error is that of the job. `result`
+/// receives the handle of the new object where the job makes one (`id` of its struct), else 0; it
+/// may be NULL, and the object is then dropped.
+LISSOM_API lissom_status lissom_job_finish(lissom_context* context, lissom_job job,
+                                           uint64_t* result);
+
+// ---- Meshes
+
+typedef enum lissom_weld {
+    LISSOM_WELD_AUTOMATIC = 0,  ///< all for STL, else seams
+    LISSOM_WELD_SEAMS = 1,      ///< vertices at one place along open edges become one
+    LISSOM_WELD_ALL = 2,
+    LISSOM_WELD_NONE = 3
+} lissom_weld;
+
+typedef struct lissom_mesh_load_options {
+    size_t struct_size;
+    lissom_weld weld;
+    /// false: what would be mended is an error instead.
+    bool repair;
+    /// The file's z axis is up.
+    bool z_up;
+    /// Length of the file's unit in the mesh's; above 0.
+    double unit;
+} lissom_mesh_load_options;
+
+typedef struct lissom_mesh_save_options {
+    size_t struct_size;
+    bool z_up;
+    double unit;
+    /// Binary or text, for PLY and STL.
+    bool binary;
+} lissom_mesh_save_options;
+
+LISSOM_API lissom_mesh_load_options lissom_default_mesh_load_options(void);
+LISSOM_API lissom_mesh_save_options lissom_default_mesh_save_options(void);
+
+/// A mesh of positions (triples) and faces. `corners` are the vertices of all faces one after the
+/// other (integers); `sizes` how many each face has (integers), or NULL where all are triangles.
+/// Accepts oriented 2-manifolds of polygons, with or without boundary. Errors: NOT_FINITE;
+/// FACE_INDEX, FACE_TOO_SMALL, REPEATED_VERTEX, DUPLICATE_FACE, NONMANIFOLD_EDGE,
+/// NONMANIFOLD_VERTEX, INCONSISTENT_ORIENTATION, each naming the elements; INVALID_ARGUMENT where
+/// sizes and corners do not fit; CANCELLED; MEMORY_LIMIT.
+LISSOM_API lissom_status lissom_mesh_create(lissom_context* context, const lissom_input* positions,
+                                            const lissom_input* corners, const lissom_input* sizes,
+                                            lissom_mesh* mesh);
+/// Loads .obj .ply .off .stl .gltf .glb. `options` may be NULL. What was repaired goes to the log.
+/// Errors: FILE_NOT_FOUND, UNKNOWN_FORMAT, FILE_SYNTAX, ... as lissom_status lists them.
+LISSOM_API lissom_status lissom_mesh_load(lissom_context* context, const char* path,
+                                          const lissom_mesh_load_options* options,
+                                          lissom_mesh* mesh);
+/// The same from the bytes of a file; `extension` is "obj", "glb", ...
+LISSOM_API lissom_status lissom_mesh_decode(lissom_context* context, const void* bytes, size_t size,
+                                            const char* extension,
+                                            const lissom_mesh_load_options* options,
+                                            lissom_mesh* mesh);
+/// Saves by extension, whole or not at all. What the format cannot hold is named in the log.
+LISSOM_API lissom_status lissom_mesh_save(lissom_context* context, lissom_mesh mesh,
+                                          const char* path,
+                                          const lissom_mesh_save_options* options);
+LISSOM_API lissom_status lissom_mesh_encode(lissom_context* context, lissom_mesh mesh,
+                                            const char* extension,
+                                            const lissom_mesh_save_options* options,
+                                            lissom_bytes* bytes);
+LISSOM_API lissom_status lissom_mesh_copy(lissom_context* context, lissom_mesh mesh,
+                                          lissom_mesh* copy);
+
+/// Numbers of elements; -1 for an invalid handle. Triangles are those that polygons are split into.
+LISSOM_API int32_t lissom_mesh_vertex_count(lissom_context* context, lissom_mesh mesh);
+LISSOM_API int32_t lissom_mesh_face_count(lissom_context* context, lissom_mesh mesh);
+LISSOM_API int32_t lissom_mesh_corner_count(lissom_context* context, lissom_mesh mesh);
+LISSOM_API int32_t lissom_mesh_triangle_count(lissom_context* context, lissom_mesh mesh);
+LISSOM_API int32_t lissom_mesh_boundary_count(lissom_context* context, lissom_mesh mesh);
+
+/// One triple a vertex. Normals are of unit length, weighted by the angles of faces; zero where no
+/// face has area.
+LISSOM_API lissom_status lissom_mesh_read_positions(lissom_context* context, lissom_mesh mesh,
+                                                    const lissom_output* positions);
+LISSOM_API lissom_status lissom_mesh_read_normals(lissom_context* context, lissom_mesh mesh,
+                                                  const lissom_output* normals);
+/// Triples of vertices, one a triangle (integers).
+LISSOM_API lissom_status lissom_mesh_read_triangles(lissom_context* context, lissom_mesh mesh,
+                                                    const lissom_output* triangles);
+/// The vertices of all faces, one integer a corner, and the number of corners of each. Either may
+/// be NULL.
+LISSOM_API lissom_status lissom_mesh_read_faces(lissom_context* context, lissom_mesh mesh,
+                                                const lissom_output* corners,
+                                                const lissom_output* sizes);
+/// The vertices of open boundary `number`, in order. `count` receives how many there are;
+/// `vertices` may be NULL to ask for that alone. Errors: OUT_OF_RANGE.
+LISSOM_API lissom_status lissom_mesh_read_boundary(lissom_context* context, lissom_mesh mesh,
+                                                   int32_t number, const lissom_output* vertices,
+                                                   int32_t* count);
+/// Replaces all positions (triples). Errors: INVALID_ARGUMENT for another number; NOT_FINITE.
+LISSOM_API lissom_status lissom_mesh_set_positions(lissom_context* context, lissom_mesh mesh,
+                                                   const lissom_input* positions);
+/// Moves all vertices; a map that mirrors turns the faces over. Errors: SINGULAR_TRANSFORM;
+/// NOT_FINITE.
+LISSOM_API lissom_status lissom_mesh_transform(lissom_context* context, lissom_mesh mesh,
+                                               const lissom_transform* map);
+/// Least and greatest coordinates. Errors: MESH_EMPTY.
+LISSOM_API lissom_status lissom_mesh_bounds(lissom_context* context, lissom_mesh mesh,
+                                            double least[3], double greatest[3]);
+/// A hash of all content, the same on every platform; equal meshes have equal hashes.
+LISSOM_API lissom_status lissom_mesh_hash(lissom_context* context, lissom_mesh mesh,
+                                          uint64_t* hash);
+
+// ---- Regions: sets of vertices of a mesh. A region belongs to the mesh's topology; after that has
+// changed its use is refused (TOPOLOGY_MISMATCH).
+
+LISSOM_API lissom_status lissom_region_all(lissom_context* context, lissom_mesh mesh,
+                                           lissom_region* region);
+/// Of a list of ids (integers), in any order. Errors: OUT_OF_RANGE naming the vertices.
+LISSOM_API lissom_status lissom_region_of_vertices(lissom_context* context, lissom_mesh mesh,
+                                                   const lissom_input* vertices,
+                                                   lissom_region* region);
+LISSOM_API lissom_status lissom_region_sphere(lissom_context* context, lissom_mesh mesh,
+                                              const double center[3], double radius,
+                                              lissom_region* region);
+LISSOM_API lissom_status lissom_region_box(lissom_context* context, lissom_mesh mesh,
+                                           const double least[3], const double greatest[3],
+                                           lissom_region* region);
+/// On the side of a plane that `normal` points to.
+LISSOM_API lissom_status lissom_region_plane(lissom_context* context, lissom_mesh mesh,
+                                             const double point[3], const double normal[3],
+                                             lissom_region* region);
+/// Within `radius` over the surface from the vertex nearest to `point`.
+LISSOM_API lissom_status lissom_region_geodesic(lissom_context* context, lissom_mesh mesh,
+                                                const double point[3], double radius,
+                                                lissom_region* region);
+/// A region that the mesh was saved with, or was given. Errors: OUT_OF_RANGE where there is none.
+LISSOM_API lissom_status lissom_region_named(lissom_context* context, lissom_mesh mesh,
+                                             const char* name, lissom_region* region);
+/// Keeps a region with its mesh under a name; it is saved where the format can.
+LISSOM_API lissom_status lissom_mesh_set_region(lissom_context* context, lissom_mesh mesh,
+                                                const char* name, lissom_region region);
+
+typedef enum lissom_region_operation {
+    LISSOM_UNION = 0,
+    LISSOM_INTERSECTION = 1,
+    LISSOM_DIFFERENCE = 2
+} lissom_region_operation;
+
+/// Errors: TOPOLOGY_MISMATCH for regions of different meshes.
+LISSOM_API lissom_status lissom_region_combine(lissom_context* context, lissom_region a,
+                                               lissom_region b, lissom_region_operation operation,
+                                               lissom_region* region);
+LISSOM_API lissom_status lissom_region_invert(lissom_context* context, lissom_region a,
+                                              lissom_region* region);
+/// Adds `rings` one-rings, or takes as many away where negative.
+LISSOM_API lissom_status lissom_region_grow(lissom_context* context, lissom_region a, int32_t rings,
+                                            lissom_region* region);
+/// -1 for an invalid handle.
+LISSOM_API int32_t lissom_region_size(lissom_context* context, lissom_region region);
+/// Ascending ids (integers).
+LISSOM_API lissom_status lissom_region_read_vertices(lissom_context* context, lissom_region region,
+                                                     const lissom_output* vertices);
+
+// ---- Deformation by handles (thesis, chapter 2)
+
+typedef enum lissom_second_system {
+    LISSOM_SECOND_BLEND = 0,
+    LISSOM_SECOND_LAPLACIAN = 1,
+    LISSOM_SECOND_POISSON = 2
+} lissom_second_system;
+
+typedef struct lissom_deformer_options {
+    size_t struct_size;
+    lissom_second_system second;
+    /// Details scale with the surface around them (Eq 2.11) in place of keeping their size
+    /// (Eq 2.10).
+    bool scale_details;
+    /// ARAP iterations, over-relaxed, 0 to 2.
+    int32_t refine;
+    /// Within this geodesic distance of the region's outline the deformation fades; in units of
+    /// length.
+    double transition;
+    /// The thesis to the letter, for comparison.
+    bool thesis;
+} lissom_deformer_options;
+
+typedef struct lissom_handle_options {
+    size_t struct_size;
+    bool position;
+    bool gradient;
+    /// 0: the handle is hard. Otherwise it is soft: at 1 a compromise with the shape of the
+    /// surface.
+    double weight;
+    /// Geodesic distance within which the surface follows softly.
+    double falloff;
+} lissom_handle_options;
+
+LISSOM_API lissom_deformer_options lissom_default_deformer_options(void);
+LISSOM_API lissom_handle_options lissom_default_handle_options(void);
+
+/// Takes the present shape of the mesh as rest shape, of which `region` is deformed; outside it
+/// nothing moves. Errors: REGION_EMPTY; TOPOLOGY_MISMATCH; INVALID_ARGUMENT.
+LISSOM_API lissom_status lissom_deformer_create(lissom_context* context, lissom_mesh mesh,
+                                                lissom_region region,
+                                                const lissom_deformer_options* options,
+                                                lissom_deformer* deformer);
+/// Adds a handle: what moves as one. It stands still until lissom_deformer_set_transform; one that
+/// is never moved holds its place. `handle` numbers the handles of this deformer. Errors:
+/// REGION_EMPTY; HANDLE_OUTSIDE_REGION; HANDLE_OVERLAP, naming the vertices.
+LISSOM_API lissom_status lissom_deformer_add_handle(lissom_context* context,
+                                                    lissom_deformer deformer,
+                                                    lissom_region vertices,
+                                                    const lissom_handle_options* options,
+                                                    int32_t* handle);
+LISSOM_API lissom_status lissom_deformer_remove_handle(lissom_context* context,
+                                                       lissom_deformer deformer, int32_t handle);
+/// Mean of the handle's vertices at rest.
+LISSOM_API lissom_status lissom_deformer_handle_center(lissom_context* context,
+                                                       lissom_deformer deformer, int32_t handle,
+                                                       double center[3]);
+/// Where the handle goes, from the rest shape. A drag through half a turn goes on turning.
+/// Errors: SINGULAR_TRANSFORM; HANDLE_REMOVED.
+LISSOM_API lissom_status lissom_deformer_set_transform(lissom_context* context,
+                                                       lissom_deformer deformer, int32_t handle,
+                                                       const lissom_transform* transform);
+LISSOM_API lissom_status lissom_deformer_get_transform(lissom_context* context,
+                                                       lissom_deformer deformer, int32_t handle,
+                                                       lissom_transform* transform);
+/// Holds one vertex at a point; weight 0 is hard. Errors: OUT_OF_RANGE; HANDLE_OUTSIDE_REGION;
+/// HANDLE_OVERLAP.
+LISSOM_API lissom_status lissom_deformer_constrain(lissom_context* context,
+                                                   lissom_deformer deformer, int32_t vertex,
+                                                   const double position[3], double weight);
+/// Frees a vertex that was constrained.
+LISSOM_API lissom_status lissom_deformer_free(lissom_context* context, lissom_deformer deformer,
+                                              int32_t vertex);
+/// Factors what the handles need, so that the first frame of a drag is as fast as the others.
+/// Errors: UNCONSTRAINED; ZERO_AREA; NOT_POSITIVE_DEFINITE; MEMORY_LIMIT; CANCELLED.
+LISSOM_API lissom_status lissom_deformer_prepare(lissom_context* context, lissom_deformer deformer);
+LISSOM_API lissom_status lissom_deformer_begin_prepare(lissom_context* context,
+                                                       lissom_deformer deformer, lissom_job* job);
+
+typedef enum lissom_quality {
+    LISSOM_PREVIEW = 0,  ///< the first system, by the handle basis: fastest, with some shear
+    LISSOM_DRAFT = 1,    ///< both systems, to about five digits
+    LISSOM_FULL = 2      ///< both systems
+} lissom_quality;
+
+/// Finds the surface for the present transforms. Prepares where needed. Errors: as prepare.
+LISSOM_API lissom_status lissom_deformer_solve(lissom_context* context, lissom_deformer deformer,
+                                               lissom_quality quality);
+LISSOM_API lissom_status lissom_deformer_begin_solve(lissom_context* context,
+                                                     lissom_deformer deformer,
+                                                     lissom_quality quality, lissom_job* job);
+/// The vertices of the region, ascending ids (integers), and how many: the rows of what follows.
+LISSOM_API int32_t lissom_deformer_row_count(lissom_context* context, lissom_deformer deformer);
+LISSOM_API lissom_status lissom_deformer_read_rows(lissom_context* context,
+                                                   lissom_deformer deformer,
+                                                   const lissom_output* vertices);
+/// Positions of the region after the last solve, one triple a row: what changes in a frame of a
+/// drag.
+LISSOM_API lissom_status lissom_deformer_read_positions(lissom_context* context,
+                                                        lissom_deformer deformer,
+                                                        const lissom_output* positions);
+/// Writes the last result into a mesh: the one it was made for, or a copy of it; custom normals and
+/// morph targets follow. Errors: TOPOLOGY_MISMATCH for another mesh, or one that changed around the
+/// region.
+LISSOM_API lissom_status lissom_deformer_apply(lissom_context* context, lissom_deformer deformer,
+                                               lissom_mesh mesh);
+/// All handles and the surface back to rest.
+LISSOM_API lissom_status lissom_deformer_reset(lissom_context* context, lissom_deformer deformer);
+/// The last result becomes the rest shape, on which handles stay.
+LISSOM_API lissom_status lissom_deformer_rebase(lissom_context* context, lissom_deformer deformer);
+/// The handle basis as a file has it: lissom_basis.h evaluates it into vertex buffers without the
+/// library, on any thread, and so does a vertex shader. Errors: as prepare.
+LISSOM_API lissom_status lissom_deformer_encode_basis(lissom_context* context,
+                                                      lissom_deformer deformer,
+                                                      lissom_bytes* bytes);
+
+// ---- Cutting
+
+typedef struct lissom_cut_options {
+    size_t struct_size;
+    /// Cut every line in which a plane crosses the mesh, not only the one nearest to its point.
+    bool all_lines;
+    /// Fraction of an edge within which vertices slide onto the line; 0 to 0.45.
+    double slide;
+} lissom_cut_options;
+
+LISSOM_API lissom_cut_options lissom_default_cut_options(void);
+/// Cuts by a plane near a point of it; the part that `normal` points to is `kept`. Each part's open
+/// boundaries along the cut are its last ones. `rest` may be NULL.
+/// Errors: INVALID_ARGUMENT where the plane does not cross the mesh; BOUNDARY_CONFLICT where the
+/// line does not separate it; MESH_EMPTY; NOT_FINITE; CANCELLED.
+LISSOM_API lissom_status lissom_cut_by_plane(lissom_context* context, lissom_mesh mesh,
+                                             const double point[3], const double normal[3],
+                                             const lissom_cut_options* options, lissom_mesh* kept,
+                                             lissom_mesh* rest);
+/// Cuts out a region along its smoothed outlines. Errors: as above; REGION_EMPTY.
+LISSOM_API lissom_status lissom_cut_by_region(lissom_context* context, lissom_mesh mesh,
+                                              lissom_region region,
+                                              const lissom_cut_options* options, lissom_mesh* kept,
+                                              lissom_mesh* rest);
+
+// ---- Merging (thesis, section 3.3)
+
+/// Two open boundaries that become one, and points that meet: pairs of triples, one pair a key.
+typedef struct lissom_join {
+    int32_t source_boundary;
+    /// Which of the targets, and which of its boundaries.
+    int32_t target;
+    int32_t target_boundary;
+    /// `key_count` points on the source's boundary and as many on the target's; may be NULL for
+    /// none.
+    const double* source_keys;
+    const double* target_keys;
+    int32_t key_count;
+} lissom_join;
+
+typedef struct lissom_merge_options {
+    size_t struct_size;
+    /// The source stays where it is and bends, in place of moving wherever the target is.
+    bool fixed_configuration;
+    /// Umbrella steps at the seam, at most.
+    int32_t smooth;
+    /// Remesh beside a seam where one side is sparser.
+    bool collar;
+    /// Chooses widths over which the details of both sides fade into each other.
+    bool transition;
+    /// Look for faces that newly run through one another.
+    bool find_intersections;
+    /// The thesis to the letter, for comparison.
+    bool thesis;
+} lissom_merge_options;
+
+/// What a merge or a paste did.
+typedef struct lissom_merge_report {
+    size_t struct_size;
+    /// Whether the seams are good.
+    bool ok;
+    /// How much the source grew at the first join.
+    double scale;
+    /// Steepest dihedral angle at the seams, in radians.
+    double greatest_dihedral;
+    int32_t intersections;
+    /// Why the seams are not good, in a line; warnings, one a line. They live until the next call.
+    const char* verdict;
+    const char* warnings;
+} lissom_merge_report;
+
+LISSOM_API lissom_merge_options lissom_default_merge_options(void);
+LISSOM_API lissom_merge_report lissom_default_merge_report(void);
+
+/// Checks and prepares a merge of `source` onto `target_count` targets. The meshes stay as they
+/// are. Errors: INVALID_ARGUMENT; OUT_OF_RANGE for a boundary; BOUNDARY_CONFLICT; UNCONSTRAINED;
+/// ZERO_AREA; MEMORY_LIMIT; CANCELLED.
+LISSOM_API lissom_status lissom_merge_create(lissom_context* context, lissom_mesh source,
+                                             const lissom_mesh* targets, int32_t target_count,
+                                             const lissom_join* joins, int32_t join_count,
+                                             const lissom_merge_options* options,
+                                             lissom_merge* merge);
+/// Replaces the keys of one join; nothing is factored again. Errors: OUT_OF_RANGE; KEY_CONFLICT.
+LISSOM_API lissom_status lissom_merge_set_keys(lissom_context* context, lissom_merge merge,
+                                               int32_t join, const double* source_keys,
+                                               const double* target_keys, int32_t key_count);
+/// Makes the merged mesh. `report` may be NULL. Errors: KEY_CONFLICT; BOUNDARY_CONFLICT; CANCELLED.
+LISSOM_API lissom_status lissom_merge_solve(lissom_context* context, lissom_merge merge,
+                                            lissom_mesh* mesh, lissom_merge_report* report);
+/// The same as a job, whose result is a mesh.
+LISSOM_API lissom_status lissom_merge_begin_solve(lissom_context* context, lissom_merge merge,
+                                                  lissom_job* job);
+
+// ---- Pasting with an optimal boundary (thesis, section 3.4)
+
+typedef struct lissom_placement {
+    size_t struct_size;
+    /// The middle of the feature comes to lie on the point of the target nearest to this.
+    double at[3];
+    /// Direction on the target that the source's `up` is to point; all zero: the same as on the
+    /// source.
+    double toward[3];
+    double up[3];
+    /// Turn about the surface's normal, from `toward`; NAN: what fits best.
+    double angle;
+    double scale;
+} lissom_placement;
+
+LISSOM_API lissom_placement lissom_default_placement(void);
+
+/// Prepares the paste of the feature in `region` of `source` onto `target`. `feature` and `onto`
+/// may be zero: what lies deep in the region, and a disk around the placement. Errors:
+/// TOPOLOGY_MISMATCH, REGION_EMPTY, BOUNDARY_CONFLICT, NOT_A_DISK naming elements; CANCELLED.
+LISSOM_API lissom_status lissom_paste_create(lissom_context* context, lissom_mesh source,
+                                             lissom_mesh target, lissom_region region,
+                                             lissom_region feature, lissom_region onto,
+                                             const lissom_placement* placement,
+                                             lissom_paste* paste);
+/// Seeks the loop that merges with the least distortion.
+LISSOM_API lissom_status lissom_paste_optimize(lissom_context* context, lissom_paste paste,
+                                               int32_t iterations);
+/// Places the part anew; after an error the last good placement stays.
+LISSOM_API lissom_status lissom_paste_move(lissom_context* context, lissom_paste paste,
+                                           const lissom_placement* placement);
+/// Makes the target with the feature. `report` may be NULL.
+LISSOM_API lissom_status lissom_paste_merge(lissom_context* context, lissom_paste paste,
+                                            lissom_mesh* mesh, lissom_merge_report* report);
+
+// ---- Hair (thesis, chapter 4). Points are in the space of the head's mesh, as are strands;
+// lengths of hair are in metres of an average head, so that they fit any head.
+
+typedef struct lissom_hairstyle_options {
+    size_t struct_size;
+    /// Points of the grid that the field lives on, at most.
+    int32_t resolution;
+    /// Metres in one unit of the head's mesh; 0: guessed.
+    double unit;
+    /// Where hair grows; zero: the mesh's region "scalp", or what lies above the hairline.
+    lissom_region scalp;
+    /// Directions of the head in the mesh; all zero: guessed.
+    double up[3];
+    double front[3];
+} lissom_hairstyle_options;
+
+typedef struct lissom_grow_options {
+    size_t struct_size;
+    int32_t count;
+    uint64_t seed;
+    /// Of a strand, in metres, and the fraction by which it varies.
+    double length;
+    double variation;
+} lissom_grow_options;
+
+LISSOM_API lissom_hairstyle_options lissom_default_hairstyle_options(void);
+LISSOM_API lissom_grow_options lissom_default_grow_options(void);
+
+/// A style without curves on a head. Errors: INVALID_ARGUMENT; MESH_EMPTY; MEMORY_LIMIT; CANCELLED.
+LISSOM_API lissom_status lissom_hairstyle_create(lissom_context* context, lissom_mesh head,
+                                                 const lissom_hairstyle_options* options,
+                                                 lissom_hairstyle* style);
+/// A style of a file's text (JSON), on any head.
+LISSOM_API lissom_status lissom_hairstyle_decode(lissom_context* context, const void* text,
+                                                 size_t size, lissom_mesh head,
+                                                 const lissom_hairstyle_options* options,
+                                                 lissom_hairstyle* style);
+LISSOM_API lissom_status lissom_hairstyle_encode(lissom_context* context, lissom_hairstyle style,
+                                                 lissom_bytes* text);
+/// The point of the head in a direction from its middle, `lift` metres of an average head above it:
+/// azimuth 0 in front and pi / 2 at the head's left, elevation pi / 2 up. Errors: OUT_OF_RANGE.
+LISSOM_API lissom_status lissom_hairstyle_at(lissom_context* context, lissom_hairstyle style,
+                                             double azimuth, double elevation, double lift,
+                                             double point[3]);
+/// Adds a curve through points (triples): hair flows along a stream curve, parts at a dividing
+/// curve, and gathers in a ponytail at the beginning of its spine. A radius of 0 is the default.
+/// `curve` is its number in this style. Errors: INVALID_ARGUMENT where fewer than two points
+/// differ; OUT_OF_RANGE outside of the volume; NOT_FINITE.
+LISSOM_API lissom_status lissom_hairstyle_add_stream(lissom_context* context,
+                                                     lissom_hairstyle style,
+                                                     const lissom_input* points, int32_t* curve);
+LISSOM_API lissom_status lissom_hairstyle_add_dividing(lissom_context* context,
+                                                       lissom_hairstyle style,
+                                                       const lissom_input* points, int32_t* curve);
+LISSOM_API lissom_status lissom_hairstyle_add_ponytail(lissom_context* context,
+                                                       lissom_hairstyle style,
+                                                       const lissom_input* spine, double radius,
+                                                       int32_t* curve);
+LISSOM_API lissom_status lissom_curve_set_points(lissom_context* context, lissom_hairstyle style,
+                                                 int32_t curve, const lissom_input* points);
+LISSOM_API lissom_status lissom_curve_enable(lissom_context* context, lissom_hairstyle style,
+                                             int32_t curve, bool on);
+LISSOM_API lissom_status lissom_curve_remove(lissom_context* context, lissom_hairstyle style,
+                                             int32_t curve);
+/// Numbers of all curves in order (integers), and how many there are.
+LISSOM_API int32_t lissom_hairstyle_curve_count(lissom_context* context, lissom_hairstyle style);
+LISSOM_API lissom_status lissom_hairstyle_read_curves(lissom_context* context,
+                                                      lissom_hairstyle style,
+                                                      const lissom_output* curves);
+/// The direction of hair at a point. Errors: INVALID_ARGUMENT before a solve.
+LISSOM_API lissom_status lissom_hairstyle_field(lissom_context* context, lissom_hairstyle style,
+                                                const double point[3], double direction[3]);
+/// Brings the field up to date; lissom_hairstyle_grow does so by itself.
+LISSOM_API lissom_status lissom_hairstyle_solve(lissom_context* context, lissom_hairstyle style);
+/// Grows hair into new strands, or, where `strands` is valid, in place of those it holds, whose
+/// memory is used again: set it to zero before the first call. Errors: INVALID_ARGUMENT without a
+/// curve; CANCELLED.
+LISSOM_API lissom_status lissom_hairstyle_grow(lissom_context* context, lissom_hairstyle style,
+                                               const lissom_grow_options* options,
+                                               lissom_strands* strands);
+/// The same as a job, whose result is new strands.
+LISSOM_API lissom_status lissom_hairstyle_begin_grow(lissom_context* context,
+                                                     lissom_hairstyle style,
+                                                     const lissom_grow_options* options,
+                                                     lissom_job* job);
+
+// ---- Strands
+
+/// Strand s has the points offsets[s] to offsets[s + 1] - 1 (integers, one more than strands).
+LISSOM_API lissom_status lissom_strands_create(lissom_context* context, const lissom_input* points,
+                                               const lissom_input* offsets,
+                                               lissom_strands* strands);
+/// .hair, .data, .usda; written also .rib, .glb, .obj. In metres.
+LISSOM_API lissom_status lissom_strands_load(lissom_context* context, const char* path,
+                                             lissom_strands* strands);
+LISSOM_API lissom_status lissom_strands_save(lissom_context* context, lissom_strands strands,
+                                             const char* path);
+/// -1 for an invalid handle.
+LISSOM_API int32_t lissom_strands_size(lissom_context* context, lissom_strands strands);
+LISSOM_API int32_t lissom_strands_point_count(lissom_context* context, lissom_strands strands);
+LISSOM_API lissom_status lissom_strands_read_points(lissom_context* context, lissom_strands strands,
+                                                    const lissom_output* points);
+LISSOM_API lissom_status lissom_strands_read_offsets(lissom_context* context,
+                                                     lissom_strands strands,
+                                                     const lissom_output* offsets);
+
+// ---- Scripts, and everything else. Where the library was built without Lua these return
+// UNSUPPORTED.
+//
+// A context runs its scripts in one Lua state of its own, whose memory counts to the context. They
+// have Lua's libraries, but for what would end the process (os.exit) or write to its output (print
+// goes to the log), and the `lissom` of the reference, in the kernel's space. They open files by
+// themselves. They speak Lua's way: ids count from 1, angles are in degrees.
+
+/// Loads a script, as `name` in messages, and runs it up to where it declares its parameters: none
+/// of its work. Errors: SCRIPT_ERROR.
+LISSOM_API lissom_status lissom_script_load(lissom_context* context, const char* text, size_t size,
+                                            const char* name, lissom_script* script);
+/// The parameters that the script declares, as JSON: a list of {"name", "type", "default", "value",
+/// "min", "max", "step", "choices", "unit", "group", "help"}; [] where it declares none.
+LISSOM_API lissom_status lissom_script_parameters(lissom_context* context, lissom_script script,
+                                                  lissom_bytes* json);
+/// Sets a parameter by its text, as a command line does. Errors: INVALID_ARGUMENT for one that the
+/// script has not, naming the nearest, or for a value that it refuses.
+LISSOM_API lissom_status lissom_script_set(lissom_context* context, lissom_script script,
+                                           const char* parameter, const char* value);
+/// Runs the script. `arguments` is a JSON list of what it gets as `...`, in the way of lissom_call,
+/// or NULL. `json` receives the list of what it returns; it may be NULL. Errors: SCRIPT_ERROR with
+/// file and line; CANCELLED; MEMORY_LIMIT; INVALID_ARGUMENT for bad JSON.
+LISSOM_API lissom_status lissom_script_run(lissom_context* context, lissom_script script,
+                                           const char* arguments, lissom_bytes* json);
+
+/// Calls anything of the Lua reference. `name` is "shapes.box", or "Mesh.smooth" for a method.
+/// `arguments` is a JSON list: of a method the object first, then the arguments by position and the
+/// table of options, as the reference has them. An object is {"object": ID} with the `id` of a
+/// handle, which is the object itself and no copy. `json` receives the list of results in the same
+/// way, objects with "type": "lissom.Mesh", ...: lissom.Mesh, Region, Deformation, Hairstyle and
+/// Strands are handles of those kinds, all others of lissom_object. Release what you no longer
+/// need. Errors: OUT_OF_RANGE for an unknown name, with the nearest; INVALID_ARGUMENT for bad JSON
+/// or arguments; INVALID_HANDLE; those of the function.
+LISSOM_API lissom_status lissom_call(lissom_context* context, const char* name,
+                                     const char* arguments, lissom_bytes* json);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

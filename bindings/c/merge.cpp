@@ -1,0 +1,289 @@
+// Cutting, merging and pasting.
+#include "kernel/merge/merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "bindings/c/data.h"
+#include "kernel/merge/paste/paste.h"
+#include "kernel/mesh/cut/cut.h"
+
+namespace lissom::c {
+namespace {
+
+CutOptions cut_options(const lissom_cut_options* given) {
+    const auto taken = take_options(given, lissom_default_cut_options());
+    CutOptions options;
+    if (taken.all_lines) options.loops = CutLoops::all;
+    options.slide = taken.slide;
+    return options;
+}
+
+// Keeps both parts of a cut, or none.
+void keep_cut(lissom_context& context, Cut&& cut, lissom_mesh* kept, lissom_mesh* rest) {
+    const std::uint64_t first = context.add_mesh(std::move(cut.kept.mesh));
+    try {
+        if (rest) rest->id = context.add_mesh(std::move(cut.rest.mesh));
+    } catch (...) {
+        context.objects.release(*context.objects.find(first, Kind::mesh));
+        throw;
+    }
+    kept->id = first;
+    for (const CutWarning& warning : cut.report.warnings) {
+        context.kernel.log(LogLevel::warning, warning.message);
+    }
+}
+
+Path boundary_of(const Mesh& mesh, Index number, const char* side) {
+    auto loops = boundaries(mesh);
+    if (number < 0 || number >= count_of(loops)) {
+        throw Error(ErrorCode::out_of_range, std::string("the ") + side + " has " +
+                                                 std::to_string(loops.size()) +
+                                                 " boundaries, numbered from 0");
+    }
+    return std::move(loops[at(number)]);
+}
+
+std::vector<KeyPair> keys_of(const lissom_context& context, const double* source,
+                             const double* target, Index count) {
+    require(count >= 0, "key_count is negative");
+    require(count == 0 || (source && target), "source_keys or target_keys is NULL");
+    std::vector<KeyPair> keys(at(count));
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        keys[i].source = context.space.to_kernel(source + 3 * i);
+        keys[i].target = context.space.to_kernel(target + 3 * i);
+    }
+    return keys;
+}
+
+Join join_of(const lissom_context& context, const lissom_join& given, const Mesh& source,
+             const std::vector<const Mesh*>& targets) {
+    if (given.target < 0 || given.target >= count_of(targets)) {
+        throw Error(ErrorCode::out_of_range, "a join is with target " +
+                                                 std::to_string(given.target) + ", and there are " +
+                                                 std::to_string(targets.size()));
+    }
+    return {boundary_of(source, given.source_boundary, "source"),
+            boundary_of(*targets[at(given.target)], given.target_boundary, "target"), given.target,
+            keys_of(context, given.source_keys, given.target_keys, given.key_count)};
+}
+
+MergeOptions merge_options(const lissom_merge_options* given) {
+    const auto taken = take_options(given, lissom_default_merge_options());
+    MergeOptions options;
+    if (taken.fixed_configuration) options.configuration = Configuration::fixed;
+    options.smooth = taken.smooth;
+    options.collar = taken.collar;
+    options.suit_transition = taken.transition;
+    options.find_intersections = taken.find_intersections;
+    options.thesis = taken.thesis;
+    return options;
+}
+
+void tell_report(lissom_context& context, const MergeReport& found, lissom_merge_report* report) {
+    if (!report) return;
+    auto told = lissom_default_merge_report();
+    told.struct_size = report->struct_size;
+    told.ok = found.ok;
+    told.scale = found.joins.empty() ? 1.0 : found.joins.front().scale;
+    told.greatest_dihedral = found.seam.after.greatest_dihedral;
+    told.intersections = count_of(found.intersections);
+    context.text = found.verdict;
+    context.more_text.clear();
+    for (const std::string& warning : found.warnings) context.more_text += warning + "\n";
+    told.verdict = context.text.c_str();
+    told.warnings = context.more_text.c_str();
+    std::memcpy(report, &told, std::min(report->struct_size, sizeof told));
+}
+
+Merge& merge_of(lissom_context& context, lissom_merge merge) {
+    return context.content<Merge>(merge.id, Kind::merge);
+}
+
+Paste& paste_of(lissom_context& context, lissom_paste paste) {
+    return context.content<Paste>(paste.id, Kind::paste);
+}
+
+PastePlacement placement_of(const lissom_context& context, const lissom_placement* given) {
+    const auto taken = take_options(given, lissom_default_placement());
+    PastePlacement placement;
+    placement.at = context.space.to_kernel(taken.at);
+    const Vec3 toward = context.space.to_kernel(taken.toward),
+               up = context.space.to_kernel(taken.up);
+    if (!toward.isZero(0.0)) placement.toward = toward;
+    if (!up.isZero(0.0)) placement.up = up;
+    if (!std::isnan(taken.angle)) placement.angle = taken.angle;
+    placement.scale = taken.scale;
+    return placement;
+}
+
+std::optional<Region> region_if_given(lissom_context& context, lissom_region region) {
+    if (region.id == 0) return std::nullopt;
+    return region_of(context, region);
+}
+
+}  // namespace
+}  // namespace lissom::c
+
+using namespace lissom;
+using namespace lissom::c;
+
+extern "C" {
+
+lissom_cut_options lissom_default_cut_options(void) {
+    lissom_cut_options options{};
+    options.struct_size = sizeof options;
+    options.slide = CutOptions().slide;
+    return options;
+}
+
+lissom_status lissom_cut_by_plane(lissom_context* context, lissom_mesh mesh, const double point[3],
+                                  const double normal[3], const lissom_cut_options* options,
+                                  lissom_mesh* kept, lissom_mesh* rest) {
+    return run(context, [&] {
+        require_given(point, "point");
+        require_given(normal, "normal");
+        require_given(kept, "kept");
+        CutPlane plane;
+        plane.point = context->space.to_kernel(point);
+        plane.normal = context->space.to_kernel(normal);
+        keep_cut(*context,
+                 cut(mesh_of(*context, mesh), plane, cut_options(options), context->kernel), kept,
+                 rest);
+    });
+}
+
+lissom_status lissom_cut_by_region(lissom_context* context, lissom_mesh mesh, lissom_region region,
+                                   const lissom_cut_options* options, lissom_mesh* kept,
+                                   lissom_mesh* rest) {
+    return run(context, [&] {
+        require_given(kept, "kept");
+        keep_cut(*context,
+                 cut(mesh_of(*context, mesh), CutRegion{region_of(*context, region)},
+                     cut_options(options), context->kernel),
+                 kept, rest);
+    });
+}
+
+lissom_merge_options lissom_default_merge_options(void) {
+    const MergeOptions kernel;
+    lissom_merge_options options{};
+    options.struct_size = sizeof options;
+    options.smooth = kernel.smooth;
+    options.collar = kernel.collar;
+    options.find_intersections = kernel.find_intersections;
+    return options;
+}
+
+lissom_merge_report lissom_default_merge_report(void) {
+    lissom_merge_report report{};
+    report.struct_size = sizeof report;
+    report.verdict = "";
+    report.warnings = "";
+    return report;
+}
+
+lissom_status lissom_merge_create(lissom_context* context, lissom_mesh source,
+                                  const lissom_mesh* targets, int32_t target_count,
+                                  const lissom_join* joins, int32_t join_count,
+                                  const lissom_merge_options* options, lissom_merge* merge) {
+    return run(context, [&] {
+        require_given(merge, "merge");
+        require(target_count >= 1 && targets, "there is no target");
+        require(join_count >= 1 && joins, "there is no join");
+        const Mesh& own = mesh_of(*context, source);
+        std::vector<const Mesh*> others;
+        for (Index i = 0; i < target_count; ++i) others.push_back(&mesh_of(*context, targets[i]));
+        std::vector<Join> pairs;
+        for (Index i = 0; i < join_count; ++i) {
+            pairs.push_back(join_of(*context, joins[i], own, others));
+        }
+        auto made = std::make_shared<Merge>(own, others, std::move(pairs), merge_options(options),
+                                            context->kernel);
+        const std::size_t taken = made->memory_bytes();
+        merge->id = context->add(Kind::merge, std::move(made), taken);
+    });
+}
+
+lissom_status lissom_merge_set_keys(lissom_context* context, lissom_merge merge, int32_t join,
+                                    const double* source_keys, const double* target_keys,
+                                    int32_t key_count) {
+    return run(context, [&] {
+        merge_of(*context, merge)
+            .set_keys(join, keys_of(*context, source_keys, target_keys, key_count));
+    });
+}
+
+lissom_status lissom_merge_solve(lissom_context* context, lissom_merge merge, lissom_mesh* mesh,
+                                 lissom_merge_report* report) {
+    return run(context, [&] {
+        require_given(mesh, "mesh");
+        if (report) take_options(report, lissom_default_merge_report());
+        MergeResult result = merge_of(*context, merge).solve(context->kernel);
+        mesh->id = context->add_mesh(std::move(result.mesh));
+        tell_report(*context, result.report, report);
+    });
+}
+
+lissom_status lissom_merge_begin_solve(lissom_context* context, lissom_merge merge,
+                                       lissom_job* job) {
+    return run(context, [&] {
+        require_given(job, "job");
+        const auto own = context->share<Merge>(merge.id, Kind::merge);
+        const auto made = std::make_shared<MergeResult>();
+        begin_job(
+            *context, {{merge.id, Kind::merge}},
+            [own, made](const Context& inner) { *made = own->solve(inner); },
+            [context, made] { return context->add_mesh(std::move(made->mesh)); }, job);
+    });
+}
+
+lissom_placement lissom_default_placement(void) {
+    lissom_placement placement{};
+    placement.struct_size = sizeof placement;
+    placement.angle = NAN;
+    placement.scale = 1.0;
+    return placement;
+}
+
+lissom_status lissom_paste_create(lissom_context* context, lissom_mesh source, lissom_mesh target,
+                                  lissom_region region, lissom_region feature, lissom_region onto,
+                                  const lissom_placement* placement, lissom_paste* paste) {
+    return run(context, [&] {
+        require_given(paste, "paste");
+        auto made = std::make_shared<Paste>(
+            mesh_of(*context, source), mesh_of(*context, target), region_of(*context, region),
+            region_if_given(*context, feature), region_if_given(*context, onto),
+            placement_of(*context, placement), PasteOptions(), context->kernel);
+        const std::size_t taken = made->memory_bytes();
+        paste->id = context->add(Kind::paste, std::move(made), taken);
+    });
+}
+
+lissom_status lissom_paste_optimize(lissom_context* context, lissom_paste paste,
+                                    int32_t iterations) {
+    return run(context, [&] { paste_of(*context, paste).optimize(iterations, context->kernel); });
+}
+
+lissom_status lissom_paste_move(lissom_context* context, lissom_paste paste,
+                                const lissom_placement* placement) {
+    return run(context, [&] {
+        paste_of(*context, paste).move(placement_of(*context, placement), context->kernel);
+    });
+}
+
+lissom_status lissom_paste_merge(lissom_context* context, lissom_paste paste, lissom_mesh* mesh,
+                                 lissom_merge_report* report) {
+    return run(context, [&] {
+        require_given(mesh, "mesh");
+        if (report) take_options(report, lissom_default_merge_report());
+        PasteResult result = paste_of(*context, paste).merge({}, context->kernel);
+        mesh->id = context->add_mesh(std::move(result.merged.mesh));
+        tell_report(*context, result.merged.report, report);
+        if (report) report->scale = result.report.scale;
+    });
+}
+
+}  // extern "C"

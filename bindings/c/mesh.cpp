@@ -1,0 +1,308 @@
+// Meshes: in and out of the host's memory and of files.
+#include "kernel/mesh/mesh.h"
+
+#include <algorithm>
+
+#include "bindings/c/data.h"
+#include "bindings/c/files.h"
+#include "kernel/io/mesh_file.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/query/path.h"
+
+namespace lissom::c {
+namespace {
+
+LoadOptions load_options(const lissom_mesh_load_options* given) {
+    const auto taken = take_options(given, lissom_default_mesh_load_options());
+    LoadOptions options;
+    if (taken.weld == LISSOM_WELD_SEAMS) options.weld = Weld::seams;
+    if (taken.weld == LISSOM_WELD_ALL) options.weld = Weld::all;
+    if (taken.weld == LISSOM_WELD_NONE) options.weld = Weld::none;
+    options.repair = taken.repair;
+    if (taken.z_up) options.up = UpAxis::z;
+    options.unit = taken.unit;
+    return options;
+}
+
+SaveOptions save_options(const lissom_mesh_save_options* given) {
+    const auto taken = take_options(given, lissom_default_mesh_save_options());
+    SaveOptions options;
+    if (taken.z_up) options.up = UpAxis::z;
+    options.unit = taken.unit;
+    options.binary = taken.binary;
+    return options;
+}
+
+// Faces of the host run the other way where it says so; the first corner stays the first.
+void reverse_faces(FaceList& faces) {
+    for (Index f = 0; f < faces.size(); ++f) {
+        std::reverse(faces.vertices.begin() + faces.offsets[at(f)] + 1,
+                     faces.vertices.begin() + faces.offsets[at(f) + 1]);
+    }
+}
+
+FaceList given_faces(const lissom_input* corners, const lissom_input* sizes) {
+    FaceList faces;
+    faces.vertices = read_integers(corners, "corners");
+    const std::size_t count = faces.vertices.size();
+    if (sizes) {
+        std::size_t end = 0;
+        for (const Index size : read_integers(sizes, "sizes")) {
+            end += at(size);
+            require(end <= count, "the sizes of faces add up to more than there are corners");
+            faces.offsets.push_back(index_of(end));
+        }
+        require(end == count, "the sizes of faces add up to less than there are corners");
+    } else {
+        require(count % 3 == 0, "corners of triangles come in threes; give sizes for other faces");
+        for (std::size_t end = 3; end <= count; end += 3) faces.offsets.push_back(index_of(end));
+    }
+    return faces;
+}
+
+// Triples as lists of their own: three integers a triangle.
+void write_triangles(const lissom_output* output, const std::vector<Triangle>& triangles,
+                     bool reversed) {
+    require_room(output, triangles.size(), "triangles");
+    require(output->format == LISSOM_UINT32 || output->format == LISSOM_INT32,
+            "triangles must be UINT32 or INT32");
+    const std::size_t stride = output->stride != 0 ? output->stride : 3 * sizeof(std::uint32_t);
+    auto* place = static_cast<unsigned char*>(output->data);
+    for (const Triangle& triangle : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t corner = reversed && k > 0 ? 3 - k : k;
+            put(place + k * sizeof(std::uint32_t), std::int32_t{triangle[corner]});
+        }
+        place += stride;
+    }
+}
+
+FaceList faces_of(const Mesh& mesh, bool reversed) {
+    FaceList faces;
+    for (Index f = 0; f < mesh.face_count(); ++f) faces.add(mesh.topology().face(f));
+    if (reversed) reverse_faces(faces);
+    return faces;
+}
+
+}  // namespace
+}  // namespace lissom::c
+
+using namespace lissom;
+using namespace lissom::c;
+
+extern "C" {
+
+lissom_mesh_load_options lissom_default_mesh_load_options(void) {
+    lissom_mesh_load_options options{};
+    options.struct_size = sizeof options;
+    options.repair = true;
+    options.unit = 1.0;
+    return options;
+}
+
+lissom_mesh_save_options lissom_default_mesh_save_options(void) {
+    lissom_mesh_save_options options{};
+    options.struct_size = sizeof options;
+    options.unit = 1.0;
+    options.binary = true;
+    return options;
+}
+
+lissom_status lissom_mesh_create(lissom_context* context, const lissom_input* positions,
+                                 const lissom_input* corners, const lissom_input* sizes,
+                                 lissom_mesh* mesh) {
+    return run(context, [&] {
+        require_given(mesh, "mesh");
+        FaceList faces = given_faces(corners, sizes);
+        if (context->space.reverses()) reverse_faces(faces);
+        Mesh made(read_points(positions, context->space, "positions"), std::move(faces),
+                  context->kernel);
+        mesh->id = context->add_mesh(std::move(made));
+    });
+}
+
+lissom_status lissom_mesh_load(lissom_context* context, const char* path,
+                               const lissom_mesh_load_options* options, lissom_mesh* mesh) {
+    return run(context, [&] {
+        require_given(mesh, "mesh");
+        const std::string name = given_text(path, "path");
+        Mesh made = reads_files(*context)
+                        ? decode_mesh(read_by_host(*context, name), extension_of(name),
+                                      load_options(options), context->kernel)
+                        : load_mesh(path_of(name), load_options(options), context->kernel);
+        mesh->id = context->add_mesh(std::move(made));
+    });
+}
+
+lissom_status lissom_mesh_decode(lissom_context* context, const void* bytes, size_t size,
+                                 const char* extension, const lissom_mesh_load_options* options,
+                                 lissom_mesh* mesh) {
+    return run(context, [&] {
+        require_given(bytes, "bytes");
+        require_given(mesh, "mesh");
+        Mesh made =
+            decode_mesh({static_cast<const char*>(bytes), size}, given_text(extension, "extension"),
+                        load_options(options), context->kernel);
+        mesh->id = context->add_mesh(std::move(made));
+    });
+}
+
+lissom_status lissom_mesh_save(lissom_context* context, lissom_mesh mesh, const char* path,
+                               const lissom_mesh_save_options* options) {
+    return run(context, [&] {
+        const Mesh& own = mesh_of(*context, mesh);
+        const std::string name = given_text(path, "path");
+        if (writes_files(*context)) {
+            write_by_host(
+                *context, name,
+                encode_mesh(own, extension_of(name), save_options(options), context->kernel));
+        } else {
+            save_mesh(own, path_of(name), save_options(options), context->kernel);
+        }
+    });
+}
+
+lissom_status lissom_mesh_encode(lissom_context* context, lissom_mesh mesh, const char* extension,
+                                 const lissom_mesh_save_options* options, lissom_bytes* bytes) {
+    return run(context, [&] {
+        require_given(bytes, "bytes");
+        context->bytes = encode_mesh(mesh_of(*context, mesh), given_text(extension, "extension"),
+                                     save_options(options), context->kernel);
+        *bytes = {context->bytes.data(), context->bytes.size()};
+    });
+}
+
+lissom_status lissom_mesh_copy(lissom_context* context, lissom_mesh mesh, lissom_mesh* copy) {
+    return run(context, [&] {
+        require_given(copy, "copy");
+        Mesh made = mesh_of(*context, mesh);
+        copy->id = context->add_mesh(std::move(made));
+    });
+}
+
+int32_t lissom_mesh_vertex_count(lissom_context* context, lissom_mesh mesh) {
+    return context ? context->count([&] { return mesh_of(*context, mesh).vertex_count(); }) : -1;
+}
+
+int32_t lissom_mesh_face_count(lissom_context* context, lissom_mesh mesh) {
+    return context ? context->count([&] { return mesh_of(*context, mesh).face_count(); }) : -1;
+}
+
+int32_t lissom_mesh_corner_count(lissom_context* context, lissom_mesh mesh) {
+    if (!context) return -1;
+    return context->count(
+        [&] { return element_count(mesh_of(*context, mesh).topology(), Domain::corner); });
+}
+
+int32_t lissom_mesh_triangle_count(lissom_context* context, lissom_mesh mesh) {
+    if (!context) return -1;
+    return context->count([&] {
+        const Mesh& own = mesh_of(*context, mesh);
+        return element_count(own.topology(), Domain::corner) - 2 * own.face_count();
+    });
+}
+
+int32_t lissom_mesh_boundary_count(lissom_context* context, lissom_mesh mesh) {
+    if (!context) return -1;
+    return context->count([&] { return count_of(boundaries(mesh_of(*context, mesh))); });
+}
+
+lissom_status lissom_mesh_read_positions(lissom_context* context, lissom_mesh mesh,
+                                         const lissom_output* positions) {
+    return run(context, [&] {
+        const auto points = mesh_of(*context, mesh).positions();
+        write_points(positions, points.size(), "positions",
+                     [&](std::size_t i) { return context->space.to_host(points[i]); });
+    });
+}
+
+lissom_status lissom_mesh_read_normals(lissom_context* context, lissom_mesh mesh,
+                                       const lissom_output* normals) {
+    return run(context, [&] {
+        const std::vector<Vec3> own = vertex_normals(mesh_of(*context, mesh));
+        write_points(normals, own.size(), "normals",
+                     [&](std::size_t i) { return context->space.to_host(own[i]); });
+    });
+}
+
+lissom_status lissom_mesh_read_triangles(lissom_context* context, lissom_mesh mesh,
+                                         const lissom_output* triangles) {
+    return run(context, [&] {
+        const Mesh& own = mesh_of(*context, mesh);
+        write_triangles(triangles, triangulate_faces(own.topology(), own.positions()).triangles,
+                        context->space.reverses());
+    });
+}
+
+lissom_status lissom_mesh_read_faces(lissom_context* context, lissom_mesh mesh,
+                                     const lissom_output* corners, const lissom_output* sizes) {
+    return run(context, [&] {
+        const FaceList faces = faces_of(mesh_of(*context, mesh), context->space.reverses());
+        std::vector<Index> counts(at(faces.size()));
+        for (std::size_t f = 0; f < counts.size(); ++f) {
+            counts[f] = faces.offsets[f + 1] - faces.offsets[f];
+        }
+        if (sizes) require_room(sizes, counts.size(), "sizes");
+        if (corners) write_integers(corners, faces.vertices, "corners");
+        if (sizes) write_integers(sizes, counts, "sizes");
+    });
+}
+
+lissom_status lissom_mesh_read_boundary(lissom_context* context, lissom_mesh mesh, int32_t number,
+                                        const lissom_output* vertices, int32_t* count) {
+    return run(context, [&] {
+        const auto loops = boundaries(mesh_of(*context, mesh));
+        if (number < 0 || number >= count_of(loops)) {
+            throw Error(ErrorCode::out_of_range, "the mesh has " + std::to_string(loops.size()) +
+                                                     " boundaries, numbered from 0");
+        }
+        const std::vector<Index>& loop = loops[at(number)].vertices();
+        if (vertices) write_integers(vertices, loop, "vertices");
+        if (count) *count = count_of(loop);
+    });
+}
+
+lissom_status lissom_mesh_set_positions(lissom_context* context, lissom_mesh mesh,
+                                        const lissom_input* positions) {
+    return run(context, [&] {
+        Mesh& own = mesh_of(*context, mesh);
+        own.set_positions(read_points(positions, context->space, "positions"));
+        context->sharing.changed(own);
+    });
+}
+
+lissom_status lissom_mesh_transform(lissom_context* context, lissom_mesh mesh,
+                                    const lissom_transform* map) {
+    return run(context, [&] {
+        require_given(map, "map");
+        Mesh& own = mesh_of(*context, mesh);
+        lissom::transform(own, context->space.to_kernel(*map), context->kernel);
+        context->sharing.changed(own);
+    });
+}
+
+lissom_status lissom_mesh_bounds(lissom_context* context, lissom_mesh mesh, double least[3],
+                                 double greatest[3]) {
+    return run(context, [&] {
+        require_given(least, "least");
+        require_given(greatest, "greatest");
+        const Box box = bounds(mesh_of(*context, mesh));
+        require(!box.empty(), "the mesh has no vertices", ErrorCode::mesh_empty);
+        const Vec3 a = context->space.to_host(box.min), b = context->space.to_host(box.max);
+        for (int k = 0; k < 3; ++k) {
+            least[k] = std::min(a[k], b[k]);
+            greatest[k] = std::max(a[k], b[k]);
+        }
+    });
+}
+
+lissom_status lissom_mesh_hash(lissom_context* context, lissom_mesh mesh, uint64_t* hash) {
+    return run(context, [&] {
+        require_given(hash, "hash");
+        *hash = lissom::hash(mesh_of(*context, mesh));
+    });
+}
+
+}  // extern "C"

@@ -1,0 +1,50 @@
+// A library without Lua.
+#include "bindings/c/script_host.h"
+
+namespace lissom::c {
+
+void connect_scripts(lissom_context&) {}
+
+namespace {
+
+lissom_status refuse(lissom_context* context) {
+    return run(context, [] {
+        throw Error(ErrorCode::unsupported,
+                    "this library was built without Lua: it runs no scripts");
+    });
+}
+
+}  // namespace
+}  // namespace lissom::c
+
+using namespace lissom::c;
+
+extern "C" {
+
+bool lissom_has_scripts(void) {
+    return false;
+}
+
+lissom_status lissom_script_load(lissom_context* context, const char*, size_t, const char*,
+                                 lissom_script*) {
+    return refuse(context);
+}
+
+lissom_status lissom_script_parameters(lissom_context* context, lissom_script, lissom_bytes*) {
+    return refuse(context);
+}
+
+lissom_status lissom_script_set(lissom_context* context, lissom_script, const char*, const char*) {
+    return refuse(context);
+}
+
+lissom_status lissom_script_run(lissom_context* context, lissom_script, const char*,
+                                lissom_bytes*) {
+    return refuse(context);
+}
+
+lissom_status lissom_call(lissom_context* context, const char*, const char*, lissom_bytes*) {
+    return refuse(context);
+}
+
+}  // extern "C"

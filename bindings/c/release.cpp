@@ -1,0 +1,89 @@
+// Validity and end of objects.
+#include "bindings/c/context.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom::c {
+namespace {
+
+bool is_valid(const lissom_context* context, std::uint64_t id, Kind kind) {
+    return context && context->objects.find(id, kind) != nullptr;
+}
+
+lissom_status release(lissom_context* context, std::uint64_t id, Kind kind) {
+    return run(context, [&] {
+        ObjectTable::Object* object = context->objects.find(id, kind);
+        if (!object) {
+            throw StatusError(LISSOM_INVALID_HANDLE,
+                              "the object was released already, or never was");
+        }
+        if (object->jobs > 0) {
+            throw StatusError(LISSOM_BUSY, "a job works with the object; finish the job first");
+        }
+        context->objects.release(*object);
+    });
+}
+
+}  // namespace
+}  // namespace lissom::c
+
+using namespace lissom::c;
+
+extern "C" {
+
+bool lissom_mesh_is_valid(const lissom_context* context, lissom_mesh mesh) {
+    return is_valid(context, mesh.id, Kind::mesh);
+}
+bool lissom_region_is_valid(const lissom_context* context, lissom_region region) {
+    return is_valid(context, region.id, Kind::region);
+}
+bool lissom_deformer_is_valid(const lissom_context* context, lissom_deformer deformer) {
+    return is_valid(context, deformer.id, Kind::deformer);
+}
+bool lissom_merge_is_valid(const lissom_context* context, lissom_merge merge) {
+    return is_valid(context, merge.id, Kind::merge);
+}
+bool lissom_paste_is_valid(const lissom_context* context, lissom_paste paste) {
+    return is_valid(context, paste.id, Kind::paste);
+}
+bool lissom_hairstyle_is_valid(const lissom_context* context, lissom_hairstyle style) {
+    return is_valid(context, style.id, Kind::hairstyle);
+}
+bool lissom_strands_is_valid(const lissom_context* context, lissom_strands strands) {
+    return is_valid(context, strands.id, Kind::strands);
+}
+bool lissom_script_is_valid(const lissom_context* context, lissom_script script) {
+    return is_valid(context, script.id, Kind::script);
+}
+bool lissom_object_is_valid(const lissom_context* context, lissom_object object) {
+    return is_valid(context, object.id, Kind::object);
+}
+
+lissom_status lissom_mesh_release(lissom_context* context, lissom_mesh mesh) {
+    return release(context, mesh.id, Kind::mesh);
+}
+lissom_status lissom_region_release(lissom_context* context, lissom_region region) {
+    return release(context, region.id, Kind::region);
+}
+lissom_status lissom_deformer_release(lissom_context* context, lissom_deformer deformer) {
+    return release(context, deformer.id, Kind::deformer);
+}
+lissom_status lissom_merge_release(lissom_context* context, lissom_merge merge) {
+    return release(context, merge.id, Kind::merge);
+}
+lissom_status lissom_paste_release(lissom_context* context, lissom_paste paste) {
+    return release(context, paste.id, Kind::paste);
+}
+lissom_status lissom_hairstyle_release(lissom_context* context, lissom_hairstyle style) {
+    return release(context, style.id, Kind::hairstyle);
+}
+lissom_status lissom_strands_release(lissom_context* context, lissom_strands strands) {
+    return release(context, strands.id, Kind::strands);
+}
+lissom_status lissom_script_release(lissom_context* context, lissom_script script) {
+    return release(context, script.id, Kind::script);
+}
+lissom_status lissom_object_release(lissom_context* context, lissom_object object) {
+    return release(context, object.id, Kind::object);
+}
+
+}  // extern "C"

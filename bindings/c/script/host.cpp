@@ -1,0 +1,330 @@
+#include "bindings/c/script/host.h"
+
+#include <cstdlib>
+
+#include "bindings/c/script_host.h"
+#include "bindings/lua/deform/deform_object.h"
+#include "bindings/lua/hair/hair_object.h"
+
+namespace lissom::c {
+namespace {
+
+// Instructions between two looks at whether the host has cancelled.
+constexpr int kInstructions = 10000;
+
+// Keys of Lua's registry: their addresses.
+const char kHostKey = 0;
+
+ScriptHost& host_of(lua_State* L) {
+    lua::raw_get_pointer(L, LUA_REGISTRYINDEX, &kHostKey);
+    auto* host = static_cast<ScriptHost*>(lua_touserdata(L, -1));
+    lua_pop(L, 1);
+    return *host;
+}
+
+void stop_where_cancelled(lua_State* L, lua_Debug*) {
+    if (host_of(L).context().kernel.cancelled()) luaL_error(L, "cancelled [cancelled]");
+}
+
+// print of scripts: to the log of the host.
+int print_to_log(lua_State* L) {
+    const int count = lua_gettop(L);
+    luaL_Buffer line;
+    luaL_buffinit(L, &line);
+    for (int i = 1; i <= count; ++i) {
+        if (i > 1) luaL_addchar(&line, '\t');
+        luaL_tolstring(L, i, nullptr);
+        luaL_addvalue(&line);
+    }
+    luaL_pushresult(&line);
+    const auto& options = host_of(L).context().options;
+    if (options.log) options.log(options.user, LISSOM_INFO, lua_tostring(L, -1));
+    return 0;
+}
+
+struct Opening {
+    ScriptHost* host;
+    const lua::HostOptions* options;
+};
+
+// Runs in protected mode.
+int prepare_state(lua_State* L) {
+    const auto* opening = static_cast<const Opening*>(lua_touserdata(L, 1));
+    luaL_openlibs(L);
+    lua_gc(L, LUA_GCGEN, 0, 0);
+    lua_pushlightuserdata(L, opening->host);
+    lua::raw_set_pointer(L, LUA_REGISTRYINDEX, &kHostKey);
+    lua_pushcfunction(L, print_to_log);
+    lua_setglobal(L, "print");
+    lua_getglobal(L, "os");
+    lua_pushnil(L);
+    lua_setfield(L, -2, "exit");
+    lua::open(L, *opening->options);
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+    lua_pushvalue(L, -2);
+    lua_setfield(L, -2, "lissom");
+    lua_sethook(L, stop_where_cancelled, LUA_MASKCOUNT, kInstructions);
+    return 0;
+}
+
+ContextOptions state_options(lissom_context& context) {
+    ContextOptions options;
+    const lissom_context_options& host = context.options;
+    options.threads = host.threads;
+    if (host.log) {
+        options.log = [&host](LogLevel level, std::string_view message) {
+            host.log(host.user, static_cast<lissom_log_level>(level), std::string(message).c_str());
+        };
+    }
+    return options;
+}
+
+}  // namespace
+
+LuaReference::~LuaReference() {
+    if (const auto own = host.lock()) luaL_unref(own->lua(), LUA_REGISTRYINDEX, reference);
+}
+
+void* ScriptHost::allocate(void* own, void* block, std::size_t old_size, std::size_t new_size) {
+    MemoryAccount& account = *static_cast<ScriptHost*>(own)->context_.kernel.memory();
+    if (!block) old_size = 0;
+    if (new_size > old_size) {
+        try {
+            account.charge(new_size - old_size, "a script");
+        } catch (...) {
+            return nullptr;
+        }
+    }
+    if (new_size == 0) {
+        std::free(block);
+        account.release(old_size);
+        return nullptr;
+    }
+    void* moved = std::realloc(block, new_size);
+    if (!moved) {
+        // Lua relies on blocks that become smaller.
+        if (new_size <= old_size) return block;
+        account.release(new_size - old_size);
+        return nullptr;
+    }
+    if (new_size < old_size) account.release(old_size - new_size);
+    return moved;
+}
+
+ScriptHost::~ScriptHost() {
+    if (L_) lua_close(L_);
+}
+
+lua_State* ScriptHost::lua() {
+    if (L_) return L_;
+    lua_State* L = lua_newstate(allocate, this);
+    if (!L) throw Error(ErrorCode::memory_limit, "there is not enough memory for a Lua state");
+    lua::HostOptions options;
+    options.context = state_options(context_);
+    Opening opening{this, &options};
+    lua_pushcfunction(L, prepare_state);
+    lua_pushlightuserdata(L, &opening);
+    if (lua_pcall(L, 1, 0, 0) != LUA_OK) {
+        const char* text = lua_tostring(L, -1);
+        const std::string message = text ? text : "the Lua state cannot be opened";
+        lua_close(L);
+        throw Error(ErrorCode::memory_limit, message);
+    }
+    // Operations of scripts are those of the context: its cancel, progress and memory.
+    lua::find_state(L)->context = context_.kernel;
+    L_ = L;
+    return L_;
+}
+
+// ---- Objects
+
+namespace {
+
+// Forgets what has gone, before there is much of it.
+template <typename Map>
+void forget_expired(Map& map, std::size_t alive) {
+    if (map.size() < 2 * alive + 64) return;
+    std::erase_if(map, [](const auto& entry) { return entry.second.expired(); });
+}
+
+}  // namespace
+
+void ScriptHost::keep(const void* content, const std::shared_ptr<void>& object) {
+    forget_expired(around_, context_.objects.size());
+    around_[content] = object;
+}
+
+Sharing ScriptHost::sharing() {
+    Sharing sharing;
+    sharing.make_mesh = [this](Mesh&& mesh) {
+        const auto object = std::make_shared<lua::MeshObject>(std::move(mesh));
+        keep(&object->mesh, object);
+        return std::shared_ptr<Mesh>(object, &object->mesh);
+    };
+    sharing.make_strands = [this](Strands&& strands) {
+        const auto object = std::make_shared<lua::StrandsObject>(std::move(strands));
+        keep(&object->strands, object);
+        return std::shared_ptr<Strands>(object, &object->strands);
+    };
+    sharing.changed = [this](const Mesh& mesh) {
+        if (const auto object = known<lua::MeshObject>(&mesh)) object->changed();
+    };
+    sharing.belongs = [this](const void* object, const Mesh& mesh) {
+        forget_expired(owners_, context_.objects.size());
+        owners_[object] = known<lua::MeshObject>(&mesh);
+    };
+    return sharing;
+}
+
+template <typename T>
+std::shared_ptr<T> ScriptHost::known(const void* content) {
+    const auto found = around_.find(content);
+    return found == around_.end() ? nullptr : std::static_pointer_cast<T>(found->second.lock());
+}
+
+namespace {
+
+[[noreturn]] void refuse_without_mesh() {
+    throw StatusError(
+        LISSOM_INVALID_HANDLE,
+        "the mesh that the object belongs to was released, or has another topology by "
+        "now");
+}
+
+}  // namespace
+
+std::shared_ptr<lua::MeshObject> ScriptHost::mesh_of_region(const Region& region) {
+    std::shared_ptr<lua::MeshObject> owner;
+    context_.objects.for_each([&](std::uint64_t, ObjectTable::Object& object) {
+        if (owner || object.kind != Kind::mesh) return;
+        const auto* mesh = static_cast<const Mesh*>(object.content.get());
+        if (mesh->shared_topology() == region.topology()) owner = known<lua::MeshObject>(mesh);
+    });
+    if (!owner) refuse_without_mesh();
+    return owner;
+}
+
+std::shared_ptr<lua::MeshObject> ScriptHost::mesh_of_object(const void* content) {
+    const auto found = owners_.find(content);
+    auto owner = found == owners_.end() ? nullptr : found->second.lock();
+    if (!owner) refuse_without_mesh();
+    return owner;
+}
+
+std::shared_ptr<void> ScriptHost::object_of(Kind kind, const std::shared_ptr<void>& content) {
+    if (auto object = known<void>(content.get())) return object;
+    std::shared_ptr<void> made;
+    if (kind == Kind::region) {
+        const Region& region = *std::static_pointer_cast<Region>(content);
+        return std::make_shared<lua::RegionObject>(mesh_of_region(region), region);
+    }
+    if (kind == Kind::deformer) {
+        made = std::make_shared<lua::DeformObject>(mesh_of_object(content.get()),
+                                                   std::static_pointer_cast<Deformer>(content));
+    } else {
+        made = std::make_shared<lua::HairstyleObject>(mesh_of_object(content.get()),
+                                                      std::static_pointer_cast<Hairstyle>(content));
+    }
+    keep(content.get(), made);
+    return made;
+}
+
+lua::Holder ScriptHost::holder_of(std::uint64_t id) {
+    constexpr std::pair<Kind, const char*> kTypes[] = {
+        {Kind::mesh, lua::MeshObject::kTypeName},
+        {Kind::region, lua::RegionObject::kTypeName},
+        {Kind::deformer, lua::DeformObject::kTypeName},
+        {Kind::hairstyle, lua::HairstyleObject::kTypeName},
+        {Kind::strands, lua::StrandsObject::kTypeName}};
+    for (const auto& [kind, name] : kTypes) {
+        if (!context_.objects.find(id, kind)) continue;
+        lua::Holder holder(name);
+        holder.object = object_of(kind, context_.share<void>(id, kind));
+        return holder;
+    }
+    throw StatusError(
+        LISSOM_INVALID_HANDLE,
+        "the handle names no object that scripts know: it was released, or is a merge "
+        "or a paste");
+}
+
+std::uint64_t ScriptHost::known_handle(Kind kind, const void* content) {
+    std::uint64_t known = 0;
+    context_.objects.for_each([&](std::uint64_t id, ObjectTable::Object& object) {
+        if (object.kind == kind && object.content.get() == content) known = id;
+    });
+    return known;
+}
+
+std::uint64_t ScriptHost::handle_of(int index) {
+    const lua::Holder* found = lua::find_holder(lua(), index, nullptr);
+    if (!found || !found->object) {
+        throw Error(ErrorCode::invalid_argument, "a result is closed, or no object of the library");
+    }
+    const std::string_view type = found->type_name;
+    const auto handle = [&](Kind kind, std::shared_ptr<void> content, std::size_t taken) {
+        if (const std::uint64_t known = known_handle(kind, content.get())) return known;
+        keep(content.get(), found->object);
+        return context_.add(kind, std::move(content), taken);
+    };
+    if (type == lua::MeshObject::kTypeName) {
+        const auto object = std::static_pointer_cast<lua::MeshObject>(found->object);
+        return handle(Kind::mesh, {object, &object->mesh}, object->mesh.memory_bytes());
+    }
+    if (type == lua::RegionObject::kTypeName) {
+        const auto object = std::static_pointer_cast<lua::RegionObject>(found->object);
+        return handle(Kind::region, {object, &object->region}, object->memory_bytes());
+    }
+    if (type == lua::StrandsObject::kTypeName) {
+        const auto object = std::static_pointer_cast<lua::StrandsObject>(found->object);
+        return handle(Kind::strands, {object, &object->strands}, object->memory_bytes());
+    }
+    if (type == lua::DeformObject::kTypeName) {
+        const auto object = std::static_pointer_cast<lua::DeformObject>(found->object);
+        return handle(Kind::deformer, {object, &object->deformer()}, 0);
+    }
+    if (type == lua::HairstyleObject::kTypeName) {
+        const auto object = std::static_pointer_cast<lua::HairstyleObject>(found->object);
+        return handle(Kind::hairstyle, {object, &object->style()}, object->memory_bytes());
+    }
+    auto reference = std::make_shared<LuaReference>();
+    reference->host = weak_from_this();
+    lua_pushvalue(lua(), index);
+    reference->reference = luaL_ref(lua(), LUA_REGISTRYINDEX);
+    return context_.add(Kind::object, std::move(reference));
+}
+
+ScriptHost& scripts_of(lissom_context& context) {
+    return *context.scripts;
+}
+
+void throw_lua_error(ScriptHost& host, const std::string& message, lissom_status status) {
+    const std::size_t open = message.rfind('[');
+    if (open != std::string::npos && message.back() == ']') {
+        const std::string_view name =
+            std::string_view(message).substr(open + 1, message.size() - open - 2);
+        for (const ErrorCode code : all_codes()) {
+            if (code_name(code) != name) continue;
+            if (code == ErrorCode::cancelled || status != LISSOM_SCRIPT_ERROR)
+                throw Error(code, message);
+        }
+    }
+    if (message == "not enough memory") {
+        throw Error(ErrorCode::memory_limit,
+                    "a script needs more memory than the context has left");
+    }
+    static_cast<void>(host);
+    throw StatusError(status, message);
+}
+
+void connect_scripts(lissom_context& context) {
+    const auto host = std::make_shared<ScriptHost>(context);
+    context.sharing = host->sharing();
+    context.scripts = host;
+}
+
+}  // namespace lissom::c
+
+extern "C" bool lissom_has_scripts(void) {
+    return true;
+}

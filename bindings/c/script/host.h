@@ -1,0 +1,100 @@
+/// The Lua state of a context, and objects that C and Lua share; private to bindings/c.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bindings/c/context.h"
+#include "bindings/lua/core/state.h"
+#include "bindings/lua/hair/strands_object.h"
+#include "bindings/lua/mesh/mesh_object.h"
+
+namespace lissom::c {
+
+using Json = nlohmann::ordered_json;
+
+/// A value that Lua's registry keeps for a handle of the host.
+struct LuaReference {
+    std::weak_ptr<ScriptHost> host;
+    int reference = LUA_NOREF;
+
+    ~LuaReference();
+};
+
+/// A script that was loaded.
+struct Script {
+    std::string text, name;
+    std::shared_ptr<lua::ParameterSet> parameters;
+    /// What was set, as the words of a command line.
+    std::map<std::string, std::string> values;
+};
+
+class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
+  public:
+    explicit ScriptHost(lissom_context& context) : context_(context) {}
+    ~ScriptHost();
+    ScriptHost(const ScriptHost&) = delete;
+    ScriptHost& operator=(const ScriptHost&) = delete;
+
+    lissom_context& context() { return context_; }
+    /// The state; opened when it is first asked for. Errors: memory_limit.
+    lua_State* lua();
+    lua::State& binding() { return *lua::find_state(lua()); }
+
+    /// See Sharing.
+    Sharing sharing();
+    /// The object of Lua whose content a handle's object is. For content that Lua has not seen a
+    /// new one is made where that is possible without a copy. Errors: StatusError for invalid
+    /// handles.
+    lua::Holder holder_of(std::uint64_t id);
+    /// A handle for the object of a userdata at `index`: its own where it has one.
+    std::uint64_t handle_of(int index);
+
+    /// Pushes values by JSON; at most `kDepth` deep. Errors: invalid_argument.
+    void check_values(const Json& values);
+    /// To be called in protected mode, with `values` checked.
+    void push_values(const Json& values);
+    /// The value at `index`, objects as handles. Errors: invalid_argument for what JSON cannot
+    /// hold.
+    Json value_at(int index, int depth = 0);
+    /// The values from `first` to the top.
+    Json values_from(int first);
+
+    static constexpr int kDepth = 100;
+
+  private:
+    void push_value(const Json& value);
+    void push_object(std::uint64_t id);
+    Json table_at(int index, int depth);
+    // Lua's object around the content of a handle, or null.
+    template <typename T>
+    std::shared_ptr<T> known(const void* content);
+    std::shared_ptr<lua::MeshObject> mesh_of_region(const Region& region);
+    std::shared_ptr<lua::MeshObject> mesh_of_object(const void* content);
+    std::shared_ptr<void> object_of(Kind kind, const std::shared_ptr<void>& content);
+    std::uint64_t known_handle(Kind kind, const void* content);
+    void keep(const void* content, const std::shared_ptr<void>& object);
+    static void* allocate(void* own, void* block, std::size_t old_size, std::size_t new_size);
+
+    lissom_context& context_;
+    lua_State* L_ = nullptr;
+    // The Lua object around the content of a handle, by that content.
+    std::map<const void*, std::weak_ptr<void>> around_;
+    // The mesh that an object was made for, by the object.
+    std::map<const void*, std::weak_ptr<lua::MeshObject>> owners_;
+    // Objects for the values that are being pushed, by handle.
+    std::map<std::uint64_t, lua::Holder> holders_;
+};
+
+/// The host of a context that can run scripts.
+ScriptHost& scripts_of(lissom_context& context);
+
+/// Throws what a Lua error with this message stands for: the code in brackets at its end, else
+/// `status`.
+[[noreturn]] void throw_lua_error(ScriptHost& host, const std::string& message,
+                                  lissom_status status);
+
+}  // namespace lissom::c

@@ -1,0 +1,294 @@
+// Scripts of a host, and calls by name.
+#include "bindings/c/data.h"
+#include "bindings/c/script/host.h"
+#include "bindings/lua/core/script_parameters.h"
+#include "kernel/core/nearest.h"
+
+namespace lissom::c {
+namespace {
+
+// Leaves the stack as it was found.
+class StackGuard {
+  public:
+    explicit StackGuard(lua_State* L) : L_(L), top_(lua_gettop(L)) {}
+    ~StackGuard() { lua_settop(L_, top_); }
+    StackGuard(const StackGuard&) = delete;
+    StackGuard& operator=(const StackGuard&) = delete;
+
+    int top() const { return top_; }
+
+  private:
+    lua_State* L_;
+    int top_;
+};
+
+Json list_of(const char* text) {
+    Json list = Json::array();
+    if (!text) return list;
+    try {
+        list = Json::parse(text);
+    } catch (const Json::exception& error) {
+        throw Error(ErrorCode::invalid_argument, std::string("arguments: ") + error.what());
+    }
+    require(list.is_array(), "the arguments are not a JSON list");
+    return list;
+}
+
+void give(lissom_context& context, const Json& json, lissom_bytes* bytes) {
+    if (!bytes) return;
+    context.bytes = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    *bytes = {context.bytes.data(), context.bytes.size()};
+}
+
+std::string message_at_top(lua_State* L) {
+    std::size_t size = 0;
+    const char* text = lua_type(L, -1) == LUA_TSTRING ? lua_tolstring(L, -1, &size) : nullptr;
+    return text ? std::string(text, size) : "the error is no text";
+}
+
+// ---- Scripts
+
+struct Running {
+    ScriptHost* host;
+    const Script* script;
+    const Json* arguments;
+};
+
+// Protected: loads the script and runs it, with its values on the stack.
+int run_protected(lua_State* L) {
+    const auto* running = static_cast<const Running*>(lua_touserdata(L, 1));
+    const Script& script = *running->script;
+    if (luaL_loadbufferx(L, script.text.data(), script.text.size(), script.name.c_str(), "t")) {
+        return lua_error(L);
+    }
+    const int function = lua_gettop(L);
+    running->host->push_values(*running->arguments);
+    lua_call(L, lua_gettop(L) - function, LUA_MULTRET);
+    return lua_gettop(L) - function + 1;
+}
+
+std::vector<std::string> words_of(const Script& script) {
+    std::vector<std::string> words;
+    for (const auto& [name, value] : script.values) words.push_back("--" + name + "=" + value);
+    return words;
+}
+
+// Runs a script, or only up to its parameters; its results are on the stack.
+void run_script(ScriptHost& host, Script& script, const Json& arguments, bool only_parameters) {
+    lua_State* L = host.lua();
+    lua::State& state = host.binding();
+    state.host.arguments = {script.name.substr(1), words_of(script)};
+    state.parameters = nullptr;
+    state.script_end = lua::ScriptEnd::none;
+    state.only_help = only_parameters;
+    host.check_values(arguments);
+    Running running{&host, &script, &arguments};
+    lua_pushcfunction(L, run_protected);
+    lua_pushlightuserdata(L, &running);
+    const int status = lua_pcall(L, 1, LUA_MULTRET, 0);
+    const bool ended = state.script_end != lua::ScriptEnd::none;
+    state.only_help = false;
+    state.host.arguments = {};
+    if (only_parameters) script.parameters = state.parameters;
+    if (status == LUA_OK || (only_parameters && ended)) return;
+    if (ended) throw Error(ErrorCode::invalid_argument, state.script_end_text);
+    throw_lua_error(host, message_at_top(L), LISSOM_SCRIPT_ERROR);
+}
+
+Json value_of(const std::optional<lua::ParameterValue>& value) {
+    if (!value) return nullptr;
+    return std::visit([](const auto& one) { return Json(one); }, *value);
+}
+
+Json described(const lua::ScriptParameter& parameter) {
+    Json json{{"name", parameter.name}, {"type", lua::type_name(parameter.type)}};
+    if (parameter.default_value) json["default"] = value_of(parameter.default_value);
+    json["value"] = value_of(parameter.value ? parameter.value : parameter.default_value);
+    if (std::isfinite(parameter.min)) json["min"] = parameter.min;
+    if (std::isfinite(parameter.max)) json["max"] = parameter.max;
+    if (parameter.step) json["step"] = *parameter.step;
+    if (!parameter.choices.empty()) json["choices"] = parameter.choices;
+    if (!parameter.unit.empty()) json["unit"] = parameter.unit;
+    if (!parameter.group.empty()) json["group"] = parameter.group;
+    if (!parameter.help.empty()) json["help"] = parameter.help;
+    return json;
+}
+
+void set_parameter(Script& script, const std::string& name, const std::string& value) {
+    lua::ScriptParameter* found = script.parameters ? script.parameters->find(name) : nullptr;
+    if (!found) {
+        std::vector<std::string_view> names;
+        if (script.parameters) names = script.parameters->names();
+        throw Error(ErrorCode::invalid_argument,
+                    "the script has no parameter '" + name + "'" + name_hint(name, names));
+    }
+    try {
+        found->value = found->from_text(value);
+    } catch (const lua::ParameterError& error) {
+        throw Error(ErrorCode::invalid_argument, error.message);
+    }
+    script.values[name] = value;
+}
+
+// ---- Calls by name
+
+// The entry of "shapes.box" or "Mesh.smooth".
+const lua::Entry& entry_of(const lua::Registry& registry, const std::string& name) {
+    std::vector<std::string> names;
+    for (const auto& entry : registry.entries()) {
+        const std::string prefix =
+            entry->type ? entry->type->name.substr(sizeof("lissom.") - 1) + "." : "";
+        names.push_back(prefix + entry->function->name);
+        if (names.back() == name) return *entry;
+    }
+    const std::vector<std::string_view> views(names.begin(), names.end());
+    const std::string_view near = nearest_name(name, views);
+    throw Error(ErrorCode::out_of_range,
+                "there is no function '" + name + "'" +
+                    (near.empty() ? std::string("; the Lua reference lists all")
+                                  : ", did you mean '" + std::string(near) + "'?"));
+}
+
+struct Calling {
+    ScriptHost* host;
+    const lua::Entry* entry;
+    const Json* arguments;
+};
+
+// The function of the module under a name with dots.
+void push_module_function(lua_State* L, const char* name) {
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+    lua_getfield(L, -1, "lissom");
+    lua_remove(L, -2);
+    while (*name) {
+        const char* end = name;
+        while (*end && *end != '.') ++end;
+        lua_pushlstring(L, name, static_cast<std::size_t>(end - name));
+        lua_gettable(L, -2);
+        lua_remove(L, -2);
+        name = *end ? end + 1 : end;
+    }
+}
+
+// Protected: calls the function with its arguments.
+int call_protected(lua_State* L) {
+    const auto* calling = static_cast<const Calling*>(lua_touserdata(L, 1));
+    const lua::Entry& entry = *calling->entry;
+    if (entry.type) {
+        luaL_getmetatable(L, entry.type->name.c_str());
+        calling->host->push_values(*calling->arguments);
+        if (lua_gettop(L) < 3 || lua_type(L, 3) != LUA_TUSERDATA) {
+            return luaL_error(L, "the first argument of a method is its object");
+        }
+        lua_getfield(L, 3, entry.function->name.c_str());
+        lua_insert(L, 3);
+        lua_remove(L, 2);
+    } else {
+        push_module_function(L, entry.function->name.c_str());
+        calling->host->push_values(*calling->arguments);
+    }
+    lua_call(L, lua_gettop(L) - 2, LUA_MULTRET);
+    return lua_gettop(L) - 1;
+}
+
+// Throws the failure of a function that has returned nil, message, code.
+void throw_answered_failure(ScriptHost& host, int first) {
+    lua_State* L = host.lua();
+    if (lua_gettop(L) != first + 3 || !lua_isnil(L, first) ||
+        lua_type(L, first + 2) != LUA_TSTRING) {
+        return;
+    }
+    const lua::Failure& failure = host.binding().last_failure;
+    Elements elements;
+    elements.kind = failure.kind;
+    elements.count = failure.count;
+    elements.ids.assign(failure.ids, failure.ids + failure.id_count);
+    throw Error(failure.code, failure.message, elements);
+}
+
+Json call_by_name(ScriptHost& host, const lua::Entry& entry, const Json& arguments) {
+    lua_State* L = host.lua();
+    const StackGuard guard(L);
+    host.check_values(arguments);
+    Calling calling{&host, &entry, &arguments};
+    lua_pushcfunction(L, call_protected);
+    lua_pushlightuserdata(L, &calling);
+    if (lua_pcall(L, 1, LUA_MULTRET, 0) != LUA_OK) {
+        throw_lua_error(host, message_at_top(L), LISSOM_INVALID_ARGUMENT);
+    }
+    throw_answered_failure(host, guard.top() + 1);
+    return host.values_from(guard.top() + 1);
+}
+
+Script& script_of(lissom_context& context, lissom_script script) {
+    return context.content<Script>(script.id, Kind::script);
+}
+
+}  // namespace
+}  // namespace lissom::c
+
+using namespace lissom;
+using namespace lissom::c;
+
+extern "C" {
+
+lissom_status lissom_script_load(lissom_context* context, const char* text, size_t size,
+                                 const char* name, lissom_script* script) {
+    return run(context, [&] {
+        require_given(text, "text");
+        require_given(script, "script");
+        auto made = std::make_shared<Script>();
+        made->text.assign(text, size);
+        made->name = "@" + given_text(name, "name");
+        ScriptHost& host = scripts_of(*context);
+        const StackGuard guard(host.lua());
+        run_script(host, *made, Json::array(), true);
+        script->id = context->add(Kind::script, std::move(made), size);
+    });
+}
+
+lissom_status lissom_script_parameters(lissom_context* context, lissom_script script,
+                                       lissom_bytes* json) {
+    return run(context, [&] {
+        require_given(json, "json");
+        Json list = Json::array();
+        const Script& own = script_of(*context, script);
+        if (own.parameters) {
+            for (const auto& parameter : own.parameters->list) list.push_back(described(parameter));
+        }
+        give(*context, list, json);
+    });
+}
+
+lissom_status lissom_script_set(lissom_context* context, lissom_script script,
+                                const char* parameter, const char* value) {
+    return run(context, [&] {
+        set_parameter(script_of(*context, script), given_text(parameter, "parameter"),
+                      given_text(value, "value"));
+    });
+}
+
+lissom_status lissom_script_run(lissom_context* context, lissom_script script,
+                                const char* arguments, lissom_bytes* json) {
+    return run(context, [&] {
+        ScriptHost& host = scripts_of(*context);
+        const StackGuard guard(host.lua());
+        const Json values = list_of(arguments);
+        Script& own = script_of(*context, script);
+        run_script(host, own, values, false);
+        if (json) give(*context, host.values_from(guard.top() + 1), json);
+    });
+}
+
+lissom_status lissom_call(lissom_context* context, const char* name, const char* arguments,
+                          lissom_bytes* json) {
+    return run(context, [&] {
+        ScriptHost& host = scripts_of(*context);
+        const std::string text = given_text(name, "name");
+        host.lua();
+        const lua::Entry& entry = entry_of(*host.binding().registry, text);
+        give(*context, call_by_name(host, entry, list_of(arguments)), json);
+    });
+}
+
+}  // extern "C"

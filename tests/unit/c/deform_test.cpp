@@ -1,0 +1,105 @@
+#include "kernel/deform/deformer.h"
+#include "kernel/mesh/query/region_select.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/c/host.h"
+
+namespace lissom::test {
+namespace {
+
+struct Bend {
+    explicit Bend(const Host& host, const Mesh& shape) : mesh(host.add(shape)) {
+        lissom_region all{};
+        REQUIRE(lissom_region_all(host, mesh, &all) == LISSOM_OK);
+        REQUIRE(lissom_deformer_create(host, mesh, all, nullptr, &deformer) == LISSOM_OK);
+        const Region* ends[] = {shape.find_region("bottom"), shape.find_region("top")};
+        std::int32_t* handles[] = {&bottom, &top};
+        for (int i = 0; i < 2; ++i) {
+            const auto& ids = ends[i]->vertices();
+            const lissom_input list{ids.data(), ids.size(), 0, LISSOM_INT32};
+            lissom_region end{};
+            REQUIRE(lissom_region_of_vertices(host, mesh, &list, &end) == LISSOM_OK);
+            REQUIRE(lissom_deformer_add_handle(host, deformer, end, nullptr, handles[i]) ==
+                    LISSOM_OK);
+        }
+    }
+
+    lissom_mesh mesh{};
+    lissom_deformer deformer{};
+    std::int32_t bottom = -1, top = -1;
+};
+
+}  // namespace
+
+TEST_CASE("a deformation is that of the kernel, to the bit") {
+    const Mesh bar = make_bar({});
+    const Host host;
+    const Bend bend(host, bar);
+    double center[3];
+    REQUIRE(lissom_deformer_handle_center(host, bend.deformer, bend.top, center) == LISSOM_OK);
+    const Affine map = rotation(Vec3::UnitZ(), 1.0, Vec3(center[0], center[1], center[2]));
+    const lissom_transform transform = transform_of(map);
+    REQUIRE(lissom_deformer_set_transform(host, bend.deformer, bend.top, &transform) == LISSOM_OK);
+    REQUIRE(lissom_deformer_solve(host, bend.deformer, LISSOM_FULL) == LISSOM_OK);
+
+    Deformer edit(bar, Region::all(bar.shared_topology()));
+    edit.add_handle(*bar.find_region("bottom"));
+    edit.set_transform(edit.add_handle(*bar.find_region("top")), map);
+    const std::vector<Vec3>& expected = edit.solve();
+
+    std::vector<Vec3> rows(at(lissom_deformer_row_count(host, bend.deformer)));
+    const lissom_output out{rows.data(), rows.size(), 0, LISSOM_FLOAT64};
+    REQUIRE(lissom_deformer_read_positions(host, bend.deformer, &out) == LISSOM_OK);
+    CHECK(rows == expected);
+    REQUIRE(lissom_deformer_apply(host, bend.deformer, bend.mesh) == LISSOM_OK);
+    CHECK(host.positions(bend.mesh) == expected);
+
+    // As floats into the middle of an engine's vertices.
+    struct Vertex {
+        float uv[2], position[3];
+    };
+    std::vector<Vertex> vertices(rows.size());
+    const lissom_output floats{vertices[0].position, vertices.size(), sizeof(Vertex),
+                               LISSOM_FLOAT32};
+    REQUIRE(lissom_deformer_read_positions(host, bend.deformer, &floats) == LISSOM_OK);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        CHECK(vertices[i].position[1] == static_cast<float>(rows[i].y()));
+        CHECK(vertices[i].uv[0] == 0.0f);
+    }
+}
+
+TEST_CASE("errors of a deformation leave it as it was") {
+    const Mesh bar = make_bar({});
+    const Host host;
+    const Bend bend(host, bar);
+    const lissom_transform flat{};
+    CHECK(lissom_deformer_set_transform(host, bend.deformer, bend.top, &flat) ==
+          LISSOM_SINGULAR_TRANSFORM);
+    CHECK(lissom_deformer_set_transform(host, bend.deformer, 99, &flat) == LISSOM_HANDLE_REMOVED);
+    lissom_region all{};
+    REQUIRE(lissom_region_all(host, bend.mesh, &all) == LISSOM_OK);
+    std::int32_t handle = -1;
+    CHECK(lissom_deformer_add_handle(host, bend.deformer, all, nullptr, &handle) ==
+          LISSOM_HANDLE_OVERLAP);
+    CHECK(lissom_last_error(host)->element == LISSOM_VERTEX);
+    CHECK(lissom_last_error(host)->id_count > 0);
+    CHECK(handle == -1);
+    CHECK(lissom_deformer_solve(host, bend.deformer, static_cast<lissom_quality>(9)) ==
+          LISSOM_INVALID_ARGUMENT);
+    REQUIRE(lissom_deformer_solve(host, bend.deformer, LISSOM_FULL) == LISSOM_OK);
+    std::vector<Vec3> rows(bar.positions().size());
+    const lissom_output out{rows.data(), rows.size(), 0, LISSOM_FLOAT64};
+    REQUIRE(lissom_deformer_read_positions(host, bend.deformer, &out) == LISSOM_OK);
+    CHECK(std::equal(rows.begin(), rows.end(), bar.positions().begin()));
+}
+
+TEST_CASE("the mesh of a deformer may be released") {
+    const Host host;
+    const Bend bend(host, make_bar({}));
+    REQUIRE(lissom_mesh_release(host, bend.mesh) == LISSOM_OK);
+    CHECK(lissom_deformer_solve(host, bend.deformer, LISSOM_DRAFT) == LISSOM_OK);
+    lissom_bytes basis{};
+    REQUIRE(lissom_deformer_encode_basis(host, bend.deformer, &basis) == LISSOM_OK);
+    CHECK(std::string(static_cast<const char*>(basis.data), 8) == "LSMBASIS");
+}
+
+}  // namespace lissom::test
