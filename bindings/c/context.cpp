@@ -216,6 +216,28 @@ const Region& region_of(lissom_context& context, lissom_region region) {
 
 namespace {
 
+// A context of its own for a job, as operations of two threads cannot share one: it has what is
+// left of the memory.
+Context job_context(const lissom_context& context) {
+    lissom_context_options options = context.options;
+    const std::size_t used = context.kernel.memory()->used();
+    if (options.memory_limit > 0) {
+        options.memory_limit = options.memory_limit > used ? options.memory_limit - used : 1;
+    }
+    return Context(kernel_options(options));
+}
+
+// What the job's objects keep of its memory is the context's from now on.
+void take_memory(lissom_context& context, const Job& job) {
+    const std::size_t kept = job.context.memory()->used();
+    for (const auto& [id, kind] : job.held) {
+        auto* object = context.objects.find(id, kind);
+        if (!object || kept == 0) continue;
+        object->charge = {};
+        object->charge = context.kernel.charge(kept, "what a job made");
+    }
+}
+
 void run_job(void* argument) {
     auto& job = *static_cast<Job*>(argument);
     job.error.guard([&] { job.work(job.context); });
@@ -246,7 +268,7 @@ void wait_for(const lissom_context& context, Job& job) {
 void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kind>> held,
                std::function<void(const Context&)> work, std::function<std::uint64_t()> take,
                lissom_job* job) {
-    const auto made = std::make_shared<Job>(context.kernel.sibling());
+    const auto made = std::make_shared<Job>(job_context(context));
     made->work = std::move(work);
     made->take = std::move(take);
     made->held = std::move(held);
@@ -423,6 +445,7 @@ lissom_status lissom_job_finish(lissom_context* context, lissom_job job, uint64_
     context->error = found->error;
     if (context->error.status != LISSOM_OK) return context->error.status;
     return run(context, [&] {
+        take_memory(*context, *found);
         const std::uint64_t made = found->take ? found->take() : 0;
         if (result) {
             *result = made;

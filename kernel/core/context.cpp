@@ -52,12 +52,6 @@ Context::Context() : Context(ContextOptions{}) {}
 
 Context::Context(ContextOptions options) : state_(std::make_shared<State>(std::move(options))) {}
 
-Context Context::sibling() const {
-    Context other(state_->options);
-    other.state_->memory = state_->memory;
-    return other;
-}
-
 void Context::cancel() const {
     state_->cancelled.store(true);
 }

@@ -78,11 +78,6 @@ class Context {
     Context();
     explicit Context(ContextOptions options);
 
-    /// Another context with the same callbacks, threads and memory account, but with a cancel and a
-    /// progress of its own: for an operation that runs beside those of this one. Callbacks may then
-    /// come from two threads at once.
-    Context sibling() const;
-
     /// Asks running operations to stop: they throw `cancelled` at their next checkpoint and change
     /// nothing. Sticky: operations started later stop too, until `clear_cancel`. Thread-safe.
     void cancel() const;
