@@ -10,7 +10,7 @@ endfunction()
 
 set(arguments -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}"
               -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DHELLO=${SOURCE}/examples/hello.cpp
-              -DEVALUATE=${SOURCE}/examples/engine/evaluate.c)
+              -DEVALUATE=${SOURCE}/examples/engine/evaluate.c -DC_HELLO=${SOURCE}/examples/hello.c)
 if(WAY STREQUAL "installed")
     file(REMOVE_RECURSE ${FOLDER})
     run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/prefix)
@@ -23,6 +23,10 @@ endif()
 set(programs solver)
 if(WAY STREQUAL "installed")
     list(APPEND programs consumer)
+    file(GLOB_RECURSE shared ${FOLDER}/prefix/*/liblissom.*)
+    if(shared)
+        list(APPEND programs c_host wrapper)
+    endif()
 endif()
 
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/embed/consumer -B ${FOLDER}/build ${arguments})

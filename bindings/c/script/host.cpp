@@ -28,6 +28,7 @@ void stop_where_cancelled(lua_State* L, lua_Debug*) {
 
 // print of scripts: to the log of the host.
 int print_to_log(lua_State* L) {
+    if (lua::find_state(L)->only_help) return 0;
     const int count = lua_gettop(L);
     luaL_Buffer line;
     luaL_buffinit(L, &line);

@@ -73,6 +73,19 @@ std::vector<std::string> words_of(const Script& script) {
     return words;
 }
 
+// Whether a script may declare parameters: else nothing of it runs before it is asked to.
+bool may_declare(const Script& script) {
+    return script.text.find("params") != std::string::npos;
+}
+
+// Throws where the text is no Lua.
+void check_syntax(ScriptHost& host, const Script& script) {
+    lua_State* L = host.lua();
+    if (luaL_loadbufferx(L, script.text.data(), script.text.size(), script.name.c_str(), "t")) {
+        throw_lua_error(host, message_at_top(L), LISSOM_SCRIPT_ERROR);
+    }
+}
+
 // Runs a script, or only up to its parameters; its results are on the stack.
 void run_script(ScriptHost& host, Script& script, const Json& arguments, bool only_parameters) {
     lua_State* L = host.lua();
@@ -242,7 +255,8 @@ lissom_status lissom_script_load(lissom_context* context, const char* text, size
         made->name = "@" + given_text(name, "name");
         ScriptHost& host = scripts_of(*context);
         const StackGuard guard(host.lua());
-        run_script(host, *made, Json::array(), true);
+        check_syntax(host, *made);
+        if (may_declare(*made)) run_script(host, *made, Json::array(), true);
         script->id = context->add(Kind::script, std::move(made), size);
     });
 }

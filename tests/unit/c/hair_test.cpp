@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "kernel/mesh/shapes/shapes.h"
+#include "kernel/mesh/shapes/head.h"
 #include "tests/unit/c/host.h"
 
 namespace lissom::test {
