@@ -13,7 +13,8 @@ static int fail(lissom_context* context) {
     return 1;
 }
 
-/* A curve through directions from the middle of the head: azimuth, elevation, metres above the skin. */
+/* A curve through directions from the middle of the head: azimuth, elevation, metres above the
+ * skin. */
 static lissom_status add_curve(lissom_context* context, lissom_hairstyle style,
                                const double directions[][3], size_t count, int divides) {
     double points[8][3];
