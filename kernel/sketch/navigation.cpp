@@ -12,6 +12,8 @@ namespace {
 // How near to its up a camera may look, in radians.
 constexpr double kPole = 1e-3 * kDegree;
 constexpr double kNearest = 1e-6, kFarthest = 1e6;
+// Depth of the nearest corner of what is framed, in radii.
+constexpr double kNearestCorner = 1e-3;
 
 void require_finite_drag(const Vec2& drag) {
     require(drag.allFinite(), "a drag is NaN or infinite", ErrorCode::not_finite);
@@ -100,19 +102,29 @@ Camera without_perspective(const Camera& camera) {
 Camera framed(const View& view, const Box& box, double margin) {
     require(!box.empty(), "nothing is there to frame");
     const Camera& camera = view.camera;
-    const double radius = std::max(0.5 * box.diagonal(), 1e-12 * (1.0 + box.center().norm()));
+    const Vec3 half = 0.5 * (box.max - box.min);
+    // A point is framed as a small box.
+    const double least = 1e-12 * (1.0 + box.center().norm());
+    const double radius = std::max(half.norm(), least);
+    // Of a picture without perspective, and of one with it at depth 1.
     const double room = 1.0 - 2.0 * margin;
-    const double narrow = std::min(view.size.aspect(), 1.0) * room;
+    const double tangent = room * (camera.is_ortho() ? 1.0 : std::tan(0.5 * camera.fov()));
+    double height = least / room, distance = 2.0 * least;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 signs((corner & 1) ? 1.0 : -1.0, (corner & 2) ? 1.0 : -1.0,
+                         (corner & 4) ? 1.0 : -1.0);
+        const Vec3 p = half.cwiseProduct(signs);
+        const double x = std::abs(p.dot(camera.right())), y = std::abs(p.dot(camera.up()));
+        const double needed = std::max(x / view.size.aspect(), y) / tangent;
+        height = std::max(height, needed);
+        distance = std::max({distance, needed - p.dot(camera.forward()),
+                             kNearestCorner * radius - p.dot(camera.forward())});
+    }
     CameraOptions options = camera.options();
     options.target = box.center();
-    if (camera.is_ortho()) {
-        options.ortho = 2.0 * radius / narrow;
-        options.eye = options.target - 2.0 * radius * camera.forward();
-        return Camera(options);
-    }
-    // The sphere about the box touches the cone of the narrower opening.
-    const double half = std::atan(narrow * std::tan(0.5 * options.fov));
-    options.eye = options.target - radius / std::sin(half) * camera.forward();
+    if (camera.is_ortho()) options.ortho = 2.0 * height;
+    const double away = camera.is_ortho() ? 2.0 * radius : distance;
+    options.eye = options.target - away * camera.forward();
     return Camera(options);
 }
 
