@@ -35,6 +35,8 @@ struct Row {
     /// What a ratio is taken against, with quartiles of the ratio; empty for other values.
     std::string peer = {};
     double low = 0.0, high = 0.0;
+    /// By what a row is bound that misses its target, in shares of a profile.
+    std::string bound_by = {};
 
     bool reached() const { return better == Better::less ? value <= target : value >= target; }
 };
@@ -57,8 +59,10 @@ class Report {
     }
     /// A ratio of ours and `peer`, or of `peer` and ours.
     void add_ratio(const std::string& name, const std::string& peer, const Quotient& quotient,
-                   double target = -1.0, Better better = Better::less) {
-        add({name, quotient.value, "x", target, better, peer, quotient.low, quotient.high});
+                   double target = -1.0, Better better = Better::less,
+                   const std::string& bound_by = {}) {
+        add({name, quotient.value, "x", target, better, peer, quotient.low, quotient.high,
+             bound_by});
     }
     /// A row of the JSON alone; the table shows its value in another way.
     void add_to_json(Row row) { rows_.push_back(std::move(row)); }
@@ -81,7 +85,11 @@ class Report {
                         row.reached() ? "reached" : "MISSED");
         }
         std::printf("\n");
+        if (is_explained(row)) std::printf("      bound by %s\n", row.bound_by.c_str());
         std::fflush(stdout);
+    }
+    static bool is_explained(const Row& row) {
+        return row.target >= 0.0 && !row.reached() && !row.bound_by.empty();
     }
     // "key": value, or null where there is none.
     static void print_number(const char* key, double value, bool present) {
@@ -102,7 +110,9 @@ class Report {
         print_number("low", row.low, ratio);
         print_number("high", row.high, ratio);
         print_number("target", row.target, row.target >= 0.0);
-        std::printf(", \"better\": \"%s\"}", row.better == Better::less ? "less" : "more");
+        std::printf(", \"better\": \"%s\"", row.better == Better::less ? "less" : "more");
+        if (is_explained(row)) std::printf(", \"bound_by\": \"%s\"", row.bound_by.c_str());
+        std::printf("}");
     }
     void print_json() const {
         std::printf("[\n");
