@@ -26,6 +26,7 @@ Type whole_mesh_type() {
     add(mesh.methods, region_methods_of_mesh());
     add(mesh.methods, path_methods_of_mesh());
     add(mesh.methods, cut_methods_of_mesh());
+    add(mesh.methods, erase_methods_of_mesh());
     add(mesh.methods, parameterize_methods_of_mesh());
     return mesh;
 }
@@ -75,6 +76,8 @@ Library kernel_library() {
     add(library.functions, deform_functions());
     add(library.functions, merge_functions());
     add(library.functions, paste_functions());
+    add(library.functions, scatter_functions());
+    add(library.functions, part_functions());
     add(library.functions, scalp_functions());
     add(library.functions, hairstyle_functions());
     add(library.functions, strand_functions());
@@ -97,6 +100,9 @@ Library kernel_library() {
     add(library.records, parameterize_records());
     add(library.records, merge_records());
     add(library.records, paste_records());
+    add(library.records, erase_records());
+    add(library.records, scatter_records());
+    add(library.records, part_records());
     add(library.records, hairstyle_records());
     add(library.records, curve_records());
     add(library.records, strand_records());

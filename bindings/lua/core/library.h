@@ -41,7 +41,13 @@ Type paste_type();
 std::vector<Function> merge_functions();
 std::vector<Function> paste_functions();
 std::vector<Record> merge_records();
+std::vector<Function> erase_methods_of_mesh();
 std::vector<Record> paste_records();
+std::vector<Record> erase_records();
+std::vector<Function> scatter_functions();
+std::vector<Record> scatter_records();
+std::vector<Function> part_functions();
+std::vector<Record> part_records();
 
 std::vector<Function> shape_functions();
 

@@ -13,10 +13,12 @@ namespace {
 
 constexpr double kRadians = kPi / 180.0;
 
-// Reads the fields of a placement under `path`, which may be empty, over those of `placement`.
-PastePlacement read_placement(const Call& call, const std::string& path, PastePlacement placement) {
+}  // namespace
+
+PastePlacement read_placement(const Call& call, const std::string& path, PastePlacement placement,
+                              const char* at) {
     const auto name = [&](const char* field) { return path + field; };
-    if (call.has(name("at").c_str())) placement.at = call.vector(name("at").c_str());
+    if (call.has(name(at).c_str())) placement.at = call.vector(name(at).c_str());
     if (call.has(name("toward").c_str())) placement.toward = call.vector(name("toward").c_str());
     if (call.has(name("up").c_str())) placement.up = call.vector(name("up").c_str());
     if (call.has(name("angle").c_str())) {
@@ -30,6 +32,35 @@ PastePlacement read_placement(const Call& call, const std::string& path, PastePl
     }
     return placement;
 }
+
+PasteMergeOptions read_paste_merge(const Call& call, const char* size) {
+    PasteMergeOptions options;
+    options.smooth = call.integer("smooth");
+    options.collar = call.boolean("collar");
+    options.find_intersections = call.boolean("intersections");
+    options.lock_scale = call.integer(size) == 1;
+    options.compare = call.boolean("compare");
+    return options;
+}
+
+void read_clearing(const Call& call, PasteOptions& options) {
+    if (!call.has("clear")) return;
+    if (call.is_object<RegionObject>("clear")) {
+        options.cleared = call.object<RegionObject>("clear")->current();
+    } else {
+        options.clear = call.boolean("clear");
+    }
+}
+
+int push_paste_result(Call& call, PasteResult& result, const MergeInputs& inputs) {
+    const int pushed = push_merge_result(call, result.merged, inputs);
+    if (pushed != 2) return pushed;
+    push_paste_report(call, result.report);
+    call.set_field("paste");
+    return 2;
+}
+
+namespace {
 
 int new_paste(Call& call) {
     const auto source = call.object<MeshObject>("source");
@@ -45,6 +76,7 @@ int new_paste(Call& call) {
         options.thesis = call.integer("fidelity") == 1;
         std::optional<Region> feature, onto;
         if (given) feature = call.object<RegionObject>("feature")->current();
+        read_clearing(call, options);
         if (call.has("onto")) onto = call.object<RegionObject>("onto")->current();
         const auto setup = std::make_shared<PasteSetup>();
         setup->content.emplace(source->mesh, target->mesh, region->current(), feature, onto,
@@ -79,30 +111,34 @@ int optimize_paste(Call& call) {
 
 int merge_paste(Call& call) {
     const auto setup = call.self<PasteSetup>();
-    PasteMergeOptions options;
-    options.smooth = call.integer("smooth");
-    options.collar = call.boolean("collar");
-    options.find_intersections = call.boolean("intersections");
-    options.lock_scale = call.integer("scale") == 1;
-    options.compare = call.boolean("compare");
+    const PasteMergeOptions options = read_paste_merge(call, "scale");
     auto& result = call.hold<std::unique_ptr<PasteResult>>();
     const bool done = call.attempt([&] {
         result = std::make_unique<PasteResult>(setup->paste().merge(options, call.context()));
     });
-    if (!done) return call.fail();
-    const int pushed = push_merge_result(call, result->merged, setup->inputs);
-    if (pushed != 2) return pushed;
-    push_paste_report(call, result->report);
-    call.set_field("paste");
-    return 2;
+    return done ? push_paste_result(call, *result, setup->inputs) : call.fail();
 }
 
 int move_paste(Call& call) {
     const auto setup = call.self<PasteSetup>();
+    const bool seeks = call.boolean("search");
     const bool done = call.attempt([&] {
-        setup->paste().move(read_placement(call, "", setup->paste().placement()), call.context());
+        Paste& paste = setup->paste();
+        const PastePlacement placement = read_placement(call, "", paste.placement());
+        if (seeks) {
+            paste.move(placement, call.context());
+        } else {
+            paste.slide(placement, call.context());
+        }
     });
     return done ? call.push_argument() : call.fail();
+}
+
+int search_of_paste(Call& call) {
+    const auto setup = call.self<PasteSetup>();
+    auto& report = call.hold<PasteSearch>();
+    if (!call.attempt_quick([&] { report = setup->paste().search(); })) return call.fail();
+    return push_paste_search(call, report);
 }
 
 int loop_of_paste(Call& call) {
@@ -124,6 +160,8 @@ void close_paste(void* object) {
 }
 
 // ---- Descriptions
+
+}  // namespace
 
 std::vector<Parameter> placement_fields(bool moved) {
     const auto kept = [&](const Parameter& parameter, const char* first) {
@@ -153,6 +191,43 @@ std::vector<Parameter> placement_fields(bool moved) {
              "{0, 0}")};
 }
 
+Parameter clear_parameter() {
+    return either("clear", {boolean("under", ""), object("region", "lissom.Region", "")},
+                  "Removes the target's features under the part first, as mesh:erase does: what "
+                  "lies within the part's reach of its place, or a region of the target.")
+        .optional("false");
+}
+
+std::vector<Parameter> paste_merge_parameters(const char* size) {
+    return {
+        integer("smooth", "Umbrella steps at the seam, at most, as in lissom.merge.")
+            .between(0, 1000)
+            .defaults(3),
+        boolean("collar", "Makes faces anew beside the seam where one side is coarser.")
+            .defaults(true),
+        boolean("intersections", "Looks for faces that run through one another and did not before.")
+            .defaults(true),
+        choice(size, {"boundary", "lock"},
+               "Size of the part: that of its boundary on the target, which depends on the loop, "
+               "or what the placement says.")
+            .defaults("boundary"),
+        boolean("compare",
+                "Pastes along the outline of the region as well, and takes that where the "
+                "surface near the boundary is distorted less.")
+            .defaults(true)};
+}
+
+namespace {
+
+std::vector<Parameter> move_parameters() {
+    std::vector<Parameter> all = placement_fields(true);
+    all.push_back(boolean("search",
+                          "false keeps the loop while a part is dragged, unless the "
+                          "outline fits better.")
+                      .defaults(true));
+    return all;
+}
+
 std::vector<Parameter> paste_parameters() {
     return {
         object("source", "lissom.Mesh", "The mesh that has the feature; it stays as it is."),
@@ -172,6 +247,7 @@ std::vector<Parameter> paste_parameters() {
                "larger than the region of the source will be.")
             .optional("a disk around the placement"),
         options("placement", placement_fields(false), "Where the feature goes."),
+        clear_parameter(),
         number("ring", "Share of the region that is searched where no feature is given.")
             .between(0.01, 0.99)
             .defaults(0.5),
@@ -188,25 +264,6 @@ std::vector<Parameter> paste_parameters() {
                "thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, and "
                "its deformation, for comparison.")
             .defaults("lissom")};
-}
-
-std::vector<Parameter> paste_merge_parameters() {
-    return {
-        integer("smooth", "Umbrella steps at the seam, at most, as in lissom.merge.")
-            .between(0, 1000)
-            .defaults(3),
-        boolean("collar", "Makes faces anew beside the seam where one side is coarser.")
-            .defaults(true),
-        boolean("intersections", "Looks for faces that run through one another and did not before.")
-            .defaults(true),
-        choice("scale", {"boundary", "lock"},
-               "Size of the part: that of its boundary on the target, which depends on the loop, "
-               "or what the placement says.")
-            .defaults("boundary"),
-        boolean("compare",
-                "Pastes along the outline of the region as well, and takes that where the "
-                "surface near the boundary is distorted less.")
-            .defaults(true)};
 }
 
 std::vector<ErrorCode> paste_errors() {
@@ -258,7 +315,7 @@ assert(loop:is_closed() and report.misfit[#report.misfit] <= report.misfit[1]))"
               .summary = "Opens the target along the loop's image and pastes the part inside the "
                          "loop, deformed to fit, as a new mesh. Without `optimize` the loop is the "
                          "outline of the region.",
-              .options = paste_merge_parameters(),
+              .options = paste_merge_parameters("scale"),
               .results = {{"lissom.Mesh", "mesh", "The target with the feature."},
                           {"lissom.MergeReport", "report",
                            "As of lissom.merge; its field `paste` is a lissom.PasteReport."}},
@@ -276,7 +333,7 @@ assert(report.paste.scale > 0.5))"},
                   "Places the feature anew, and seeks its boundary again from the one it had where "
                   "`optimize` was called. What is left out stays. Where the feature does not fit "
                   "there, the last good placement stays.",
-              .options = placement_fields(true),
+              .options = move_parameters(),
               .results = {{"lissom.Paste", "paste", "The same paste."}},
               .errors = {ErrorCode::boundary_conflict, ErrorCode::invalid_argument,
                          ErrorCode::not_a_disk, ErrorCode::not_finite, ErrorCode::handle_removed,
@@ -284,6 +341,14 @@ assert(report.paste.scale > 0.5))"},
               .example = horn + R"(paste:optimize()
 assert(paste:move{ at = { 0, 0, 2 }, angle = 30 })
 assert(paste:merge():is_closed()))"},
+             {.name = "search",
+              .body = search_of_paste,
+              .summary = "What the search for the boundary found last.",
+              .results = {{"lissom.PasteSearch", "report",
+                           "Before `optimize`, of the loop that is "
+                           "used without."}},
+              .errors = {ErrorCode::handle_removed},
+              .example = horn + "assert(paste:search().misfit[1] >= 0)"},
              {.name = "loop",
               .body = loop_of_paste,
               .summary = "The loop that `merge` pastes along, and where it lies on the target.",

@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bindings/lua/merge/merge_object.h"
 #include "kernel/merge/paste/paste.h"
@@ -23,6 +25,21 @@ struct PasteSetup {
     /// Throws handle_removed where it was closed.
     Paste& paste();
 };
+
+/// Reads the fields of a placement under `path`, which may be empty, over those of `placement`. The
+/// place has the name `at`.
+PastePlacement read_placement(const Call& call, const std::string& path, PastePlacement placement,
+                              const char* at = "at");
+/// Those fields, the place first; of one that is moved where `moved`.
+std::vector<Parameter> placement_fields(bool moved);
+/// Pushes the result of a paste: the mesh, and the report of the merge with that of the paste.
+int push_paste_result(Call& call, PasteResult& result, const MergeInputs& inputs);
+/// Options of `merge` that scripts may set, and the same read; `size` names the choice of the size.
+std::vector<Parameter> paste_merge_parameters(const char* size);
+PasteMergeOptions read_paste_merge(const Call& call, const char* size);
+/// The option `clear`, and the same read.
+Parameter clear_parameter();
+void read_clearing(const Call& call, PasteOptions& options);
 
 /// Pushes what a paste found as a table.
 int push_paste_report(const Call& call, const PasteReport& report);

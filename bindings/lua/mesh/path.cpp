@@ -73,6 +73,7 @@ int fill_boundary(Call& call) {
     options.method = call.choice<FillMethod>("method");
     options.refine = call.boolean("refine");
     options.fair = call.boolean("fair");
+    options.continuity = call.choice<FairContinuity>("continuity");
     options.maximum_vertices = call.integer("maximum_vertices");
     FillReport report;
     const int results = change_mesh(call, [&](Mesh& mesh) {
@@ -318,6 +319,10 @@ assert(#path == 11))"},
                              .defaults(fill_defaults.refine),
                          boolean("fair", "Bends the patch to continue the surface smoothly.")
                              .defaults(fill_defaults.fair),
+                         choice("continuity", {"tangents", "curvature"},
+                                "What of the surface a faired patch continues. With curvature a "
+                                "large patch in a round surface is round.")
+                             .defaults("tangents"),
                          integer("maximum_vertices", "Vertices that refinement may insert.")
                              .defaults(fill_defaults.maximum_vertices)
                              .at_least(0)},

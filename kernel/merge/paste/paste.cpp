@@ -7,6 +7,7 @@
 #include "kernel/core/clock.h"
 #include "kernel/core/memory_error.h"
 #include "kernel/merge/merge_stages.h"
+#include "kernel/merge/paste/cleared_target.h"
 #include "kernel/merge/paste/loop_search.h"
 #include "kernel/merge/paste/opened_target.h"
 #include "kernel/merge/paste/paste_energy.h"
@@ -54,6 +55,11 @@ void require_options(const PasteOptions& options) {
             "the ring's share must lie between 0 and 1");
 }
 
+void require_faces(const Mesh& mesh) {
+    if (mesh.face_count() > 0) return;
+    throw Error(ErrorCode::mesh_empty, "a mesh without faces cannot be pasted");
+}
+
 // One placement and the loop that belongs to it.
 struct Placed {
     PastePlacement placement;
@@ -70,17 +76,31 @@ struct Paste::State {
     PasteOptions options;
     PasteRegions regions;
     PasteChart source_map;
-    std::unique_ptr<LoopSearch> ring;
+    std::shared_ptr<const LoopSearch> ring;
     std::unique_ptr<PasteMap> map;
     /// Whether the target's region was chosen here.
     bool own_disk = false;
     bool optimized = false;
+    /// Where features of the target are removed: the target as given, its region for parts, and
+    /// where the elements of `target` come from.
+    Mesh given;
+    std::optional<Region> onto;
+    std::optional<MeshMap> cleared;
     Placed placed;
 
     std::unique_ptr<PasteMap> map_around(const PastePlacement& placement, double room,
                                          const Context& context) const;
     void place_on_disk(const PastePlacement& placement, std::span<const Index> start,
                        Index iterations, const Context& context);
+    bool clears() const { return options.clear || options.cleared.has_value(); }
+    void prepare(const Mesh& new_source, const Region& region, const std::optional<Region>& feature,
+                 const PasteOptions& wanted, const Context& context);
+    void move_to(const PastePlacement& placement, Index iterations, const Context& context);
+    void begin_on(const Mesh& new_target, const std::optional<Region>& region,
+                  const PastePlacement& placement, const Context& context);
+    Region region_to_clear(const PastePlacement& placement, const Context& context) const;
+    void place_on_cleared(const PastePlacement& placement, std::span<const Index> start,
+                          Index iterations, const Context& context);
     double misfit_at(const PasteMap& on, const std::vector<ImagePoint>& images) const;
     void choose_angle(const PasteMap& on, Placed& place, const Context& context) const;
     Placed place(const PasteMap& on, const PastePlacement& placement, std::span<const Index> start,
@@ -205,6 +225,67 @@ void Paste::State::place_on_disk(const PastePlacement& placement, std::span<cons
     placed = std::move(*found);
 }
 
+Region Paste::State::region_to_clear(const PastePlacement& placement,
+                                     const Context& context) const {
+    if (options.cleared) return *options.cleared;
+    const SurfacePoint point = SpatialTree(given, context).nearest(placement.at);
+    const double reach = placement.scale * source_map.length_ratio * source_map.reach;
+    return region_under(given, point, reach, context);
+}
+
+// Removes the target's features where the part goes, and places it there.
+void Paste::State::place_on_cleared(const PastePlacement& placement, std::span<const Index> start,
+                                    Index iterations, const Context& context) {
+    ClearedTarget next = cleared_target(given, onto, region_to_clear(placement, context), context);
+    std::swap(target, next.mesh);
+    try {
+        if (next.onto) {
+            const std::vector<Index> faces = target_faces(target, *next.onto, context);
+            auto on = std::make_unique<PasteMap>(
+                source, target, source_map,
+                target_chart(target, faces, method_for(options), context));
+            placed = place(*on, placement, start, iterations, context);
+            map = std::move(on);
+        } else {
+            place_on_disk(placement, start, iterations, context);
+        }
+    } catch (...) {
+        std::swap(target, next.mesh);
+        throw;
+    }
+    cleared = std::move(next.map);
+}
+
+// What depends on the source alone.
+void Paste::State::prepare(const Mesh& new_source, const Region& region,
+                           const std::optional<Region>& feature, const PasteOptions& wanted,
+                           const Context& context) {
+    require_options(wanted);
+    require_faces(new_source);
+    source = new_source;
+    options = wanted;
+    regions = paste_regions(source, region, feature, options.share, context);
+    ring = std::make_shared<LoopSearch>(source, regions, context);
+    source_map = source_chart(source, regions, method_for(options), context);
+}
+
+// Lays a target out and places the part on it.
+void Paste::State::begin_on(const Mesh& new_target, const std::optional<Region>& region,
+                            const PastePlacement& placement, const Context& context) {
+    target = new_target;
+    own_disk = !region.has_value();
+    if (clears()) {
+        given = target;
+        onto = region;
+        return place_on_cleared(placement, {}, 0, context);
+    }
+    if (own_disk) return place_on_disk(placement, {}, 0, context);
+    const std::vector<Index> faces = target_faces(target, *region, context);
+    map = std::make_unique<PasteMap>(source, target, source_map,
+                                     target_chart(target, faces, method_for(options), context));
+    placed = place(*map, placement, {}, 0, context);
+}
+
 // Whether all of the ring has an image.
 bool Paste::State::covers(const Placed& place) const {
     return std::all_of(regions.outer.begin(), regions.outer.end(),
@@ -235,38 +316,48 @@ Paste::Paste(const Mesh& source, const Mesh& target, const Region& region,
              const PastePlacement& placement, const PasteOptions& options,
              const Context& context) try
     : state_(std::make_unique<State>()) {
-    require_options(options);
-    for (const Mesh* mesh : {&source, &target}) {
-        if (mesh->face_count() == 0) {
-            throw Error(ErrorCode::mesh_empty, "a mesh without faces cannot be pasted");
-        }
-    }
+    require_faces(target);
     Progress progress(context, "paste: prepare");
-    State& state = *state_;
-    state.source = source;
-    state.target = target;
-    state.options = options;
-    progress.step(0.3);
-    state.regions = paste_regions(source, region, feature, options.share, context);
-    state.ring = std::make_unique<LoopSearch>(state.source, state.regions, context);
-    progress.step(0.3);
-    state.source_map = source_chart(state.source, state.regions, method_for(options), context);
-    progress.step(0.3);
-    state.own_disk = !onto.has_value();
-    if (onto) {
-        const std::vector<Index> faces = target_faces(target, *onto, context);
-        state.map = std::make_unique<PasteMap>(
-            state.source, state.target, state.source_map,
-            target_chart(state.target, faces, method_for(options), context));
-    }
-    progress.step(0.1);
-    if (onto) {
-        state.placed = state.place(*state.map, placement, {}, 0, context);
-    } else {
-        state.place_on_disk(placement, {}, 0, context);
-    }
+    progress.step(0.6);
+    state_->prepare(source, region, feature, options, context);
+    progress.step(0.4);
+    state_->begin_on(target, onto, placement, context);
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
+}
+
+Paste::Paste(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+PasteSource::PasteSource(const Mesh& source, const Region& region,
+                         const std::optional<Region>& feature, const PasteOptions& options,
+                         const Context& context) try
+    : state_(std::make_unique<Paste::State>()) {
+    state_->prepare(source, region, feature, options, context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
+
+PasteSource::~PasteSource() = default;
+PasteSource::PasteSource(PasteSource&&) noexcept = default;
+PasteSource& PasteSource::operator=(PasteSource&&) noexcept = default;
+
+Paste PasteSource::on(const Mesh& target, const std::optional<Region>& onto,
+                      const PastePlacement& placement, const Context& context) const try {
+    require_faces(target);
+    auto state = std::make_unique<Paste::State>();
+    state->source = state_->source;
+    state->options = state_->options;
+    state->regions = state_->regions;
+    state->ring = state_->ring;
+    state->source_map = state_->source_map;
+    state->begin_on(target, onto, placement, context);
+    return Paste(std::move(state));
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
+
+double PasteSource::reach(double scale) const {
+    return scale * state_->source_map.length_ratio * state_->source_map.reach;
 }
 
 Paste::~Paste() = default;
@@ -308,26 +399,35 @@ std::size_t Paste::memory_bytes() const {
     return 2 * (state_->source.memory_bytes() + state_->target.memory_bytes());
 }
 
-void Paste::move(const PastePlacement& placement, const Context& context) try {
-    State& state = *state_;
-    const std::vector<Index> start =
-        state.optimized ? state.placed.loop.vertices : std::vector<Index>();
-    const Index iterations = state.optimized ? kWarmIterations : 0;
-    if (!state.own_disk) {
-        state.placed = state.place(*state.map, placement, start, iterations, context);
+void Paste::State::move_to(const PastePlacement& placement, Index iterations,
+                           const Context& context) {
+    const std::vector<Index> start = optimized ? placed.loop.vertices : std::vector<Index>();
+    if (clears()) return place_on_cleared(placement, start, iterations, context);
+    if (!own_disk) {
+        placed = place(*map, placement, start, iterations, context);
         return;
     }
     try {
-        Placed placed = state.place(*state.map, placement, start, iterations, context);
-        if (state.covers(placed)) {
-            state.placed = std::move(placed);
+        Placed next = place(*map, placement, start, iterations, context);
+        if (covers(next)) {
+            placed = std::move(next);
             return;
         }
     } catch (const Error& error) {
         if (error.code() != ErrorCode::boundary_conflict) throw;
     }
     // The region that was laid out does not reach there.
-    state.place_on_disk(placement, start, iterations, context);
+    place_on_disk(placement, start, iterations, context);
+}
+
+void Paste::move(const PastePlacement& placement, const Context& context) try {
+    state_->move_to(placement, state_->optimized ? kWarmIterations : 0, context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
+
+void Paste::slide(const PastePlacement& placement, const Context& context) try {
+    state_->move_to(placement, 0, context);
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
 }
@@ -452,7 +552,10 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     PasteResult result{{}, std::move(report)};
     result.merged.report = merge_report(sides, sewn, scale, options, context);
     result.merged.report.solve_seconds = seconds_since(start);
-    const MeshMap origins = appended_map(sides.opened.map, sides.part.map, state.target.topology());
+    const MeshMap target_map =
+        state.cleared ? composed(sides.opened.map, *state.cleared) : sides.opened.map;
+    const Topology& first = (state.cleared ? state.given : state.target).topology();
+    const MeshMap origins = appended_map(target_map, sides.part.map, first);
     result.merged.provenance = composed(sewn.map, origins);
     result.report.euler_characteristic = euler_characteristic(sewn.mesh.topology());
     result.report.expected_characteristic = euler_characteristic(state.target.topology()) +

@@ -38,6 +38,11 @@ struct PasteOptions {
     /// The thesis to the letter: maps that keep angles (LSCM), the energy of Eq 3.1 with its
     /// similarity, its deformation.
     bool thesis = false;
+    /// Removes the target's features under the part first (erase_feature): what lies within the
+    /// part's reach of its place.
+    bool clear = false;
+    /// What to remove in place of that; counts as `clear`.
+    std::optional<Region> cleared = std::nullopt;
 };
 
 struct PasteMergeOptions {
@@ -97,7 +102,7 @@ class Paste {
     /// paste_regions and target_faces); boundary_conflict for a point outside the target's region,
     /// and where the feature's outline does not fit into it, naming vertices; invalid_argument for
     /// options out of range; not_finite; mesh_empty; not_positive_definite; memory_limit;
-    /// cancelled.
+    /// cancelled. Where the target is cleared, also as erase_feature.
     Paste(const Mesh& source, const Mesh& target, const Region& region,
           const std::optional<Region>& feature, const std::optional<Region>& onto,
           const PastePlacement& placement, const PasteOptions& options = {},
@@ -126,13 +131,38 @@ class Paste {
     /// Places the part anew; where it was optimised, from the loop it had. After an error all is as
     /// before: the last good placement stays. Errors: as the constructor.
     void move(const PastePlacement& placement, const Context& context = {});
+    /// As `move` with the loop as it is, unless the outline fits better there: for a part that is
+    /// being dragged. Errors: as move.
+    void slide(const PastePlacement& placement, const Context& context = {});
     const PastePlacement& placement() const;
 
     std::size_t memory_bytes() const;
 
   private:
+    friend class PasteSource;
     struct State;
+    explicit Paste(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
+};
+
+/// A feature that is pasted onto many targets: what depends on the source alone is made once.
+class PasteSource {
+  public:
+    /// Errors: as Paste's constructor for the source, its regions and the options.
+    PasteSource(const Mesh& source, const Region& region, const std::optional<Region>& feature,
+                const PasteOptions& options = {}, const Context& context = {});
+    ~PasteSource();
+    PasteSource(PasteSource&&) noexcept;
+    PasteSource& operator=(PasteSource&&) noexcept;
+
+    /// The feature on a target. Errors: as Paste's constructor for the target and the placement.
+    Paste on(const Mesh& target, const std::optional<Region>& onto, const PastePlacement& placement,
+             const Context& context = {}) const;
+    /// How far the feature with its ring reaches over a surface from its middle, at a scale.
+    double reach(double scale) const;
+
+  private:
+    std::unique_ptr<Paste::State> state_;
 };
 
 }  // namespace lissom

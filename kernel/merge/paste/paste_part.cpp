@@ -11,6 +11,7 @@
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/loop/loop.h"
 #include "kernel/merge/paste/face_set.h"
+#include "kernel/merge/provenance.h"
 #include "kernel/merge/turned.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/measure/triangulation.h"
@@ -20,19 +21,6 @@ namespace {
 
 constexpr int kFrameAverages = 3;
 constexpr Index kNearRings = 3;
-
-MeshMap map_of(const MeshPart& part, const Topology& old) {
-    MeshMap map{ElementMap::copies(part.vertex_map), {}, ElementMap::copies(part.face_map)};
-    for (Index f = 0; f < part.mesh.face_count(); ++f) {
-        const Index from = part.face_map[at(f)];
-        const std::span<const Index> face = part.mesh.topology().face(f), was = old.face(from);
-        for (const Index v : face) {
-            const auto place = std::find(was.begin(), was.end(), part.vertex_map[at(v)]);
-            map.corners.add_copy(old.first_corner(from) + index_of(place - was.begin()));
-        }
-    }
-    return map;
-}
 
 // Singular values of the linear map between two triangles.
 std::pair<double, double> stretches(const std::array<Vec3, 3>& from,
@@ -107,7 +95,7 @@ PastePart part_inside(const Mesh& source, const PasteRegions& regions, std::span
     }
     const std::vector<Index> faces = inside.faces();
     MeshPart taken = extract_faces(source, faces, context);
-    PastePart part{{}, map_of(taken, topology), {}};
+    PastePart part{{}, part_map(taken, topology), {}};
     for (const Index v : loop) {
         const auto place = std::find(taken.vertex_map.begin(), taken.vertex_map.end(), v);
         part.loop.push_back(index_of(place - taken.vertex_map.begin()));

@@ -14,6 +14,9 @@ namespace {
 
 // Cotangents are kept above this, so that every system is positive definite.
 constexpr double kLeastWeight = 1e-3;
+// Times that the shape of least change of curvature is sought, each with the operators of the one
+// before.
+constexpr int kVariationPasses = 2;
 
 // The Laplacian at the vertices of a region and around it: row v is sum_w weight (x_v - x_w),
 // divided by the vertex's area.
@@ -114,6 +117,22 @@ class FairingSystem {
         }
     }
 
+    // The squared differences of rows at both ends of an edge: the change of the mean curvature.
+    void add_variation(const Laplacian& laplacian, const Topology& topology) {
+        std::map<Index, const Laplacian::Row*> row_of;
+        for (const Laplacian::Row& row : laplacian.rows) {
+            if (!topology.is_boundary(row.vertex)) row_of[row.vertex] = &row;
+        }
+        for (const auto& [v, row] : row_of) {
+            for (const auto& [n, weight] : row->weights) {
+                const auto other = row_of.find(n);
+                if (n < v || other == row_of.end()) continue;
+                const Terms change = difference(*row, *other->second);
+                add_product(change, change, weight);
+            }
+        }
+    }
+
     std::vector<Vec3> solve(const Context& context) {
         const SymmetricMatrix matrix = symmetric_from_triplets(region_.size(), entries_);
         SparseSystem system;
@@ -138,6 +157,14 @@ class FairingSystem {
             result.emplace_back(n, -weight);
         }
         return result;
+    }
+
+    // Row a less row b, each divided by its area.
+    static Terms difference(const Laplacian::Row& a, const Laplacian::Row& b) {
+        std::map<Index, double> sum;
+        for (const auto& [v, weight] : terms(a)) sum[v] += weight / a.area;
+        for (const auto& [v, weight] : terms(b)) sum[v] -= weight / b.area;
+        return {sum.begin(), sum.end()};
     }
 
     // Adds scale * left^T right: to the matrix between unknowns, to the right side for known
@@ -168,7 +195,7 @@ class FairingSystem {
 
 }  // namespace
 
-void fair(Mesh& mesh, const Region& region, const Context& context) {
+void fair(Mesh& mesh, const Region& region, FairContinuity continuity, const Context& context) {
     require_same_topology(mesh, region.topology(), "the region");
     if (region.empty()) return;
     Progress progress(context, "fair");
@@ -179,7 +206,17 @@ void fair(Mesh& mesh, const Region& region, const Context& context) {
     progress.step(0.7);
     FairingSystem plate(region, flat);
     plate.add_plate(cotangent_laplacian(mesh.topology(), flat, region));
-    mesh.set_positions(plate.solve(context));
+    std::vector<Vec3> shape = plate.solve(context);
+    if (continuity == FairContinuity::curvature) {
+        const Region around = region.grown(1);
+        for (int pass = 0; pass < kVariationPasses; ++pass) {
+            FairingSystem smooth(region, shape);
+            smooth.add_variation(cotangent_laplacian(mesh.topology(), shape, around),
+                                 mesh.topology());
+            shape = smooth.solve(context);
+        }
+    }
+    mesh.set_positions(std::move(shape));
 }
 
 }  // namespace lissom

@@ -1,5 +1,4 @@
-/// Fairing: the smoothest shape of a part of a surface that continues what is around it. Private to
-/// kernel/mesh.
+/// Fairing: the smoothest shape of a part of a surface that continues what is around it.
 #pragma once
 
 #include <vector>
@@ -10,10 +9,22 @@
 
 namespace lissom {
 
+/// In what a faired part continues the surface around it.
+enum class FairContinuity {
+    /// Its tangents: a thin plate, with the least curvature.
+    tangents,
+    /// Its curvature too: the plate whose curvature changes least. On a round surface a large part
+    /// stays round where a thin plate would be flat in its middle.
+    curvature,
+};
+
 /// Moves the vertices of `region`: first to a membrane (uniform weights), which spreads them
 /// without folds, then to a thin plate over it (cotangent weights), which meets the surface around
-/// at its tangents. Each connected part of the region needs a neighbour outside it.
-/// Errors: not_positive_definite; memory_limit; cancelled. The mesh is then unchanged.
-void fair(Mesh& mesh, const Region& region, const Context& context = {});
+/// at its tangents, and from there, where that is asked for, to the shape with the least change of
+/// curvature, sum of w_ij |L x_i - L x_j|^2 over edges with the pointwise cotangent Laplacian L,
+/// for which three rings around count. Each connected part of the region needs a neighbour outside
+/// it. Errors: not_positive_definite; memory_limit; cancelled. The mesh is then unchanged.
+void fair(Mesh& mesh, const Region& region, FairContinuity continuity = FairContinuity::tangents,
+          const Context& context = {});
 
 }  // namespace lissom

@@ -98,7 +98,8 @@ FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options,
     if (options.fair) {
         std::vector<Index> added(report.vertex_count);
         std::iota(added.begin(), added.end(), report.first_vertex);
-        fair(filled, Region(filled.shared_topology(), std::move(added)), context);
+        fair(filled, Region(filled.shared_topology(), std::move(added)), options.continuity,
+             context);
     }
     report.folded_edges = folded_edges(filled, report.first_face);
     mesh.replace_by(std::move(filled));

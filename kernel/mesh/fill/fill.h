@@ -5,6 +5,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
+#include "kernel/mesh/fill/fairing.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/path.h"
 
@@ -25,6 +26,9 @@ struct FillOptions {
     /// Moves the inserted vertices so that the patch continues the surface smoothly (a bi-Laplacian
     /// system over them); without it they stay in the flat pieces of the coarse patch.
     bool fair = true;
+    /// In what it continues it. With `curvature` a large patch in a round surface is round, but on
+    /// rough surfaces it carries on what little is known at its rim.
+    FairContinuity continuity = FairContinuity::tangents;
     /// Vertices that refinement may insert at most; it stops there and the report says so.
     Index maximum_vertices = 200000;
 };

@@ -1,0 +1,72 @@
+/// Removal of features: what stands out of a surface, or is sunk in it, goes, and the surface
+/// around it closes over the place (the fill of thesis section 3.4.1).
+#pragma once
+
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/mesh/derive.h"
+#include "kernel/mesh/fill/fill.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/query/path.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+struct EraseOptions {
+    /// How far around the region the surface may be cut, along edges, in radii of the region's
+    /// outline (its length over 2 pi); above 0. Less is used where the surface around is no ring
+    /// that far.
+    double ring = 0.5;
+    /// Weight of curvature in the cost of the cut: an edge costs |e| (1 + bend R k), with the
+    /// outline's radius R and k = |k1| + |k2| of the surface around its ends. 0 or more; 0 cuts
+    /// along the shortest loop.
+    double bend = 1.0;
+    /// In what the patch continues the surface around it. Curvature only where that is even around
+    /// the cut (its standard deviation over three rings is at most .05 of its mean) and the patch
+    /// does not turn more from face to face; elsewhere tangents, for what little is known of the
+    /// curvature would be carried on.
+    FairContinuity continuity = FairContinuity::curvature;
+    /// Vertices that the patch may have at most.
+    Index maximum_vertices = 200000;
+};
+
+struct EraseReport {
+    /// Vertices of the cut, its cost, and the width of the ring that was searched, in the mesh's
+    /// unit.
+    Index loop_size = 0;
+    double loop_cost = 0.0, ring = 0.0;
+    Index removed_vertices = 0, removed_faces = 0;
+    /// In what the patch continues the surface, and the greatest angle between neighbouring faces
+    /// of which one is in the patch, in radians.
+    FairContinuity continuity = FairContinuity::curvature;
+    double greatest_dihedral = 0.0;
+    /// The patch; its ids are those of the result.
+    FillReport patch;
+};
+
+struct ErasedFeature {
+    Mesh mesh;
+    /// Where its elements come from; those of the patch come from nowhere.
+    MeshMap map;
+    /// The cut, on the mesh as given and counter-clockwise around the region.
+    Path loop;
+    EraseReport report;
+};
+
+/// Removes what `region` marks: cuts along the least-cost loop around it, which runs where the
+/// surface is even, and closes the hole by a patch as dense as its surroundings. The region may
+/// have any genus, several parts and open boundaries; the place is a disk afterwards. Everything
+/// outside the loop keeps its order and its values to the bit. On the patch, labels and attributes
+/// of faces are those of the nearest faces around; values of vertices and corners are continued
+/// harmonically from its rim, from one side of a seam of corner values where one meets it; normals
+/// are those of the patch. Joints and weights are blended as in `fill`.
+/// Errors: topology_mismatch; region_empty where the region holds no face, or nothing lies around
+/// it; not_a_disk, naming vertices, where the surface around it is no ring; boundary_conflict where
+/// an open boundary is so near that no loop around the region stays off it; invalid_argument for
+/// options out of range; not_positive_definite; memory_limit; cancelled.
+ErasedFeature erase_feature(const Mesh& mesh, const Region& region,
+                            const EraseOptions& options = {}, const Context& context = {});
+
+}  // namespace lissom

@@ -1,0 +1,358 @@
+#include "kernel/merge/paste/scatter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+
+#include "kernel/core/memory_error.h"
+#include "kernel/merge/loop/face_angles.h"
+#include "kernel/merge/paste/face_set.h"
+#include "kernel/mesh/derive.h"
+#include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/query/distances.h"
+#include "kernel/mesh/query/spatial_tree.h"
+
+namespace lissom {
+namespace {
+
+// The disk of a place is this many times as wide as the ring on it, where there is room; ways along
+// edges are up to 1.4 times as long as the surface is wide.
+constexpr double kPlaceRoom = 1.5, kSmallerDisk = 0.85;
+constexpr int kSmallerDisks = 5;
+
+// A mesh while it is put together: for each vertex the one of the mesh before that it is, where
+// others may be the same, and for each face the place it belongs to.
+struct Piece {
+    Mesh mesh;
+    std::vector<Index> same, place;
+};
+
+std::vector<Index> reachable_faces(const Mesh& mesh, std::span<const Index> place,
+                                   std::span<const double> distance, Index start, double radius) {
+    const Topology& topology = mesh.topology();
+    const auto counts = [&](Index f) {
+        if (place[at(f)] != kNoIndex) return false;
+        const std::span<const Index> face = topology.face(f);
+        return f == start || std::all_of(face.begin(), face.end(),
+                                         [&](Index v) { return distance[at(v)] <= radius; });
+    };
+    std::vector<Index> faces{start};
+    std::vector<char> seen(at(mesh.face_count()), 0);
+    seen[at(start)] = 1;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const std::span<const Index> face = topology.face(faces[i]);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const Index g = face_left_of(topology, face[(k + 1) % face.size()], face[k]);
+            if (g == kNoIndex || seen[at(g)] || !counts(g)) continue;
+            seen[at(g)] = 1;
+            faces.push_back(g);
+        }
+    }
+    return faces;
+}
+
+// The largest disk of faces without parts around a face; empty where there is none.
+std::vector<Index> free_disk(const Piece& current, Index start, double radius,
+                             const Context& context) {
+    const Topology& topology = current.mesh.topology();
+    const std::vector<double> distance =
+        edge_distances(current.mesh, topology.face(start), radius, context);
+    for (int step = 0; step <= kSmallerDisks; ++step, radius *= kSmallerDisk) {
+        std::vector<Index> faces =
+            reachable_faces(current.mesh, current.place, distance, start, radius);
+        FaceSet set(topology, faces);
+        set.grow_at_bow_ties(nullptr);
+        faces = set.faces();
+        const bool free = std::all_of(faces.begin(), faces.end(),
+                                      [&](Index f) { return current.place[at(f)] == kNoIndex; });
+        if (free && set.euler_characteristic() == 1 && set.loops().size() == 1) return faces;
+    }
+    return {};
+}
+
+// One place that is pasted in this round: its disk, and then what that has become.
+struct PlaceWork {
+    Index place = kNoIndex;
+    MeshPart disk;
+    Piece result;
+};
+
+[[noreturn]] void refuse_room() {
+    throw Error(ErrorCode::boundary_conflict,
+                "there is no room for the seam between parts, or beside the border of the target; "
+                "choose a smaller scale or places that are farther apart");
+}
+
+// New edges from rim to rim might be there outside the disk.
+void require_no_chords(const Topology& disk, const Topology& made, std::span<const Index> kept) {
+    std::vector<Index> old(at(made.vertex_count()), kNoIndex);
+    for (Index v = 0; v < disk.vertex_count(); ++v) {
+        if (disk.is_boundary(v)) old[at(kept[at(v)])] = v;
+    }
+    for (Index v = 0; v < made.vertex_count(); ++v) {
+        if (old[at(v)] == kNoIndex) continue;
+        const auto before = disk.neighbors(old[at(v)]);
+        for (const Index n : made.neighbors(v)) {
+            const Index other = old[at(n)];
+            if (other == kNoIndex) continue;
+            if (std::find(before.begin(), before.end(), other) == before.end()) refuse_room();
+        }
+    }
+}
+
+// The rim of a disk must come out of a paste as it went in, since it is where the rest meets it.
+void require_rim(const Topology& disk, const Mesh& made, std::span<const Index> kept) {
+    for (const std::vector<Index>& loop : disk.boundary_loops()) {
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const Index a = kept[at(loop[k])], b = kept[at(loop[(k + 1) % loop.size()])];
+            const bool there = a != kNoIndex && b != kNoIndex &&
+                               face_left_of(made.topology(), a, b) != kNoIndex &&
+                               face_left_of(made.topology(), b, a) == kNoIndex;
+            if (!there) refuse_room();
+        }
+    }
+    require_no_chords(disk, made.topology(), kept);
+}
+
+// For each vertex of a disk the new one that is nothing but it, or kNoIndex. Elements of the
+// feature are numbered after those of the disk.
+std::vector<Index> kept_of_disk(const ElementMap& map, Index count) {
+    std::vector<Index> kept(at(count), kNoIndex);
+    for (Index v = 0; v < map.size(); ++v) {
+        if (map[v].size() != 1) continue;
+        const Index from = map[v].front().element;
+        if (from < count && kept[at(from)] == kNoIndex) kept[at(from)] = v;
+    }
+    return kept;
+}
+
+Piece pasted_disk(const PasteSource& feature, const PlaceWork& work,
+                  const PastePlacement& placement, const ScatterOptions& options,
+                  const Context& context) {
+    const Mesh& disk = work.disk.mesh;
+    Paste paste = feature.on(disk, Region::all(disk.shared_topology()), placement, context);
+    if (options.iterations > 0) paste.optimize(options.iterations, context);
+    MergeResult merged = paste.merge(options.merge, context).merged;
+    const std::vector<Index> kept = kept_of_disk(merged.provenance.vertices, disk.vertex_count());
+    require_rim(disk.topology(), merged.mesh, kept);
+    Piece piece{std::move(merged.mesh), {}, {}};
+    piece.same.assign(at(piece.mesh.vertex_count()), kNoIndex);
+    for (Index v = 0; v < disk.vertex_count(); ++v) {
+        if (disk.topology().is_boundary(v)) {
+            piece.same[at(kept[at(v)])] = work.disk.vertex_map[at(v)];
+        }
+    }
+    for (const SeamSide side : merged.side_of_face) {
+        piece.place.push_back(side == SeamSide::source ? work.place : kNoIndex);
+    }
+    return piece;
+}
+
+Piece joined_pieces(Piece first, const Piece& second, const Context& context) {
+    append(first.mesh, second.mesh, context);
+    first.same.insert(first.same.end(), second.same.begin(), second.same.end());
+    first.place.insert(first.place.end(), second.place.begin(), second.place.end());
+    return first;
+}
+
+// All pieces as one, by halves: each element is copied a few times only.
+Piece joined_pieces(std::vector<Piece> pieces, const Context& context) {
+    for (std::size_t step = 1; step < pieces.size(); step *= 2) {
+        for (std::size_t i = 0; i + step < pieces.size(); i += 2 * step) {
+            pieces[i] = joined_pieces(std::move(pieces[i]), pieces[i + step], context);
+            pieces[i + step] = {};
+        }
+    }
+    return std::move(pieces.front());
+}
+
+// Vertices that are the same become one, the first of them.
+Piece welded(Piece piece, const Context& context) {
+    const Topology& topology = piece.mesh.topology();
+    std::unordered_map<Index, Index> known;
+    std::vector<Index> number(piece.same.size(), kNoIndex), copies;
+    std::vector<Vec3> positions;
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+        const Index same = piece.same[at(v)];
+        if (same != kNoIndex) {
+            const auto [found, is_new] = known.try_emplace(same, index_of(copies.size()));
+            number[at(v)] = found->second;
+            if (!is_new) continue;
+        }
+        number[at(v)] = index_of(copies.size());
+        copies.push_back(v);
+        positions.push_back(piece.mesh.position(v));
+    }
+    FaceList faces;
+    for (Index f = 0; f < topology.face_count(); ++f) {
+        std::vector<Index> face;
+        for (const Index v : topology.face(f)) face.push_back(number[at(v)]);
+        faces.add(face);
+    }
+    const MeshMap map{ElementMap::copies(copies), ElementMap::identity(topology.corner_count()),
+                      ElementMap::identity(topology.face_count())};
+    Piece result{derive(piece.mesh, std::move(positions), std::move(faces), map, context), {}, {}};
+    result.same.assign(copies.size(), kNoIndex);
+    result.place = std::move(piece.place);
+    return result;
+}
+
+// The mesh with what became of its disks.
+Piece put_together(const Piece& current, std::vector<PlaceWork> works, const Context& context) {
+    std::vector<char> gone(at(current.mesh.face_count()), 0),
+        rim(at(current.mesh.vertex_count()), 0);
+    for (const PlaceWork& work : works) {
+        for (const Index f : work.disk.face_map) gone[at(f)] = 1;
+        for (Index v = 0; v < work.disk.mesh.vertex_count(); ++v) {
+            if (work.disk.mesh.topology().is_boundary(v)) rim[at(work.disk.vertex_map[at(v)])] = 1;
+        }
+    }
+    std::vector<Index> kept;
+    Piece rest;
+    for (Index f = 0; f < current.mesh.face_count(); ++f) {
+        if (gone[at(f)]) continue;
+        kept.push_back(f);
+        rest.place.push_back(current.place[at(f)]);
+    }
+    MeshPart part = extract_faces(current.mesh, kept, context);
+    for (const Index v : part.vertex_map) rest.same.push_back(rim[at(v)] ? v : kNoIndex);
+    rest.mesh = std::move(part.mesh);
+    std::vector<Piece> pieces;
+    pieces.push_back(std::move(rest));
+    for (PlaceWork& work : works) pieces.push_back(std::move(work.result));
+    return welded(joined_pieces(std::move(pieces), context), context);
+}
+
+class Scatterer {
+  public:
+    Scatterer(const PasteSource& feature, const Mesh& target,
+              std::span<const PastePlacement> places, const ScatterOptions& options)
+        : feature_(feature), places_(places), options_(options) {
+        current_.mesh = target;
+        current_.same.assign(at(target.vertex_count()), kNoIndex);
+        current_.place.assign(at(target.face_count()), kNoIndex);
+        for (Index i = 0; i < count_of(places); ++i) waiting_.push_back(i);
+    }
+
+    ScatterResult run(const Context& context) {
+        Progress progress(context, "scatter");
+        while (!waiting_.empty()) {
+            const auto all = static_cast<double>(places_.size());
+            progress.update(1.0 - static_cast<double>(waiting_.size()) / all);
+            std::vector<PlaceWork> works = chosen(context);
+            paste_all(works, context);
+            if (works.empty()) continue;
+            current_ = put_together(current_, std::move(works), context);
+            ++result_.rounds;
+        }
+        std::sort(result_.refused.begin(), result_.refused.end(),
+                  [](const auto& a, const auto& b) { return a.place < b.place; });
+        result_.mesh = std::move(current_.mesh);
+        result_.place_of_face = std::move(current_.place);
+        return std::move(result_);
+    }
+
+  private:
+    void refuse(Index place, ErrorCode code, const std::string& message) {
+        result_.refused.push_back({place, code, message});
+    }
+
+    // Waiting places whose disks do not meet those of ones before them.
+    std::vector<PlaceWork> chosen(const Context& context) {
+        const SpatialTree tree(current_.mesh, context);
+        std::vector<char> claimed(at(current_.mesh.face_count()), 0);
+        std::vector<PlaceWork> works;
+        std::vector<Index> later;
+        for (const Index i : waiting_) {
+            const std::vector<Index> faces = disk_at(tree, i, context);
+            if (faces.empty()) continue;
+            const bool meets = std::any_of(faces.begin(), faces.end(),
+                                           [&](Index f) { return claimed[at(f)] != 0; });
+            for (const Index f : faces) claimed[at(f)] = 1;
+            if (meets) {
+                later.push_back(i);
+            } else {
+                works.push_back({i, extract_faces(current_.mesh, faces, context), {}});
+            }
+        }
+        waiting_ = std::move(later);
+        return works;
+    }
+
+    // Empty where the place is refused.
+    std::vector<Index> disk_at(const SpatialTree& tree, Index i, const Context& context) {
+        const PastePlacement& placement = places_[at(i)];
+        const SurfacePoint point = tree.nearest(placement.at);
+        if (current_.place[at(point.face)] != kNoIndex) {
+            refuse(i, ErrorCode::boundary_conflict,
+                   "the part of place " + std::to_string(current_.place[at(point.face)] + 1) +
+                       " is there already");
+            return {};
+        }
+        const double radius = kPlaceRoom * feature_.reach(placement.scale);
+        std::vector<Index> faces = free_disk(current_, point.face, radius, context);
+        if (faces.empty()) {
+            refuse(i, ErrorCode::not_a_disk, "the surface around it is no disk between parts");
+        }
+        return faces;
+    }
+
+    // Those that fail are refused.
+    void paste_all(std::vector<PlaceWork>& works, const Context& context) {
+        std::vector<PlaceWork> done;
+        for (PlaceWork& work : works) {
+            context.checkpoint();
+            try {
+                work.result =
+                    pasted_disk(feature_, work, places_[at(work.place)], options_, context);
+                done.push_back(std::move(work));
+            } catch (const Error& error) {
+                if (error.code() == ErrorCode::cancelled ||
+                    error.code() == ErrorCode::memory_limit) {
+                    throw;
+                }
+                refuse(work.place, error.code(), error.what());
+            }
+        }
+        works = std::move(done);
+    }
+
+    const PasteSource& feature_;
+    std::span<const PastePlacement> places_;
+    const ScatterOptions& options_;
+    Piece current_;
+    std::vector<Index> waiting_;
+    ScatterResult result_;
+};
+
+void check_scatter(std::span<const PastePlacement> places, const ScatterOptions& options) {
+    require(!options.paste.clear && !options.paste.cleared,
+            "a target is not cleared for many parts at once; erase what is to go before");
+    require(options.iterations >= 0, "a search takes 0 iterations or more");
+    for (const PastePlacement& placement : places) {
+        require(placement.scale > 0.0 && std::isfinite(placement.scale),
+                "the scale of a placement must be above 0");
+        if (placement.at.allFinite()) continue;
+        throw Error(ErrorCode::not_finite, "the point of a placement is NaN or infinite");
+    }
+}
+
+}  // namespace
+
+ScatterResult scatter(const Mesh& source, const Mesh& target, const Region& region,
+                      const std::optional<Region>& feature, std::span<const PastePlacement> places,
+                      const ScatterOptions& options, const Context& context) try {
+    check_scatter(places, options);
+    if (target.face_count() == 0) {
+        throw Error(ErrorCode::mesh_empty, "parts cannot be scattered over a mesh without faces");
+    }
+    const PasteSource part(source, region, feature, options.paste, context);
+    return Scatterer(part, target, places, options).run(context);
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
+
+}  // namespace lissom

@@ -1,0 +1,55 @@
+/// Scatter: one feature pasted many times over a surface. Each paste sees a small disk of the
+/// target alone, and all that do not touch are put into the mesh together, so that hundreds cost
+/// what they are large, not what the target is.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/merge/paste/paste.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+struct ScatterOptions {
+    /// `clear` and `cleared` must not be set.
+    PasteOptions paste;
+    PasteMergeOptions merge = {.find_intersections = false, .compare = false};
+    /// Of the search for each boundary; 0 takes the outline of the region.
+    Index iterations = 4;
+};
+
+/// A place where the feature does not go, and why.
+struct RefusedPlace {
+    Index place = kNoIndex;
+    ErrorCode code = ErrorCode::internal;
+    std::string message;
+};
+
+struct ScatterResult {
+    Mesh mesh;
+    /// For each face the place that it belongs to, or kNoIndex for those of the target.
+    std::vector<Index> place_of_face;
+    /// In the order of their numbers.
+    std::vector<RefusedPlace> refused;
+    /// Times that pastes were put into the mesh together.
+    Index rounds = 0;
+};
+
+/// Pastes the feature at all `places`, those with lower numbers first where two meet: a place that
+/// lies on a part, or has no room for the ring between parts, is refused, and so is each whose
+/// paste fails. The result does not depend on the number of threads. The target's faces away from
+/// parts keep their order and their values to the bit, its vertices too.
+/// Errors: as Paste's constructor for the source and its regions; topology_mismatch; mesh_empty;
+/// invalid_argument for options out of range, a scale that is not above 0 or a target to be
+/// cleared; not_finite; memory_limit; cancelled.
+ScatterResult scatter(const Mesh& source, const Mesh& target, const Region& region,
+                      const std::optional<Region>& feature, std::span<const PastePlacement> places,
+                      const ScatterOptions& options = {}, const Context& context = {});
+
+}  // namespace lissom

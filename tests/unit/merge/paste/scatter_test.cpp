@@ -1,0 +1,143 @@
+// One feature at many places of generated shapes.
+#include "kernel/merge/paste/scatter.h"
+
+#include <cmath>
+#include <map>
+
+#include "kernel/mesh/measure/measures.h"
+#include "tests/unit/merge/paste/paste_shapes.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+// Places on the unit sphere, evenly.
+std::vector<PastePlacement> spiral(Index count, double scale) {
+    std::vector<PastePlacement> places;
+    for (Index i = 0; i < count; ++i) {
+        const double y = 1.0 - (2.0 * i + 1.0) / count, angle = 2.399963 * i;
+        const double r = std::sqrt(1.0 - y * y);
+        places.push_back({.at = {r * std::cos(angle), y, r * std::sin(angle)}, .scale = scale});
+    }
+    return places;
+}
+
+Index parts_in(const ScatterResult& result) {
+    std::map<Index, Index> faces;
+    for (const Index place : result.place_of_face) ++faces[place];
+    return index_of(faces.size()) - (faces.contains(kNoIndex) ? 1 : 0);
+}
+
+}  // namespace
+
+TEST_CASE("scatter: parts stand at all places, and the surface is closed") {
+    const Mesh horn = horned_ball(12), target = make_sphere({1.0, 40, SphereKind::triangles});
+    const auto places = spiral(24, 0.18);
+    const ScatterResult result = scatter(horn, target, around_horn(horn), std::nullopt, places);
+    for (const RefusedPlace& refused : result.refused) MESSAGE(refused.message);
+    CHECK(result.refused.empty());
+    CHECK(result.mesh.topology().is_closed());
+    CHECK(result.mesh.topology().component_count() == 1);
+    CHECK(genus(result.mesh.topology()) == 0);
+    CHECK(count_of(result.place_of_face) == result.mesh.face_count());
+    CHECK(parts_in(result) == 24);
+    // Each part has its tip above its place.
+    for (Index i = 0; i < 24; ++i) {
+        double highest = 0.0;
+        for (Index f = 0; f < result.mesh.face_count(); ++f) {
+            if (result.place_of_face[at(f)] != i) continue;
+            for (const Index v : result.mesh.topology().face(f)) {
+                highest = std::max(highest, result.mesh.position(v).dot(places[at(i)].at));
+            }
+        }
+        CHECK(highest > 1.08);
+    }
+}
+
+TEST_CASE("scatter: where two meet the first stays, and the other is told") {
+    const Mesh horn = horned_ball(12), target = make_sphere({1.0, 32, SphereKind::triangles});
+    std::vector<PastePlacement> places = {{.at = {0, 1, 0}, .scale = 0.2},
+                                          {.at = {0.02, 1, 0}, .scale = 0.2},
+                                          {.at = {1, 0, 0}, .scale = 0.2}};
+    const ScatterResult result = scatter(horn, target, around_horn(horn), std::nullopt, places);
+    REQUIRE(result.refused.size() == 1);
+    CHECK(result.refused[0].place == 1);
+    CHECK(result.refused[0].code == ErrorCode::boundary_conflict);
+    CHECK(result.refused[0].message.find("place 1") != std::string::npos);
+    CHECK(parts_in(result) == 2);
+    CHECK(result.mesh.topology().is_closed());
+    // A part that is larger than its target fits nowhere.
+    places = {{.at = {0, 1, 0}, .scale = 30.0}};
+    const ScatterResult none = scatter(horn, target, around_horn(horn), std::nullopt, places);
+    CHECK(none.refused.size() == 1);
+    CHECK(none.rounds == 0);
+    CHECK(hash(none.mesh) == hash(target));
+}
+
+TEST_CASE("scatter: more places do not change what was there, far vertices stay to the bit") {
+    const Mesh horn = horned_ball(12);
+    Mesh target = make_sphere({1.0, 32, SphereKind::triangles});
+    Attribute mark{"mark", Domain::vertex, 1, ScalarType::float64, {}};
+    for (Index v = 0; v < target.vertex_count(); ++v) mark.values.push_back(v);
+    target.attributes().add(std::move(mark));
+    auto places = spiral(12, 0.15);
+    const Region region = around_horn(horn);
+    const ScatterResult few =
+        scatter(horn, target, region, std::nullopt, std::span(places).first(6));
+    const ScatterResult many = scatter(horn, target, region, std::nullopt, places);
+    CHECK(few.refused.empty());
+    CHECK(many.refused.empty());
+    for (const ScatterResult* result : {&few, &many}) {
+        std::vector<char> found(at(target.vertex_count()), 0);
+        for (Index v = 0; v < result->mesh.vertex_count(); ++v) {
+            const double from = result->mesh.attributes().find("mark")->at(v)[0];
+            if (!std::isfinite(from) || from != std::floor(from)) continue;
+            const Index old = static_cast<Index>(from);
+            if (result->mesh.position(v) == target.position(old)) found[at(old)] = 1;
+        }
+        Index far = 0, kept = 0;
+        for (Index v = 0; v < target.vertex_count(); ++v) {
+            const bool is_far = std::all_of(places.begin(), places.end(), [&](const auto& place) {
+                return (target.position(v) - place.at).norm() > 0.35;
+            });
+            far += is_far;
+            kept += is_far && found[at(v)];
+        }
+        CHECK(far > 50);
+        CHECK(kept == far);
+    }
+    const auto tips = [&](const ScatterResult& result, Index place) {
+        std::vector<double> values;
+        for (Index f = 0; f < result.mesh.face_count(); ++f) {
+            if (result.place_of_face[at(f)] != place) continue;
+            for (const Index v : result.mesh.topology().face(f)) {
+                values.push_back(result.mesh.position(v).x());
+            }
+        }
+        return values;
+    };
+    CHECK(tips(few, 0) == tips(many, 0));
+}
+
+TEST_CASE("scatter: options and places that make no sense are refused") {
+    const Mesh horn = horned_ball(12), target = make_sphere({1.0, 16, SphereKind::triangles});
+    const Region region = around_horn(horn);
+    const auto code = [&](std::vector<PastePlacement> places, ScatterOptions options) {
+        return error_of([&] { scatter(horn, target, region, std::nullopt, places, options); })
+            .code();
+    };
+    std::vector<PastePlacement> places(1);
+    places[0].scale = 0.0;
+    CHECK(code(places, {}) == ErrorCode::invalid_argument);
+    places[0] = {};
+    places[0].at.x() = NAN;
+    CHECK(code(places, {}) == ErrorCode::not_finite);
+    ScatterOptions clears;
+    clears.paste.clear = true;
+    CHECK(code({}, clears) == ErrorCode::invalid_argument);
+    CHECK(error_of([&] { scatter(horn, Mesh(), region, std::nullopt, {}); }).code() ==
+          ErrorCode::mesh_empty);
+    CHECK(hash(scatter(horn, target, region, std::nullopt, {}).mesh) == hash(target));
+}
