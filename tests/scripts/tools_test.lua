@@ -506,3 +506,47 @@ test("two hosts of one scene take turns: in the middle of a gesture the other is
     drag(other, 1)
     expect.equal(#scene:history(), 2)
 end)
+
+-- Grows the ball with the wheel.
+local function grow()
+    return lissom.tool{
+        name = "grow",
+        press = function() end,
+        wheel = function(self, ev)
+            self.seen = ev
+            ev.scene:get("ball"):transform{ scale = 1 + 0.1 * ev.lines * (ev.shift and 2 or 1) }
+        end,
+    }
+end
+
+test("the wheel is part of a gesture, or a step of its own, where a tool has a function for it", function()
+    local scene = ball_scene()
+    local host, before = host_of(scene, grow()), scene:hash()
+    host:wheel{ x = 1, y = 2, lines = 1 }
+    expect.equal(scene:history().place, 2)
+    host:undo()
+    expect.equal(scene:hash(), before)
+    host:press(middle):wheel{ x = 640, y = 480, lines = 1 }:wheel{ x = 640, y = 480, lines = 2, shift = true }
+    host:release(middle)
+    expect.equal(scene:history().place, 2)
+    expect.equal(host.tool.seen.lines, 2)
+    expect.near(scene:get("ball"):bounds().max[1], 1.1 * 1.4)
+    host:press(middle):wheel{ x = 640, y = 480, lines = 1 }:cancel()
+    expect.near(scene:get("ball"):bounds().max[1], 1.1 * 1.4)
+    host:use(pull()):wheel{ x = 1, y = 2, lines = 1 }
+    expect.near(scene:get("ball"):bounds().max[1], 1.1 * 1.4)
+    expect.error(function() host:wheel{ x = 1, y = 2 } end, "lines")
+    expect.error(function() host:wheel{ x = 1, y = 2, lines = 1, button = "left" } end, "no 'button'")
+end)
+
+test("turns of the wheel are recorded and repeated, and told in the journal", function()
+    local scene = ball_scene()
+    local host = host_of(scene):record():keep_journal():use(grow())
+    host:wheel{ x = 1, y = 2, lines = 1 }
+    host:press(middle):wheel{ x = 640, y = 480, lines = -1, shift = true }:release(middle)
+    local recorded = read(host:recording())
+    expect.equal(lissom.replay(recorded, { scene = ball_scene(), tools = { grow() } }):hash(), recorded.after)
+    local other = ball_scene()
+    assert(load(host:journal_text()))(other)
+    expect.equal(other:hash(), scene:hash())
+end)

@@ -162,7 +162,7 @@ void draw_objects(const std::vector<std::string>& objects, std::vector<bool>& hi
 constexpr const char* kKeys =
     "left drag: turn; with a tool: the right button, or alt\n"
     "shift and drag, or the middle button: move\n"
-    "wheel: nearer, towards the cursor\n"
+    "wheel: nearer, towards the cursor; in a tool's drag: the tool's\n"
     "1 to 7: sides   F: all   O: perspective\n"
     "W: wire   B: boundaries (without a tool)\n"
     "Ctrl-Z, Ctrl-Shift-Z: undo, redo\n"

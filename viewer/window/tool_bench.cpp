@@ -233,6 +233,10 @@ void push_event(lua_State* L, const ToolInput& input) {
     lua_setfield(L, -2, "x");
     lua_pushnumber(L, input.at.y());
     lua_setfield(L, -2, "y");
+    if (input.kind == ToolInput::Kind::wheel) {
+        lua_pushnumber(L, input.lines);
+        lua_setfield(L, -2, "lines");
+    }
     if (input.kind != ToolInput::Kind::press) return;
     lua_pushstring(L, kButtonNames[static_cast<std::size_t>(input.button)]);
     lua_setfield(L, -2, "button");
@@ -252,7 +256,7 @@ void without_own_place(std::string& message) {
     if (end != std::string::npos) message.erase(0, end + 2);
 }
 
-constexpr std::array kVerbs{"press", "move", "release", "key", "cancel", "undo", "redo"};
+constexpr std::array kVerbs{"press", "move", "release", "wheel", "key", "cancel", "undo", "redo"};
 
 }  // namespace
 

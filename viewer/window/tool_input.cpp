@@ -6,11 +6,13 @@
 namespace lissom::window {
 
 void push_input(std::vector<ToolInput>& inputs, ToolInput input) {
-    const bool piles_up =
-        input.kind == ToolInput::Kind::move || input.kind == ToolInput::Kind::look;
+    const bool piles_up = input.kind == ToolInput::Kind::move ||
+                          input.kind == ToolInput::Kind::look ||
+                          input.kind == ToolInput::Kind::wheel;
     const bool replaces = piles_up && !inputs.empty() && inputs.back().kind == input.kind &&
                           inputs.back().modifiers == input.modifiers;
     if (replaces) {
+        if (input.kind == ToolInput::Kind::wheel) input.lines += inputs.back().lines;
         inputs.back() = std::move(input);
     } else {
         inputs.push_back(std::move(input));

@@ -14,13 +14,15 @@ namespace lissom::window {
 
 /// `play` is an event of the recording that is open, `stop` lets go of what it holds.
 struct ToolInput {
-    enum class Kind { press, move, release, key, cancel, undo, redo, look, play, stop };
+    enum class Kind { press, move, release, wheel, key, cancel, undo, redo, look, play, stop };
 
     Kind kind = Kind::move;
     /// Pixels from the top left corner of the picture.
     Vec2 at = Vec2::Zero();
     MouseButton button = MouseButton::left;
     Modifiers modifiers = {};
+    /// Of wheel: lines upwards.
+    double lines = 0.0;
     /// "enter", "a", ...
     std::string key = {};
     /// Of look: from where the picture is seen now, and its size.
@@ -31,8 +33,8 @@ struct ToolInput {
 };
 
 /// Adds `input` behind others. A move that follows a move with the same buttons, or a look that
-/// follows a look, takes its place: whoever is slower than the hand is never behind by more than
-/// one.
+/// follows a look, takes its place, and turns of the wheel are summed: whoever is slower than the
+/// hand is never behind by more than one.
 void push_input(std::vector<ToolInput>& inputs, ToolInput input);
 
 /// The name of a key as tools know it: "enter", "a", "7"; empty for one that they are not told of.

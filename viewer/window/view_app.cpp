@@ -473,7 +473,8 @@ void ViewApp::navigate(const Input& input) {
     cursor_ = input.at;
 }
 
-// With a tool in hand the left button is the tool's, but with alt; the others move the camera.
+// With a tool in hand the left button is the tool's, but with alt, and the wheel while that is
+// down; the others move the camera.
 bool ViewApp::give_to_tool(const Input& input) {
     ToolInput event;
     event.at = input.at;
@@ -496,6 +497,11 @@ bool ViewApp::give_to_tool(const Input& input) {
             if (input.button != MouseButton::left) return true;
             event.kind = ToolInput::Kind::release;
             tool_drags_ = false;
+            break;
+        case Input::Kind::scroll:
+            // With shift some systems turn the wheel sideways.
+            event.kind = ToolInput::Kind::wheel;
+            event.lines = input.scroll.y() != 0.0 ? input.scroll.y() : input.scroll.x();
             break;
         default:
             return tool_drags_;

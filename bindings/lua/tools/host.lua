@@ -17,7 +17,7 @@ local function misuse(text, ...) error(string.format(text, ...), 3) end
 
 -- ---- Tools
 
-local callbacks = { "activate", "press", "drag", "release", "move", "key", "changed", "draw", "cancel",
+local callbacks = { "activate", "press", "drag", "release", "move", "wheel", "key", "changed", "draw", "cancel",
     "deactivate", "run" }
 local is_callback = set_of(callbacks)
 
@@ -80,6 +80,7 @@ function Event:select(options) return self.camera:select(filled(self, options)) 
 
 local event_fields = {
     mouse = set_of{ "x", "y", "button", "shift", "ctrl", "alt" },
+    wheel = set_of{ "x", "y", "lines", "shift", "ctrl", "alt" },
     key = set_of{ "key", "shift", "ctrl", "alt" },
 }
 local buttons = set_of{ "left", "right", "middle" }
@@ -99,6 +100,10 @@ local function check_event(what, fields)
         if type(value) ~= "number" or not (value <= 1e9 and value >= -1e9) then
             misuse("an event needs %s, a number of pixels", axis)
         end
+    end
+    local lines = fields.lines
+    if what == "wheel" and not (type(lines) == "number" and math.abs(lines) <= 1e6) then
+        misuse("an event of the wheel needs lines, a number: upwards is above 0")
     end
     if fields.button and not buttons[fields.button] then misuse("a button is left, right or middle") end
 end
@@ -134,7 +139,7 @@ end
 function Host:start_work(name)
     self.working = true
     if not self.journal then return end
-    self.journal:begin_group(name == "drag")
+    self.journal:begin_group(name == "drag" or name == "wheel")
     hear(self.journal)
 end
 
@@ -438,6 +443,18 @@ function Host:release(fields)
     end
     self.held = nil
     self:mark(self:commit())
+    return self
+end
+
+-- In a gesture it is part of that, else a step of its own.
+function Host:wheel(fields)
+    self:ready()
+    check_event("wheel", fields)
+    self.x, self.y = fields.x, fields.y
+    if not (self.tool and self.tool.wheel) then return self end
+    self:note{ "wheel", fields.x, fields.y, fields.lines, shift = fields.shift or nil,
+        ctrl = fields.ctrl or nil, alt = fields.alt or nil }
+    self:step("wheel", self:event("wheel", fields))
     return self
 end
 

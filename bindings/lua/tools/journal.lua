@@ -16,6 +16,9 @@ local unheard = set_of{ "lissom.Gizmo", "lissom.Camera", "lissom.Params", "lisso
 local steps = set_of{ "begin", "commit", "rollback", "step", "undo", "redo", "depth", "clear_history",
     "save" }
 
+-- Methods that change an object which is in no scene: told where something is made of it.
+local shaping = { ["lissom.Paste"] = set_of{ "optimize", "move" } }
+
 -- Calls whose result does not depend on what the same call on the same thing did before.
 local replacing = {
     ["lissom.Handle"] = set_of{ "set_matrix", "reset" },
@@ -104,7 +107,8 @@ function Journal:after(kind, name, ...)
     call.results = { ... }
     local first = call.arguments[1]
     local itself = kind and type(first) == "userdata" and rawequal(first, self:same((...)))
-    call.changes = itself or (changing[kind] and changing[kind][name]) or false
+    call.shapes = shaping[kind] and shaping[kind][name] and self:same(first) or nil
+    call.changes = not call.shapes and (itself or (changing[kind] and changing[kind][name])) or false
     local makes = false
     for i, result in pairs(call.results) do
         local function made(object)
@@ -114,7 +118,7 @@ function Journal:after(kind, name, ...)
         end
         call.results[i] = copied(result, made, 0)
     end
-    if call.changes or makes then table.insert(self.group, call) end
+    if call.changes or call.shapes or makes then table.insert(self.group, call) end
 end
 
 -- The calls of one function of the tool; those of a drag may be replaced by those of the next.
@@ -328,6 +332,12 @@ function Journal:needed_calls()
     for _, group in ipairs(told_groups(self.groups)) do
         for _, call in ipairs(group) do
             if call.changes then need(call) end
+        end
+    end
+    for _, group in ipairs(self.groups) do
+        for _, call in ipairs(group) do
+            local made = call.shapes and self.made[call.shapes]
+            if made and needed[made.call] then need(call) end
         end
     end
     return needed

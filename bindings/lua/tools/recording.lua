@@ -268,6 +268,10 @@ local player = {
     key = function(host, event)
         host:key{ key = event[2], shift = event.shift, ctrl = event.ctrl, alt = event.alt }
     end,
+    wheel = function(host, event)
+        host:wheel{ x = event[2], y = event[3], lines = event[4], shift = event.shift, ctrl = event.ctrl,
+            alt = event.alt }
+    end,
     cancel = function(host) host:cancel() end,
     outside = function()
         error("a script or a console changed the scene here, which is not in the recording", 0)

@@ -27,6 +27,7 @@ return lissom.tool{ name = "pull", params = { step = { type = "number", default 
         self.hit.mesh:set_position(self.hit.vertex, x, y, z + self.params.step)
         self.state.drags = (self.state.drags or 0) + 1
     end,
+    wheel = function(self, ev) self.params.step = self.params.step + 0.1 * ev.lines end,
     key = function(self, ev)
         if ev.key == "s" then print("drags", self.state.drags, self.params.step) end
         if ev.key == "l" then while true do end end
@@ -141,9 +142,15 @@ TEST_CASE("tool input: moves and looks do not pile up, all else does") {
     push_input(inputs, input(Kind::move, 6.0));
     shifted.modifiers.shift = true;
     push_input(inputs, shifted);
-    REQUIRE(inputs.size() == 8);
+    ToolInput turned = input(Kind::wheel);
+    for (const double lines : {1.0, 2.0, -0.5}) {
+        turned.lines = lines;
+        push_input(inputs, turned);
+    }
+    REQUIRE(inputs.size() == 9);
     CHECK(inputs[0].at.x() == 2.0);
     CHECK(inputs[2].at.x() == 99.0);
+    CHECK(inputs[8].lines == 2.5);
 }
 
 TEST_CASE("tool input: keys have the names that tools know") {
@@ -180,6 +187,23 @@ TEST_CASE("session: a drag with a tool is one step, which undo takes back and re
     host.wait();
     CHECK(host.shown() == after);
     CHECK(host.lines.empty());
+}
+
+TEST_CASE("session: the wheel turns within a gesture of a tool") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    host.session.post(input(Kind::press));
+    ToolInput turned = input(Kind::wheel);
+    turned.lines = 2.0;
+    host.session.post(turned);
+    host.session.post(input(Kind::move, 330.0));
+    host.session.post(input(Kind::release));
+    host.wait();
+    const std::vector<Vec3> after = host.shown();
+    double most = 0.0;
+    for (const Vec3& p : after) most = std::max(most, p.z());
+    CHECK(most == doctest::Approx(1.3).epsilon(0.01));
+    CHECK(host.state().steps.size() == 1);
 }
 
 TEST_CASE("session: Escape in a drag, and an error in a tool, leave the scene as it was") {
