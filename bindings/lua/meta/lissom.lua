@@ -314,6 +314,41 @@
 ---@field euler_characteristic integer Of the result.
 ---@field expected_characteristic integer What those of the target and of the part make it.
 
+---What mesh:erase did.
+---@class lissom.EraseReport
+---@field loop lissom.Path The cut, on the mesh as it was.
+---@field patch lissom.Region What was closed, with its rim, on the new mesh.
+---@field loop_size integer Vertices of the cut.
+---@field loop_cost number What it costs; see `bend`.
+---@field ring number Width around the region that was searched, in mesh units.
+---@field removed_vertices integer Vertices that went.
+---@field removed_faces integer Faces that went.
+---@field added_faces integer Faces of the patch.
+---@field continuity string What the patch continues: curvature or tangents.
+---@field greatest_dihedral number The greatest angle between neighbouring faces of which one is in the patch.
+---@field limit_reached boolean The patch has `maximum_vertices`.
+
+---A place that was left out.
+---@class lissom.RefusedPlace
+---@field place integer Its number.
+---@field code string As of a failure; see lissom explain.
+---@field message string Why.
+
+---What lissom.scatter did.
+---@class lissom.ScatterReport
+---@field refused lissom.RefusedPlace[] Places that were left out, by number.
+---@field parts lissom.Region All parts, on the new mesh.
+---@field place_of_face integer[] For each face the number of the place that its part was put to, or 0.
+---@field rounds integer Times that parts were put into the mesh together.
+
+---A feature to paste.
+---@class lissom.Part
+---@field mesh lissom.Mesh Its surface and some of that around it.
+---@field region lissom.Region What lies around it.
+---@field feature lissom.Region|nil The feature, where that was given.
+---@field up lissom.Vector The way that is up on it: y.
+---@field front lissom.Vector The way that it looks: z.
+
 ---A vector that a hairstyle gives its field at a grid point.
 ---@class lissom.StyleConstraint
 ---@field point number[] {x, y, z}, in mesh units.
@@ -535,6 +570,7 @@
 ---@field move fun(self: any, event: lissom.MouseEvent): lissom.ToolHost The cursor moved: a drag while a button is down.
 ---@field release fun(self: any, event: lissom.MouseEvent): lissom.ToolHost The button came up: the step ends.
 ---@field click fun(self: any, event: lissom.MouseEvent): lissom.ToolHost Press and release.
+---@field wheel fun(self: any, event: table): lissom.ToolHost {x=, y=, lines=, shift=, ctrl=, alt=}: the wheel turned, upwards where lines are above 0. Part of the gesture while a button is down, else a step of its own.
 ---@field key fun(self: any, event: table): lissom.ToolHost {key=, shift=, ctrl=, alt=}: "enter", "escape", "a", ...
 ---@field type fun(self: any, text: string): lissom.ToolHost A key for each character.
 ---@field set fun(self: any, values: table): lissom.ToolHost Sets parameters of the tool.
@@ -566,6 +602,7 @@
 ---@field start number[]? Where the button went down, {x, y}.
 ---@field button string? left, right or middle.
 ---@field key string? The key, of key.
+---@field lines number? How far the wheel turned, of wheel: upwards is above 0.
 ---@field parameter string? The parameter that was set, of changed.
 ---@field shift boolean Whether this key is down.
 ---@field ctrl boolean Likewise.
@@ -960,6 +997,7 @@ function Mesh:path(options) end
 ---@field method? "angle"|"area" Begins with the triangles whose greatest angle to one another and to the mesh is least, or with those of the least area, a lid. Default: "angle".
 ---@field refine? boolean Makes the patch as dense as the mesh around it. Default: true.
 ---@field fair? boolean Bends the patch to continue the surface smoothly. Default: true.
+---@field continuity? "tangents"|"curvature" What of the surface a faired patch continues. With curvature a large patch in a round surface is round. Default: "tangents".
 ---@field maximum_vertices? integer Vertices that refinement may insert. Default: 200000.
 
 ---Closes an open boundary by a patch of triangles that continues the surface, in place. Old ids stay.
@@ -991,6 +1029,43 @@ function Mesh:fill(boundary, options) end
 ---@return lissom.Mesh b # The rest.
 ---@return lissom.CutLines loops # The lines on both parts, and a report.
 function Mesh:cut(options) end
+
+---@class lissom.Mesh.EraseOptions
+---@field ring? number How far around the region the mesh may be cut, in radii of the region's outline. Default: 0.5.
+---@field bend? number How much a cut through bent surface costs: an edge costs its length times 1 + bend R k, with the outline's radius R and k the sum of both principal curvatures, without signs. 0: the shortest loop. Default: 1.
+---@field continuity? "tangents"|"curvature" What of the surface around it the patch continues: curvature where that is even around the cut, else tangents. Default: "curvature".
+---@field maximum_vertices? integer Vertices that the patch may have. Default: 200000.
+
+---A new mesh without what a region marks: it is cut along the least-cost loop around the region, which runs where the surface is even, and closed by a patch that continues the surface, so that a feature disappears. The feature may have handles and open boundaries. Everything outside the loop keeps its values to the bit; labels, colours and texture coordinates are continued over the patch.
+---@param region lissom.Region What is to go, marked casually.
+---@param options? lissom.Mesh.EraseOptions
+---@return lissom.Mesh mesh # The mesh without the feature.
+---@return lissom.EraseReport report # What was done.
+function Mesh:erase(region, options) end
+
+---@class lissom.Mesh.CloneOptions
+---@field from lissom.Region Part of the surface around the feature.
+---@field to lissom.Vector The middle of the feature comes to lie on the point of the mesh that is nearest to this.
+---@field feature? lissom.Region|"auto" As in lissom.paste. Default: auto.
+---@field toward? "x"|"y"|"z"|lissom.Vector The way on the target that `up` of the source is to point, as far as both lie in the surfaces. Default: the same as `up`.
+---@field up? "x"|"y"|"z"|lissom.Vector The direction of the source that belongs to it. Default: y.
+---@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: 0 where `toward` is given, else what fits best of twelve.
+---@field scale? number Size of the part on the target over its size on the source. Default: 1.
+---@field offset? number[] {x, y}: moves the part in the plane of the target's map, in lengths of the target; the way of placing of thesis 3.4.1. Default: {0, 0}.
+---@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: what lies within the part's reach of its place, or a region of the target. Default: false.
+---@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
+---@field normals? number Weight of the normals in the energy of a boundary. Default: 0.
+---@field smooth? integer Umbrella steps at the seam, at most, as in lissom.merge. Default: 3.
+---@field collar? boolean Makes faces anew beside the seam where one side is coarser. Default: true.
+---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
+---@field size? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or what the placement says. Default: "boundary".
+---@field compare? boolean Pastes along the outline of the region as well, and takes that where the surface near the boundary is distorted less. Default: true.
+
+---A new mesh that has a feature of this one twice: it is pasted onto another place of the same mesh, along the loop around it that fits best (lissom.paste with itself as target).
+---@param options lissom.Mesh.CloneOptions
+---@return lissom.Mesh mesh # The mesh with both.
+---@return lissom.MergeReport report # As of lissom.merge; its field `paste` is a lissom.PasteReport.
+function Mesh:clone(options) end
 
 ---@class lissom.Mesh.ParameterizeOptions
 ---@field region? lissom.Region Its faces are laid out: one part without handles, with at least one boundary. Default: the whole mesh.
@@ -1489,6 +1564,7 @@ function Paste:merge(options) end
 ---@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: as it was.
 ---@field scale? number Size of the part on the target over its size on the source. Default: as it was.
 ---@field offset? number[] {x, y}: moves the part in the plane of the target's map, in lengths of the target; the way of placing of thesis 3.4.1. Default: as it was.
+---@field search? boolean false keeps the loop while a part is dragged, unless the outline fits better. Default: true.
 
 ---Places the feature anew, and seeks its boundary again from the one it had where `optimize` was called. What is left out stays. Where the feature does not fit there, the last good placement stays.
 ---@param options? lissom.Paste.MoveOptions
@@ -1497,6 +1573,10 @@ function Paste:merge(options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function Paste:move(options) end
+
+---What the search for the boundary found last.
+---@return lissom.PasteSearch report # Before `optimize`, of the loop that is used without.
+function Paste:search() end
 
 ---The loop that `merge` pastes along, and where it lies on the target.
 ---@return lissom.Path loop # On the source.
@@ -2805,6 +2885,8 @@ local lissom = {}
 
 lissom.shapes = {}
 
+lissom.part = {}
+
 lissom.pick = {}
 
 ---@class lissom.LoadOptions
@@ -3034,6 +3116,7 @@ function lissom.merging(options) end
 ---@field feature? lissom.Region|"auto" Part of the source that keeps out of the search; of any genus, and of several parts. auto: what lies farther from the region's outline than the share `ring` of the way to its middle, or of the outline's radius where that is less. Default: auto.
 ---@field onto? lissom.Region Part of the target that the feature may go to: without holes and handles, and larger than the region of the source will be. Default: a disk around the placement.
 ---@field placement lissom.PasteOptions.Placement Where the feature goes.
+---@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: what lies within the part's reach of its place, or a region of the target. Default: false.
 ---@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
 ---@field correspondence? "map"|"closest" map: vertices lie where the plane maps of both surfaces put them. closest: then, in rounds, on the nearest point of the target, where that lowers the misfit. Default: "map".
 ---@field normals? number Weight of the normals in the energy of a boundary; .1 to .3 help where the feature overhangs. Default: 0.
@@ -3046,6 +3129,53 @@ function lissom.merging(options) end
 ---@return string? code # Its code.
 ---@return lissom.Elements? elements # The elements concerned.
 function lissom.paste(options) end
+
+---@class lissom.ScatterOptions
+---@field source lissom.Mesh The mesh that has the feature; it stays as it is.
+---@field target lissom.Mesh The mesh that it is pasted onto; it stays as it is.
+---@field region lissom.Region Part of the source around the feature.
+---@field feature? lissom.Region|"auto" As in lissom.paste. Default: auto.
+---@field at lissom.Vector[] Places: the middle of the feature comes to lie on the nearest point of the target. Those before others come first where two meet.
+---@field toward? lissom.Vector[] As of a placement of lissom.paste: one for all or one a place. Default: the same as `up`.
+---@field up? "x"|"y"|"z"|lissom.Vector The direction of the source that belongs to it. Default: y.
+---@field angles? number[] As of a placement: one for all or one a place. In degrees. Default: 0 where `toward` is given, else what fits best of twelve.
+---@field scales? number[] As of a placement: one for all or one a place. Default: 1.
+---@field iterations? integer Of the search for each boundary; 0 takes the outline of the region. Default: 4.
+---@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
+---@field normals? number Weight of the normals in the energy of a boundary. Default: 0.
+---@field smooth? integer Umbrella steps at a seam, at most. Default: 3.
+---@field collar? boolean Makes faces anew beside a seam where one side is coarser. Default: true.
+---@field size? "boundary"|"lock" Size of a part: that of its boundary on the target, or what `scales` says. Default: "boundary".
+
+---Pastes one feature many times: scales, spikes, leaves. Each paste sees a small disk of the target alone, and all that do not touch are put into the mesh together, so that hundreds are quick. A place on another part, or without room, is refused and told; scripts/recipes/scatter.lua finds places.
+---@param options lissom.ScatterOptions
+---@return lissom.Mesh mesh # The target with all parts.
+---@return lissom.ScatterReport report # What was refused, and where parts are.
+function lissom.scatter(options) end
+
+---@class lissom.SaveOptions
+---@field mesh lissom.Mesh The mesh that has the feature.
+---@field region lissom.Region Part of the mesh around the feature.
+---@field feature? lissom.Region The feature, a part of the region. Default: what lies deep in the region.
+---@field up? "x"|"y"|"z"|lissom.Vector The way that is up on the part: along y in the file. Default: y.
+---@field front? "x"|"y"|"z"|lissom.Vector The way that it looks, at an angle to `up`: along z in the file. Default: z.
+
+---Keeps a feature for later pastes in a .glb or .gltf file: the surface of its region and three rings of faces around it, with all they carry, turned upright. Such a file opens as any other model; its regions are called "region" and "feature".
+---@param path string The file.
+---@param options lissom.SaveOptions
+---@return boolean done # true; nil, message, code where the file could not be written.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.part.save(path, options) end
+
+---Reads a feature that part.save has kept, or any .glb or .gltf file with a region called "region".
+---@param path string The file.
+---@return lissom.Part part # What lissom.paste and lissom.scatter need; nil, message, code where the file is at fault.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function lissom.part.load(path) end
 
 ---@class lissom.ScalpOptions
 ---@field region? lissom.Region Where hair grows. Default: the region "scalp", or what is above an average hairline.
@@ -3199,7 +3329,7 @@ function lissom.frame(mesh, options) end
 ---@return lissom.Gizmo gizmo # The gizmo.
 function lissom.gizmo(options) end
 
----Makes a tool: functions that are called with what a hand does. press, drag and release, or run, a coroutine that asks by lissom.pick; move, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. The table's other keys are the tool's own.
+---Makes a tool: functions that are called with what a hand does. press, drag and release, or run, a coroutine that asks by lissom.pick; move, wheel, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. The table's other keys are the tool's own.
 ---@param tool table name, help, params (as for lissom.params) and functions.
 ---@return table tool # The same table; `tool.params` are the values now.
 function lissom.tool(tool) end
