@@ -296,7 +296,8 @@ std::vector<Result> host_fields() {
         {"fun(self: any, event: lissom.MouseEvent): lissom.ToolHost", "click",
          "Press and release."},
         {"fun(self: any, event: table): lissom.ToolHost", "wheel",
-         "{x=, y=, lines=, shift=, ctrl=, alt=}: the wheel turned, upwards where lines are above 0. "
+         "{x=, y=, lines=, shift=, ctrl=, alt=}: the wheel turned, upwards where lines are above "
+         "0. "
          "Part of the gesture while a button is down, else a step of its own."},
         {"fun(self: any, event: table): lissom.ToolHost", "key",
          "{key=, shift=, ctrl=, alt=}: \"enter\", \"escape\", \"a\", ..."},
@@ -343,7 +344,8 @@ std::vector<Function> tool_functions() {
          .body = make_tool,
          .summary =
              "Makes a tool: functions that are called with what a hand does. press, drag and "
-             "release, or run, a coroutine that asks by lissom.pick; move, wheel, key, changed (of a "
+             "release, or run, a coroutine that asks by lissom.pick; move, wheel, key, changed (of "
+             "a "
              "parameter), draw, activate, deactivate, cancel. All take the tool itself and a "
              "lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the "
              "scene, any other call is one of its own; after an error the scene is as before. The "
