@@ -17,8 +17,8 @@ local function misuse(text, ...) error(string.format(text, ...), 3) end
 
 -- ---- Tools
 
-local callbacks = { "activate", "press", "drag", "release", "move", "wheel", "key", "changed", "draw", "cancel",
-    "deactivate", "run" }
+local callbacks = { "activate", "press", "drag", "release", "move", "wheel", "key", "changed", "draw",
+    "cancel", "deactivate", "run" }
 local is_callback = set_of(callbacks)
 
 -- Whether one letter left out of one of two words gives the other.
