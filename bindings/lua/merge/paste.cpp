@@ -9,12 +9,6 @@ Paste& PasteSetup::paste() {
     return *content;
 }
 
-namespace {
-
-constexpr double kRadians = kPi / 180.0;
-
-}  // namespace
-
 PastePlacement read_placement(const Call& call, const std::string& path, PastePlacement placement,
                               const char* at) {
     const auto name = [&](const char* field) { return path + field; };
@@ -22,7 +16,7 @@ PastePlacement read_placement(const Call& call, const std::string& path, PastePl
     if (call.has(name("toward").c_str())) placement.toward = call.vector(name("toward").c_str());
     if (call.has(name("up").c_str())) placement.up = call.vector(name("up").c_str());
     if (call.has(name("angle").c_str())) {
-        placement.angle = kRadians * call.number(name("angle").c_str());
+        placement.angle = kDegree * call.number(name("angle").c_str());
     }
     if (call.has(name("scale").c_str())) placement.scale = call.number(name("scale").c_str());
     if (call.has(name("offset").c_str())) {
