@@ -65,6 +65,7 @@ const std::vector<Rule>& rules() {
          {"kernel", "bindings", "viewer", "tests"},
          {"Eigen", "CGAL", "OpenMesh", "OpenGL", "tinygltf", "JSON", "CHOLMOD", "printing",
           "platform"}},
+        {"tests/unit/solve/sparse/cholmod_oracle.cpp", {"kernel", "tests"}, {"Eigen", "CHOLMOD"}},
         {"tests",
          {"kernel", "bindings", "viewer", "tests"},
          {"Eigen", "Lua", "CLI11", "JSON", "stb", "OpenGL", "doctest", "printing", "platform"}},
