@@ -43,8 +43,7 @@
 ///     are said to have.
 ///
 /// MIT license, as all of Lissom.
-#ifndef LISSOM_H
-#define LISSOM_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -896,6 +895,4 @@ LISSOM_API lissom_status lissom_call(lissom_context* context, const char* name,
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

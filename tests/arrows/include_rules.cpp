@@ -43,6 +43,7 @@ const std::vector<Rule>& rules() {
           "kernel/hair", "kernel/sketch", "kernel/io"},
          {"Eigen", "tinygltf", "JSON", "platform"}},
         {"bindings/c", {"kernel", "bindings/c"}, {"Eigen"}},
+        {"bindings/c/lissom.h", {}, {"platform"}},
         {"bindings/c/script", {"kernel", "bindings/c", "bindings/lua"}, {"Eigen", "Lua", "JSON"}},
         {"bindings/engine", {}, {"platform"}},
         {"bindings/lua", {"kernel", "bindings/lua"}, {"Eigen", "Lua"}},
