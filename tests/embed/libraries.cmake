@@ -1,0 +1,40 @@
+# The shared libraries that PROGRAM loads: none under the GPL where GPL is OFF, and at most MOST (0: any
+# number). Those that are named in the file itself are looked at too, should the system's list lack them.
+execute_process(COMMAND ldd ${PROGRAM} OUTPUT_VARIABLE loaded RESULT_VARIABLE status)
+execute_process(COMMAND readelf -d ${PROGRAM} OUTPUT_VARIABLE section RESULT_VARIABLE read)
+if(NOT status EQUAL 0 OR NOT read EQUAL 0)
+    message(FATAL_ERROR "ldd or readelf failed on ${PROGRAM}")
+endif()
+if(NOT section MATCHES "NEEDED.*libstdc\\+\\+")
+    message(FATAL_ERROR "there is no dynamic section to read: ${section}")
+endif()
+
+# GNU Readline is in neither build.
+set(refused readline history)
+if(NOT GPL)
+    list(APPEND refused cholmod umfpack spqr klu CGAL gmp gsl fftw)
+endif()
+foreach(name ${refused})
+    if("${loaded}${section}" MATCHES "lib${name}[^ \n]*\\.so")
+        message(SEND_ERROR "${PROGRAM} loads ${CMAKE_MATCH_0}:\n${loaded}")
+    endif()
+endforeach()
+if(GPL AND EXPECTS_CHOLMOD AND NOT loaded MATCHES "libcholmod")
+    message(SEND_ERROR "the list of libraries says nothing of CHOLMOD, which this build links:\n${loaded}")
+endif()
+
+string(REGEX MATCHALL " => " libraries "${loaded}")
+list(LENGTH libraries count)
+if(MOST GREATER 0 AND count GREATER MOST)
+    message(SEND_ERROR "${count} shared libraries, more than ${MOST}:\n${loaded}")
+endif()
+
+# What the program says of itself.
+if(SAYS)
+    execute_process(COMMAND ${PROGRAM} --version OUTPUT_VARIABLE version)
+    if(GPL AND NOT version MATCHES "licence of this build: GPL-2.0-or-later.*links CHOLMOD")
+        message(SEND_ERROR "lissom --version does not say that CHOLMOD is inside: ${version}")
+    elseif(NOT GPL AND NOT version MATCHES "licence of this build: MIT.*links nothing under the GPL")
+        message(SEND_ERROR "lissom --version does not say that nothing is under the GPL: ${version}")
+    endif()
+endif()
