@@ -14,34 +14,29 @@
 // clang-format off
 #define LISSOM_OPENGL_FUNCTIONS(X) \
     X(epoxy_eglBindAPI) X(epoxy_eglChooseConfig) X(epoxy_eglCreateContext) \
-    X(epoxy_eglCreatePbufferSurface) X(epoxy_eglDestroyContext) X(epoxy_eglDestroySurface) \
-    X(epoxy_eglGetCurrentContext) X(epoxy_eglGetCurrentDisplay) X(epoxy_eglGetCurrentSurface) \
-    X(epoxy_eglGetDisplay) X(epoxy_eglGetPlatformDisplayEXT) X(epoxy_eglInitialize) \
-    X(epoxy_eglMakeCurrent) X(epoxy_eglQueryAPI) X(epoxy_eglQueryDevicesEXT) \
-    X(epoxy_glActiveTexture) X(epoxy_glAttachShader) X(epoxy_glBeginTransformFeedback) \
-    X(epoxy_glBindBuffer) X(epoxy_glBindBufferBase) X(epoxy_glBindFramebuffer) \
+    X(epoxy_eglCreatePbufferSurface) X(epoxy_eglDestroySurface) X(epoxy_eglGetCurrentContext) \
+    X(epoxy_eglGetCurrentDisplay) X(epoxy_eglGetCurrentSurface) X(epoxy_eglGetDisplay) \
+    X(epoxy_eglGetPlatformDisplayEXT) X(epoxy_eglMakeCurrent) X(epoxy_eglQueryAPI) \
+    X(epoxy_eglQueryDevicesEXT) X(epoxy_glActiveTexture) X(epoxy_glAttachShader) \
+    X(epoxy_glBeginTransformFeedback) X(epoxy_glBindBufferBase) X(epoxy_glBindFramebuffer) \
     X(epoxy_glBindRenderbuffer) X(epoxy_glBindTexture) X(epoxy_glBindVertexArray) \
-    X(epoxy_glBlendFunc) X(epoxy_glBlitFramebuffer) X(epoxy_glBufferData) \
-    X(epoxy_glBufferSubData) X(epoxy_glCheckFramebufferStatus) X(epoxy_glClear) \
-    X(epoxy_glClearColor) X(epoxy_glCompileShader) X(epoxy_glCreateProgram) \
-    X(epoxy_glCreateShader) X(epoxy_glDebugMessageCallback) X(epoxy_glDeleteBuffers) \
-    X(epoxy_glDeleteFramebuffers) X(epoxy_glDeleteProgram) X(epoxy_glDeleteRenderbuffers) \
+    X(epoxy_glBlitFramebuffer) X(epoxy_glBufferData) X(epoxy_glBufferSubData) \
+    X(epoxy_glCheckFramebufferStatus) X(epoxy_glClear) X(epoxy_glClearColor) \
+    X(epoxy_glCreateProgram) X(epoxy_glCreateShader) X(epoxy_glDebugMessageCallback) \
+    X(epoxy_glDeleteBuffers) X(epoxy_glDeleteProgram) X(epoxy_glDeleteRenderbuffers) \
     X(epoxy_glDeleteShader) X(epoxy_glDeleteTextures) X(epoxy_glDeleteVertexArrays) \
-    X(epoxy_glDepthFunc) X(epoxy_glDepthMask) X(epoxy_glDisable) X(epoxy_glDrawArrays) \
-    X(epoxy_glDrawArraysInstanced) X(epoxy_glEnable) X(epoxy_glEnableVertexAttribArray) \
-    X(epoxy_glEndTransformFeedback) X(epoxy_glFinish) X(epoxy_glFramebufferRenderbuffer) \
-    X(epoxy_glFramebufferTexture2D) X(epoxy_glGenBuffers) X(epoxy_glGenFramebuffers) \
-    X(epoxy_glGenRenderbuffers) X(epoxy_glGenTextures) X(epoxy_glGenVertexArrays) \
+    X(epoxy_glDepthMask) X(epoxy_glDisable) X(epoxy_glDrawArrays) \
+    X(epoxy_glDrawArraysInstanced) X(epoxy_glEnable) X(epoxy_glEndTransformFeedback) \
+    X(epoxy_glFinish) X(epoxy_glFramebufferRenderbuffer) X(epoxy_glGenBuffers) \
+    X(epoxy_glGenFramebuffers) X(epoxy_glGenRenderbuffers) X(epoxy_glGenTextures) \
     X(epoxy_glGetBufferSubData) X(epoxy_glGetError) X(epoxy_glGetIntegerv) \
-    X(epoxy_glGetProgramInfoLog) X(epoxy_glGetProgramiv) X(epoxy_glGetShaderInfoLog) \
-    X(epoxy_glGetShaderiv) X(epoxy_glGetString) X(epoxy_glGetUniformLocation) \
-    X(epoxy_glIsBuffer) X(epoxy_glLinkProgram) X(epoxy_glPixelStorei) X(epoxy_glReadPixels) \
-    X(epoxy_glRenderbufferStorageMultisample) X(epoxy_glShaderSource) X(epoxy_glTexBuffer) \
-    X(epoxy_glTexImage2D) X(epoxy_glTexImage3D) X(epoxy_glTexParameteri) \
-    X(epoxy_glTexSubImage2D) X(epoxy_glTransformFeedbackVaryings) X(epoxy_glUniform1f) \
-    X(epoxy_glUniform1i) X(epoxy_glUniform2fv) X(epoxy_glUniform3fv) X(epoxy_glUniform4fv) \
-    X(epoxy_glUniformMatrix4fv) X(epoxy_glUseProgram) X(epoxy_glVertexAttribDivisor) \
-    X(epoxy_glVertexAttribIPointer) X(epoxy_glVertexAttribPointer) X(epoxy_glViewport)
+    X(epoxy_glGetProgramiv) X(epoxy_glGetShaderInfoLog) X(epoxy_glGetShaderiv) \
+    X(epoxy_glGetUniformLocation) X(epoxy_glIsBuffer) X(epoxy_glLinkProgram) \
+    X(epoxy_glReadPixels) X(epoxy_glRenderbufferStorageMultisample) X(epoxy_glTexBuffer) \
+    X(epoxy_glTexImage2D) X(epoxy_glTexImage3D) X(epoxy_glTexSubImage2D) \
+    X(epoxy_glTransformFeedbackVaryings) X(epoxy_glUniform1i) X(epoxy_glUniform2fv) \
+    X(epoxy_glUniform4fv) X(epoxy_glUseProgram) X(epoxy_glVertexAttribIPointer) \
+    X(epoxy_glVertexAttribPointer) X(epoxy_glViewport)
 // clang-format on
 
 // The pointers that the headers of libepoxy declare.
