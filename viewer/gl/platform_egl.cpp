@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "kernel/core/error.h"
-#include "viewer/gl/load_opengl.h"
 #include "viewer/gl/platform.h"
 
 namespace lissom {
@@ -198,7 +197,6 @@ class EglPlatform : public Platform {
 std::unique_ptr<Platform> make_egl_platform(const EglLibraries& libraries) {
     require_library(libraries.egl, "EGL");
     require_library(libraries.gl, "OpenGL");
-    gl::load_opengl();
     return std::make_unique<EglPlatform>();
 }
 

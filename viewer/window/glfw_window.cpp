@@ -1,63 +1,17 @@
 #include "viewer/window/glfw_window.h"
 
-#include <dlfcn.h>
 #include <epoxy/gl.h>
 // After epoxy.
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
 #include <array>
-#include <mutex>
-#include <string>
 #include <utility>
 
 #include "kernel/core/error.h"
-#include "viewer/gl/load_opengl.h"
 
 namespace lissom::window {
 namespace {
-
-// The functions of GLFW, loaded when the first window is opened: a program that opens none starts
-// without GLFW and X11. These names hide those of its header.
-// clang-format off
-#define LISSOM_GLFW_FUNCTIONS(X) \
-    X(glfwCreateWindow) X(glfwDefaultWindowHints) X(glfwDestroyWindow) \
-    X(glfwGetClipboardString) X(glfwGetCursorPos) X(glfwGetError) X(glfwGetFramebufferSize) \
-    X(glfwGetMonitorWorkarea) X(glfwGetPrimaryMonitor) X(glfwGetWindowContentScale) \
-    X(glfwGetWindowSize) X(glfwGetWindowUserPointer) X(glfwInit) X(glfwMakeContextCurrent) \
-    X(glfwPollEvents) X(glfwPostEmptyEvent) X(glfwSetCharCallback) X(glfwSetClipboardString) \
-    X(glfwSetCursorPosCallback) X(glfwSetDropCallback) X(glfwSetKeyCallback) \
-    X(glfwSetMouseButtonCallback) X(glfwSetScrollCallback) X(glfwSetWindowSize) \
-    X(glfwSetWindowTitle) X(glfwSetWindowUserPointer) X(glfwSwapBuffers) X(glfwSwapInterval) \
-    X(glfwTerminate) X(glfwWaitEventsTimeout) X(glfwWindowHint) X(glfwWindowShouldClose)
-// clang-format on
-
-#define LISSOM_DEFINE_POINTER(name) decltype(&::name) name = nullptr;
-LISSOM_GLFW_FUNCTIONS(LISSOM_DEFINE_POINTER)
-#undef LISSOM_DEFINE_POINTER
-
-template <typename Function>
-void find_function(void* library, const char* name, Function& function) {
-    void* symbol = dlsym(library, name);
-    if (!symbol) {
-        throw Error(ErrorCode::no_display, std::string("this GLFW has no ") + name);
-    }
-    function = reinterpret_cast<Function>(symbol);
-}
-
-void load_glfw() {
-    void* library = dlopen("libglfw.so.3", RTLD_LAZY | RTLD_LOCAL);
-    if (!library) {
-        throw Error(ErrorCode::no_display,
-                    "a window needs libglfw.so.3, which is not on this machine (on Debian: apt-get "
-                    "install libglfw3); `lissom render` and `lissom run` draw pictures without");
-    }
-#define LISSOM_LOAD_POINTER(name) find_function(library, #name, name);
-    LISSOM_GLFW_FUNCTIONS(LISSOM_LOAD_POINTER)
-#undef LISSOM_LOAD_POINTER
-}
-
-std::once_flag glfw_loaded;
 
 std::string last_error() {
     const char* text = nullptr;
@@ -67,7 +21,6 @@ std::string last_error() {
 
 struct Library {
     Library() {
-        std::call_once(glfw_loaded, load_glfw);
         if (glfwInit()) return;
         throw Error(ErrorCode::no_display,
                     "a window needs a screen (" + last_error() +
@@ -229,7 +182,6 @@ void GlfwWindow::State::listen() {
 
 GlfwWindow::GlfwWindow(const std::string& title, gl::Extent size)
     : state_(std::make_unique<State>()) {
-    gl::load_opengl();
     state_->window = create(title, size);
     fit_to_screen(state_->window);
     glfwMakeContextCurrent(state_->window);

@@ -1,3 +1,0 @@
-// The functions of tinygltf.
-#define TINYGLTF_IMPLEMENTATION
-#include "kernel/io/gltf/file/tiny_gltf.h"
