@@ -36,15 +36,14 @@ std::vector<DirectionPair> given_directions(const Call& call) {
 
 // Those whose defaults the fidelity changes.
 void read_steps(const Call& call, MergeOptions& options) {
-    const auto asks = [&](const char* name) { return !options.thesis || call.has(name); };
-    if (asks("frames")) options.turn_frames = call.integer("frames") == 0;
-    if (asks("seam")) options.seam = call.choice<SeamKind>("seam");
-    if (asks("collar")) options.collar = call.boolean("collar");
-    if (asks("trim")) options.trim = call.boolean("trim");
-    if (asks("refine")) options.refine = call.boolean("refine");
-    options.smooth = call.integer("smooth");
+    if (call.has("frames")) options.turn_frames = call.integer("frames") == 0;
+    if (call.has("seam")) options.seam = call.choice<SeamKind>("seam");
+    if (call.has("collar")) options.collar = call.boolean("collar");
+    if (call.has("trim")) options.trim = call.boolean("trim");
+    if (call.has("refine")) options.refine = call.boolean("refine");
     // The thesis smooths seams without a transition only.
-    if (options.thesis && call.has("transition") && !call.has("smooth")) options.smooth = 0;
+    if (options.thesis && call.has("transition")) options.smooth = 0;
+    if (call.has("smooth")) options.smooth = call.integer("smooth");
 }
 
 MergeOptions merge_options(const Call& call) {
@@ -271,7 +270,7 @@ std::vector<Parameter> merge_parameters(bool intersections) {
         choice("frames", {"turn", "keep"},
                "fixed configuration: whether the surface at the boundary turns to meet the "
                "target's, or keeps its directions as in the thesis, which leaves a crease.")
-            .defaults("turn")
+            .optional("\"turn\"")
             .thesis("3.3.2", "\"keep\""),
         choice(
             "seam", {"conform", "fair", "band"},
@@ -279,18 +278,18 @@ std::vector<Parameter> merge_parameters(bool intersections) {
             "side. fair: then the surface around the seam is bent smooth, unless a transition does "
             "that. band: a band of the "
             "target's faces is replaced, as in the thesis.")
-            .defaults("conform")
+            .optional("\"conform\"")
             .thesis("3.3.1", "\"band\""),
         integer(
             "smooth",
             "Umbrella steps at the seam, at most: the first that would fold it is the last. With "
             "0 and without a collar no vertex of the target moves.")
             .between(0, 1000)
-            .defaults(3),
+            .optional("3"),
         boolean("collar",
                 "Where the edges of one side are more than 1.5 times as long as the seam's, its "
                 "faces there are made anew, from small to large; sharp edges keep their shape.")
-            .defaults(true)
+            .optional("true")
             .thesis("3.3.1", "false"),
         options("transition",
                 {number("source", "Width on the source.")
@@ -314,7 +313,7 @@ std::vector<Parameter> merge_parameters(bool intersections) {
         boolean("trim",
                 "Boundaries with teeth are cut to smooth lines first, and the report says "
                 "so.")
-            .defaults(true)
+            .optional("true")
             .thesis("3.3.1", "false"),
         number("greatest_turn",
                "Mean turn of a boundary at its vertices above which it is trimmed.")
@@ -326,7 +325,7 @@ std::vector<Parameter> merge_parameters(bool intersections) {
                 "more than 1.5 times as long as those they meet. Where they are more than 3 times "
                 "as long as edges inside the source, they are split until they are not, and those "
                 "of the target with them (thesis 2.5).")
-            .defaults(true)
+            .optional("true")
             .thesis("2.5", "false, as which boundaries have too few vertices is not said"),
         boolean("intersections",
                 "Looks for faces that run through one another and did not before, for the report.")

@@ -7,6 +7,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
+#include "kernel/mesh/fill/fairing.h"
 #include "kernel/mesh/fill/fill.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/path.h"

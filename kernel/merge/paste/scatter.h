@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/error.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/paste/paste.h"
+#include "kernel/merge/paste/paste_options.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 

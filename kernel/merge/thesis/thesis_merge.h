@@ -12,6 +12,7 @@
 ///     const TransitionReport report = thesis.reconstruct(sewn, context);
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

@@ -2,6 +2,7 @@
 /// kernel/solve.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "kernel/core/context.h"

@@ -67,7 +67,8 @@ TEST_CASE("what a region encloses goes with it") {
     OverlapTube tube;
     const Index tip = tube.spike(3.0);
     const OpenedForOverlap opened = tube.opened(0.99);
-    CHECK(opened.mesh.face_count() == 9 * 32);
+    // The way around the spike is longer: in its column the region ends a row earlier.
+    CHECK(opened.mesh.face_count() == 9 * 32 + 2);
     CHECK(opened.mesh.topology().component_count() == 1);
     const std::vector<Index>& left = opened.whole.vertex_of;
     CHECK(std::find(left.begin(), left.end(), tip) == left.end());
