@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -86,8 +85,7 @@ Surrounded surrounded(const Mesh& mesh, const Region& region, double width,
                       const Context& context) {
     const std::vector<double> distance =
         edge_distances(mesh, region.vertices(), std::max(width, 0.0), context);
-    std::optional<Error> first;
-    for (int step = 0; step <= kNarrowings + 1; ++step, width *= kNarrower) {
+    for (int step = 0;; ++step, width *= kNarrower) {
         std::vector<Index> near;
         for (Index v = 0; v < mesh.vertex_count(); ++v) {
             if (distance[at(v)] <= width) near.push_back(v);
@@ -102,14 +100,12 @@ Surrounded surrounded(const Mesh& mesh, const Region& region, double width,
             return found;
         } catch (const Error& error) {
             const ErrorCode code = error.code();
-            if (code != ErrorCode::not_a_disk && code != ErrorCode::boundary_conflict &&
-                code != ErrorCode::region_empty) {
-                throw;
-            }
-            first = error;
+            const bool narrower = code == ErrorCode::not_a_disk ||
+                                  code == ErrorCode::boundary_conflict ||
+                                  code == ErrorCode::region_empty;
+            if (!narrower || step > kNarrowings) throw;
         }
     }
-    throw *first;
 }
 
 // |k1| + |k2| at a vertex: the angles at its edges times their lengths, over the area around it.

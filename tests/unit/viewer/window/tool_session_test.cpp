@@ -219,7 +219,7 @@ TEST_CASE("session: Escape in a drag, and an error in a tool, leave the scene as
     CHECK(host.shown() == before);
     host.session.post(key("e"));
     host.wait();
-    CHECK(host.says(LineKind::error, "pull.lua:12: oops"));
+    CHECK(host.says(LineKind::error, "pull.lua:13: oops"));
     CHECK(host.shown() == before);
     host.drag(1);
     CHECK(host.shown() != before);
