@@ -28,9 +28,10 @@ local function place(h)
     local names = h.scene:names()
     local name = pick(names)
     if not name or math.random() < 0.2 then return { x = math.random(1280), y = math.random(960) } end
-    local mesh = h.scene:get(name)
-    if h.scene:info(name).kind == "deformation" then mesh = mesh:mesh() end
-    local x, y = h.camera:project({ mesh:position(math.random(#mesh)) }, h.host.size)
+    local object, kind = h.scene:get(name), h.scene:info(name).kind
+    if kind == "deformation" then object, kind = object:mesh(), "mesh" end
+    local point = kind == "mesh" and { object:position(math.random(#object)) } or pick(object:points())
+    local x, y = h.camera:project(point, h.host.size)
     return { x = x, y = y }
 end
 
