@@ -633,10 +633,9 @@ typedef struct lissom_cut_options {
 } lissom_cut_options;
 
 LISSOM_API lissom_cut_options lissom_default_cut_options(void);
-/// Cuts by a plane near a point of it; the part that `normal` points to is `kept`. Each part's open
-/// boundaries along the cut are its last ones. `rest` may be NULL.
-/// Errors: INVALID_ARGUMENT where the plane does not cross the mesh; BOUNDARY_CONFLICT where the
-/// line does not separate it; MESH_EMPTY; NOT_FINITE; CANCELLED.
+/// Cuts by a plane near a point of it; the part that `normal` points to is `kept`. `rest` may be
+/// NULL. Errors: INVALID_ARGUMENT where the plane does not cross the mesh; BOUNDARY_CONFLICT where
+/// the line does not separate it; MESH_EMPTY; NOT_FINITE; CANCELLED.
 LISSOM_API lissom_status lissom_cut_by_plane(lissom_context* context, lissom_mesh mesh,
                                              const double point[3], const double normal[3],
                                              const lissom_cut_options* options, lissom_mesh* kept,

@@ -299,7 +299,7 @@ ScriptHost& scripts_of(lissom_context& context) {
     return *context.scripts;
 }
 
-void throw_lua_error(ScriptHost& host, const std::string& message, lissom_status status) {
+void throw_lua_error(const std::string& message, lissom_status status) {
     const std::size_t open = message.rfind('[');
     if (open != std::string::npos && message.back() == ']') {
         const std::string_view name =
@@ -314,7 +314,6 @@ void throw_lua_error(ScriptHost& host, const std::string& message, lissom_status
         throw Error(ErrorCode::memory_limit,
                     "a script needs more memory than the context has left");
     }
-    static_cast<void>(host);
     throw StatusError(status, message);
 }
 

@@ -94,7 +94,6 @@ ScriptHost& scripts_of(lissom_context& context);
 
 /// Throws what a Lua error with this message stands for: the code in brackets at its end, else
 /// `status`.
-[[noreturn]] void throw_lua_error(ScriptHost& host, const std::string& message,
-                                  lissom_status status);
+[[noreturn]] void throw_lua_error(const std::string& message, lissom_status status);
 
 }  // namespace lissom::c

@@ -82,7 +82,7 @@ bool may_declare(const Script& script) {
 void check_syntax(ScriptHost& host, const Script& script) {
     lua_State* L = host.lua();
     if (luaL_loadbufferx(L, script.text.data(), script.text.size(), script.name.c_str(), "t")) {
-        throw_lua_error(host, message_at_top(L), LISSOM_SCRIPT_ERROR);
+        throw_lua_error(message_at_top(L), LISSOM_SCRIPT_ERROR);
     }
 }
 
@@ -105,7 +105,7 @@ void run_script(ScriptHost& host, Script& script, const Json& arguments, bool on
     if (only_parameters) script.parameters = state.parameters;
     if (status == LUA_OK || (only_parameters && ended)) return;
     if (ended) throw Error(ErrorCode::invalid_argument, state.script_end_text);
-    throw_lua_error(host, message_at_top(L), LISSOM_SCRIPT_ERROR);
+    throw_lua_error(message_at_top(L), LISSOM_SCRIPT_ERROR);
 }
 
 Json value_of(const std::optional<lua::ParameterValue>& value) {
@@ -227,7 +227,7 @@ Json call_by_name(ScriptHost& host, const lua::Entry& entry, const Json& argumen
     lua_pushcfunction(L, call_protected);
     lua_pushlightuserdata(L, &calling);
     if (lua_pcall(L, 1, LUA_MULTRET, 0) != LUA_OK) {
-        throw_lua_error(host, message_at_top(L), LISSOM_INVALID_ARGUMENT);
+        throw_lua_error(message_at_top(L), LISSOM_INVALID_ARGUMENT);
     }
     throw_answered_failure(host, guard.top() + 1);
     return host.values_from(guard.top() + 1);
