@@ -70,9 +70,12 @@ class Terminal {
         if (at != std::string::npos) seen_.erase(0, at + text.size());
     }
 
+    // Waits for the next prompt: keys that come before it meet the terminal's own editing of lines.
+    void wait_for_prompt() { wait_for("\n> "); }
+
     // The exit status after Ctrl-D at the next prompt; -1 where the program goes on.
     int end() {
-        wait_for("> ");
+        wait_for_prompt();
         type("\x04");
         wait_for("\n");
         int status = -1;
@@ -91,9 +94,9 @@ class Terminal {
 TEST_CASE("Ctrl-C clears the line and nothing else") {
     const Folder folder;
     Terminal terminal(folder);
-    terminal.wait_for("> ");
+    terminal.wait_for_prompt();
     terminal.type("kept = 41\n");
-    terminal.wait_for("> ");
+    terminal.wait_for_prompt();
     for (int i = 0; i < 3; ++i) {
         terminal.type("kept = 'lost");
         terminal.wait_for("lost");
@@ -105,22 +108,22 @@ TEST_CASE("Ctrl-C clears the line and nothing else") {
     terminal.type("\x03");
     terminal.wait_for("^C\r\n> ");
     terminal.type("kept + 1\n");
-    terminal.wait_for("\n42\r\n");
+    terminal.wait_for("\n42");
     CHECK(terminal.end() == 0);
 }
 
 TEST_CASE("Ctrl-C stops what runs, and the prompt comes back") {
     const Folder folder;
     Terminal terminal(folder);
-    terminal.wait_for("> ");
+    terminal.wait_for_prompt();
     terminal.type("while true do end\n");
     terminal.wait_for("end\r\n");
     usleep(100000);
     terminal.type("\x03");
     terminal.wait_for("cancelled");
-    terminal.wait_for("> ");
+    terminal.wait_for_prompt();
     terminal.type("6 * 7\n");
-    terminal.wait_for("\n42\r\n");
+    terminal.wait_for("\n42");
     CHECK(terminal.end() == 0);
 }
 
@@ -128,11 +131,11 @@ TEST_CASE("Tab completes, and lines come back from the file of the history") {
     const Folder folder;
     {
         Terminal terminal(folder);
-        terminal.wait_for("> ");
+        terminal.wait_for_prompt();
         terminal.type("b = lissom.shapes.bo\t{ si\t2 }\n");
-        terminal.wait_for("> ");
+        terminal.wait_for_prompt();
         terminal.type("b:vertex_c\t()\n");
-        terminal.wait_for("\n8\r\n");
+        terminal.wait_for("\n8");
         CHECK(terminal.end() == 0);
     }
     std::ifstream file(folder.path("state/history"));
@@ -140,29 +143,30 @@ TEST_CASE("Tab completes, and lines come back from the file of the history") {
     lines << file.rdbuf();
     CHECK(lines.str() == "b = lissom.shapes.box{ size = 2 }\nb:vertex_count()\n");
     Terminal terminal(folder);
-    terminal.wait_for("> ");
+    terminal.wait_for_prompt();
     terminal.type("b = lissom.shapes.box()\n");
-    terminal.wait_for("> ");
+    terminal.wait_for_prompt();
     terminal.type("\x10\x10\n");
-    terminal.wait_for("\n8\r\n");
+    terminal.wait_for("\n8");
     CHECK(terminal.end() == 0);
 }
 
 TEST_CASE("a line is edited where the cursor is") {
     const Folder folder;
     Terminal terminal(folder);
-    terminal.wait_for("> ");
+    terminal.wait_for_prompt();
     // Left before the 2, a digit, to the end; Home and a name; a word cut and put back twice.
     terminal.type("12\x1b[D3\x05 + 4\n");
-    terminal.wait_for("\n136\r\n");
-    terminal.wait_for("> ");
+    terminal.wait_for("\n136");
+    terminal.wait_for_prompt();
     terminal.type("= 5\x1b[Hvalue \n");
-    terminal.wait_for("> ");
+    terminal.wait_for_prompt();
     terminal.type("value * 10\x17\x19\x19\n");
-    terminal.wait_for("\n5050\r\n");
+    terminal.wait_for("\n5050");
+    terminal.wait_for_prompt();
     // Characters are erased whole.
     terminal.type("#'\xc3\xa4\xe6\xbc\xa2\x7f\x7f'\n");
-    terminal.wait_for("\n0\r\n");
+    terminal.wait_for("\n0");
     CHECK(terminal.end() == 0);
 }
 
@@ -170,7 +174,7 @@ TEST_CASE("Tab lists what there is, and completes names of files in strings") {
     const Folder folder;
     std::ofstream(folder.path("only_one.txt")) << "here";
     Terminal terminal(folder);
-    terminal.wait_for("> ");
+    terminal.wait_for_prompt();
     terminal.type("lissom.shapes.b\t\x15");
     terminal.wait_for("bar");
     terminal.wait_for("box");
@@ -182,20 +186,23 @@ TEST_CASE("Tab lists what there is, and completes names of files in strings") {
 TEST_CASE("Ctrl-R finds a line by a part of it, Ctrl-G goes back") {
     const Folder folder;
     Terminal terminal(folder);
-    terminal.wait_for("> ");
+    terminal.wait_for_prompt();
     terminal.type("10 + 1\n10 + 2\n20 + 3\n");
-    terminal.wait_for("\n23\r\n");
+    terminal.wait_for("\n23");
+    terminal.wait_for_prompt();
     terminal.type(
         "\x12"
         "10\x12\n");
-    terminal.wait_for("\n11\r\n");
+    terminal.wait_for("\n11");
+    terminal.wait_for_prompt();
     terminal.type(
         "70\x12"
         "20 +\x07 + 7\n");
-    terminal.wait_for("\n77\r\n");
+    terminal.wait_for("\n77");
+    terminal.wait_for_prompt();
     // The line that was begun is there below the last of the history.
     terminal.type("90\x1b[A\x1b[A\x1b[B\x1b[B + 9\n");
-    terminal.wait_for("\n99\r\n");
+    terminal.wait_for("\n99");
     CHECK(terminal.end() == 0);
 }
 
