@@ -34,5 +34,5 @@ local loop, search = assert(paste:optimize())
 local mesh, report = assert(paste:merge())
 assert(mesh:is_closed() and mesh:genus() == 0)
 print(string.format("misfit %.3g in place of %.3g, %d vertices, scale %.3g; %s",
-    search.misfit[#search.misfit], search.misfit[1], #loop:vertices(), report.paste.scale, report.verdict))
+    search.misfit[#search.misfit], search.misfit[1], #loop, report.paste.scale, report.verdict))
 mesh:save(params.out .. "/paste.obj")

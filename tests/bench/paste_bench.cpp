@@ -1,10 +1,19 @@
-/// Speed of what pasting stands on: maps of disks and rings into the plane beside CGAL's, points
+/// Speed of pasting and of what it stands on: the search for a boundary beside the thesis's minute,
+/// a part that follows the mouse, maps of disks and rings into the plane beside CGAL's, points
 /// found there, and holes closed with the least area.
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "kernel/merge/paste/free_loop.h"
+#include "kernel/merge/paste/loop_search.h"
+#include "kernel/merge/paste/paste.h"
+#include "kernel/merge/paste/paste_energy.h"
+#include "kernel/merge/paste/paste_map.h"
+#include "kernel/merge/paste/paste_regions.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/fill/minimum_area.h"
@@ -13,6 +22,7 @@
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/bench/report.h"
+#include "tests/unit/merge/paste/paste_shapes.h"
 
 #ifdef LISSOM_BENCH_CGAL
 #include "tests/bench/cgal_parameterize.h"
@@ -105,12 +115,104 @@ void run_fill(Report& report, Index points) {
                 1e3 * median_seconds(7, [&] { (void)minimum_area_triangles(loop); }), "ms"});
 }
 
+/// What a search for a boundary needs: a horn on a ball, placed on an egg.
+struct SearchScene {
+    Mesh source, target = test::egg(40);
+    PasteRegions regions;
+
+    explicit SearchScene(Index segments)
+        : source(test::horned_ball(segments)),
+          regions(paste_regions(source, test::around_horn(source), std::nullopt, 0.5, {})) {}
+
+    Index ring_vertices() const {
+        std::vector<Index> vertices;
+        for (const Index f : regions.ring) {
+            for (const Index v : source.topology().face(f)) vertices.push_back(v);
+        }
+        std::sort(vertices.begin(), vertices.end());
+        return index_of(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+    }
+};
+
+const PastePlacement kPlace{.at = {1, 1.2, 0.8}, .angle = 0.3, .scale = 0.8};
+
+/// A scene whose ring has about so many vertices.
+SearchScene scene_of(double ring_vertices) {
+    const Index segments = 24;
+    const double per_square = SearchScene(segments).ring_vertices() / (segments * segments);
+    return SearchScene(static_cast<Index>(std::round(std::sqrt(ring_vertices / per_square))));
+}
+
+void run_search(Report& report, double ring_vertices) {
+    const SearchScene scene = scene_of(ring_vertices);
+    const std::string name = "a ring of " + std::to_string(scene.ring_vertices()) + " vertices";
+    report.title("the boundary in " + name + ", one thread");
+    const PasteSurfaces surfaces(scene.source, scene.target);
+    const PasteChart chart =
+        source_chart(scene.source, scene.regions, ParameterizeMethod::arap, {});
+    const PasteMap map(
+        surfaces, chart,
+        target_chart(scene.target, select_sphere(scene.target, kPlace.at, 1.2).faces(),
+                     ParameterizeMethod::arap, {}),
+        false);
+    const std::vector<ImagePoint> images = map.images(map.planar(kPlace, *kPlace.angle));
+    const LoopSearch ring(scene.source, scene.regions, {});
+    const EnergyOptions options;
+    const auto search = [&] {
+        return search_boundary(map, scene.regions, ring, images, {}, options, {});
+    };
+    const PasteLoop loop = search();
+    PasteEnergy energy(ring_edges(map, ring, images), options);
+    energy.fix_weights(loop.first_scale);
+    const std::vector<double> cost = energy.costs(loop.similarity);
+    report.add({"one search: " + name,
+                1e3 * median_seconds(11, [&] { (void)ring.cheapest(cost, {}); }), "ms"});
+    const double all = median_seconds(7, [&] { (void)search(); });
+    report.add({"all iterations, " + std::to_string(loop.report.energy.size() - 1) + ": " + name,
+                1e3 * all, "ms"});
+    report.add({"the thesis's minute for 10K vertices / ours: " + name, 60.0 / all, "x"});
+    const RingTriangles triangles(chart, scene.regions);
+    const RingSurface surface(map, triangles, images);
+    report.add({"freed of the edges: " + name,
+                1e3 * median_seconds(7, [&] { (void)free_loop(surface, loop, options, {}); }),
+                "ms"});
+}
+
+void run_move(Report& report, double ring_vertices) {
+    const SearchScene scene = scene_of(ring_vertices);
+    const std::string name = "a ring of " + std::to_string(scene.ring_vertices()) + " vertices";
+    report.title("a part that follows the mouse, " + name);
+    Paste paste(scene.source, scene.target, test::around_horn(scene.source), std::nullopt,
+                std::nullopt, kPlace);
+    paste.optimize();
+    int step = 0;
+    const auto move = [&] {
+        PastePlacement place = kPlace;
+        place.at += 0.02 * Vec3(std::cos(++step), std::sin(step), 0.0);
+        paste.move(place);
+    };
+    PasteMergeOptions quick;
+    quick.find_intersections = quick.compare = false;
+    report.add({"placed and optimised: " + name, 1e3 * median_seconds(11, move), "ms"});
+    report.add(
+        {"pasted: " + name, 1e3 * median_seconds(11, [&] { (void)paste.merge(quick); }), "ms"});
+    report.add({"both: " + name,
+                1e3 * median_seconds(11,
+                                     [&] {
+                                         move();
+                                         (void)paste.merge(quick);
+                                     }),
+                "ms"});
+}
+
 }  // namespace
 }  // namespace lissom::bench
 
 int main(int argc, char** argv) {
     using namespace lissom::bench;
     Report report(argc, argv);
+    for (const double vertices : {1e3, 1e4, 4.1e4}) run_search(report, vertices);
+    run_move(report, 1e3);
     for (const double vertices : {1e3, 1e4, 5e4}) {
         const lissom::Mesh disk = hills(vertices);
         run_maps(report, "a disk", disk, vertices > 1e4 ? 5 : 15);

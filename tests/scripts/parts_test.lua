@@ -150,7 +150,7 @@ test("parts are scattered: sizes and angles vary, more change no others, refused
         expect.equal(more.scales[i], report.scales[i])
     end
     -- Crowded: some have no room.
-    options.size = 0.5
+    options.size = 0.7
     local crowded, told = scatter.make(part, ball, options)
     expect.truthy(#told.refused > 10)
     expect_whole(crowded)

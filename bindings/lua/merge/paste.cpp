@@ -65,6 +65,7 @@ int new_paste(Call& call) {
     const bool done = call.attempt([&] {
         PasteOptions options;
         options.correspondence = call.choice<PasteCorrespondence>("correspondence");
+        options.loop = call.choice<PasteBoundary>("loop");
         options.share = call.number("ring");
         options.normals = call.number("normals");
         options.thesis = call.integer("fidelity") == 1;
@@ -246,17 +247,22 @@ std::vector<Parameter> paste_parameters() {
             .between(0.01, 0.99)
             .defaults(0.5),
         choice("correspondence", {"map", "closest"},
-               "map: vertices lie where the plane maps of both surfaces put them. closest: then, "
-               "in rounds, on the nearest point of the target, where that lowers the misfit.")
-            .defaults("map"),
+               "map: vertices lie where the plane maps of both surfaces put them. closest: "
+               "`optimize` then draws them, in rounds, to the nearest point of the target, where "
+               "that distorts the surface near the boundary less.")
+            .defaults("closest"),
+        choice("loop", {"smooth", "mesh"},
+               "smooth: the boundary runs through faces, near the best loop of edges, so that the "
+               "seam has no teeth. mesh: it is that loop.")
+            .defaults("smooth"),
         number("normals",
                "Weight of the normals in the energy of a boundary; .1 to .3 help where the "
                "feature overhangs.")
             .at_least(0)
             .defaults(0.0),
         choice("fidelity", {"lissom", "thesis"},
-               "thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, and "
-               "its deformation, for comparison.")
+               "thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, a "
+               "boundary along edges, and its deformation, for comparison.")
             .defaults("lissom")};
 }
 
@@ -298,7 +304,9 @@ Type paste_type() {
                   "its shape on the source, by turns with the similarity between both (thesis "
                   "3.4.3).",
               .options = {integer("iterations", "At most.").at_least(1).defaults(20)},
-              .results = {{"lissom.Path", "loop", "The loop, on the source."},
+              .results = {{"lissom.Path", "loop",
+                           "The boundary on the source: points of its surface, or vertices where "
+                           "it runs along edges."},
                           {"lissom.PasteSearch", "report", "What was found."}},
               .errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed,
                          ErrorCode::cancelled},
@@ -346,11 +354,11 @@ assert(paste:merge():is_closed()))"},
              {.name = "loop",
               .body = loop_of_paste,
               .summary = "The loop that `merge` pastes along, and where it lies on the target.",
-              .results = {{"lissom.Path", "loop", "On the source."},
+              .results = {{"lissom.Path", "loop", "On the source, as by `optimize`."},
                           {"lissom.Path", "image", "Points of the target's surface."}},
               .errors = {ErrorCode::handle_removed},
               .example = horn + R"(local loop, image = paste:loop()
-assert(#loop:vertices() == #image:points()))"}},
+assert(#loop:points() == #image:points()))"}},
         .close = close_paste};
 }
 

@@ -12,6 +12,11 @@ const char* stop_name(PasteStop stop) {
     return stop == PasteStop::cycle ? "cycle" : "iterations";
 }
 
+const char* map_method_name(ParameterizeMethod method) {
+    if (method == ParameterizeMethod::arap) return "arap";
+    return method == ParameterizeMethod::lscm ? "lscm" : "tutte";
+}
+
 void push_distortion(const Call& call, const PasteDistortion& distortion) {
     lua_createtable(call.lua(), 0, 3);
     call.set_field("anisotropy", call.push(distortion.anisotropy));
@@ -21,7 +26,7 @@ void push_distortion(const Call& call, const PasteDistortion& distortion) {
 
 void push_map_quality(const Call& call, const MapQuality& map) {
     lua_createtable(call.lua(), 0, 7);
-    call.set_field("method", call.push(map.rigid ? "arap" : "lscm"));
+    call.set_field("method", call.push(map_method_name(map.method)));
     call.set_field("faces", call.push(map.faces));
     call.set_field("flipped", call.push(map.flipped));
     call.set_field("flipped_fill", call.push(map.flipped_fill));
@@ -33,7 +38,7 @@ void push_map_quality(const Call& call, const MapQuality& map) {
 }  // namespace
 
 int push_paste_search(const Call& call, const PasteSearch& search) {
-    lua_createtable(call.lua(), 0, 9);
+    lua_createtable(call.lua(), 0, 11);
     call.set_field("energy", call.push_numbers(search.energy));
     call.set_field("misfit", call.push_numbers(search.misfit));
     if (search.outline_energy) {
@@ -42,6 +47,8 @@ int push_paste_search(const Call& call, const PasteSearch& search) {
     if (search.outline_misfit) {
         call.set_field("outline_misfit", call.push(*search.outline_misfit));
     }
+    if (search.smooth_energy) call.set_field("smooth_energy", call.push(*search.smooth_energy));
+    if (search.smooth_misfit) call.set_field("smooth_misfit", call.push(*search.smooth_misfit));
     call.set_field("stop", call.push(stop_name(search.stop)));
     call.set_field("kept_outline", call.push(search.kept_outline));
     call.set_field("scale", call.push(search.scale));
@@ -51,7 +58,7 @@ int push_paste_search(const Call& call, const PasteSearch& search) {
 }
 
 int push_paste_report(const Call& call, const PasteReport& report) {
-    lua_createtable(call.lua(), 0, 12);
+    lua_createtable(call.lua(), 0, 14);
     push_paste_search(call, report.search);
     call.set_field("search");
     push_map_quality(call, report.source_map);
@@ -63,6 +70,8 @@ int push_paste_report(const Call& call, const PasteReport& report) {
     call.set_field("scale", call.push(report.scale));
     push_distortion(call, report.near);
     call.set_field("near");
+    push_distortion(call, report.laid);
+    call.set_field("laid");
     push_distortion(call, report.feature);
     call.set_field("feature");
     if (report.outline_near) {
@@ -70,6 +79,7 @@ int push_paste_report(const Call& call, const PasteReport& report) {
         call.set_field("outline_near");
     }
     call.set_field("kept_outline", call.push(report.kept_outline));
+    call.set_field("smooth", call.push(report.smooth));
     call.set_field("euler_characteristic", call.push(report.euler_characteristic));
     call.set_field("expected_characteristic", call.push(report.expected_characteristic));
     return 1;
@@ -85,6 +95,9 @@ std::vector<Record> paste_records() {
           {"number|nil", "outline_energy",
            "Of the outline of the region, where all of it lies on the target's region."},
           {"number|nil", "outline_misfit", "The same of the misfit."},
+          {"number|nil", "smooth_energy",
+           "Of the boundary free of edges, where one was found that costs no more than the loop."},
+          {"number|nil", "smooth_misfit", "The same of the misfit."},
           {"string", "stop", "converged, iterations or cycle: why it ended."},
           {"boolean", "kept_outline", "Nothing better than the outline was found."},
           {"number", "scale", "How much the loop grows."},
@@ -92,7 +105,7 @@ std::vector<Record> paste_records() {
           {"integer", "closest_rounds", "Rounds of nearest points that were kept."}}},
         {"lissom.PasteMapQuality",
          "What the map of a surface into the plane is like.",
-         {{"string", "method", "arap or lscm."},
+         {{"string", "method", "arap, lscm or tutte."},
           {"integer", "faces", "Faces that were laid out."},
           {"integer", "flipped", "Faces that are turned over."},
           {"integer", "flipped_fill", "Of those that close the hole of the feature."},
@@ -113,11 +126,14 @@ std::vector<Record> paste_records() {
           {"boolean", "angle_chosen", "It was not given."},
           {"number", "scale", "How much the part grew."},
           {"lissom.PasteDistortion", "near", "Within three rings of the boundary."},
+          {"lissom.PasteDistortion", "laid",
+           "The same once the part lies on the target as it was opened."},
           {"lissom.PasteDistortion", "feature", "In the feature."},
           {"lissom.PasteDistortion|nil", "outline_near",
            "Near the outline of the region, were it the boundary."},
           {"boolean", "kept_outline",
            "The outline was pasted along, since the surface there is distorted less."},
+          {"boolean", "smooth", "The boundary runs through faces."},
           {"integer", "euler_characteristic", "Of the result."},
           {"integer", "expected_characteristic",
            "What those of the target and of the part make it."}}}};

@@ -277,6 +277,8 @@
 ---@field misfit number[] The mean difference of the loop's edges from their images, over their length.
 ---@field outline_energy number|nil Of the outline of the region, where all of it lies on the target's region.
 ---@field outline_misfit number|nil The same of the misfit.
+---@field smooth_energy number|nil Of the boundary free of edges, where one was found that costs no more than the loop.
+---@field smooth_misfit number|nil The same of the misfit.
 ---@field stop string converged, iterations or cycle: why it ended.
 ---@field kept_outline boolean Nothing better than the outline was found.
 ---@field scale number How much the loop grows.
@@ -285,7 +287,7 @@
 
 ---What the map of a surface into the plane is like.
 ---@class lissom.PasteMapQuality
----@field method string arap or lscm.
+---@field method string arap, lscm or tutte.
 ---@field faces integer Faces that were laid out.
 ---@field flipped integer Faces that are turned over.
 ---@field flipped_fill integer Of those that close the hole of the feature.
@@ -308,9 +310,11 @@
 ---@field angle_chosen boolean It was not given.
 ---@field scale number How much the part grew.
 ---@field near lissom.PasteDistortion Within three rings of the boundary.
+---@field laid lissom.PasteDistortion The same once the part lies on the target as it was opened.
 ---@field feature lissom.PasteDistortion In the feature.
 ---@field outline_near lissom.PasteDistortion|nil Near the outline of the region, were it the boundary.
 ---@field kept_outline boolean The outline was pasted along, since the surface there is distorted less.
+---@field smooth boolean The boundary runs through faces.
 ---@field euler_characteristic integer Of the result.
 ---@field expected_characteristic integer What those of the target and of the part make it.
 
@@ -1540,7 +1544,7 @@ local Paste = {}
 
 ---Seeks the loop around the feature whose shape on the target differs least from its shape on the source, by turns with the similarity between both (thesis 3.4.3).
 ---@param options? lissom.Paste.OptimizeOptions
----@return lissom.Path loop # The loop, on the source.
+---@return lissom.Path loop # The boundary on the source: points of its surface, or vertices where it runs along edges.
 ---@return lissom.PasteSearch report # What was found.
 function Paste:optimize(options) end
 
@@ -1579,7 +1583,7 @@ function Paste:move(options) end
 function Paste:search() end
 
 ---The loop that `merge` pastes along, and where it lies on the target.
----@return lissom.Path loop # On the source.
+---@return lissom.Path loop # On the source, as by `optimize`.
 ---@return lissom.Path image # Points of the target's surface.
 function Paste:loop() end
 
@@ -3048,14 +3052,14 @@ function lissom.deform(mesh, options) end
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
 ---@field features? "common"|"fitted" How those of the free configuration find the similarity they move by. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with what fits; this takes twice the time. Default: "common".
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
----@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn"; as in the thesis "keep".
----@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform"; as in the thesis "band".
+---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
+---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
 ---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
----@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
+---@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true.
 ---@field transition? lissom.MergeOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
----@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true; as in the thesis false.
+---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
----@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
+---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
 ---@field fidelity? "lissom"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "lissom".
 
@@ -3082,14 +3086,14 @@ function lissom.merge(options) end
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
 ---@field features? "common"|"fitted" How those of the free configuration find the similarity they move by. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with what fits; this takes twice the time. Default: "common".
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
----@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn"; as in the thesis "keep".
----@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform"; as in the thesis "band".
+---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn".
+---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform".
 ---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
----@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
+---@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true.
 ---@field transition? lissom.MergingOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
----@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true; as in the thesis false.
+---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
----@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
+---@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: false.
 ---@field fidelity? "lissom"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "lissom".
 
@@ -3118,9 +3122,10 @@ function lissom.merging(options) end
 ---@field placement lissom.PasteOptions.Placement Where the feature goes.
 ---@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: what lies within the part's reach of its place, or a region of the target. Default: false.
 ---@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
----@field correspondence? "map"|"closest" map: vertices lie where the plane maps of both surfaces put them. closest: then, in rounds, on the nearest point of the target, where that lowers the misfit. Default: "map".
+---@field correspondence? "map"|"closest" map: vertices lie where the plane maps of both surfaces put them. closest: `optimize` then draws them, in rounds, to the nearest point of the target, where that distorts the surface near the boundary less. Default: "closest".
+---@field loop? "smooth"|"mesh" smooth: the boundary runs through faces, near the best loop of edges, so that the seam has no teeth. mesh: it is that loop. Default: "smooth".
 ---@field normals? number Weight of the normals in the energy of a boundary; .1 to .3 help where the feature overhangs. Default: 0.
----@field fidelity? "lissom"|"thesis" thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, and its deformation, for comparison. Default: "lissom".
+---@field fidelity? "lissom"|"thesis" thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, a boundary along edges, and its deformation, for comparison. Default: "lissom".
 
 ---Puts a feature of one mesh onto another, wherever that is and however it is curved (thesis section 3.4): a nose, an ear, a horn, a handle. Lays the surface around the feature and the target out in one plane; `optimize` then finds the best boundary and `merge` makes the new mesh.
 ---@param options lissom.PasteOptions

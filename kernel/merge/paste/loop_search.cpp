@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <tuple>
 
@@ -11,9 +12,7 @@
 namespace lissom {
 namespace {
 
-constexpr double kUnreached = std::numeric_limits<double>::infinity();
-// Sheets of the ring's covering that a loop may visit: -1, 0 and 1.
-constexpr int kSheets = 3;
+constexpr double kNoLoop = std::numeric_limits<double>::infinity();
 
 using Reached = std::pair<double, Index>;
 using NearestFirst = std::priority_queue<Reached, std::vector<Reached>, std::greater<>>;
@@ -46,14 +45,15 @@ LoopSearch::LoopSearch(const Mesh& source, const PasteRegions& regions, const Co
     }
     std::sort(vertices_.begin(), vertices_.end());
     vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-    arcs_.resize(vertices_.size());
+    Arcs arcs(vertices_.size());
     for (std::size_t e = 0; e < edges_.size(); ++e) {
         const Index a = local(edges_[e].first), b = local(edges_[e].second);
-        arcs_[at(a)].push_back({b, index_of(e), 0});
-        arcs_[at(b)].push_back({a, index_of(e), 0});
+        arcs[at(a)].push_back({b, index_of(e), 0});
+        arcs[at(b)].push_back({a, index_of(e), 0});
     }
-    find_cut(source, regions);
-    label(source, regions);
+    find_cut(source, regions, arcs);
+    label(source, regions, arcs);
+    find_faces(source, regions);
 }
 
 Index LoopSearch::local(Index vertex) const {
@@ -68,8 +68,8 @@ Index LoopSearch::edge_between(Index a, Index b) const {
 }
 
 // The shortest way from the outer boundary to the inner one that touches each only at its end.
-void LoopSearch::find_cut(const Mesh& source, const PasteRegions& regions) {
-    std::vector<double> distance(vertices_.size(), kUnreached);
+void LoopSearch::find_cut(const Mesh& source, const PasteRegions& regions, const Arcs& arcs) {
+    std::vector<double> distance(vertices_.size(), kNoLoop);
     std::vector<Index> from(vertices_.size(), kNoIndex);
     std::vector<char> last(vertices_.size(), 0);
     for (const Index v : regions.inner) last[at(local(v))] = 1;
@@ -86,7 +86,7 @@ void LoopSearch::find_cut(const Mesh& source, const PasteRegions& regions) {
             for (Index step = v; step != kNoIndex; step = from[at(step)]) cut_.push_back(step);
             break;
         }
-        for (const Arc& arc : arcs_[at(v)]) {
+        for (const Arc& arc : arcs[at(v)]) {
             const double reached =
                 length +
                 (source.position(vertices_[at(v)]) - source.position(vertices_[at(arc.to)])).norm();
@@ -100,17 +100,17 @@ void LoopSearch::find_cut(const Mesh& source, const PasteRegions& regions) {
 }
 
 // Edges that leave the cut to its right, seen from the outer boundary, cross it.
-void LoopSearch::label(const Mesh& source, const PasteRegions& regions) {
+void LoopSearch::label(const Mesh& source, const PasteRegions& regions, Arcs& arcs) {
     const Topology& topology = source.topology();
     const FaceSet ring(topology, regions.ring);
     std::vector<char> on_cut(vertices_.size(), 0);
     for (const Index v : cut_) on_cut[at(v)] = 1;
     const auto mark = [&](Index v, Index neighbor) {
         const Index w = local(neighbor);
-        for (Arc& arc : arcs_[at(v)]) {
+        for (Arc& arc : arcs[at(v)]) {
             if (arc.to == w && !on_cut[at(w)]) arc.turns = 1;
         }
-        for (Arc& arc : arcs_[at(w)]) {
+        for (Arc& arc : arcs[at(w)]) {
             if (arc.to == v && !on_cut[at(w)]) arc.turns = -1;
         }
     };
@@ -135,63 +135,198 @@ void LoopSearch::label(const Mesh& source, const PasteRegions& regions) {
     }
     // A chord of the cut belongs to no side.
     for (const Index v : cut_) {
-        std::erase_if(arcs_[at(v)], [&](const Arc& arc) {
+        std::erase_if(arcs[at(v)], [&](const Arc& arc) {
             if (!on_cut[at(arc.to)]) return false;
             const auto a = std::find(cut_.begin(), cut_.end(), v) - cut_.begin();
             const auto b = std::find(cut_.begin(), cut_.end(), arc.to) - cut_.begin();
             return a - b != 1 && b - a != 1;
         });
     }
-}
-
-double LoopSearch::search_from(Index start, std::span<const double> cost, double limit,
-                               std::vector<Index>& loop) const {
-    const auto node = [](Index v, int sheet) { return v * kSheets + sheet + 1; };
-    std::vector<double> distance(vertices_.size() * kSheets, kUnreached);
-    std::vector<Index> from(distance.size(), kNoIndex);
-    NearestFirst queue;
-    distance[at(node(start, 0))] = 0.0;
-    queue.push({0.0, node(start, 0)});
-    const Index goal = node(start, 1);
-    while (!queue.empty()) {
-        const auto [length, here] = queue.top();
-        queue.pop();
-        if (length >= limit) return kUnreached;
-        if (length > distance[at(here)]) continue;
-        if (here == goal) break;
-        const int sheet = here % kSheets - 1;
-        for (const Arc& arc : arcs_[at(here / kSheets)]) {
-            const int next = sheet + arc.turns;
-            const double reached = length + cost[at(arc.edge)];
-            if (next < -1 || next > 1) continue;
-            const Index there = node(arc.to, next);
-            if (!(reached < distance[at(there)])) continue;
-            distance[at(there)] = reached;
-            from[at(there)] = here;
-            queue.push({reached, there});
+    std::vector<WindingEdge> edges(edges_.size());
+    for (std::size_t v = 0; v < arcs.size(); ++v) {
+        for (const Arc& arc : arcs[v]) {
+            if (index_of(v) > arc.to) continue;
+            edges[at(arc.edge)] = {index_of(v), arc.to, arc.turns};
         }
     }
-    if (!(distance[at(goal)] < limit)) return kUnreached;
-    loop.clear();
-    for (Index step = from[at(goal)]; step != kNoIndex; step = from[at(step)]) {
-        loop.push_back(vertices_[at(step / kSheets)]);
-    }
-    std::reverse(loop.begin(), loop.end());
-    return distance[at(goal)];
+    graph_ = WindingGraph(count_of(vertices_), edges);
 }
+
+void LoopSearch::find_faces(const Mesh& source, const PasteRegions& regions) {
+    beside_.assign(edges_.size(), {kNoIndex, kNoIndex});
+    face_begin_.assign(1, 0);
+    for (std::size_t f = 0; f < regions.ring.size(); ++f) {
+        const std::span<const Index> face = source.topology().face(regions.ring[f]);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const Index a = face[k], b = face[(k + 1) % face.size()];
+            face_edges_.push_back(edge_between(a, b));
+            beside_[at(face_edges_.back())][a < b ? 0 : 1] = index_of(f);
+        }
+        face_begin_.push_back(count_of(face_edges_));
+    }
+}
+
+/// The search in parts of a ring that loops divide.
+class RingDivision {
+  public:
+    RingDivision(const LoopSearch& ring, std::span<const double> cost, const Context& context)
+        : ring_(ring),
+          cost_(cost),
+          context_(context),
+          search_(ring.graph_, cost),
+          usable_(ring.edges_.size(), 0),
+          place_in_cut_(ring.vertices_.size(), kNoIndex),
+          inside_(ring.face_begin_.size() - 1, 0) {
+        for (std::size_t k = 0; k < ring.cut_.size(); ++k) {
+            place_in_cut_[at(ring.cut_[k])] = index_of(k);
+        }
+    }
+
+    std::vector<Index> cheapest() {
+        std::vector<Index> faces(inside_.size()), candidates(ring_.cut_.size());
+        std::iota(faces.begin(), faces.end(), 0);
+        std::iota(candidates.begin(), candidates.end(), 0);
+        divide(faces, {}, std::move(candidates));
+        for (Index& v : best_) v = ring_.vertices_[at(v)];
+        return std::move(best_);
+    }
+
+  private:
+    struct Halves {
+        /// Faces, and the edges of the loop between them.
+        std::vector<Index> outer, inner, rim;
+    };
+
+    // The edges of faces may be used and those of `rim`, and no others: where the loops around a
+    // half touch there are no faces between them.
+    void use(const std::vector<Index>& faces, const std::vector<Index>& rim, char flag) {
+        for (const Index f : faces) {
+            for (Index k = ring_.face_begin_[at(f)]; k < ring_.face_begin_[at(f) + 1]; ++k) {
+                usable_[at(ring_.face_edges_[at(k)])] = flag;
+            }
+        }
+        for (const Index e : rim) usable_[at(e)] = flag;
+    }
+
+    Index edge_of(const std::vector<Index>& loop, std::size_t k) const {
+        return ring_.edge_between(ring_.vertices_[at(loop[k])],
+                                  ring_.vertices_[at(loop[(k + 1) % loop.size()])]);
+    }
+
+    void keep(const std::vector<Index>& loop) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < loop.size(); ++k) sum += cost_[at(edge_of(loop, k))];
+        if (!(sum < least_)) return;
+        least_ = sum;
+        best_ = loop;
+    }
+
+    // Seeks through vertices of the cut, given by their places in it, ascending.
+    void divide(const std::vector<Index>& faces, const std::vector<Index>& rim,
+                std::vector<Index> candidates) {
+        while (!candidates.empty()) {
+            context_.checkpoint();
+            use(faces, rim, 1);
+            const std::size_t middle = candidates.size() / 2;
+            const Index place = candidates[middle];
+            const bool last = candidates.size() == 1;
+            const WindingLoop loop =
+                search_.through(ring_.cut_[at(place)], usable_, last ? least_ : kNoLoop);
+            use(faces, rim, 0);
+            if (!loop.vertices.empty()) {
+                keep(loop.vertices);
+                candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(middle));
+                if (!last) divide_at(loop.vertices, place, faces, candidates);
+                return;
+            }
+            // What this vertex is connected with has no loop either.
+            std::erase_if(candidates, [&](Index c) { return search_.reached(ring_.cut_[at(c)]); });
+        }
+    }
+
+    // A cheaper loop touches neither `loop` from across nor the way to it from vertex `place` of
+    // the cut, which it was found through. So it meets the cut before the first place on that way
+    // or on the loop, or behind the last.
+    void divide_at(const std::vector<Index>& loop, Index place, const std::vector<Index>& faces,
+                   const std::vector<Index>& candidates) {
+        Index first = kNoIndex, last = kNoIndex;
+        for (const Index v : loop) {
+            const Index here = place_in_cut_[at(v)];
+            if (here == kNoIndex) continue;
+            first = first == kNoIndex ? here : std::min(first, here);
+            last = std::max(last, here);
+        }
+        const Halves halves = divided(loop, faces);
+        const bool inward = holds(halves.inner, place), outward = holds(halves.outer, place);
+        if (inward && !outward) last = std::max(last, place);
+        if (outward && !inward) first = std::min(first, place);
+        std::vector<Index> before, behind;
+        for (const Index c : candidates) {
+            if (c <= first) before.push_back(c);
+            if (c >= last) behind.push_back(c);
+        }
+        if (!before.empty()) divide(halves.outer, halves.rim, std::move(before));
+        if (!behind.empty()) divide(halves.inner, halves.rim, std::move(behind));
+    }
+
+    bool holds(const std::vector<Index>& faces, Index place) const {
+        const Index v = ring_.vertices_[at(ring_.cut_[at(place)])];
+        return std::any_of(faces.begin(), faces.end(), [&](Index f) {
+            for (Index k = ring_.face_begin_[at(f)]; k < ring_.face_begin_[at(f) + 1]; ++k) {
+                const auto& [a, b] = ring_.edges_[at(ring_.face_edges_[at(k)])];
+                if (a == v || b == v) return true;
+            }
+            return false;
+        });
+    }
+
+    // Faces to the left of a loop and those to its right.
+    Halves divided(const std::vector<Index>& loop, const std::vector<Index>& faces) {
+        for (const Index f : faces) inside_[at(f)] = 1;
+        std::vector<Index> rim, inner;
+        const auto reach = [&](Index f) {
+            if (f == kNoIndex || inside_[at(f)] != 1) return;
+            inside_[at(f)] = 2;
+            inner.push_back(f);
+        };
+        for (std::size_t k = 0; k < loop.size(); ++k) rim.push_back(edge_of(loop, k));
+        std::vector<Index> walls = rim;
+        std::sort(walls.begin(), walls.end());
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const bool up = loop[k] < loop[(k + 1) % loop.size()];
+            reach(ring_.beside_[at(rim[k])][up ? 0 : 1]);
+        }
+        for (std::size_t i = 0; i < inner.size(); ++i) {
+            for (Index k = ring_.face_begin_[at(inner[i])]; k < ring_.face_begin_[at(inner[i]) + 1];
+                 ++k) {
+                const Index e = ring_.face_edges_[at(k)];
+                if (std::binary_search(walls.begin(), walls.end(), e)) continue;
+                for (const Index f : ring_.beside_[at(e)]) reach(f);
+            }
+        }
+        Halves halves{{}, std::move(inner), std::move(rim)};
+        for (const Index f : faces) {
+            if (inside_[at(f)] == 1) halves.outer.push_back(f);
+            inside_[at(f)] = 0;
+        }
+        return halves;
+    }
+
+    const LoopSearch& ring_;
+    std::span<const double> cost_;
+    const Context& context_;
+    WindingSearch search_;
+    std::vector<char> usable_;
+    std::vector<Index> place_in_cut_;
+    // 0: not of the faces at hand, 1: of them, 2: left of the loop.
+    std::vector<char> inside_;
+    double least_ = kNoLoop;
+    std::vector<Index> best_;
+};
 
 std::vector<Index> LoopSearch::cheapest(std::span<const double> cost,
                                         const Context& context) const {
-    std::vector<Index> best, loop;
-    double least = kUnreached;
-    for (const Index start : cut_) {
-        context.checkpoint();
-        const double found = search_from(start, cost, least, loop);
-        if (!(found < least)) continue;
-        least = found;
-        best = loop;
-    }
-    return best;
+    return RingDivision(*this, cost, context).cheapest();
 }
 
 }  // namespace lissom

@@ -1,6 +1,7 @@
 /// The cheapest loop of edges around a ring (thesis section 3.4.3); private to kernel/merge.
 #pragma once
 
+#include <array>
 #include <span>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/paste/paste_regions.h"
+#include "kernel/merge/paste/winding_graph.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {
@@ -26,24 +28,34 @@ class LoopSearch {
     /// Vertices of the closed path with the least cost that runs once around the ring,
     /// counter-clockwise; it visits no vertex twice. Costs are above 0, or infinite for edges that
     /// must not be used. Empty where there is none. Errors: cancelled.
+    ///
+    /// By divide and conquer (Reif 1983): no cheaper loop crosses the cheapest one through a vertex
+    /// of the cut, so that one divides the ring, and each half is searched with its part of the
+    /// cut. Halves keep all of the loop between them.
     std::vector<Index> cheapest(std::span<const double> cost, const Context& context) const;
 
   private:
+    friend class RingDivision;
     struct Arc {
         Index to = kNoIndex, edge = kNoIndex;
         int turns = 0;
     };
-    void find_cut(const Mesh& source, const PasteRegions& regions);
-    void label(const Mesh& source, const PasteRegions& regions);
+    using Arcs = std::vector<std::vector<Arc>>;
+    void find_cut(const Mesh& source, const PasteRegions& regions, const Arcs& arcs);
+    void label(const Mesh& source, const PasteRegions& regions, Arcs& arcs);
+    void find_faces(const Mesh& source, const PasteRegions& regions);
     Index local(Index vertex) const;
-    double search_from(Index start, std::span<const double> cost, double limit,
-                       std::vector<Index>& loop) const;
 
     std::vector<Index> vertices_;
     std::vector<std::pair<Index, Index>> edges_;
-    std::vector<std::vector<Arc>> arcs_;
+    WindingGraph graph_;
     /// Local numbers, from the outer boundary to the inner one.
     std::vector<Index> cut_;
+    /// Edges of face f of the ring: face_begin_[f] to face_begin_[f + 1] of face_edges_.
+    std::vector<Index> face_begin_, face_edges_;
+    /// Faces of the ring left of each edge from its lower vertex to the higher one, and right of
+    /// it, or kNoIndex.
+    std::vector<std::array<Index, 2>> beside_;
 };
 
 }  // namespace lissom

@@ -29,7 +29,4 @@ struct OpenedTarget {
 OpenedTarget open_target(const Mesh& target, const PasteChart& chart, std::span<const Vec2> loop,
                          const Context& context);
 
-/// Whether a closed line of the plane crosses itself.
-bool crosses_itself(std::span<const Vec2> loop);
-
 }  // namespace lissom

@@ -4,22 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "kernel/core/clock.h"
 #include "kernel/core/memory_error.h"
-#include "kernel/merge/merge_stages.h"
 #include "kernel/merge/paste/cleared_target.h"
-#include "kernel/merge/paste/loop_search.h"
-#include "kernel/merge/paste/opened_target.h"
-#include "kernel/merge/paste/paste_energy.h"
-#include "kernel/merge/paste/paste_map.h"
-#include "kernel/merge/paste/paste_part.h"
-#include "kernel/merge/paste/paste_regions.h"
-#include "kernel/merge/provenance.h"
-#include "kernel/merge/sew/seam_quality.h"
-#include "kernel/merge/sew/sew.h"
-#include "kernel/merge/verdict.h"
-#include "kernel/mesh/measure/measures.h"
-#include "kernel/mesh/query/spatial_tree.h"
+#include "kernel/merge/paste/part_trial.h"
+#include "kernel/merge/paste/paste_state.h"
+#include "kernel/merge/paste/plane_line.h"
 
 namespace lissom {
 namespace {
@@ -32,20 +21,9 @@ constexpr double kClearlyBetterAngle = 0.95;
 constexpr double kRoom = 1.5, kMoreRoom = 2.1;
 constexpr int kClosestRounds = 4;
 constexpr Index kWarmIterations = 3;
-// A seam without a collar must be this much better than one with it.
-constexpr double kPlainBetter = 0.9;
-constexpr double kSteepSeam = 20.0 * kDegree;
 
 ParameterizeMethod method_for(const PasteOptions& options) {
     return options.thesis ? ParameterizeMethod::lscm : ParameterizeMethod::arap;
-}
-
-EnergyOptions energy_for(const PasteOptions& options, Index iterations) {
-    EnergyOptions energy;
-    energy.thesis = options.thesis;
-    energy.normals = options.thesis ? 0.0 : options.normals;
-    energy.iterations = iterations;
-    return energy;
 }
 
 void require_options(const PasteOptions& options) {
@@ -60,57 +38,22 @@ void require_faces(const Mesh& mesh) {
     throw Error(ErrorCode::mesh_empty, "a mesh without faces cannot be pasted");
 }
 
-// One placement and the loop that belongs to it.
-struct Placed {
-    PastePlacement placement;
-    double angle = 0.0;
-    bool angle_chosen = false;
-    std::vector<ImagePoint> images;
-    PasteLoop loop;
-};
-
 }  // namespace
 
-struct Paste::State {
-    Mesh source, target;
-    PasteOptions options;
-    PasteRegions regions;
-    PasteChart source_map;
-    std::shared_ptr<const LoopSearch> ring;
-    std::unique_ptr<PasteMap> map;
-    /// Whether the target's region was chosen here.
-    bool own_disk = false;
-    bool optimized = false;
-    /// Where features of the target are removed: the target as given, its region for parts, and
-    /// where the elements of `target` come from.
-    Mesh given;
-    std::optional<Region> onto;
-    std::optional<MeshMap> cleared;
-    Placed placed;
+EnergyOptions energy_for(const PasteOptions& options, Index iterations) {
+    EnergyOptions energy;
+    energy.thesis = options.thesis;
+    energy.normals = options.thesis ? 0.0 : options.normals;
+    energy.iterations = iterations;
+    return energy;
+}
 
-    std::unique_ptr<PasteMap> map_around(const PastePlacement& placement, double room,
-                                         const Context& context) const;
-    void place_on_disk(const PastePlacement& placement, std::span<const Index> start,
-                       Index iterations, const Context& context);
-    bool clears() const { return options.clear || options.cleared.has_value(); }
-    void prepare(const Mesh& new_source, const Region& region, const std::optional<Region>& feature,
-                 const PasteOptions& wanted, const Context& context);
-    void move_to(const PastePlacement& placement, Index iterations, const Context& context);
-    void begin_on(const Mesh& new_target, const std::optional<Region>& region,
-                  const PastePlacement& placement, const Context& context);
-    Region region_to_clear(const PastePlacement& placement, const Context& context) const;
-    void place_on_cleared(const PastePlacement& placement, std::span<const Index> start,
-                          Index iterations, const Context& context);
-    double misfit_at(const PasteMap& on, const std::vector<ImagePoint>& images) const;
-    void choose_angle(const PasteMap& on, Placed& place, const Context& context) const;
-    Placed place(const PasteMap& on, const PastePlacement& placement, std::span<const Index> start,
-                 Index iterations, const Context& context) const;
-    void draw_closer(const PasteMap& on, Placed& place, const Context& context) const;
-    bool covers(const Placed& place) const;
-    LoopImage loop_image(std::span<const Index> loop) const;
-    MovedPart deformed(const PastePart& part, std::span<const Index> loop, double scale,
-                       const PasteSimilarity& similarity, const Context& context) const;
-};
+std::unique_ptr<PasteMap> Paste::State::map_of(std::span<const Index> target_faces,
+                                               const Context& context) const {
+    return std::make_unique<PasteMap>(
+        *surfaces, source_map, target_chart(target, target_faces, method_for(options), context),
+        options.correspondence == PasteCorrespondence::closest);
+}
 
 std::unique_ptr<PasteMap> Paste::State::map_around(const PastePlacement& placement, double room,
                                                    const Context& context) const {
@@ -119,26 +62,25 @@ std::unique_ptr<PasteMap> Paste::State::map_around(const PastePlacement& placeme
     if (!placement.at.allFinite()) {
         throw Error(ErrorCode::not_finite, "the point of a placement is NaN or infinite");
     }
-    const SurfacePoint point = SpatialTree(target, context).nearest(placement.at);
+    const SurfacePoint point = surfaces->target_tree.nearest(placement.at);
     const double radius = room * placement.scale * source_map.length_ratio * source_map.reach +
                           placement.offset.norm();
-    const std::vector<Index> faces = disk_around(target, point, radius, context);
-    return std::make_unique<PasteMap>(source, target, source_map,
-                                      target_chart(target, faces, method_for(options), context));
+    return map_of(disk_around(target, point, radius, context), context);
 }
 
 // How well the outlines fit, a missing image counting as a full edge.
 double Paste::State::misfit_at(const PasteMap& on, const std::vector<ImagePoint>& images) const {
-    PasteEnergy energy(on, *ring, images, energy_for(options, 1));
+    PasteEnergy energy(ring_edges(on, *ring, images), energy_for(options, 1));
     double sum = 0.0;
     for (const std::vector<Index>* loop : {&regions.outer, &regions.inner}) {
-        const std::vector<Index> edges = energy.edges_of(*loop);
+        const std::vector<Index> edges = energy.edges_of(*ring, *loop);
         sum += edges.empty() ? 1.0 : energy.misfit(edges, energy.start(edges));
     }
     return sum;
 }
 
-void Paste::State::choose_angle(const PasteMap& on, Placed& place, const Context& context) const {
+void Paste::State::choose_angle(const PasteMap& on, PlacedFeature& place,
+                                const Context& context) const {
     double least = 0.0;
     for (int k = 0; k < kAngles; ++k) {
         context.checkpoint();
@@ -151,71 +93,131 @@ void Paste::State::choose_angle(const PasteMap& on, Placed& place, const Context
     place.angle_chosen = true;
 }
 
-Placed Paste::State::place(const PasteMap& on, const PastePlacement& placement,
-                           std::span<const Index> start, Index iterations,
-                           const Context& context) const {
-    Placed place;
+// The size of the images of both outlines, over that on the source; 1 where they have none.
+double Paste::State::size_of(const PasteMap& on, const std::vector<ImagePoint>& images) const {
+    PasteEnergy energy(ring_edges(on, *ring, images), energy_for(options, 1));
+    double product = 1.0;
+    int count = 0;
+    for (const std::vector<Index>* loop : {&regions.outer, &regions.inner}) {
+        const std::vector<Index> edges = energy.edges_of(*ring, *loop);
+        if (edges.empty()) continue;
+        product *= energy.start(edges).scale;
+        ++count;
+    }
+    return count > 0 ? std::pow(product, 1.0 / count) : 1.0;
+}
+
+// A ring that is a tube lies in the plane with another size than on the surface: the size that is
+// wanted is that of the outlines.
+std::vector<ImagePoint> Paste::State::images_of(const PasteMap& on, const PastePlacement& placement,
+                                                double angle) const {
+    PlanarMap plane = on.planar(placement, angle);
+    std::vector<ImagePoint> images = on.images(plane);
+    if (options.thesis) return images;
+    plane.factor *= placement.scale / size_of(on, images);
+    return on.images(plane);
+}
+
+PlacedFeature Paste::State::place(const PasteMap& on, const PastePlacement& placement,
+                                  std::span<const Index> start, const PasteEffort& effort,
+                                  const Context& context) const {
+    PlacedFeature place;
     place.placement = placement;
     place.angle = placement.angle.value_or(0.0);
     if (!placement.angle && !placement.toward) choose_angle(on, place, context);
-    place.images = on.images(on.planar(placement, place.angle));
+    place.images = images_of(on, placement, place.angle);
     place.loop = search_boundary(on, regions, *ring, place.images, start,
-                                 energy_for(options, iterations), context);
-    const bool closer = options.correspondence == PasteCorrespondence::closest && iterations > 0;
-    if (closer) draw_closer(on, place, context);
+                                 energy_for(options, effort.iterations), context);
+    const bool closer = options.correspondence == PasteCorrespondence::closest && !options.thesis;
+    if (closer && effort.closest) draw_closer(on, place, context);
+    const bool smooth = options.loop == PasteBoundary::smooth && !options.thesis;
+    if (smooth && effort.iterations > 0) free_boundary(on, place, context);
     return place;
 }
 
-// Rounds of nearest points. One is kept where the misfit falls and the boundary stays simple.
-void Paste::State::draw_closer(const PasteMap& on, Placed& place, const Context& context) const {
+void Paste::State::free_boundary(const PasteMap& on, PlacedFeature& place,
+                                 const Context& context) const {
+    const RingSurface surface(on, *triangles, place.images);
+    place.line = free_loop(surface, place.loop, energy_for(options, 1), context);
+    if (!place.line) return;
+    place.loop.report.smooth_energy = place.line->energy;
+    place.loop.report.smooth_misfit = place.line->misfit;
+    place.loop.report.scale = place.line->similarity.scale;
+}
+
+// Where the vertices lie once they are drawn to the points of the target nearest to them.
+std::vector<ImagePoint> Paste::State::nearest_images(const PasteMap& on,
+                                                     const PlacedFeature& place) const {
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+    const double count = static_cast<double>(place.loop.vertices.size());
+    for (const Index v : place.loop.vertices) {
+        from += source.position(v) / count;
+        to += place.images[at(source_map.place_of(v))].position / count;
+    }
+    const PasteSimilarity& fit = place.loop.similarity;
+    std::vector<ImagePoint> images;
+    images.reserve(source_map.map.vertex.size());
+    for (const Index v : source_map.map.vertex) {
+        images.push_back(on.nearest(to + fit.scale * (fit.rotation * (source.position(v) - from))));
+    }
+    return images;
+}
+
+// One round. False where the misfit does not fall or the boundary crosses itself.
+bool Paste::State::draw_once(const PasteMap& on, PlacedFeature& place,
+                             const Context& context) const {
+    std::vector<ImagePoint> images = nearest_images(on, place);
+    PasteLoop loop = search_boundary(on, regions, *ring, images, place.loop.vertices,
+                                     energy_for(options, 2), context);
+    std::vector<Vec2> outline;
+    for (const Index v : loop.vertices) outline.push_back(images[at(source_map.place_of(v))].uv);
+    PasteSearch& report = place.loop.report;
+    if (loop.report.misfit.back() >= report.misfit.back() || crosses_itself(outline)) return false;
+    report.energy.push_back(loop.report.energy.back());
+    report.misfit.push_back(loop.report.misfit.back());
+    report.scale = loop.report.scale;
+    report.loop_size = loop.report.loop_size;
+    ++report.closest_rounds;
+    report.kept_outline = loop.report.kept_outline;
+    loop.report = std::move(report);
+    place.images = std::move(images);
+    place.loop = std::move(loop);
+    return true;
+}
+
+double Paste::State::energy_near(const PasteMap& on, const PlacedFeature& place,
+                                 const Context& context) const {
+    const RingSurface surface(on, *triangles, place.images);
+    return PartTrials{options, regions, surface, *ring, place}.along_loop(context).near.energy;
+}
+
+// Rounds of nearest points, kept where they leave the surface near the boundary less distorted.
+void Paste::State::draw_closer(const PasteMap& on, PlacedFeature& place,
+                               const Context& context) const {
+    PlacedFeature closer = place;
     for (int round = 0; round < kClosestRounds; ++round) {
         context.checkpoint();
-        Vec3 from = Vec3::Zero(), to = Vec3::Zero();
-        const double count = static_cast<double>(place.loop.vertices.size());
-        for (const Index v : place.loop.vertices) {
-            from += source.position(v) / count;
-            to += place.images[at(source_map.place_of(v))].position / count;
-        }
-        const PasteSimilarity& fit = place.loop.similarity;
-        std::vector<ImagePoint> images;
-        for (const Index v : source_map.map.vertex) {
-            images.push_back(
-                on.nearest(to + fit.scale * (fit.rotation * (source.position(v) - from))));
-        }
-        PasteLoop loop = search_boundary(on, regions, *ring, images, place.loop.vertices,
-                                         energy_for(options, 2), context);
-        std::vector<Vec2> outline;
-        for (const Index v : loop.vertices) {
-            outline.push_back(images[at(source_map.place_of(v))].uv);
-        }
-        if (loop.report.misfit.back() >= place.loop.report.misfit.back()) return;
-        if (crosses_itself(outline)) return;
-        PasteSearch& report = place.loop.report;
-        report.energy.push_back(loop.report.energy.back());
-        report.misfit.push_back(loop.report.misfit.back());
-        report.scale = loop.report.scale;
-        report.loop_size = loop.report.loop_size;
-        ++report.closest_rounds;
-        report.kept_outline = loop.report.kept_outline;
-        place.images = std::move(images);
-        place.loop.vertices = std::move(loop.vertices);
-        place.loop.similarity = loop.similarity;
+        if (!draw_once(on, closer, context)) break;
+    }
+    if (closer.loop.report.closest_rounds == 0) return;
+    if (energy_near(on, closer, context) < energy_near(on, place, context)) {
+        place = std::move(closer);
     }
 }
 
 // Lays a disk of the target out and places the part there; the wider one where that holds more.
 void Paste::State::place_on_disk(const PastePlacement& placement, std::span<const Index> start,
-                                 Index iterations, const Context& context) {
+                                 const PasteEffort& effort, const Context& context) {
     std::unique_ptr<PasteMap> on = map_around(placement, kRoom, context);
-    std::optional<Placed> found;
+    std::optional<PlacedFeature> found;
     try {
-        found = place(*on, placement, start, iterations, context);
+        found = place(*on, placement, start, effort, context);
     } catch (const Error& error) {
         if (error.code() != ErrorCode::boundary_conflict) throw;
     }
     if (!found || !covers(*found)) {
         std::unique_ptr<PasteMap> wide = map_around(placement, kMoreRoom, context);
-        Placed again = place(*wide, placement, start, iterations, context);
+        PlacedFeature again = place(*wide, placement, start, effort, context);
         if (!found || covers(again)) {
             on = std::move(wide);
             found = std::move(again);
@@ -235,22 +237,24 @@ Region Paste::State::region_to_clear(const PastePlacement& placement,
 
 // Removes the target's features where the part goes, and places it there.
 void Paste::State::place_on_cleared(const PastePlacement& placement, std::span<const Index> start,
-                                    Index iterations, const Context& context) {
+                                    const PasteEffort& effort, const Context& context) {
     ClearedTarget next = cleared_target(given, onto, region_to_clear(placement, context), context);
+    // A map needs the surfaces that it was made with.
+    std::unique_ptr<PasteSurfaces> before = std::move(surfaces);
     std::swap(target, next.mesh);
     try {
+        surfaces = std::make_unique<PasteSurfaces>(source, target);
         if (next.onto) {
-            const std::vector<Index> faces = target_faces(target, *next.onto, context);
-            auto on = std::make_unique<PasteMap>(
-                source, target, source_map,
-                target_chart(target, faces, method_for(options), context));
-            placed = place(*on, placement, start, iterations, context);
+            std::unique_ptr<PasteMap> on =
+                map_of(target_faces(target, *next.onto, context), context);
+            placed = place(*on, placement, start, effort, context);
             map = std::move(on);
         } else {
-            place_on_disk(placement, start, iterations, context);
+            place_on_disk(placement, start, effort, context);
         }
     } catch (...) {
         std::swap(target, next.mesh);
+        surfaces = std::move(before);
         throw;
     }
     cleared = std::move(next.map);
@@ -267,6 +271,7 @@ void Paste::State::prepare(const Mesh& new_source, const Region& region,
     regions = paste_regions(source, region, feature, options.share, context);
     ring = std::make_shared<LoopSearch>(source, regions, context);
     source_map = source_chart(source, regions, method_for(options), context);
+    triangles = std::make_shared<RingTriangles>(source_map, regions);
 }
 
 // Lays a target out and places the part on it.
@@ -277,38 +282,17 @@ void Paste::State::begin_on(const Mesh& new_target, const std::optional<Region>&
     if (clears()) {
         given = target;
         onto = region;
-        return place_on_cleared(placement, {}, 0, context);
+        return place_on_cleared(placement, {}, {}, context);
     }
-    if (own_disk) return place_on_disk(placement, {}, 0, context);
-    const std::vector<Index> faces = target_faces(target, *region, context);
-    map = std::make_unique<PasteMap>(source, target, source_map,
-                                     target_chart(target, faces, method_for(options), context));
-    placed = place(*map, placement, {}, 0, context);
+    surfaces = std::make_unique<PasteSurfaces>(source, target);
+    if (own_disk) return place_on_disk(placement, {}, {}, context);
+    map = map_of(target_faces(target, *region, context), context);
+    placed = place(*map, placement, {}, {}, context);
 }
 
-// Whether all of the ring has an image.
-bool Paste::State::covers(const Placed& place) const {
+bool Paste::State::covers(const PlacedFeature& place) const {
     return std::all_of(regions.outer.begin(), regions.outer.end(),
                        [&](Index v) { return place.images[at(source_map.place_of(v))].inside; });
-}
-
-LoopImage Paste::State::loop_image(std::span<const Index> loop) const {
-    LoopImage image;
-    for (const Index v : loop) {
-        const ImagePoint& point = placed.images[at(source_map.place_of(v))];
-        image.positions.push_back(point.position);
-        image.normals.push_back(point.normal);
-    }
-    return image;
-}
-
-MovedPart Paste::State::deformed(const PastePart& part, std::span<const Index> loop, double scale,
-                                 const PasteSimilarity& similarity, const Context& context) const {
-    std::vector<Vec3> normals;
-    for (const Index v : loop) normals.push_back(map->source_normals()[at(v)]);
-    const auto how = options.thesis ? BoundaryDeformOptions::thesis() : BoundaryDeformOptions{};
-    return moved_part(part, paste_values(normals, loop_image(loop), similarity, scale), how,
-                      context);
 }
 
 Paste::Paste(const Mesh& source, const Mesh& target, const Region& region,
@@ -350,6 +334,7 @@ Paste PasteSource::on(const Mesh& target, const std::optional<Region>& onto,
     state->regions = state_->regions;
     state->ring = state_->ring;
     state->source_map = state_->source_map;
+    state->triangles = state_->triangles;
     state->begin_on(target, onto, placement, context);
     return Paste(std::move(state));
 } catch (const std::bad_alloc&) {
@@ -369,7 +354,7 @@ Path Paste::optimize(Index iterations, const Context& context) try {
     State& state = *state_;
     PastePlacement fixed = state.placed.placement;
     fixed.angle = state.placed.angle;
-    Placed placed = state.place(*state.map, fixed, {}, iterations, context);
+    PlacedFeature placed = state.place(*state.map, fixed, {}, {iterations, true}, context);
     placed.placement = state.placed.placement;
     placed.angle_chosen = state.placed.angle_chosen;
     state.placed = std::move(placed);
@@ -384,11 +369,24 @@ const PasteSearch& Paste::search() const {
 }
 
 Path Paste::loop() const {
-    return Path(state_->source.shared_topology(), state_->placed.loop.vertices, true);
+    const PlacedFeature& placed = state_->placed;
+    if (!placed.line) return {state_->source.shared_topology(), placed.loop.vertices, true};
+    std::vector<Vec3> points;
+    for (const RingPoint& point : placed.line->points) points.push_back(point.position);
+    return {std::move(points), true};
 }
 
 Path Paste::image() const {
-    return Path(state_->loop_image(state_->placed.loop.vertices).positions, true);
+    const PlacedFeature& placed = state_->placed;
+    std::vector<Vec3> points;
+    if (placed.line) {
+        for (const RingPoint& point : placed.line->points) points.push_back(point.image.position);
+    } else {
+        for (const Index v : placed.loop.vertices) {
+            points.push_back(placed.images[at(state_->source_map.place_of(v))].position);
+        }
+    }
+    return {std::move(points), true};
 }
 
 const PastePlacement& Paste::placement() const {
@@ -399,16 +397,16 @@ std::size_t Paste::memory_bytes() const {
     return 2 * (state_->source.memory_bytes() + state_->target.memory_bytes());
 }
 
-void Paste::State::move_to(const PastePlacement& placement, Index iterations,
+void Paste::State::move_to(const PastePlacement& placement, const PasteEffort& effort,
                            const Context& context) {
     const std::vector<Index> start = optimized ? placed.loop.vertices : std::vector<Index>();
-    if (clears()) return place_on_cleared(placement, start, iterations, context);
+    if (clears()) return place_on_cleared(placement, start, effort, context);
     if (!own_disk) {
-        placed = place(*map, placement, start, iterations, context);
+        placed = place(*map, placement, start, effort, context);
         return;
     }
     try {
-        Placed next = place(*map, placement, start, iterations, context);
+        PlacedFeature next = place(*map, placement, start, effort, context);
         if (covers(next)) {
             placed = std::move(next);
             return;
@@ -417,153 +415,17 @@ void Paste::State::move_to(const PastePlacement& placement, Index iterations,
         if (error.code() != ErrorCode::boundary_conflict) throw;
     }
     // The region that was laid out does not reach there.
-    place_on_disk(placement, start, iterations, context);
+    place_on_disk(placement, start, effort, context);
 }
 
 void Paste::move(const PastePlacement& placement, const Context& context) try {
-    state_->move_to(placement, state_->optimized ? kWarmIterations : 0, context);
+    state_->move_to(placement, {state_->optimized ? kWarmIterations : 0, false}, context);
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
 }
 
 void Paste::slide(const PastePlacement& placement, const Context& context) try {
-    state_->move_to(placement, 0, context);
-} catch (const std::bad_alloc&) {
-    throw_out_of_memory();
-}
-
-namespace {
-
-struct PasteSides {
-    PastePart part;
-    MovedPart moved;
-    OpenedTarget opened;
-    LoopPair pair;
-};
-
-SewOptions paste_sewing(const PasteMergeOptions& options, bool collar) {
-    SewOptions how;
-    how.smooth = options.smooth;
-    how.collar = collar;
-    return how;
-}
-
-Sewn sewn_well(const PasteSides& sides, const PasteMergeOptions& options, const Context& context) {
-    const auto sew_with = [&](bool collar) {
-        const LoopPair pairs[] = {sides.pair};
-        Sewn sewn =
-            sew(sides.opened.mesh, sides.moved.mesh, pairs, paste_sewing(options, collar), context);
-        require_sound(sewn, sides.opened.mesh, sides.moved.mesh, pairs);
-        return sewn;
-    };
-    const auto angles = [](const Sewn& sewn) {
-        return sewn.report.after.greatest_dihedral + sewn.report.after.greatest_near;
-    };
-    Sewn sewn = sew_with(options.collar);
-    if (!(sewn.report.collar_added > 0 && sewn.report.after.greatest_dihedral > kSteepSeam)) {
-        return sewn;
-    }
-    Sewn plain = sew_with(false);
-    return angles(plain) <= kPlainBetter * angles(sewn) ? std::move(plain) : std::move(sewn);
-}
-
-MergeReport merge_report(const PasteSides& sides, const Sewn& sewn, double scale,
-                         const PasteMergeOptions& options, const Context& context) {
-    MergeReport report;
-    const std::vector<Index> loops[] = {sides.part.loop, sides.opened.loop};
-    report.source_rim = seam_quality(sides.part.mesh, {&loops[0], 1});
-    report.target_rim = seam_quality(sides.opened.mesh, {&loops[1], 1});
-    JoinReport join;
-    join.source_size = count_of(sides.part.loop);
-    join.target_size = count_of(sides.opened.loop);
-    join.scale = scale;
-    report.joins.push_back(join);
-    report.deform = sides.moved.stats;
-    report.seam = sewn.report;
-    if (options.find_intersections) {
-        report.intersections = new_intersections(sides.opened.mesh, sides.part.mesh, sewn, context);
-    }
-    const Verdict verdict = verdict_of(report, options.find_intersections);
-    report.ok = verdict.good;
-    report.verdict = verdict.text;
-    return report;
-}
-
-}  // namespace
-
-PasteResult Paste::merge(const PasteMergeOptions& options, const Context& context) try {
-    const State& state = *state_;
-    Progress progress(context, "paste");
-    const auto start = Clock::now();
-    const Placed& placed = state.placed;
-    PasteReport report;
-    report.search = placed.loop.report;
-    report.source_map = state.source_map.quality();
-    report.target_map = state.map->target().quality();
-    report.angle = placed.angle;
-    report.angle_chosen = placed.angle_chosen;
-    const auto try_loop = [&](const std::vector<Index>& loop, double scale) {
-        PasteSides sides;
-        sides.part = part_inside(state.source, state.regions, loop, context);
-        sides.moved = state.deformed(sides.part, loop, scale, placed.loop.similarity, context);
-        return sides;
-    };
-    std::vector<Index> loop = placed.loop.vertices;
-    const double own = placed.loop.similarity.scale;
-    const double scale = options.lock_scale ? placed.placement.scale : own;
-    progress.step(0.4);
-    PasteSides sides = try_loop(loop, scale);
-    report.near = near_distortion(sides.part, sides.moved.mesh, scale);
-    if (options.compare && loop != state.regions.outer && state.covers(placed)) {
-        PasteSides outline = try_loop(state.regions.outer, scale);
-        report.outline_near = near_distortion(outline.part, outline.moved.mesh, scale);
-        if (report.outline_near->energy < report.near.energy) {
-            report.kept_outline = true;
-            report.near = *report.outline_near;
-            loop = state.regions.outer;
-            sides = std::move(outline);
-        }
-    }
-    progress.step(0.6);
-    report.scale = scale;
-    report.feature = feature_distortion(sides.part, sides.moved.mesh, scale, state.regions.feature);
-    std::vector<Vec2> outline;
-    for (const Index v : loop) {
-        outline.push_back(placed.images[at(state.source_map.place_of(v))].uv);
-    }
-    sides.opened = open_target(state.target, state.map->target(), outline, context);
-    sides.pair = paste_pair(sides.part, sides.opened, state.loop_image(loop).positions);
-    // The part comes to lie on the boundary as it was cut.
-    {
-        const Loop hole(sides.opened.mesh, sides.opened.loop);
-        LoopImage image = state.loop_image(loop);
-        std::vector<Vec3> normals;
-        const std::size_t n = loop.size();
-        for (std::size_t k = 0; k < n; ++k) {
-            image.positions[k] = point_of(hole.points(), sides.pair.on_target[n - 1 - k]);
-            normals.push_back(state.map->source_normals()[at(loop[k])]);
-        }
-        const auto how =
-            state.options.thesis ? BoundaryDeformOptions::thesis() : BoundaryDeformOptions{};
-        sides.moved = moved_part(
-            sides.part, paste_values(normals, image, placed.loop.similarity, scale), how, context);
-    }
-    Sewn sewn = sewn_well(sides, options, context);
-    PasteResult result{{}, std::move(report)};
-    result.merged.report = merge_report(sides, sewn, scale, options, context);
-    result.merged.report.solve_seconds = seconds_since(start);
-    const MeshMap target_map =
-        state.cleared ? composed(sides.opened.map, *state.cleared) : sides.opened.map;
-    const Topology& first = (state.cleared ? state.given : state.target).topology();
-    const MeshMap origins = appended_map(target_map, sides.part.map, first);
-    result.merged.provenance = composed(sewn.map, origins);
-    result.report.euler_characteristic = euler_characteristic(sewn.mesh.topology());
-    result.report.expected_characteristic = euler_characteristic(state.target.topology()) +
-                                            euler_characteristic(sides.part.mesh.topology()) - 1;
-    result.merged.mesh = std::move(sewn.mesh);
-    result.merged.side_of_face = std::move(sewn.side_of_face);
-    result.merged.seams = std::move(sewn.seams);
-    return result;
+    state_->move_to(placement, {}, context);
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
 }

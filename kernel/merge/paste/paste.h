@@ -24,19 +24,25 @@
 namespace lissom {
 
 /// Where a vertex of the ring comes to lie: where the maps of both surfaces put it, or, after some
-/// rounds, on the nearest point of the target's region. A round that does not lower the misfit is
-/// not kept.
+/// rounds, on the nearest point of the target's region. Rounds end where one does not lower the
+/// misfit, and are kept where the surface near the boundary is distorted less. They belong to
+/// `optimize` alone.
 enum class PasteCorrespondence { map, closest };
 
+/// smooth: a line through faces, near the best loop of edges, so that the seam has no teeth. mesh:
+/// that loop, along edges of the source.
+enum class PasteBoundary { smooth, mesh };
+
 struct PasteOptions {
-    PasteCorrespondence correspondence = PasteCorrespondence::map;
+    PasteBoundary loop = PasteBoundary::smooth;
+    PasteCorrespondence correspondence = PasteCorrespondence::closest;
     /// Part of the way from the region's outline to its middle that is ring where no feature is
     /// given; 0 to 1.
     double share = 0.5;
     /// Weight of the normals in the energy; 0.1 to 0.3 help where the feature overhangs.
     double normals = 0.0;
     /// The thesis to the letter: maps that keep angles (LSCM), the energy of Eq 3.1 with its
-    /// similarity, its deformation.
+    /// similarity, a boundary along edges, its deformation.
     bool thesis = false;
     /// Removes the target's features under the part first (erase_feature): what lies within the
     /// part's reach of its place.
@@ -77,12 +83,16 @@ struct PasteReport {
     bool angle_chosen = false;
     /// How much the part grew.
     double scale = 1.0;
-    /// Within three rings of the boundary, and of the feature's faces.
+    /// Within three rings of the boundary, by its image, and of the feature's faces.
     PasteDistortion near, feature;
+    /// Near the boundary once the part lies on the target as it was opened.
+    PasteDistortion laid;
     /// Near the outline that was marked, where that was compared.
     std::optional<PasteDistortion> outline_near;
     /// The outline was used in place of the loop that was found.
     bool kept_outline = false;
+    /// The boundary runs through faces.
+    bool smooth = false;
     /// Euler characteristic of the result, and what target and part make it.
     Index euler_characteristic = 0, expected_characteristic = 0;
 };
@@ -111,16 +121,17 @@ class Paste {
     Paste(Paste&&) noexcept;
     Paste& operator=(Paste&&) noexcept;
 
-    /// Alternates similarity and loop until the energy falls no more. Returns the loop, on the
-    /// source and counter-clockwise around the feature.
+    /// Alternates similarity and loop until the energy falls no more, then frees the boundary of
+    /// the edges. Returns it as by `loop`.
     /// Errors: invalid_argument for less than one iteration; cancelled.
     Path optimize(Index iterations = 20, const Context& context = {});
     /// What the last search found; before `optimize`, the loop that is used without.
     const PasteSearch& search() const;
-    /// The loop that `merge` pastes: the outline of the region, or of the feature where that has no
-    /// image, until `optimize` was called.
+    /// The boundary that `merge` pastes, on the source and counter-clockwise around the feature:
+    /// points of its surface, or vertices where it runs along edges. The outline of the region, or
+    /// of the feature where that has no image, until `optimize` was called.
     Path loop() const;
-    /// The place of the loop on the target: one point a vertex of `loop`.
+    /// The place of the loop on the target: one point for each of `loop`.
     Path image() const;
 
     /// Opens the target along the loop's image and pastes the part. Watertight where the target

@@ -21,31 +21,59 @@ Mat3 rotation_of(const Mat3& products) {
     return size > 0.0 ? nearest_rotation(products / size) : Mat3(Mat3::Identity());
 }
 
-}  // namespace
-
-PasteEnergy::PasteEnergy(const PasteMap& map, const LoopSearch& ring,
-                         std::span<const ImagePoint> images, const EnergyOptions& options)
-    : ring_(ring), options_(options) {
-    const Mesh& source = map.source_mesh();
-    const std::span<const Vec3> normals = map.source_normals();
-    const PasteChart& chart = map.source();
-    for (const auto& [a, b] : ring.edges()) {
-        RingEdge edge;
-        edge.edge = source.position(b) - source.position(a);
-        edge.source_normal = (normals[at(a)] + normals[at(b)]).normalized();
-        const ImagePoint& from = images[at(chart.place_of(a))];
-        const ImagePoint& to = images[at(chart.place_of(b))];
-        edge.inside = from.inside && to.inside;
-        edge.image = to.position - from.position;
-        edge.target_normal = (from.normal + to.normal).normalized();
-        edges_.push_back(edge);
+// Of the ends of a loop's edges, each vertex of it twice, about their means.
+Mat3 products_of_points(std::span<const RingEdge> ring, std::span<const Index> edges) {
+    std::vector<Vec3> points, images;
+    Vec3 middle = Vec3::Zero(), image_middle = Vec3::Zero();
+    for (const Index e : edges) {
+        const RingEdge& edge = ring[at(e)];
+        for (const double t : {0.0, 1.0}) {
+            points.emplace_back(edge.from + t * edge.edge);
+            images.emplace_back(edge.image_from + t * edge.image);
+            middle += points.back();
+            image_middle += images.back();
+        }
     }
+    const auto count = static_cast<double>(points.size());
+    Mat3 products = Mat3::Zero();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        products += (images[k] - image_middle / count) * (points[k] - middle / count).transpose();
+    }
+    return products;
 }
 
-std::vector<Index> PasteEnergy::edges_of(std::span<const Index> loop) const {
+}  // namespace
+
+std::vector<RingEdge> ring_edges(const PasteMap& map, const LoopSearch& ring,
+                                 std::span<const ImagePoint> images) {
+    const Mesh& source = map.source_mesh();
+    const std::span<const Vec3> normals = map.source_normals();
+    std::vector<Index> places(at(source.vertex_count()), kNoIndex);
+    const std::vector<Index>& vertex = map.source().map.vertex;
+    for (std::size_t k = 0; k < vertex.size(); ++k) places[at(vertex[k])] = index_of(k);
+    std::vector<RingEdge> edges;
+    edges.reserve(ring.edges().size());
+    for (const auto& [a, b] : ring.edges()) {
+        RingEdge edge;
+        edge.from = source.position(a);
+        edge.edge = source.position(b) - source.position(a);
+        edge.source_normal = (normals[at(a)] + normals[at(b)]).normalized();
+        const ImagePoint& from = images[at(places[at(a)])];
+        const ImagePoint& to = images[at(places[at(b)])];
+        edge.inside = from.inside && to.inside;
+        edge.image_from = from.position;
+        edge.image = to.position - from.position;
+        edge.target_normal = (from.normal + to.normal).normalized();
+        edges.push_back(edge);
+    }
+    return edges;
+}
+
+std::vector<Index> PasteEnergy::edges_of(const LoopSearch& ring,
+                                         std::span<const Index> loop) const {
     std::vector<Index> edges;
     for (std::size_t k = 0; k < loop.size(); ++k) {
-        const Index e = ring_.edge_between(loop[k], loop[(k + 1) % loop.size()]);
+        const Index e = ring.edge_between(loop[k], loop[(k + 1) % loop.size()]);
         if (e == kNoIndex || !edges_[at(e)].inside) return {};
         edges.push_back(e);
     }
@@ -67,6 +95,7 @@ double PasteEnergy::cost(const RingEdge& edge, const PasteSimilarity& similarity
 
 std::vector<double> PasteEnergy::costs(const PasteSimilarity& similarity) const {
     std::vector<double> costs;
+    costs.reserve(edges_.size());
     for (const RingEdge& edge : edges_) {
         costs.push_back(edge.inside ? cost(edge, similarity)
                                     : std::numeric_limits<double>::infinity());
@@ -99,14 +128,19 @@ PasteSimilarity PasteEnergy::literal(std::span<const Index> edges) const {
         from += edges_[at(e)].edge.norm();
         to += edges_[at(e)].image.norm();
     }
+    if (options_.thesis) products = products_of_points(edges_, edges);
     return {rotation_of(products), from > 0.0 && to > 0.0 ? to / from : 1.0};
 }
 
 PasteSimilarity PasteEnergy::start(std::span<const Index> edges) {
     const PasteSimilarity first = literal(edges);
-    lambda_ = kLengthWeight * std::sqrt(first.scale);
-    mu_ = options_.normals * std::sqrt(first.scale);
+    fix_weights(first.scale);
     return first;
+}
+
+void PasteEnergy::fix_weights(double scale) {
+    lambda_ = kLengthWeight * std::sqrt(scale);
+    mu_ = options_.normals * std::sqrt(scale);
 }
 
 PasteSimilarity PasteEnergy::reweighted(std::span<const Index> edges,
@@ -150,10 +184,11 @@ namespace {
 
 // The loop to begin with and its edges.
 std::vector<Index> first_loop(const PasteRegions& regions, const PasteEnergy& energy,
-                              std::span<const Index> start) {
+                              const LoopSearch& ring, std::span<const Index> start) {
     for (const std::span<const Index> loop :
          {start, std::span<const Index>(regions.outer), std::span<const Index>(regions.inner)}) {
-        if (!loop.empty() && !energy.edges_of(loop).empty()) return {loop.begin(), loop.end()};
+        if (!loop.empty() && !energy.edges_of(ring, loop).empty())
+            return {loop.begin(), loop.end()};
     }
     return {};
 }
@@ -176,17 +211,19 @@ std::vector<Index> first_loop(const PasteRegions& regions, const PasteEnergy& en
 PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, const LoopSearch& ring,
                           std::span<const ImagePoint> images, std::span<const Index> start,
                           const EnergyOptions& options, const Context& context) {
-    PasteEnergy energy(map, ring, images, options);
+    PasteEnergy energy(ring_edges(map, ring, images), options);
     PasteLoop result;
     PasteSearch& report = result.report;
-    result.vertices = first_loop(regions, energy, start);
+    result.vertices = first_loop(regions, energy, ring, start);
     if (result.vertices.empty()) refuse_outside(regions, map.source(), images);
-    std::vector<Index> edges = energy.edges_of(result.vertices);
+    std::vector<Index> edges = energy.edges_of(ring, result.vertices);
     result.similarity = energy.start(edges);
-    const std::vector<Index> outline = energy.edges_of(regions.outer);
+    result.first_scale = result.similarity.scale;
+    const std::vector<Index> outline = energy.edges_of(ring, regions.outer);
     if (!outline.empty()) {
-        const PasteSimilarity own = energy.improved(
-            outline, result.vertices == regions.outer ? result.similarity : energy.start(outline));
+        PasteSimilarity own = energy.start(outline);
+        energy.fix_weights(result.first_scale);
+        own = energy.improved(outline, own);
         report.outline_energy = energy.energy(outline, own);
         report.outline_misfit = energy.misfit(outline, own);
     }
@@ -204,7 +241,7 @@ PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, cons
         result.similarity = energy.improved(edges, result.similarity);
         std::vector<Index> loop = ring.cheapest(energy.costs(result.similarity), context);
         if (loop.empty()) break;
-        edges = energy.edges_of(loop);
+        edges = energy.edges_of(ring, loop);
         result.vertices = std::move(loop);
         note();
         const double before = least, now = report.energy.back();
@@ -223,7 +260,7 @@ PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, cons
         }
     }
     best.report = report;
-    edges = energy.edges_of(best.vertices);
+    edges = energy.edges_of(ring, best.vertices);
     best.similarity = energy.improved(edges, best.similarity);
     if (report.outline_energy && energy.energy(edges, best.similarity) > *report.outline_energy) {
         best.vertices = regions.outer;
@@ -231,6 +268,7 @@ PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, cons
         best.report.kept_outline = true;
         edges = outline;
     }
+    best.energy = energy.energy(edges, best.similarity);
     best.report.scale = best.similarity.scale;
     best.report.loop_size = count_of(best.vertices);
     return best;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -24,6 +25,8 @@ struct PasteSimilarity {
 /// An edge e of the ring and what it becomes on the target.
 struct RingEdge {
     Vec3 edge = Vec3::Zero(), image = Vec3::Zero();
+    /// Where both start.
+    Vec3 from = Vec3::Zero(), image_from = Vec3::Zero();
     /// Unit normals in its middle.
     Vec3 source_normal = Vec3::Zero(), target_normal = Vec3::Zero();
     /// False where an end has no image.
@@ -33,24 +36,29 @@ struct RingEdge {
 struct EnergyOptions {
     /// Weight of the normals, times the square root of the first scale; 0 leaves them out.
     double normals = 0.0;
-    /// Eq 3.1, |s R e - e*| |e|, with its similarity, in place of the symmetric energy
-    /// |sqrt(s) R e - e* / sqrt(s)| + lambda |e| + mu |R n - n*| |e|, whose value does not depend
-    /// on how finely the surface is divided. lambda and mu hold the scale of the first loop, so
-    /// that they do not change while the scale does.
+    /// Eq 3.1, |s R e - e*| |e|, with its similarity, the rigid motion that brings points nearest
+    /// to their images (Arun et al. 1987) and the quotient of mean lengths, in place of the
+    /// symmetric energy |sqrt(s) R e - e* / sqrt(s)| + lambda |e| + mu |R n - n*| |e|, whose value
+    /// does not depend on how finely the surface is divided. lambda and mu hold the scale of the
+    /// first loop, so that they do not change while the scale does.
     bool thesis = false;
     Index iterations = 20;
     /// The search ends where the energy falls by less than this part of it.
     double tolerance = 1e-5;
 };
 
-/// The ring's edges with their images, as energies see them.
+/// The edges of a ring in its order, `images` being those of the places of the source's chart.
+std::vector<RingEdge> ring_edges(const PasteMap& map, const LoopSearch& ring,
+                                 std::span<const ImagePoint> images);
+
+/// Edges with their images, as energies see them.
 class PasteEnergy {
   public:
-    PasteEnergy(const PasteMap& map, const LoopSearch& ring, std::span<const ImagePoint> images,
-                const EnergyOptions& options);
+    PasteEnergy(std::vector<RingEdge> edges, const EnergyOptions& options)
+        : edges_(std::move(edges)), options_(options) {}
 
     /// The numbers of a loop's edges, or nothing where one has no image or is not in the ring.
-    std::vector<Index> edges_of(std::span<const Index> loop) const;
+    std::vector<Index> edges_of(const LoopSearch& ring, std::span<const Index> loop) const;
     /// Costs of all edges; infinite for those without an image.
     std::vector<double> costs(const PasteSimilarity& similarity) const;
     double energy(std::span<const Index> edges, const PasteSimilarity& similarity) const;
@@ -60,6 +68,8 @@ class PasteEnergy {
     /// The similarity that fits best to begin with: by squares, or the thesis's. Fixes lambda and
     /// mu by its scale.
     PasteSimilarity start(std::span<const Index> edges);
+    /// Fixes lambda and mu by a scale.
+    void fix_weights(double scale);
     /// One that has no more energy than `before`, unless it is the thesis's: by reweighted least
     /// squares.
     PasteSimilarity improved(std::span<const Index> edges, const PasteSimilarity& before) const;
@@ -69,7 +79,6 @@ class PasteEnergy {
     PasteSimilarity reweighted(std::span<const Index> edges, const PasteSimilarity& before) const;
     PasteSimilarity literal(std::span<const Index> edges) const;
 
-    const LoopSearch& ring_;
     std::vector<RingEdge> edges_;
     EnergyOptions options_;
     double lambda_ = 0.0, mu_ = 0.0;
@@ -80,6 +89,8 @@ struct PasteLoop {
     std::vector<Index> vertices;
     PasteSimilarity similarity;
     PasteSearch report;
+    /// The scale that lambda and mu were fixed by, and the energy of the loop.
+    double first_scale = 1.0, energy = 0.0;
 };
 
 /// Alternates similarity and loop. Starts from `start` where it is not empty, else from the

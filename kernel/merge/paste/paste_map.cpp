@@ -107,6 +107,25 @@ Mesh chart_mesh(const Mesh& mesh, const PasteChart& chart) {
     return {std::move(positions), std::move(faces)};
 }
 
+// A map without faces that are turned over: onto a disk where the one that was asked for has some.
+// LSCM alone, which the thesis takes as it comes, is left as it is.
+Parameterization laid_out(const Mesh& mesh, std::span<const Index> faces,
+                          ParameterizeOptions options, const char* what, const Context& context) {
+    Parameterization map = parameterize(mesh, faces, options, context);
+    const bool folded = !map.flipped.empty() || map.boundary_crossings > 0;
+    if (options.method == ParameterizeMethod::lscm || !folded) return map;
+    options.method = ParameterizeMethod::tutte;
+    map = parameterize(mesh, faces, options, context);
+    if (map.flipped.empty()) return map;
+    Elements elements{ElementKind::face, 0, {}};
+    for (const Index f : map.flipped) elements.add(f);
+    throw Error(ErrorCode::boundary_conflict,
+                std::string("the map of ") + what + " into the plane turns over " +
+                    describe(elements) +
+                    "; mark a smoother region or a smaller one, or repair the mesh there",
+                elements);
+}
+
 double angle_of(const Vec2& v) {
     return std::atan2(v.y(), v.x());
 }
@@ -132,13 +151,8 @@ Index PasteChart::place_of(Index vertex) const {
 }
 
 MapQuality PasteChart::quality() const {
-    return {count_of(map.face),
-            count_of(map.flipped),
-            map.flipped_fill,
-            map.boundary_crossings,
-            map.least_scale,
-            map.greatest_scale,
-            map.method == ParameterizeMethod::arap};
+    return {count_of(map.face), count_of(map.flipped), map.flipped_fill, map.boundary_crossings,
+            map.least_scale,    map.greatest_scale,    map.method};
 }
 
 PasteChart source_chart(const Mesh& source, const PasteRegions& regions, ParameterizeMethod method,
@@ -149,7 +163,7 @@ PasteChart source_chart(const Mesh& source, const PasteRegions& regions, Paramet
     options.close_holes = false;
     options.fill = lid_over(source, inner_loop(source, faces, regions), context);
     PasteChart chart;
-    chart.map = parameterize(source, faces, options, context);
+    chart.map = laid_out(source, faces, options, "the ring around the feature", context);
     const auto uv_of = [&](Index v) { return chart.map.uv[at(chart.place_of(v))]; };
     double flat = 0.0, length = 0.0, around = 0.0;
     for (std::size_t k = 0; k < regions.inner.size(); ++k) {
@@ -177,7 +191,7 @@ PasteChart target_chart(const Mesh& target, std::span<const Index> faces, Parame
     ParameterizeOptions options;
     options.method = method;
     PasteChart chart;
-    chart.map = parameterize(target, faces, options, context);
+    chart.map = laid_out(target, faces, options, "the target's region", context);
     return chart;
 }
 
@@ -187,17 +201,21 @@ Vec2 PlanarMap::operator()(const Vec2& p) const {
     return point + Vec2(c * d.x() - s * d.y(), s * d.x() + c * d.y());
 }
 
-PasteMap::PasteMap(const Mesh& source, const Mesh& target, PasteChart source_chart,
-                   PasteChart target_chart)
-    : source_mesh_(source),
-      target_mesh_(target),
+PasteSurfaces::PasteSurfaces(const Mesh& source_mesh, const Mesh& target_mesh)
+    : source(source_mesh),
+      target(target_mesh),
+      source_normals(vertex_normals(source)),
+      target_normals(vertex_normals(target)),
+      target_tree(target) {}
+
+PasteMap::PasteMap(const PasteSurfaces& surfaces, PasteChart source_chart, PasteChart target_chart,
+                   bool nearest)
+    : surfaces_(surfaces),
       source_(std::move(source_chart)),
       target_(std::move(target_chart)),
-      source_normals_(vertex_normals(source)),
-      target_normals_(vertex_normals(target)),
-      tree_(target),
-      chart_tree_(chart_mesh(target, target_)),
-      grid_(target_.map.uv, target_.map.surface_triangles()) {}
+      grid_(target_.map.uv, target_.map.surface_triangles()) {
+    if (nearest) chart_tree_.emplace(chart_mesh(surfaces.target, target_));
+}
 
 ImagePoint PasteMap::image_at(const Triangle& places, const Vec3& weights) const {
     ImagePoint point;
@@ -205,15 +223,15 @@ ImagePoint PasteMap::image_at(const Triangle& places, const Vec3& weights) const
     for (int k = 0; k < 3; ++k) {
         const Index place = places[at(k)], v = target_.map.vertex[at(place)];
         point.uv += weights[k] * target_.map.uv[at(place)];
-        point.position += weights[k] * target_mesh_.position(v);
-        point.normal += weights[k] * target_normals_[at(v)];
+        point.position += weights[k] * surfaces_.target.position(v);
+        point.normal += weights[k] * surfaces_.target_normals[at(v)];
     }
     point.normal.normalize();
     return point;
 }
 
 ImagePoint PasteMap::nearest(const Vec3& point) const {
-    const SurfacePoint found = chart_tree_.nearest(point);
+    const SurfacePoint found = chart_tree_->nearest(point);
     return image_at(found.triangle, found.barycentric);
 }
 
@@ -228,7 +246,7 @@ Vec2 PasteMap::point_of(const PastePlacement& placement) const {
         throw Error(ErrorCode::not_finite, "the point of a placement is NaN or infinite");
     }
     const auto& map = target_.map;
-    const SurfacePoint point = tree_.nearest(placement.at);
+    const SurfacePoint point = surfaces_.target_tree.nearest(placement.at);
     Vec2 uv = Vec2::Zero();
     for (int k = 0; k < 3; ++k) {
         const Index place = target_.place_of(point.triangle[at(k)]);
@@ -256,8 +274,8 @@ double PasteMap::target_ratio(const Vec2& point, double radius) const {
             for (int k = 0; k < 3; ++k) {
                 const Index a = t[at(k)], b = t[at((k + 1) % 3)];
                 flat += (map.uv[at(a)] - map.uv[at(b)]).norm();
-                length += (target_mesh_.position(map.vertex[at(a)]) -
-                           target_mesh_.position(map.vertex[at(b)]))
+                length += (surfaces_.target.position(map.vertex[at(a)]) -
+                           surfaces_.target.position(map.vertex[at(b)]))
                               .norm();
             }
         }
@@ -269,7 +287,7 @@ double PasteMap::target_ratio(const Vec2& point, double radius) const {
 double PasteMap::base_angle(const PastePlacement& placement, const Vec2& point,
                             double radius) const {
     std::vector<Vec3> points;
-    for (const Index v : source_.map.vertex) points.push_back(source_mesh_.position(v));
+    for (const Index v : source_.map.vertex) points.push_back(surfaces_.source.position(v));
     const PlaneFit source(source_.map.uv, points);
     std::vector<Vec2> uv;
     points.clear();
@@ -279,7 +297,7 @@ double PasteMap::base_angle(const PastePlacement& placement, const Vec2& point,
         for (std::size_t i = 0; i < target_.map.uv.size(); ++i) {
             if ((target_.map.uv[i] - point).norm() > limit) continue;
             uv.push_back(target_.map.uv[i]);
-            points.push_back(target_mesh_.position(target_.map.vertex[i]));
+            points.push_back(surfaces_.target.position(target_.map.vertex[i]));
         }
     }
     return angle_between_fits(source, PlaneFit(uv, points), placement.up,

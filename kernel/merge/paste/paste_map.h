@@ -36,10 +36,12 @@ struct PasteChart {
 };
 
 /// The ring, with a row of faces on each side of it where these leave it an annulus, and triangles
-/// of least area over the feature's outline. Errors: as `parameterize`.
+/// of least area over the feature's outline. Maps other than LSCM turn no face over: where that
+/// method would, one onto a disk is taken. Errors: boundary_conflict, naming faces, where that
+/// turns some over too; as `parameterize`.
 PasteChart source_chart(const Mesh& source, const PasteRegions& regions, ParameterizeMethod method,
                         const Context& context);
-/// Faces that are a disk. Errors: as `parameterize`.
+/// Faces that are a disk, the same way. Errors: the same.
 PasteChart target_chart(const Mesh& target, std::span<const Index> faces, ParameterizeMethod method,
                         const Context& context);
 
@@ -59,15 +61,24 @@ struct PlanarMap {
     Vec2 operator()(const Vec2& p) const;
 };
 
+/// What maps of any region of the target need of both meshes, which must outlive it.
+struct PasteSurfaces {
+    PasteSurfaces(const Mesh& source, const Mesh& target);
+
+    const Mesh &source, &target;
+    std::vector<Vec3> source_normals, target_normals;
+    SpatialTree target_tree;
+};
+
 /// Both charts, and what it takes to place one on the other many times.
 class PasteMap {
   public:
-    /// Copies what it needs; the meshes must outlive it.
-    PasteMap(const Mesh& source, const Mesh& target, PasteChart source_chart,
-             PasteChart target_chart);
+    /// The surfaces must outlive it. `nearest` is for those who ask for nearest points.
+    PasteMap(const PasteSurfaces& surfaces, PasteChart source_chart, PasteChart target_chart,
+             bool nearest);
 
-    const Mesh& source_mesh() const { return source_mesh_; }
-    const std::vector<Vec3>& source_normals() const { return source_normals_; }
+    const Mesh& source_mesh() const { return surfaces_.source; }
+    const std::vector<Vec3>& source_normals() const { return surfaces_.source_normals; }
     const PasteChart& source() const { return source_; }
     const PasteChart& target() const { return target_; }
 
@@ -88,12 +99,10 @@ class PasteMap {
     double target_ratio(const Vec2& point, double radius) const;
     double base_angle(const PastePlacement& placement, const Vec2& point, double radius) const;
 
-    const Mesh& source_mesh_;
-    const Mesh& target_mesh_;
+    const PasteSurfaces& surfaces_;
     PasteChart source_, target_;
-    std::vector<Vec3> source_normals_, target_normals_;
-    /// Of the target, and of its region alone, whose vertices are places of the chart.
-    SpatialTree tree_, chart_tree_;
+    /// Of the target's region, whose vertices are places of the chart.
+    std::optional<SpatialTree> chart_tree_;
     UvGrid grid_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/mesh/parameterize/parameterize.h"
 
 namespace lissom {
 
@@ -29,11 +30,12 @@ struct PastePlacement {
     Vec2 offset = Vec2::Zero();
 };
 
-/// What the map of a piece of surface into the plane is like; see Parameterization.
+/// What the map of a piece of surface into the plane is like; see Parameterization. Where a map
+/// that keeps lengths would turn faces over, one onto a disk is taken, which does not.
 struct MapQuality {
     Index faces = 0, flipped = 0, flipped_fill = 0, crossings = 0;
     double least_scale = 1.0, greatest_scale = 1.0;
-    bool rigid = false;
+    ParameterizeMethod method = ParameterizeMethod::arap;
 };
 
 enum class PasteStop { converged, iterations, cycle };
@@ -49,7 +51,9 @@ struct PasteSearch {
     PasteStop stop = PasteStop::converged;
     /// The outline of the region was kept, since nothing better was found.
     bool kept_outline = false;
-    /// Scale of the similarity from the loop to its image.
+    /// Of the boundary free of edges, where one was found that costs no more than the loop.
+    std::optional<double> smooth_energy, smooth_misfit;
+    /// Scale of the similarity from the boundary to its image.
     double scale = 1.0;
     Index loop_size = 0;
     /// Rounds of nearest points that were kept.

@@ -5,14 +5,16 @@
 #include <cmath>
 #include <utility>
 
+#include "kernel/core/error.h"
 #include "kernel/core/rotation.h"
 #include "kernel/deform/rotation/polar.h"
-#include "kernel/merge/loop/correspondence.h"
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/loop/loop.h"
 #include "kernel/merge/paste/face_set.h"
+#include "kernel/merge/paste/plane_line.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/merge/turned.h"
+#include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/measure/triangulation.h"
 
@@ -21,6 +23,11 @@ namespace {
 
 constexpr int kFrameAverages = 3;
 constexpr Index kNearRings = 3;
+// A vertex slides onto a line that crosses one of its edges within this part of it.
+constexpr double kSlide = 0.25;
+// Points of two loops meet that are this near, over the smaller distance to the next.
+constexpr double kMeeting = 0.08;
+constexpr double kLeastStep = 1e-6;
 
 // Singular values of the linear map between two triangles.
 std::pair<double, double> stretches(const std::array<Vec3, 3>& from,
@@ -104,14 +111,54 @@ PastePart part_inside(const Mesh& source, const PasteRegions& regions, std::span
     return part;
 }
 
-std::vector<BoundaryValue> paste_values(std::span<const Vec3> normals, const LoopImage& image,
+PastePart part_inside(const Mesh& source, const PasteRegions& regions, const PasteChart& chart,
+                      std::span<const Vec2> line, const Context& context) {
+    FaceSet around(source.topology(), regions.region);
+    for (const Index f : chart.map.face) around.add(f);
+    const std::vector<Index> faces = around.faces();
+    const MeshPart piece = extract_faces(source, faces, context);
+    CutContour contour;
+    // What has no place in the plane is the feature.
+    contour.value.assign(piece.vertex_map.size(), 1.0);
+    std::vector<Index> vertices;
+    std::vector<Vec2> uv;
+    for (std::size_t v = 0; v < piece.vertex_map.size(); ++v) {
+        const Index place = chart.place_of(piece.vertex_map[v]);
+        if (place == kNoIndex) continue;
+        vertices.push_back(index_of(v));
+        uv.push_back(chart.map.uv[at(place)]);
+    }
+    set_line_values(piece.mesh.topology(), vertices, uv, line, contour.value);
+    Cut parts = cut(piece.mesh, contour, {CutLoops::all, kSlide}, context);
+    if (parts.lines.size() != 1 || !parts.lines.front().kept.closed()) {
+        throw Error(ErrorCode::boundary_conflict,
+                    "the ring is too coarse to be divided along the boundary that was found");
+    }
+    const MeshMap map = composed(parts.kept.map, part_map(piece, source.topology()));
+    return {std::move(parts.kept.mesh), map, parts.lines.front().kept.vertices()};
+}
+
+std::vector<RingPoint> rim_of(const PastePart& part, const RingSurface& surface) {
+    std::vector<RingPoint> rim;
+    for (const Index v : part.loop) {
+        rim.push_back(surface.blend(part.map.vertices[v]));
+        rim.back().position = part.mesh.position(v);
+        if (rim.back().image.inside) continue;
+        throw Error(ErrorCode::boundary_conflict,
+                    "the boundary leaves the target's region; move the placement inward, make its "
+                    "scale smaller, or mark a larger region");
+    }
+    return rim;
+}
+
+std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
                                         const PasteSimilarity& similarity, double scale) {
-    const std::size_t n = normals.size();
+    const std::size_t n = rim.size();
     std::vector<Mat3> frames;
-    for (std::size_t k = 0; k < n; ++k) {
-        const Vec3 turned = similarity.rotation * normals[k];
-        const bool known = turned.norm() > 0.0 && image.normals[k].norm() > 0.0;
-        const Mat3 tilt = known ? least_rotation(turned, image.normals[k]).toRotationMatrix()
+    for (const RingPoint& point : rim) {
+        const Vec3 turned = similarity.rotation * point.normal;
+        const bool known = turned.norm() > 0.0 && point.image.normal.norm() > 0.0;
+        const Mat3 tilt = known ? least_rotation(turned, point.image.normal).toRotationMatrix()
                                 : Mat3(Mat3::Identity());
         frames.push_back(tilt * similarity.rotation);
     }
@@ -124,7 +171,9 @@ std::vector<BoundaryValue> paste_values(std::span<const Vec3> normals, const Loo
         frames = std::move(next);
     }
     std::vector<BoundaryValue> values;
-    for (std::size_t k = 0; k < n; ++k) values.push_back({image.positions[k], frames[k], scale});
+    for (std::size_t k = 0; k < n; ++k) {
+        values.push_back({rim[k].image.position, frames[k], scale});
+    }
     return values;
 }
 
@@ -167,29 +216,96 @@ PasteDistortion feature_distortion(const PastePart& part, const Mesh& moved, dou
     return distortion_of(part.mesh, moved, scale, faces);
 }
 
-LoopPair paste_pair(const PastePart& part, const OpenedTarget& target,
-                    std::span<const Vec3> images) {
-    const std::vector<Index> reversed(part.loop.rbegin(), part.loop.rend());
-    const Loop source(part.mesh, reversed), hole(target.mesh, target.loop);
-    const std::size_t n = reversed.size();
-    std::vector<ParameterPair> keys;
-    double last = 0.0;
+namespace {
+
+// For each point of the source's loop the parameter of the hole that is nearest to its image,
+// ascending without wrap; where these turn back, between those of its neighbours.
+std::vector<double> ascending_parameters(const Loop& source, const Loop& hole,
+                                         std::span<const RingPoint> rim) {
+    const std::size_t n = rim.size();
+    std::vector<double> parameters(n, 0.0);
+    std::size_t last = 0;
+    const auto fill = [&](std::size_t to, double from_u, double to_u, double from_p, double to_p) {
+        for (std::size_t k = last + 1; k < to; ++k) {
+            const double t = (source.parameters()[k] - from_u) / (to_u - from_u);
+            parameters[k] = from_p + t * (to_p - from_p);
+        }
+    };
     for (std::size_t k = 0; k < n; ++k) {
         double distance = 0.0;
-        double parameter = hole.parameter_of(hole.nearest(images[n - 1 - k], distance));
-        if (!keys.empty()) parameter += std::round(last - parameter);
-        const double first = keys.empty() ? parameter : keys.front().target;
-        const double least = 1e-6;
-        if (!keys.empty() && (parameter < last + least || parameter > first + 1.0 - least)) {
+        double u = hole.parameter_of(hole.nearest(rim[n - 1 - k].image.position, distance));
+        if (k == 0) {
+            parameters[0] = u;
             continue;
         }
-        keys.push_back({source.parameters()[k], parameter});
-        last = parameter;
+        u += std::round(parameters[last] - u);
+        if (u < parameters[last] + kLeastStep || u > parameters[0] + 1.0 - kLeastStep) continue;
+        fill(k, source.parameters()[last], source.parameters()[k], parameters[last], u);
+        parameters[k] = u;
+        last = k;
     }
-    for (ParameterPair& key : keys) key.target -= std::floor(key.target);
-    std::sort(keys.begin(), keys.end(),
-              [](const ParameterPair& a, const ParameterPair& b) { return a.target < b.target; });
-    return corresponding(source, hole, keys);
+    fill(n, source.parameters()[last], source.parameters()[0] + 1.0, parameters[last],
+         parameters[0] + 1.0);
+    return parameters;
+}
+
+double least_spacing(std::span<const double> u, std::size_t k) {
+    const std::size_t n = u.size();
+    const double before = u[k] - u[(k + n - 1) % n] + (k == 0 ? 1.0 : 0.0);
+    const double after = u[(k + 1) % n] - u[k] + (k + 1 == n ? 1.0 : 0.0);
+    return std::min(before, after);
+}
+
+// The point of the hole that each of the source's meets, or kNoIndex: only those that nearly do,
+// since a part that is drawn along its boundary is distorted there.
+std::vector<Index> met_points(std::span<const double> source, std::span<const double> hole) {
+    std::vector<Index> met(source.size(), kNoIndex), taken(hole.size(), kNoIndex);
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        const double u = source[i] - std::floor(source[i]);
+        for (std::size_t j = 0; j < hole.size(); ++j) {
+            const double gap = std::abs(std::remainder(hole[j] - u, 1.0));
+            const double least = std::min(least_spacing(source, i), least_spacing(hole, j));
+            if (gap > kMeeting * least || taken[j] != kNoIndex) continue;
+            taken[j] = index_of(i);
+            met[i] = index_of(j);
+            break;
+        }
+    }
+    return met;
+}
+
+LoopPair paired(const Loop& source, const Loop& hole, std::vector<double> at) {
+    LoopPair pair{source.vertices(), hole.vertices(), {}, {}};
+    const std::vector<Index> met = met_points(at, hole.parameters());
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const double u = at[i] - std::floor(at[i]);
+        pair.on_target.push_back(met[i] == kNoIndex ? hole.place_at(u) : LoopPoint{met[i], 0.0});
+        const double there = hole.parameter_of(pair.on_target.back());
+        at[i] = there + std::round(at[i] - there);
+    }
+    for (const double u : hole.parameters()) {
+        const double v = u + std::ceil(at.front() - u);
+        const auto after = std::upper_bound(at.begin(), at.end(), v);
+        const std::size_t k = static_cast<std::size_t>(after - at.begin()) - 1;
+        const double to = k + 1 < at.size() ? at[k + 1] : at.front() + 1.0;
+        const double t = to > at[k] ? (v - at[k]) / (to - at[k]) : 0.0;
+        pair.on_source.push_back(t < 1.0 ? LoopPoint{index_of(k), t}
+                                         : LoopPoint{index_of((k + 1) % at.size()), 0.0});
+    }
+    for (std::size_t i = 0; i < met.size(); ++i) {
+        if (met[i] != kNoIndex)
+            pair.on_source[static_cast<std::size_t>(met[i])] = {index_of(i), 0.0};
+    }
+    return pair;
+}
+
+}  // namespace
+
+LoopPair paste_pair(const PastePart& part, const OpenedTarget& target,
+                    std::span<const RingPoint> rim) {
+    const std::vector<Index> reversed(part.loop.rbegin(), part.loop.rend());
+    const Loop source(part.mesh, reversed), hole(target.mesh, target.loop);
+    return paired(source, hole, ascending_parameters(source, hole, rim));
 }
 
 }  // namespace lissom

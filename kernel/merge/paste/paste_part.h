@@ -12,6 +12,7 @@
 #include "kernel/deform/boundary/boundary_deformer.h"
 #include "kernel/deform/stats.h"
 #include "kernel/merge/loop/loop_pair.h"
+#include "kernel/merge/paste/free_loop.h"
 #include "kernel/merge/paste/opened_target.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/merge/paste/paste_energy.h"
@@ -31,15 +32,18 @@ struct PastePart {
 /// The faces inside a loop of the ring. Errors: cancelled.
 PastePart part_inside(const Mesh& source, const PasteRegions& regions, std::span<const Index> loop,
                       const Context& context);
+/// The same of a closed line, in the plane of the chart, that divides faces: vertices nearer to it
+/// than a quarter of an edge slide onto it, so that there are no slivers.
+/// Errors: boundary_conflict where the line does not part the ring in two; cancelled.
+PastePart part_inside(const Mesh& source, const PasteRegions& regions, const PasteChart& chart,
+                      std::span<const Vec2> line, const Context& context);
 
-/// Where the vertices of a part's loop go: their places, and unit normals of the target there.
-struct LoopImage {
-    std::vector<Vec3> positions, normals;
-};
+/// The points of a part's loop with their images. Errors: boundary_conflict where one has none.
+std::vector<RingPoint> rim_of(const PastePart& part, const RingSurface& surface);
 
-/// Frames by the least rotation from the turned normals of the source, `normals` of the loop, to
-/// those of the target, averaged three times along the loop.
-std::vector<BoundaryValue> paste_values(std::span<const Vec3> normals, const LoopImage& image,
+/// Frames by the least rotation from the turned normals of the source to those of the target,
+/// averaged three times along the loop.
+std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
                                         const PasteSimilarity& similarity, double scale);
 
 struct MovedPart {
@@ -56,6 +60,6 @@ PasteDistortion feature_distortion(const PastePart& part, const Mesh& moved, dou
 
 /// Which points of the part's loop and of the hole meet: those whose images are nearest, in order.
 LoopPair paste_pair(const PastePart& part, const OpenedTarget& target,
-                    std::span<const Vec3> images);
+                    std::span<const RingPoint> rim);
 
 }  // namespace lissom

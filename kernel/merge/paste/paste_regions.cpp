@@ -23,6 +23,12 @@ Elements vertices_named(std::span<const Index> vertices) {
     return elements;
 }
 
+Elements faces_named(std::span<const Index> faces) {
+    Elements elements{ElementKind::face, 0, {}};
+    for (const Index f : faces) elements.add(f);
+    return elements;
+}
+
 void fill_islands(FaceSet& set, const FaceSet* bounds) {
     const std::vector<std::vector<Index>> outside = set.outside_parts(bounds);
     for (std::size_t k = 1; k < outside.size(); ++k) {
@@ -217,13 +223,16 @@ void require_annulus(const FaceSet& ring) {
 void require_disk(const FaceSet& set) {
     const std::vector<std::vector<Index>> loops = set.loops();
     if (loops.size() == 1 && set.euler_characteristic() == 1) return;
-    const Elements elements = vertices_named(loops.empty() ? std::vector<Index>() : loops.back());
+    // What is closed has no boundary to name.
+    const Elements elements =
+        loops.empty() ? faces_named(set.faces()) : vertices_named(loops.back());
     throw Error(ErrorCode::not_a_disk,
                 "the region of the target has " + std::to_string(loops.size()) + " boundaries (" +
                     sizes_of(loops) + " vertices) and Euler characteristic " +
                     std::to_string(set.euler_characteristic()) +
-                    "; it must be a disk: leave holes and handles out of it, or fill them first" +
-                    (elements.ids.empty() ? "" : "; the smallest is at " + describe(elements)),
+                    "; it must be a disk: leave holes and handles out of it, or fill them first; " +
+                    (loops.empty() ? "it is closed, of " : "the smallest is at ") +
+                    describe(elements),
                 elements);
 }
 

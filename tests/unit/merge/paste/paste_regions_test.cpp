@@ -1,7 +1,12 @@
 // The regions of a paste: cleaned, or refused with what to change.
 #include "kernel/merge/paste/paste_regions.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "kernel/merge/paste/face_set.h"
+#include "kernel/mesh/edit/extract.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"
 
@@ -58,10 +63,54 @@ TEST_CASE("paste regions: bad ones are refused, with ids") {
     CHECK(error_of([&] {
               regions_of(mesh, region, select_sphere(mesh, {0, -1, 0}, 0.3));
           }).code() == ErrorCode::region_empty);
-    // A band around a tube of a torus has no disk inside.
+}
+
+TEST_CASE("paste regions: a ring with a hole or a handle is refused, and its loops are told") {
+    // Without the faces in its middle, away from the ring's outlines, a ring has three boundaries.
+    const Mesh grid = make_grid({.size = {2, 2}, .segments = {40, 40}});
+    const Region region = select_sphere(grid, {0, 0, 0}, 0.9);
+    const Region feature = select_sphere(grid, {0, 0, 0}, 0.3);
+    std::vector<Index> kept;
+    const Region hole = select_sphere(grid, {0.6, 0, 0}, 0.12);
+    const std::vector<Index> gone = hole.faces();
+    for (Index f = 0; f < grid.face_count(); ++f) {
+        if (!std::binary_search(gone.begin(), gone.end(), f)) kept.push_back(f);
+    }
+    const MeshPart open = extract_faces(grid, kept, {});
+    const Error holed = error_of([&] {
+        regions_of(open.mesh, select_sphere(open.mesh, {0, 0, 0}, 0.9),
+                   select_sphere(open.mesh, {0, 0, 0}, 0.3));
+    });
+    CHECK(holed.code() == ErrorCode::not_a_disk);
+    CHECK(holed.message().find("has 3 boundaries") != std::string::npos);
+    CHECK(!holed.elements().ids.empty());
+    // The closed grid's ring is an annulus.
+    CHECK(!regions_of(grid, region, feature).ring.empty());
+    // Between two disks of a torus lie two boundaries and a handle.
     const Mesh torus = make_torus();
-    const Region half = select_plane(torus, {0, 0, 0}, {1, 0, 0});
-    const Error handle = error_of([&] { target_faces(torus, half, {}); });
+    const Error handle = error_of([&] {
+        regions_of(torus, select_sphere(torus, {-1.35, 0, 0}, 0.3).inverted(),
+                   select_sphere(torus, {1.35, 0, 0}, 0.3));
+    });
     CHECK(handle.code() == ErrorCode::not_a_disk);
+    CHECK(handle.message().find("has a handle") != std::string::npos);
     CHECK(!handle.elements().ids.empty());
+}
+
+TEST_CASE("paste regions: a target region with a hole or a handle is refused") {
+    const Mesh torus = make_torus();
+    // Half a torus is a band.
+    const Error band = error_of([&] {
+        target_faces(torus, select_plane(torus, {0, 0, 0}, {1, 0, 0}), {});
+    });
+    const Error handle = error_of([&] {
+        target_faces(torus, select_sphere(torus, {-1.35, 0, 0}, 0.3).inverted(), {});
+    });
+    const Error closed =
+        error_of([&] { target_faces(torus, Region::all(torus.shared_topology()), {}); });
+    for (const Error& error : {band, handle, closed}) {
+        CHECK(error.code() == ErrorCode::not_a_disk);
+        CHECK(error.message().find("must be a disk") != std::string::npos);
+        CHECK(!error.elements().ids.empty());
+    }
 }

@@ -1,10 +1,13 @@
 // The search for a boundary: around the feature, simple, and never dearer than before.
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 
 #include "kernel/merge/paste/loop_search.h"
 #include "kernel/merge/paste/paste_regions.h"
+#include "tests/unit/merge/paste/loop_force.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"
 
@@ -54,6 +57,96 @@ TEST_CASE("loop search: simple, once around, and no dearer than both boundaries,
         CHECK(found <= cost_of(search, cost, regions.outer));
         CHECK(found <= cost_of(search, cost, regions.inner));
     }
+}
+
+namespace {
+
+// Rows of a random annulus around the origin, from the inside out, and a fan in its middle.
+struct Annulus {
+    Mesh mesh;
+    PasteRegions regions;
+};
+
+Annulus random_annulus(std::mt19937& random) {
+    const auto draw = [&](Index least, Index most) {
+        return std::uniform_int_distribution<Index>(least, most)(random);
+    };
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    const Index around = draw(4, 9), rows = draw(2, 6);
+    std::vector<Vec3> positions{Vec3::Zero()};
+    for (Index r = 0; r < rows; ++r) {
+        for (Index k = 0; k < around; ++k) {
+            const double angle = 2.0 * kPi * (k + 0.6 * unit(random)) / around;
+            const double radius = 1.0 + r + 0.6 * unit(random);
+            positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+        }
+    }
+    const auto vertex = [&](Index r, Index k) { return 1 + r * around + k % around; };
+    FaceList faces;
+    Annulus result;
+    for (Index k = 0; k < around; ++k) {
+        result.regions.feature.push_back(k);
+        result.regions.inner.push_back(vertex(0, k));
+        result.regions.outer.push_back(vertex(rows - 1, k));
+        faces.add({0, vertex(0, k), vertex(0, k + 1)});
+    }
+    for (Index r = 0; r + 1 < rows; ++r) {
+        for (Index k = 0; k < around; ++k) {
+            const Index a = vertex(r, k), b = vertex(r, k + 1), c = vertex(r + 1, k + 1),
+                        d = vertex(r + 1, k);
+            if (unit(random) < 0.2) {
+                faces.add({a, d, c, b});
+            } else if (unit(random) < 0.5) {
+                faces.add({a, d, c});
+                faces.add({a, c, b});
+            } else {
+                faces.add({a, d, b});
+                faces.add({d, c, b});
+            }
+        }
+    }
+    result.mesh = Mesh(std::move(positions), std::move(faces));
+    for (Index f = 0; f < result.mesh.face_count(); ++f) {
+        result.regions.region.push_back(f);
+        if (f >= around) result.regions.ring.push_back(f);
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("loop search: equal to brute force on 4000 random annuli") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    Index found = 0, without = 0;
+    for (int round = 0; round < 4000; ++round) {
+        const Annulus annulus = random_annulus(random);
+        const LoopSearch search(annulus.mesh, annulus.regions, {});
+        // Even costs, costs over four decades, and edges that must not be used.
+        const double power = 6.0 * unit(random), absent = round % 2 ? 0.3 * unit(random) : 0.0;
+        std::vector<double> cost;
+        for (std::size_t e = 0; e < search.edges().size(); ++e) {
+            cost.push_back(unit(random) < absent ? std::numeric_limits<double>::infinity()
+                                                 : std::pow(0.2 + 0.8 * unit(random), power));
+        }
+        std::vector<Vec2> plane;
+        for (const Vec3& p : annulus.mesh.positions()) plane.emplace_back(p.x(), p.y());
+        const double least = cheapest_by_force(search.edges(), plane, Vec2::Zero(), cost);
+        const std::vector<Index> loop = search.cheapest(cost, {});
+        CAPTURE(round);
+        if (!std::isfinite(least)) {
+            CHECK(loop.empty());
+            ++without;
+            continue;
+        }
+        ++found;
+        REQUIRE(loop.size() >= 3);
+        CHECK(std::set<Index>(loop.begin(), loop.end()).size() == loop.size());
+        CHECK(winding_of(plane, Vec2::Zero(), loop) == 1);
+        CHECK(cost_of(search, cost, loop) == doctest::Approx(least).epsilon(1e-12));
+    }
+    CHECK(found > 3000);
+    CHECK(without > 0);
 }
 
 TEST_CASE("paste search: the energy never increases, at twelve angles") {

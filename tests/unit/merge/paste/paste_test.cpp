@@ -43,6 +43,58 @@ TEST_CASE("paste: a horn comes to stand where it is put, watertight and little d
     CHECK(hash(target) == before[1]);
 }
 
+TEST_CASE("paste: texture coordinates, skins, morphs and provenance come along") {
+    Mesh horn = horned_ball(), target = egg();
+    for (Mesh* mesh : {&horn, &target}) {
+        const double joint = mesh == &horn ? 3 : 1;
+        Attribute uv{"uv", Domain::corner, 2, ScalarType::float32, {}};
+        for (const Index v : mesh->topology().faces().vertices) {
+            uv.values.push_back(mesh->position(v).x());
+            uv.values.push_back(mesh->position(v).y());
+        }
+        Attribute joints{"joints", Domain::vertex, 4, ScalarType::uint16, {}};
+        Attribute weights{"weights", Domain::vertex, 4, ScalarType::float32, {}};
+        for (Index v = 0; v < mesh->vertex_count(); ++v) {
+            for (const double j : {joint, 0.0, 0.0, 0.0}) joints.values.push_back(j);
+            for (const double w : {0.75, 0.25, 0.0, 0.0}) weights.values.push_back(w);
+        }
+        for (Attribute* attribute : {&uv, &joints, &weights}) {
+            mesh->attributes().add(std::move(*attribute));
+        }
+    }
+    Attribute morph{"morph.1.position", Domain::vertex, 3, ScalarType::float64, {}};
+    for (Index v = 0; v < horn.vertex_count(); ++v) {
+        for (const double d : {0.0, 0.1, 0.0}) morph.values.push_back(d);
+    }
+    horn.attributes().add(std::move(morph));
+    Paste paste = horn_on_egg(horn, target, {.at = {1, 1.2, 0.8}, .scale = 0.8});
+    paste.optimize();
+    const PasteResult result = paste.merge();
+    check_sound(result);
+    const Mesh& mesh = result.merged.mesh;
+    REQUIRE(mesh.attributes().find("uv"));
+    const Attribute& weights = *mesh.attributes().find("weights");
+    const Attribute& delta = *mesh.attributes().find("morph.1.position");
+    Index kept = 0, moved = 0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        double sum = 0.0;
+        for (const double w : weights.at(v)) sum += w;
+        CHECK(sum == doctest::Approx(1.0));
+        const auto from = result.merged.provenance.vertices[v];
+        if (from.size() != 1) continue;
+        const Vec3 d(delta.at(v)[0], delta.at(v)[1], delta.at(v)[2]);
+        if (from.front().element < target.vertex_count()) {
+            kept += mesh.position(v) == target.position(from.front().element) ? 1 : 0;
+            CHECK(!(d.norm() > 0.0));
+        } else {
+            ++moved;
+            CHECK(d.norm() == doctest::Approx(0.1 * result.report.scale).epsilon(0.25));
+        }
+    }
+    CHECK(kept > target.vertex_count() / 2);
+    CHECK(moved > 50);
+}
+
 TEST_CASE("paste: a feature may have a handle") {
     // A ring on a foot that widens like a funnel.
     Mesh torus = make_torus();

@@ -1,0 +1,68 @@
+#include "kernel/merge/paste/part_trial.h"
+
+#include <utility>
+
+#include "kernel/core/error.h"
+
+namespace lissom {
+namespace {
+
+// The thesis scales Laplacian coordinates by one factor, that of the boundary (section 3.4.4).
+BoundaryDeformOptions paste_deformation(bool thesis) {
+    if (!thesis) return {};
+    BoundaryDeformOptions options = BoundaryDeformOptions::thesis();
+    options.size = SizeField::harmonic;
+    return options;
+}
+
+}  // namespace
+
+void PartTrials::move(PartTrial& trial, const Context& context) const {
+    trial.moved = moved_part(trial.part, paste_values(trial.rim, trial.similarity, trial.scale),
+                             paste_deformation(options.thesis), context);
+    trial.near = near_distortion(trial.part, trial.moved.mesh, trial.scale);
+}
+
+PartTrial PartTrials::trial_of(PastePart part, const PasteSimilarity& similarity,
+                               const Context& context) const {
+    PartTrial trial{std::move(part), {}, similarity, 1.0, false, false, {}, {}};
+    trial.scale = lock_scale ? placed.placement.scale : similarity.scale;
+    trial.rim = rim_of(trial.part, surface);
+    move(trial, context);
+    return trial;
+}
+
+PartTrial PartTrials::along_loop(const Context& context) const {
+    const Mesh& source = surface.map().source_mesh();
+    return trial_of(part_inside(source, regions, placed.loop.vertices, context),
+                    placed.loop.similarity, context);
+}
+
+std::optional<PartTrial> PartTrials::along_line(const Context& context) const {
+    if (!placed.line) return std::nullopt;
+    std::vector<Vec2> line;
+    for (const RingPoint& point : placed.line->points) line.push_back(point.uv);
+    try {
+        PartTrial trial = trial_of(part_inside(surface.map().source_mesh(), regions,
+                                               surface.map().source(), line, context),
+                                   placed.line->similarity, context);
+        trial.smooth = true;
+        return trial;
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::boundary_conflict) throw;
+        return std::nullopt;
+    }
+}
+
+PartTrial PartTrials::along_outline(const Context& context) const {
+    PasteEnergy energy(ring_edges(surface.map(), ring, placed.images), energy_for(options, 1));
+    const std::vector<Index> edges = energy.edges_of(ring, regions.outer);
+    const PasteSimilarity start = energy.start(edges);
+    PartTrial trial =
+        trial_of(part_inside(surface.map().source_mesh(), regions, regions.outer, context),
+                 energy.improved(edges, start), context);
+    trial.outline = true;
+    return trial;
+}
+
+}  // namespace lissom

@@ -1,0 +1,52 @@
+/// Parts inside boundaries of one placement, deformed for comparison; private to kernel/merge.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/merge/paste/free_loop.h"
+#include "kernel/merge/paste/loop_search.h"
+#include "kernel/merge/paste/paste.h"
+#include "kernel/merge/paste/paste_energy.h"
+#include "kernel/merge/paste/paste_part.h"
+#include "kernel/merge/paste/paste_regions.h"
+#include "kernel/merge/paste/paste_state.h"
+
+namespace lissom {
+
+/// The part inside one boundary, deformed.
+struct PartTrial {
+    PastePart part;
+    std::vector<RingPoint> rim;
+    PasteSimilarity similarity;
+    double scale = 1.0;
+    /// The boundary is free of edges; it is the outline that was marked.
+    bool smooth = false, outline = false;
+    MovedPart moved;
+    PasteDistortion near;
+};
+
+struct PartTrials {
+    const PasteOptions& options;
+    const PasteRegions& regions;
+    const RingSurface& surface;
+    const LoopSearch& ring;
+    const PlacedFeature& placed;
+    /// The size that the placement asks for, in place of the boundary's.
+    bool lock_scale = false;
+
+    /// Deforms the part of a trial to its rim.
+    void move(PartTrial& trial, const Context& context) const;
+    PartTrial along_loop(const Context& context) const;
+    /// Nothing without a boundary free of edges, or where the ring is too coarse to be divided.
+    std::optional<PartTrial> along_line(const Context& context) const;
+    /// With a similarity of its own. All of the outline must have an image.
+    PartTrial along_outline(const Context& context) const;
+
+  private:
+    PartTrial trial_of(PastePart part, const PasteSimilarity& similarity,
+                       const Context& context) const;
+};
+
+}  // namespace lissom

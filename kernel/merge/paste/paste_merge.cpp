@@ -1,0 +1,186 @@
+// The last step of a paste: the part is deformed, the target opened, and both are sewn.
+#include <optional>
+#include <utility>
+
+#include "kernel/core/clock.h"
+#include "kernel/core/memory_error.h"
+#include "kernel/merge/merge_stages.h"
+#include "kernel/merge/paste/opened_target.h"
+#include "kernel/merge/paste/part_trial.h"
+#include "kernel/merge/paste/paste_part.h"
+#include "kernel/merge/paste/paste_state.h"
+#include "kernel/merge/provenance.h"
+#include "kernel/merge/sew/seam_quality.h"
+#include "kernel/merge/sew/sew.h"
+#include "kernel/merge/verdict.h"
+#include "kernel/mesh/measure/measures.h"
+
+namespace lissom {
+namespace {
+
+// A seam without a collar must be this much better than one with it.
+constexpr double kPlainBetter = 0.9;
+constexpr double kSteepSeam = 20.0 * kDegree;
+// A boundary whose seam turns by more than this gives way to the loop of edges.
+constexpr double kFoldedSeam = 90.0 * kDegree;
+
+struct PasteSides {
+    PartTrial source;
+    OpenedTarget opened;
+    LoopPair pair;
+};
+
+// The part comes to lie on the boundary as it was cut.
+void lay_on_hole(const PartTrials& trials, PasteSides& sides, const Context& context) {
+    const Loop hole(sides.opened.mesh, sides.opened.loop);
+    const std::size_t n = sides.source.rim.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        sides.source.rim[k].image.position =
+            point_of(hole.points(), sides.pair.on_target[n - 1 - k]);
+    }
+    trials.move(sides.source, context);
+}
+
+Sewn sewn_with(const PasteSides& sides, const PasteMergeOptions& options, bool collar,
+               const Context& context) {
+    SewOptions how;
+    how.smooth = options.smooth;
+    how.collar = collar;
+    const LoopPair pairs[] = {sides.pair};
+    Sewn sewn = sew(sides.opened.mesh, sides.source.moved.mesh, pairs, how, context);
+    require_sound(sewn, sides.opened.mesh, sides.source.moved.mesh, pairs);
+    return sewn;
+}
+
+Sewn sewn_well(const PasteSides& sides, const PasteMergeOptions& options, const Context& context) {
+    const auto angles = [](const Sewn& sewn) {
+        return sewn.report.after.greatest_dihedral + sewn.report.after.greatest_near;
+    };
+    Sewn sewn = sewn_with(sides, options, options.collar, context);
+    if (!(sewn.report.collar_added > 0 && sewn.report.after.greatest_dihedral > kSteepSeam)) {
+        return sewn;
+    }
+    Sewn plain = sewn_with(sides, options, false, context);
+    return angles(plain) <= kPlainBetter * angles(sewn) ? std::move(plain) : std::move(sewn);
+}
+
+double turns(const Sewn& sewn) {
+    return sewn.report.after.greatest_dihedral;
+}
+// Whether a seam is so steep that its faces turn over.
+bool folds(const Sewn& sewn) {
+    return turns(sewn) > kFoldedSeam;
+}
+
+struct SewnSides {
+    PasteSides sides;
+    Sewn sewn;
+    /// Near the boundary before it was laid on the hole.
+    PasteDistortion near;
+};
+
+SewnSides sewn_along(const PartTrials& trials, const Mesh& target, PartTrial trial,
+                     const PasteMergeOptions& options, const Context& context) {
+    SewnSides result;
+    PasteSides& sides = result.sides;
+    sides.source = std::move(trial);
+    result.near = sides.source.near;
+    std::vector<Vec2> outline;
+    for (const RingPoint& point : sides.source.rim) outline.push_back(point.image.uv);
+    sides.opened = open_target(target, trials.surface.map().target(), outline, context);
+    sides.pair = paste_pair(sides.source.part, sides.opened, sides.source.rim);
+    lay_on_hole(trials, sides, context);
+    result.sewn = sewn_well(sides, options, context);
+    return result;
+}
+
+MergeReport merge_report(const PasteSides& sides, const Sewn& sewn,
+                         const PasteMergeOptions& options, const Context& context) {
+    MergeReport report;
+    const std::vector<Index> loops[] = {sides.source.part.loop, sides.opened.loop};
+    report.source_rim = seam_quality(sides.source.part.mesh, {&loops[0], 1});
+    report.target_rim = seam_quality(sides.opened.mesh, {&loops[1], 1});
+    JoinReport join;
+    join.source_size = count_of(sides.source.part.loop);
+    join.target_size = count_of(sides.opened.loop);
+    join.scale = sides.source.scale;
+    report.joins.push_back(join);
+    report.deform = sides.source.moved.stats;
+    report.seam = sewn.report;
+    if (options.find_intersections) {
+        report.intersections =
+            new_intersections(sides.opened.mesh, sides.source.part.mesh, sewn, context);
+    }
+    const Verdict verdict = verdict_of(report, options.find_intersections);
+    report.ok = verdict.good;
+    report.verdict = verdict.text;
+    return report;
+}
+
+// The best boundary: the one that was found, unless the outline distorts less.
+PartTrial best_trial(const PartTrials& trials, bool compare, bool covered, PasteReport& report,
+                     const Context& context) {
+    std::optional<PartTrial> found = trials.along_line(context);
+    PartTrial best = found ? std::move(*found) : trials.along_loop(context);
+    if (!compare || !covered || trials.placed.loop.vertices == trials.regions.outer) return best;
+    PartTrial outline = trials.along_outline(context);
+    report.outline_near = outline.near;
+    return outline.near.energy < best.near.energy ? std::move(outline) : std::move(best);
+}
+
+}  // namespace
+
+PasteResult Paste::merge(const PasteMergeOptions& options, const Context& context) try {
+    const State& state = *state_;
+    Progress progress(context, "paste");
+    const auto start = Clock::now();
+    const PlacedFeature& placed = state.placed;
+    const RingSurface surface(*state.map, *state.triangles, placed.images);
+    const PartTrials trials{state.options, state.regions, surface,
+                            *state.ring,   placed,        options.lock_scale};
+    PasteReport report;
+    report.search = placed.loop.report;
+    report.source_map = state.source_map.quality();
+    report.target_map = state.map->target().quality();
+    report.angle = placed.angle;
+    report.angle_chosen = placed.angle_chosen;
+    progress.step(0.1);
+    PartTrial best = best_trial(trials, options.compare, state.covers(placed), report, context);
+    progress.step(0.5);
+    SewnSides whole = sewn_along(trials, state.target, std::move(best), options, context);
+    if (folds(whole.sewn)) {
+        SewnSides edges =
+            sewn_along(trials, state.target, trials.along_loop(context), options, context);
+        if (turns(edges.sewn) < turns(whole.sewn)) whole = std::move(edges);
+    }
+    PasteSides& sides = whole.sides;
+    Sewn& sewn = whole.sewn;
+    report.scale = sides.source.scale;
+    report.smooth = sides.source.smooth;
+    report.kept_outline = sides.source.outline;
+    report.near = whole.near;
+    report.laid = sides.source.near;
+    report.feature = feature_distortion(sides.source.part, sides.source.moved.mesh, report.scale,
+                                        state.regions.feature);
+    progress.step(0.4);
+    PasteResult result{{}, std::move(report)};
+    result.merged.report = merge_report(sides, sewn, options, context);
+    result.merged.report.solve_seconds = seconds_since(start);
+    const MeshMap target_map =
+        state.cleared ? composed(sides.opened.map, *state.cleared) : sides.opened.map;
+    const Topology& first = (state.cleared ? state.given : state.target).topology();
+    const MeshMap origins = appended_map(target_map, sides.source.part.map, first);
+    result.merged.provenance = composed(sewn.map, origins);
+    result.report.euler_characteristic = euler_characteristic(sewn.mesh.topology());
+    result.report.expected_characteristic =
+        euler_characteristic(state.target.topology()) +
+        euler_characteristic(sides.source.part.mesh.topology()) - 1;
+    result.merged.mesh = std::move(sewn.mesh);
+    result.merged.side_of_face = std::move(sewn.side_of_face);
+    result.merged.seams = std::move(sewn.seams);
+    return result;
+} catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+}
+
+}  // namespace lissom

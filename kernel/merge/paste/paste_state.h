@@ -1,0 +1,102 @@
+/// What a paste holds between its steps; private to kernel/merge.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/merge/paste/free_loop.h"
+#include "kernel/merge/paste/loop_search.h"
+#include "kernel/merge/paste/paste.h"
+#include "kernel/merge/paste/paste_energy.h"
+#include "kernel/merge/paste/paste_map.h"
+#include "kernel/merge/paste/paste_regions.h"
+#include "kernel/mesh/derive.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+/// One placement and the boundary that belongs to it.
+struct PlacedFeature {
+    PastePlacement placement;
+    double angle = 0.0;
+    bool angle_chosen = false;
+    /// One a place of the source's chart.
+    std::vector<ImagePoint> images;
+    PasteLoop loop;
+    /// The boundary free of edges, where one was found that is no worse than `loop`.
+    std::optional<FreeLoop> line;
+};
+
+/// How long a boundary is sought.
+struct PasteEffort {
+    /// 0: the boundary stays where it starts.
+    Index iterations = 0;
+    /// With rounds of nearest points, where the paste has them.
+    bool closest = false;
+};
+
+struct Paste::State {
+    Mesh source, target;
+    PasteOptions options;
+    PasteRegions regions;
+    PasteChart source_map;
+    /// Made anew whenever `target` changes.
+    std::unique_ptr<PasteSurfaces> surfaces;
+    std::shared_ptr<const LoopSearch> ring;
+    std::shared_ptr<const RingTriangles> triangles;
+    std::unique_ptr<PasteMap> map;
+    /// Whether the target's region was chosen here.
+    bool own_disk = false;
+    bool optimized = false;
+    /// Where features of the target are removed: the target as given, its region for parts, and
+    /// where the elements of `target` come from.
+    Mesh given;
+    std::optional<Region> onto;
+    std::optional<MeshMap> cleared;
+    PlacedFeature placed;
+
+    bool clears() const { return options.clear || options.cleared.has_value(); }
+    /// What depends on the source alone.
+    void prepare(const Mesh& new_source, const Region& region, const std::optional<Region>& feature,
+                 const PasteOptions& wanted, const Context& context);
+    /// Lays a target out and places the part on it.
+    void begin_on(const Mesh& new_target, const std::optional<Region>& region,
+                  const PastePlacement& placement, const Context& context);
+    void move_to(const PastePlacement& placement, const PasteEffort& effort,
+                 const Context& context);
+    Region region_to_clear(const PastePlacement& placement, const Context& context) const;
+    void place_on_cleared(const PastePlacement& placement, std::span<const Index> start,
+                          const PasteEffort& effort, const Context& context);
+    std::unique_ptr<PasteMap> map_of(std::span<const Index> target_faces,
+                                     const Context& context) const;
+    std::unique_ptr<PasteMap> map_around(const PastePlacement& placement, double room,
+                                         const Context& context) const;
+    void place_on_disk(const PastePlacement& placement, std::span<const Index> start,
+                       const PasteEffort& effort, const Context& context);
+    double misfit_at(const PasteMap& on, const std::vector<ImagePoint>& images) const;
+    void choose_angle(const PasteMap& on, PlacedFeature& place, const Context& context) const;
+    PlacedFeature place(const PasteMap& on, const PastePlacement& placement,
+                        std::span<const Index> start, const PasteEffort& effort,
+                        const Context& context) const;
+    double size_of(const PasteMap& on, const std::vector<ImagePoint>& images) const;
+    std::vector<ImagePoint> images_of(const PasteMap& on, const PastePlacement& placement,
+                                      double angle) const;
+    std::vector<ImagePoint> nearest_images(const PasteMap& on, const PlacedFeature& place) const;
+    bool draw_once(const PasteMap& on, PlacedFeature& place, const Context& context) const;
+    double energy_near(const PasteMap& on, const PlacedFeature& place,
+                       const Context& context) const;
+    void draw_closer(const PasteMap& on, PlacedFeature& place, const Context& context) const;
+    void free_boundary(const PasteMap& on, PlacedFeature& place, const Context& context) const;
+    /// Whether all of the ring has an image.
+    bool covers(const PlacedFeature& place) const;
+};
+
+/// How the energy of a paste is sought.
+EnergyOptions energy_for(const PasteOptions& options, Index iterations);
+
+}  // namespace lissom

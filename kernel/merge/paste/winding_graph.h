@@ -1,0 +1,83 @@
+/// Cheapest loops around a ring in any graph that is drawn on it; private to kernel/merge.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "kernel/core/index.h"
+
+namespace lissom {
+
+/// An edge of a graph on a ring, and how often it crosses a cut of the ring from right to left on
+/// its way from `a` to `b`.
+struct WindingEdge {
+    Index a = kNoIndex, b = kNoIndex;
+    int turns = 0;
+};
+
+struct WindingLoop {
+    /// Each once, in order; empty where there is no loop.
+    std::vector<Index> vertices;
+    /// Of the whole walk that it was found in.
+    double cost = std::numeric_limits<double>::infinity();
+};
+
+class WindingGraph {
+  public:
+    WindingGraph() = default;
+    /// Edges without ends are left out, and keep their numbers.
+    WindingGraph(Index vertex_count, std::span<const WindingEdge> edges);
+
+    Index vertex_count() const { return count_of(begin_) - 1; }
+
+  private:
+    friend class WindingSearch;
+    struct Arc {
+        Index to, edge;
+        int turns;
+    };
+    // Arcs of vertex v: begin_[v] to begin_[v + 1].
+    std::vector<Index> begin_{0};
+    std::vector<Arc> arcs_;
+};
+
+/// Dijkstra's method on the covering of a graph, whose nodes are vertices with the number of times
+/// that the cut was crossed. Keeps its memory from one search to the next.
+class WindingSearch {
+  public:
+    /// Both must outlive it. Costs are above 0, or infinite for edges that must not be used.
+    WindingSearch(const WindingGraph& graph, std::span<const double> cost);
+
+    /// The cheapest closed walk through `start` that runs once around the ring, counter-clockwise,
+    /// or the loop in it where it visits a vertex twice: a loop with a tail to the start. `usable`,
+    /// one flag an edge, may leave edges out; walks that cost `limit` or more are not found.
+    WindingLoop through(Index start, std::span<const char> usable = {},
+                        double limit = std::numeric_limits<double>::infinity());
+    /// Whether the last search came to a vertex.
+    bool reached(Index vertex) const;
+
+  private:
+    struct Step {
+        Index vertex;
+        int sheet;
+    };
+    void clear();
+    void reach(Index node, Index from, double distance);
+    void settle(Index node, double distance, std::span<const char> usable);
+    void meet(Index forward, Index backward, double cost);
+    std::vector<Step> walk() const;
+
+    const WindingGraph& graph_;
+    std::span<const double> cost_;
+    std::vector<double> distance_;
+    std::vector<Index> from_, touched_;
+    std::vector<std::pair<double, Index>> heap_;
+    // The cheapest walk so far: to a node, over an edge or none, and back from another one.
+    double least_ = std::numeric_limits<double>::infinity();
+    Index forward_ = kNoIndex, backward_ = kNoIndex;
+};
+
+}  // namespace lissom

@@ -1,0 +1,30 @@
+/// Pastes of features of real models, marked casually: by planes and balls.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/merge/paste/paste_options.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom::test {
+
+struct RealPaste {
+    std::string name;
+    /// Files in the folder of the test data.
+    std::string source, target;
+    std::function<Region(const Mesh&)> region, feature;
+    PastePlacement placement;
+    /// What the energy near the seam keeps below.
+    double energy = 0.0;
+};
+
+const std::vector<RealPaste>& real_pastes();
+
+/// A model of the test data, or nothing where it is absent.
+std::optional<Mesh> real_model(const std::string& file);
+
+}  // namespace lissom::test

@@ -1,0 +1,118 @@
+// Pastes of real features: the boundary is the cheapest, and the surface near it little distorted.
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "kernel/merge/paste/free_loop.h"
+#include "kernel/merge/paste/loop_search.h"
+#include "kernel/merge/paste/paste.h"
+#include "kernel/merge/paste/paste_energy.h"
+#include "kernel/merge/paste/paste_map.h"
+#include "kernel/merge/paste/paste_regions.h"
+#include "tests/unit/merge/paste/loop_force.h"
+#include "tests/unit/merge/paste/real_pastes.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+struct RealModels {
+    Mesh source, target;
+};
+
+std::optional<RealModels> models_of(const RealPaste& paste) {
+    std::optional<Mesh> source = real_model(paste.source), target = real_model(paste.target);
+    if (!source || !target) return std::nullopt;
+    return RealModels{std::move(*source), std::move(*target)};
+}
+
+Paste placed(const RealPaste& paste, const RealModels& models, const PasteOptions& options = {}) {
+    return Paste(models.source, models.target, paste.region(models.source),
+                 paste.feature(models.source), std::nullopt, paste.placement, options);
+}
+
+void check_sound(const PasteResult& result, const RealModels& models) {
+    CHECK(result.report.euler_characteristic == result.report.expected_characteristic);
+    CHECK(result.merged.mesh.topology().is_closed() == models.target.topology().is_closed());
+    CHECK(result.merged.mesh.topology().component_count() ==
+          models.target.topology().component_count());
+}
+
+}  // namespace
+
+TEST_CASE("real pastes: near the boundary no more distortion than the bounds") {
+    for (const RealPaste& real : real_pastes()) {
+        CAPTURE(real.name);
+        const auto models = models_of(real);
+        if (!models) continue;
+        Paste paste = placed(real, *models);
+        paste.optimize();
+        const PasteResult result = paste.merge();
+        check_sound(result, *models);
+        CHECK(result.report.near.energy <= real.energy);
+        if (result.report.outline_near) {
+            CHECK(result.report.near.energy <= result.report.outline_near->energy);
+        }
+    }
+}
+
+TEST_CASE("real pastes: the energy never increases, at twelve angles") {
+    for (const RealPaste& real : real_pastes()) {
+        CAPTURE(real.name);
+        const auto models = models_of(real);
+        if (!models) continue;
+        Paste paste = placed(real, *models);
+        for (int k = 0; k < 12; ++k) {
+            PastePlacement turned = real.placement;
+            turned.angle = k * kPi / 6.0;
+            paste.move(turned);
+            paste.optimize();
+            const std::vector<double>& energy = paste.search().energy;
+            for (std::size_t i = 1; i < energy.size(); ++i) {
+                CHECK(energy[i] <= energy[i - 1] * (1.0 + 1e-12));
+            }
+        }
+    }
+}
+
+TEST_CASE("real pastes: the loop is the cheapest, by brute force") {
+    for (const RealPaste& real : real_pastes()) {
+        CAPTURE(real.name);
+        const auto models = models_of(real);
+        if (!models) continue;
+        const Mesh &source = models->source, &target = models->target;
+        const PasteRegions regions =
+            paste_regions(source, real.region(source), real.feature(source), 0.5, {});
+        const PasteSurfaces surfaces(source, target);
+        const PasteChart chart = source_chart(source, regions, ParameterizeMethod::arap, {});
+        const SurfacePoint point = surfaces.target_tree.nearest(real.placement.at);
+        const double radius = 2.0 * real.placement.scale * chart.length_ratio * chart.reach;
+        const PasteMap map(surfaces, chart,
+                           target_chart(target, disk_around(target, point, radius, {}),
+                                        ParameterizeMethod::arap, {}),
+                           false);
+        const LoopSearch ring(source, regions, {});
+        std::vector<Vec2> plane(source.positions().size(), Vec2::Zero());
+        for (std::size_t k = 0; k < chart.map.vertex.size(); ++k) {
+            plane[static_cast<std::size_t>(chart.map.vertex[k])] = chart.map.uv[k];
+        }
+        const RingTriangles triangles(chart, regions);
+        for (int k = 0; k < 12; ++k) {
+            const std::vector<ImagePoint> images =
+                map.images(map.planar(real.placement, k * kPi / 6.0));
+            PasteEnergy energy(ring_edges(map, ring, images), {});
+            const std::vector<Index> inner = energy.edges_of(ring, regions.inner);
+            if (inner.empty()) continue;
+            const std::vector<double> cost = energy.costs(energy.start(inner));
+            const double least = cheapest_by_force(ring.edges(), plane, triangles.middle, cost);
+            const std::vector<Index> loop = ring.cheapest(cost, {});
+            REQUIRE(!loop.empty());
+            CHECK(std::set<Index>(loop.begin(), loop.end()).size() == loop.size());
+            CHECK(winding_of(plane, triangles.middle, loop) == 1);
+            CHECK(energy.energy(energy.edges_of(ring, loop), energy.start(inner)) ==
+                  doctest::Approx(least).epsilon(1e-9));
+        }
+    }
+}
