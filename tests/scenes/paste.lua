@@ -64,6 +64,7 @@ test("regions that cannot be pasted are refused", function()
     local ok, text = pcall(pasted, { region = egg:region{ all = true } })
     expect.falsy(ok)
     expect.truthy(text:find("topology_mismatch", 1, true))
+    -- The feature's outline is .28 from its middle at the size asked for; faces within .3 hold less.
     _, message, code = pasted{ onto = egg:region{ sphere = { center = { 0, 2, 0 }, radius = 0.3 } } }
     expect.equal(code, "boundary_conflict")
     expect.truthy(message:find("does not fit", 1, true))

@@ -149,7 +149,7 @@ test("parts are scattered: sizes and angles vary, more change no others, refused
         expect.equal(more.angles[i], report.angles[i])
         expect.equal(more.scales[i], report.scales[i])
     end
-    -- Crowded: some have no room.
+    -- Crowded: some have no room. Sizes are those of the spikes' outlines.
     options.size = 0.7
     local crowded, told = scatter.make(part, ball, options)
     expect.truthy(#told.refused > 10)

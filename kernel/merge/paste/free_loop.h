@@ -45,6 +45,7 @@ class RingSurface {
 
     const PasteMap& map() const { return map_; }
     const RingTriangles& ring() const { return ring_; }
+    std::span<const ImagePoint> images() const { return images_; }
     /// The point with given weights of three places.
     RingPoint point(const Triangle& places, const Vec3& weights) const;
     /// What lies between vertices of the source, by their weights. Without an image where a vertex

@@ -55,7 +55,7 @@ std::optional<PartTrial> PartTrials::along_line(const Context& context) const {
 }
 
 PartTrial PartTrials::along_outline(const Context& context) const {
-    PasteEnergy energy(ring_edges(surface.map(), ring, placed.images), energy_for(options, 1));
+    PasteEnergy energy(ring_edges(surface.map(), ring, surface.images()), energy_for(options, 1));
     const std::vector<Index> edges = energy.edges_of(ring, regions.outer);
     const PasteSimilarity start = energy.start(edges);
     PartTrial trial =

@@ -32,6 +32,7 @@ struct PartTrials {
     const PasteRegions& regions;
     const RingSurface& surface;
     const LoopSearch& ring;
+    /// Its images are those of `surface`, but for the outline's.
     const PlacedFeature& placed;
     /// The size that the placement asks for, in place of the boundary's.
     bool lock_scale = false;

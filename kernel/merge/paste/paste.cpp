@@ -126,6 +126,7 @@ PlacedFeature Paste::State::place(const PasteMap& on, const PastePlacement& plac
     place.angle = placement.angle.value_or(0.0);
     if (!placement.angle && !placement.toward) choose_angle(on, place, context);
     place.images = images_of(on, placement, place.angle);
+    place.mapped = place.images;
     place.loop = search_boundary(on, regions, *ring, place.images, start,
                                  energy_for(options, effort.iterations), context);
     const bool closer = options.correspondence == PasteCorrespondence::closest && !options.thesis;
@@ -163,18 +164,19 @@ std::vector<ImagePoint> Paste::State::nearest_images(const PasteMap& on,
     return images;
 }
 
-// One round. False where the misfit does not fall or the boundary crosses itself.
+// One round. False where the energy does not fall or the boundary crosses itself.
 bool Paste::State::draw_once(const PasteMap& on, PlacedFeature& place,
                              const Context& context) const {
     std::vector<ImagePoint> images = nearest_images(on, place);
-    PasteLoop loop = search_boundary(on, regions, *ring, images, place.loop.vertices,
-                                     energy_for(options, 2), context);
+    EnergyOptions how = energy_for(options, 2);
+    how.first_scale = place.loop.first_scale;
+    PasteLoop loop = search_boundary(on, regions, *ring, images, place.loop.vertices, how, context);
     std::vector<Vec2> outline;
     for (const Index v : loop.vertices) outline.push_back(images[at(source_map.place_of(v))].uv);
     PasteSearch& report = place.loop.report;
-    if (loop.report.misfit.back() >= report.misfit.back() || crosses_itself(outline)) return false;
-    report.energy.push_back(loop.report.energy.back());
-    report.misfit.push_back(loop.report.misfit.back());
+    if (!(loop.energy < place.loop.energy) || crosses_itself(outline)) return false;
+    report.energy.push_back(loop.energy);
+    report.misfit.push_back(loop.misfit);
     report.scale = loop.report.scale;
     report.loop_size = loop.report.loop_size;
     ++report.closest_rounds;
@@ -292,7 +294,7 @@ void Paste::State::begin_on(const Mesh& new_target, const std::optional<Region>&
 
 bool Paste::State::covers(const PlacedFeature& place) const {
     return std::all_of(regions.outer.begin(), regions.outer.end(),
-                       [&](Index v) { return place.images[at(source_map.place_of(v))].inside; });
+                       [&](Index v) { return place.mapped[at(source_map.place_of(v))].inside; });
 }
 
 Paste::Paste(const Mesh& source, const Mesh& target, const Region& region,

@@ -25,7 +25,7 @@ namespace lissom {
 
 /// Where a vertex of the ring comes to lie: where the maps of both surfaces put it, or, after some
 /// rounds, on the nearest point of the target's region. Rounds end where one does not lower the
-/// misfit, and are kept where the surface near the boundary is distorted less. They belong to
+/// energy, and are kept where the surface near the boundary is distorted less. They belong to
 /// `optimize` alone.
 enum class PasteCorrespondence { map, closest };
 

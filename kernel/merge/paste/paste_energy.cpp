@@ -134,7 +134,7 @@ PasteSimilarity PasteEnergy::literal(std::span<const Index> edges) const {
 
 PasteSimilarity PasteEnergy::start(std::span<const Index> edges) {
     const PasteSimilarity first = literal(edges);
-    fix_weights(first.scale);
+    fix_weights(options_.first_scale.value_or(first.scale));
     return first;
 }
 
@@ -218,7 +218,7 @@ PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, cons
     if (result.vertices.empty()) refuse_outside(regions, map.source(), images);
     std::vector<Index> edges = energy.edges_of(ring, result.vertices);
     result.similarity = energy.start(edges);
-    result.first_scale = result.similarity.scale;
+    result.first_scale = options.first_scale.value_or(result.similarity.scale);
     const std::vector<Index> outline = energy.edges_of(ring, regions.outer);
     if (!outline.empty()) {
         PasteSimilarity own = energy.start(outline);
@@ -269,6 +269,7 @@ PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, cons
         edges = outline;
     }
     best.energy = energy.energy(edges, best.similarity);
+    best.misfit = energy.misfit(edges, best.similarity);
     best.report.scale = best.similarity.scale;
     best.report.loop_size = count_of(best.vertices);
     return best;

@@ -2,6 +2,7 @@
 /// 3.4.2 and 3.4.3); private to kernel/merge.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -42,6 +43,8 @@ struct EnergyOptions {
     /// does not depend on how finely the surface is divided. lambda and mu hold the scale of the
     /// first loop, so that they do not change while the scale does.
     bool thesis = false;
+    /// The scale that lambda and mu hold, where a search goes on with another's; above 0.
+    std::optional<double> first_scale = std::nullopt;
     Index iterations = 20;
     /// The search ends where the energy falls by less than this part of it.
     double tolerance = 1e-5;
@@ -89,8 +92,8 @@ struct PasteLoop {
     std::vector<Index> vertices;
     PasteSimilarity similarity;
     PasteSearch report;
-    /// The scale that lambda and mu were fixed by, and the energy of the loop.
-    double first_scale = 1.0, energy = 0.0;
+    /// The scale that lambda and mu were fixed by, and the energy and misfit of the loop.
+    double first_scale = 1.0, energy = 0.0, misfit = 0.0;
 };
 
 /// Alternates similarity and loop. Starts from `start` where it is not empty, else from the

@@ -117,15 +117,36 @@ MergeReport merge_report(const PasteSides& sides, const Sewn& sewn,
     return report;
 }
 
+// The outline where the maps alone put it.
+PartTrial outline_trial(const PartTrials& trials, const Context& context) {
+    const RingSurface mapped(trials.surface.map(), trials.surface.ring(), trials.placed.mapped);
+    const PartTrials marked{trials.options, trials.regions, mapped,
+                            trials.ring,    trials.placed,  trials.lock_scale};
+    return marked.along_outline(context);
+}
+
 // The best boundary: the one that was found, unless the outline distorts less.
 PartTrial best_trial(const PartTrials& trials, bool compare, bool covered, PasteReport& report,
                      const Context& context) {
     std::optional<PartTrial> found = trials.along_line(context);
     PartTrial best = found ? std::move(*found) : trials.along_loop(context);
-    if (!compare || !covered || trials.placed.loop.vertices == trials.regions.outer) return best;
-    PartTrial outline = trials.along_outline(context);
+    if (!compare || !covered) return best;
+    PartTrial outline = outline_trial(trials, context);
     report.outline_near = outline.near;
     return outline.near.energy < best.near.energy ? std::move(outline) : std::move(best);
+}
+
+// Where the seam turns faces over, along edges or the outline: what turns least, and is distorted
+// no more than the outline.
+void unfold(const PartTrials& trials, const Mesh& target, const PasteReport& report,
+            const PasteMergeOptions& options, SewnSides& whole, const Context& context) {
+    const auto attempt = [&](PartTrial trial) {
+        if (report.outline_near && trial.near.energy > report.outline_near->energy) return;
+        SewnSides next = sewn_along(trials, target, std::move(trial), options, context);
+        if (turns(next.sewn) < turns(whole.sewn)) whole = std::move(next);
+    };
+    if (folds(whole.sewn)) attempt(trials.along_loop(context));
+    if (folds(whole.sewn) && report.outline_near) attempt(outline_trial(trials, context));
 }
 
 }  // namespace
@@ -148,11 +169,7 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     PartTrial best = best_trial(trials, options.compare, state.covers(placed), report, context);
     progress.step(0.5);
     SewnSides whole = sewn_along(trials, state.target, std::move(best), options, context);
-    if (folds(whole.sewn)) {
-        SewnSides edges =
-            sewn_along(trials, state.target, trials.along_loop(context), options, context);
-        if (turns(edges.sewn) < turns(whole.sewn)) whole = std::move(edges);
-    }
+    unfold(trials, state.target, report, options, whole, context);
     PasteSides& sides = whole.sides;
     Sewn& sewn = whole.sewn;
     report.scale = sides.source.scale;

@@ -25,8 +25,8 @@ struct PlacedFeature {
     PastePlacement placement;
     double angle = 0.0;
     bool angle_chosen = false;
-    /// One a place of the source's chart.
-    std::vector<ImagePoint> images;
+    /// One a place of the source's chart, and where the maps alone put them.
+    std::vector<ImagePoint> images, mapped;
     PasteLoop loop;
     /// The boundary free of edges, where one was found that is no worse than `loop`.
     std::optional<FreeLoop> line;
@@ -92,7 +92,7 @@ struct Paste::State {
                        const Context& context) const;
     void draw_closer(const PasteMap& on, PlacedFeature& place, const Context& context) const;
     void free_boundary(const PasteMap& on, PlacedFeature& place, const Context& context) const;
-    /// Whether all of the ring has an image.
+    /// Whether the map has an image of all of the outline.
     bool covers(const PlacedFeature& place) const;
 };
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +19,10 @@ struct RealPaste {
     PastePlacement placement;
     /// What the energy near the seam keeps below.
     double energy = 0.0;
+    /// What it should come to: the best that was found for this pair; below 0 where none was.
+    double best = -1.0;
 };
 
 const std::vector<RealPaste>& real_pastes();
-
-/// A model of the test data, or nothing where it is absent.
-std::optional<Mesh> real_model(const std::string& file);
 
 }  // namespace lissom::test

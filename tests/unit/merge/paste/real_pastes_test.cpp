@@ -1,8 +1,10 @@
 // Pastes of real features: the boundary is the cheapest, and the surface near it little distorted.
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
+#include "kernel/io/mesh_file.h"
 #include "kernel/merge/paste/free_loop.h"
 #include "kernel/merge/paste/loop_search.h"
 #include "kernel/merge/paste/paste.h"
@@ -21,6 +23,11 @@ namespace {
 struct RealModels {
     Mesh source, target;
 };
+
+std::optional<Mesh> real_model(const std::string& file) {
+    const auto path = data_file(file);
+    return path ? std::optional<Mesh>(load_mesh(*path)) : std::nullopt;
+}
 
 std::optional<RealModels> models_of(const RealPaste& paste) {
     std::optional<Mesh> source = real_model(paste.source), target = real_model(paste.target);
@@ -52,9 +59,15 @@ TEST_CASE("real pastes: near the boundary no more distortion than the bounds") {
         const PasteResult result = paste.merge();
         check_sound(result, *models);
         CHECK(result.report.near.energy <= real.energy);
-        if (result.report.outline_near) {
-            CHECK(result.report.near.energy <= result.report.outline_near->energy);
-        }
+        PasteMergeOptions as_marked;
+        as_marked.compare = false;
+        const PasteResult marked = placed(real, *models).merge(as_marked);
+        REQUIRE(result.report.outline_near);
+        CHECK(result.report.outline_near->energy ==
+              doctest::Approx(marked.report.near.energy).epsilon(1e-6));
+        CHECK(result.report.near.energy <= result.report.outline_near->energy);
+        CHECK(result.report.kept_outline ==
+              (result.report.near.energy == result.report.outline_near->energy));
     }
 }
 
