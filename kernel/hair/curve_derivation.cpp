@@ -12,6 +12,9 @@ namespace {
 // A dividing curve may be drawn this far from the head.
 constexpr double kFarthestParting = 0.05;
 
+// Of the radii of a tail: so far from its spine hair fills it.
+constexpr double kFilled = 0.9;
+
 void require_length(double length, const char* message) {
     if (length >= 0.0 && std::isfinite(length)) return;
     throw Error(ErrorCode::invalid_argument, message);
@@ -81,10 +84,19 @@ class Derivation {
         const auto from = shape.spine.begin() + shape.first;
         result.tie = HairTie{first.center, first.direction, first.radius,
                              length,       ponytail.ragged, {from, shape.spine.end()}};
+        if (ponytail.options.spread > 0.0) result.tie->radii = filled_radii(shape);
         return result;
     }
 
   private:
+    // Radii that hair fills, at the points of a tail's spine from the tie on.
+    static std::vector<double> filled_radii(const PonytailShape& shape) {
+        std::vector<double> radii;
+        for (const PonytailSection& s : shape.sections) radii.push_back(kFilled * s.radius);
+        radii.resize(shape.spine.size() - shape.first, radii.back());
+        return radii;
+    }
+
     struct OnHead {
         Vec3 position, normal;
     };

@@ -35,6 +35,11 @@ constexpr double kLongestInDiagonals = 2.0;
 // More room for points than the strands so far let expect.
 constexpr double kPointRoom = 1.02;
 
+// Hair that comes into a tail beside its tie is caught at these planes of it, as it is held from a
+// little beyond its outline, in steps.
+constexpr std::size_t kGates[] = {1, 3};
+constexpr float kGateMargin = 0.6f;
+
 bool is_share(double x) {
     return x >= 0.0 && x <= 1.0;
 }
@@ -52,6 +57,10 @@ void require_tie(const HairTie& tie) {
     require(std::all_of(tie.spine.begin(), tie.spine.end(),
                         [](const Vec3& p) { return p.allFinite(); }),
             "the spine of a tail must be finite");
+    require(tie.radii.empty() || tie.radii.size() == tie.spine.size(),
+            "a tail needs a radius for each point of its spine, or none");
+    require(std::all_of(tie.radii.begin(), tie.radii.end(), is_length),
+            "the radii of a tail must be lengths of 0 or more");
 }
 
 void require_cut(const HairCut& cut) {
@@ -139,30 +148,52 @@ double least_move(const GridLayout& layout, const GrowthOptions& options) {
     return std::max(kLeastMove * options.segment, kLeastRoundings * rounding);
 }
 
-// Planes across a tail at the points of its spine.
-std::vector<TailPlane> planes_of(const std::vector<Vec3>& spine, const GridLayout& layout) {
+// Planes across a tail at the points of its spine, with frames that do not turn along it.
+std::vector<TailPlane> planes_of(const HairTie& tie, const GridLayout& layout) {
+    const std::vector<Vec3>& spine = tie.spine;
     std::vector<TailPlane> planes;
+    Vec3 side = tie.direction.unitOrthogonal();
     double behind = 0.0;
     for (std::size_t i = 1; i < spine.size(); ++i) {
         behind += (spine[i] - spine[i - 1]).norm();
         const Vec3 along = spine[std::min(i + 1, spine.size() - 1)] - spine[i - 1];
         if (!(along.norm() > 0.0)) continue;
+        const Vec3 direction = along.normalized();
+        const Vec3 across = side - side.dot(direction) * direction;
+        side = (across.norm() > 0.0 ? across : direction.unitOrthogonal()).normalized();
+        const double radius = tie.radii.empty() ? 0.0 : tie.radii[i] / layout.step;
         planes.push_back({((spine[i] - layout.origin) / layout.step).cast<float>(),
-                          along.normalized().cast<float>(),
-                          static_cast<float>(behind / layout.step)});
+                          direction.cast<float>(), static_cast<float>(behind / layout.step),
+                          (radius * side).cast<float>(),
+                          (radius * direction.cross(side)).cast<float>()});
     }
     return planes;
 }
 
+// Behind a tail's tie, where its radii are known.
+std::vector<TailGate> gates_of(const HairTie& tie, const std::vector<TailPlane>& planes) {
+    std::vector<TailGate> gates;
+    if (tie.radii.empty()) return gates;
+    for (const std::size_t i : kGates) {
+        if (i >= planes.size()) break;
+        const TailPlane& plane = planes[i];
+        const float radius = plane.side.norm() + kGateMargin;
+        gates.push_back({plane.center, plane.direction, radius * radius, plane.behind,
+                         static_cast<std::int32_t>(i) + 1});
+    }
+    return gates;
+}
+
 TieRule tie_rule(const HairTie& tie, const GridLayout& layout) {
     const double radius = tie.radius / layout.step;
-    return {((tie.center - layout.origin) / layout.step).cast<float>(),
-            tie.direction.normalized().cast<float>(),
-            static_cast<float>(radius * radius),
-            static_cast<float>(tie.tail_length.value_or(0.0) / layout.step),
-            static_cast<float>(tie.ragged),
-            tie.tail_length ? planes_of(tie.spine, layout) : std::vector<TailPlane>(),
-            tie.tail_length.has_value()};
+    TieRule rule{{((tie.center - layout.origin) / layout.step).cast<float>(),
+                  tie.direction.normalized().cast<float>(), static_cast<float>(radius * radius)},
+                 static_cast<float>(tie.tail_length.value_or(0.0) / layout.step),
+                 static_cast<float>(tie.ragged),
+                 tie.tail_length ? planes_of(tie, layout) : std::vector<TailPlane>(),
+                 tie.tail_length.has_value()};
+    rule.gates = gates_of(tie, rule.planes);
+    return rule;
 }
 
 CutRule cut_rule(const HairCut& cut, const GridLayout& layout) {

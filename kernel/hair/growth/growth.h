@@ -28,8 +28,9 @@ struct HairTie {
     /// length but 0.
     Vec3 direction = Vec3::UnitY();
     double radius = 0.0;
-    /// Length grown past the tie, shortened at random by up to the fraction `ragged`, so that a
-    /// tail thins out towards its end. Absent: strands become as long as they would without the
+    /// Length grown past the tie, shortened at random by up to the fraction `ragged`, by more of it
+    /// more often (as the root of an even chance): so a tail thins out to a point, and few strands
+    /// are as long as it. Absent: strands become as long as they would without the
     /// tie.
     std::optional<double> tail_length = 0.25;
     double ragged = 0.45;
@@ -37,6 +38,10 @@ struct HairTie {
     /// so that hair at the outside of a bend ends where that at its inside does; beyond, or where
     /// it is empty, along each strand.
     std::vector<Vec3> spine = {};
+    /// Radii of the tail at the points of `spine`, as many or none: hair fills it. Each strand is
+    /// drawn to a place of its own in the cross section over the first few steps behind the tie,
+    /// the longest in the middle, so that a tail is round whichever way hair came into its tie.
+    std::vector<double> radii = {};
 };
 
 /// Cuts hair along a plane.

@@ -36,14 +36,27 @@ struct StrandSeed {
 struct TailPlane {
     Eigen::Vector3f center, direction;
     float behind;
+    /// Across the direction, as long as the tail's radius there; 0 where hair goes as it comes.
+    Eigen::Vector3f side = Eigen::Vector3f::Zero(), up = Eigen::Vector3f::Zero();
+};
+
+/// A disc that catches hair.
+struct TailGate {
+    Eigen::Vector3f center, direction;
+    float square_radius;
+    /// How far behind the tie, and the number of the tail's next plane.
+    float behind = 0.0f;
+    std::int32_t plane = 0;
 };
 
 struct TieRule {
-    Eigen::Vector3f center, direction;
-    float square_radius, tail_length, ragged;
+    TailGate tie;
+    float tail_length, ragged;
     std::vector<TailPlane> planes = {};
     /// Whether the tie says how long strands become.
     bool measures = true;
+    /// Behind the tie, for hair that came in beside it.
+    std::vector<TailGate> gates = {};
 };
 
 /// Hair is left where normal . p <= offset + ragged x chance.

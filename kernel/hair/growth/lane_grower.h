@@ -34,6 +34,10 @@ inline constexpr float kLeastPush = 0.02f;
 
 inline constexpr std::size_t kFirstBuffer = 64;
 
+// Hair in a tail comes nearer to its place there by this share a step of the grid, by less at
+// first, up to so many steps behind the tie; so many steps over the head it does not go down to it.
+inline constexpr float kSettling = 0.3f, kSettlingBegin = 3.0f, kSettlingRoom = 0.5f;
+
 // None of these has a constructor: the compiler would make it outside of LISSOM_LANES_BEGIN.
 struct Floats3 {
     Floats x, y, z;
@@ -131,7 +135,7 @@ class LaneGrower {
             pushes_ = pushes_ - low;
             Segments next = segments_of(growing_ & no(low));
             for (std::size_t i = 0; i < rules_.ties.size(); ++i) meet_tie(rules_.ties[i], i, next);
-            if (!rules_.ties.empty()) measure_tails(next);
+            if (!rules_.ties.empty()) follow_tails(next, here);
             const Ints too_long = next.length > length_ - grown_;
             if (any(too_long)) shorten(next, too_long, (length_ - grown_) / next.length);
             for (const CutRule& cut : rules_.cuts) meet_cut(cut, next);
@@ -241,38 +245,71 @@ class LaneGrower {
     }
 
     LISSOM_INLINE void meet_tie(const TieRule& tie, std::size_t number, const Segments& next) {
-        const Floats3 direction = all(tie.direction), center = all(tie.center);
+        meet_gate(tie, tie.tie, number, next);
+        for (const TailGate& gate : tie.gates) meet_gate(tie, gate, number, next);
+    }
+
+    LISSOM_INLINE void meet_gate(const TieRule& tie, const TailGate& gate, std::size_t number,
+                                 const Segments& next) {
+        const Floats3 direction = all(gate.direction), center = all(gate.center);
         const Floats before = dot(direction, difference(at_, center)),
                      after = dot(direction, difference(to_, center));
         const Ints passes =
             (before < all(0.0f)) & no(after < all(0.0f)) & (tie_ < all(0)) & next.go;
-        if (any(passes)) pass_plane(tie, number, next, passes, before / (before - after));
+        if (any(passes)) pass_gate(tie, gate, number, next, passes, before / (before - after));
     }
 
-    // Catches strands that pass the plane of a tie, that share of the segment on, within its
-    // radius.
-    void pass_plane(const TieRule& tie, std::size_t number, const Segments& next,
-                    const Ints& passes, const Floats& share) {
+    // Catches strands that pass the plane of a tie or of a gate behind it, that share of the
+    // segment on, within its radius.
+    void pass_gate(const TieRule& tie, const TailGate& gate, std::size_t number,
+                   const Segments& next, const Ints& passes, const Floats& share) {
         for (int k = 0; k < kLanes; ++k) {
             if (!passes[k]) continue;
-            const Eigen::Vector3f off = get(at_, k) + share[k] * get(next.way, k) - tie.center;
-            if (off.squaredNorm() > tie.square_radius) continue;
+            const Eigen::Vector3f off = get(at_, k) + share[k] * get(next.way, k) - gate.center;
+            if (off.squaredNorm() > gate.square_radius) continue;
             tie_[k] = index_of(number);
-            plane_[k] = 0;
+            plane_[k] = gate.plane;
+            const float angle = static_cast<float>(kPi) * cut_[k], far = std::sqrt(tail_[k]);
+            right_[k] = far * std::cos(angle);
+            above_[k] = far * std::sin(angle);
             if (!tie.measures) continue;
-            tail_length_[k] = tie.tail_length * (1.0f - tie.ragged * tail_[k]);
-            length_[k] = grown_[k] + share[k] * next.length[k] + tail_length_[k];
+            tail_length_[k] = tie.tail_length * (1.0f - tie.ragged * std::sqrt(tail_[k]));
+            length_[k] = grown_[k] + share[k] * next.length[k] +
+                         std::max(tail_length_[k] - gate.behind, 0.0f);
         }
     }
 
     // How much longer strands in tails grow, by where they are along its spine: in the bend of a
-    // tail the way is longer outside.
-    LISSOM_INLINE void measure_tails(const Segments& next) {
+    // tail the way is longer outside; and where in it they are.
+    LISSOM_INLINE void follow_tails(Segments& next, const Reading& here) {
         const Ints tied = next.go & no(tie_ < all(0));
         if (!any(tied)) return;
         for (int k = 0; k < kLanes; ++k) {
-            if (tied[k]) pass_planes(rules_.ties[tie_[k]], next, k);
+            if (!tied[k]) continue;
+            pass_planes(rules_.ties[tie_[k]], next, k);
+            settle(rules_.ties[tie_[k]], next, here, k);
         }
+    }
+
+    // Draws a strand towards its own place in the cross section of a tail, unless that leads into
+    // the head.
+    void settle(const TieRule& tie, Segments& next, const Reading& here, int k) {
+        if (at(plane_[k]) >= tie.planes.size()) return;
+        const TailPlane& plane = tie.planes[at(plane_[k])];
+        if (!(plane.side.squaredNorm() > 0.0f)) return;
+        const Eigen::Vector3f to = get(to_, k), from = to - plane.center;
+        const Eigen::Vector3f off = from - from.dot(plane.direction) * plane.direction;
+        const Eigen::Vector3f place = right_[k] * plane.side + above_[k] * plane.up;
+        const float share = std::min(1.0f, kSettling * next.length[k]) *
+                            std::min(1.0f, plane.behind / kSettlingBegin);
+        const Eigen::Vector3f by = share * (place - off);
+        const float sinks = get(here.slope, k).dot(by);
+        const float height = (here.distance[k] + sinks) * rules_.inverse_step;
+        if (rules_.avoid && sinks < 0.0f && height < floor_[k] + kSettlingRoom) return;
+        set(to_, k, to + by);
+        const Eigen::Vector3f way = get(to_, k) - get(at_, k);
+        set(next.way, k, way);
+        next.length[k] = way.norm();
     }
 
     void pass_planes(const TieRule& tie, const Segments& next, int k) {
@@ -487,8 +524,9 @@ class LaneGrower {
     Floats3 at_{}, to_{}, way_{};
     Floats way_length_{}, grown_{}, length_{}, floor_{}, cut_{}, tail_{};
     Ints growing_{}, segments_{}, pushes_{}, tie_{};
-    // Of strands in a tail: how long they become along its spine, and the next of its planes.
-    Floats tail_length_{};
+    // Of strands in a tail: how long they become along its spine, the next of its planes, and their
+    // places across it, in its radius.
+    Floats tail_length_{}, right_{}, above_{};
     Ints plane_{};
     // Of the next points: their cells, places in them, and whether they are in the grid.
     Ints cell_{}, inside_{};

@@ -113,6 +113,54 @@ TEST_CASE("growth: the length of a tail is measured along its spine, so that it 
           }).code() == ErrorCode::invalid_argument);
 }
 
+namespace {
+
+// Strands of a meadow whose roots are on one side of a tie, with a tail that goes straight up from
+// it.
+struct OneSided {
+    Meadow meadow;
+    Strands strands;
+    std::vector<Vec3> tips;  // from the tail's spine, in its radius
+
+    OneSided(double radius, double beside) {
+        GrowthOptions options = meadow.options();
+        options.length = 0.01 + 4.0 * meadow.field.layout().step;
+        HairTie tie{meadow.above(0.01) + Vec3(beside, 0, 0), {0, 1, 0}, 0.008, 0.3, 0.0};
+        for (int k = 0; k <= 30; ++k) {
+            tie.spine.push_back(tie.center + Vec3(0, meadow.field.layout().step * k, 0));
+        }
+        if (radius > 0.0) tie.radii.assign(tie.spine.size(), radius);
+        tie.tail_length = 25 * meadow.field.layout().step;
+        options.ties = {tie};
+        grow(meadow.head, meadow.field, meadow.roots, options, strands);
+        for (Index s = 0; s < strands.size(); ++s) {
+            const Vec3 tip = strands.strand(s).col(strands.point_count(s) - 1).cast<double>();
+            tips.push_back((tip - tie.center).cwiseProduct(Vec3(1, 0, 1)) / std::max(radius, 1e-3));
+        }
+    }
+};
+
+}  // namespace
+
+TEST_CASE("growth: hair fills a tail all round, also where it came in from one side") {
+    const double step = Meadow().field.layout().step;
+    for (const double beside : {0.003, 0.003 + 1.2 * step}) {
+        CAPTURE(beside);
+        const OneSided filled(2.0 * step, beside);
+        Vec3 mean = Vec3::Zero();
+        double square = 0.0, farthest = 0.0;
+        for (const Vec3& tip : filled.tips) {
+            mean += tip / static_cast<double>(filled.tips.size());
+            square += tip.squaredNorm() / static_cast<double>(filled.tips.size());
+            farthest = std::max(farthest, tip.norm());
+        }
+        CHECK(mean.norm() < 0.15);
+        CHECK(std::sqrt(square) > 0.5);
+        CHECK(farthest < 1.05);
+    }
+    for (const Vec3& tip : OneSided(0.0, 0.003).tips) CHECK(std::abs(tip.z()) < 4.6);
+}
+
 TEST_CASE("growth: a cut ends strands on its plane, each where chance moves it") {
     const Meadow meadow;
     GrowthOptions options = meadow.options();
@@ -179,7 +227,7 @@ TEST_CASE("growth: the same to the bit with and without vector instructions") {
     rules.most_segments = 150;
     const Eigen::Vector3f middle = Eigen::Vector3f(grid.last.data()) / 2.0f;
     rules.cuts = {{{0.0f, -1.0f, 0.0f}, -middle.y() - 1.0f, 1.0f}};
-    rules.ties = {{middle, {0.0f, 0.0f, -1.0f}, 50.0f, 5.0f, 0.45f}};
+    rules.ties = {{{middle, {0.0f, 0.0f, -1.0f}, 50.0f}, 5.0f, 0.45f}};
     for (int k = 1; k < 5; ++k) {
         const auto along = static_cast<float>(k);
         rules.ties[0].planes.push_back(
