@@ -5,6 +5,7 @@
 
 #include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/core/error.h"
+#include "viewer/draw/color.h"
 
 namespace lissom {
 namespace {
@@ -55,6 +56,24 @@ void require_drawable(const Attribute& attribute) {
 }
 
 }  // namespace
+
+void paint_mesh(MeshStyle& style, std::string_view color) {
+    const std::size_t parts = color.starts_with('#') ? color.size() - 1 : 0;
+    if (parts != 4 && parts != 8) {
+        style.color = parse_color(color);
+        return;
+    }
+    const std::size_t digits = parts / 4;
+    const std::string_view alpha = color.substr(1 + 3 * digits);
+    const std::string level = "#" + std::string(alpha) + std::string(alpha) + std::string(alpha);
+    try {
+        const double opacity = parse_color(level).r;
+        style.color = parse_color(color.substr(0, 1 + 3 * digits));
+        style.opacity = opacity;
+    } catch (const Error&) {
+        parse_color(color);  // says what is accepted
+    }
+}
 
 void paint_region(Picture& picture, std::string_view name) {
     paint_named(picture, name, set_region);

@@ -9,6 +9,10 @@
 
 namespace lissom {
 
+/// Gives a mesh a colour, as parse_color reads it, and with "#rrggbbaa" or "#rgba" an opacity, so
+/// that what is behind it is seen through it. Errors: as parse_color.
+void paint_mesh(MeshStyle& style, std::string_view color);
+
 /// Draws a region in blue, or a handle in purple, on every mesh that has it: by name, the meshes
 /// with a region of that name; by itself, the meshes with its topology. Errors: out_of_range where
 /// no mesh has the name; topology_mismatch where no mesh has the topology.

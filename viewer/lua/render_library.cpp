@@ -191,14 +191,13 @@ void add_strands(const Call& call, Picture& picture) {
 void color_meshes(const Call& call, Picture& picture) {
     if (!call.has("color")) return;
     if (call.kind("color") == Kind::string) {
-        const Color color = parse_color(call.string("color"));
-        for (DrawnMesh& drawn : picture.meshes) drawn.style.color = color;
+        for (DrawnMesh& drawn : picture.meshes) paint_mesh(drawn.style, call.string("color"));
         return;
     }
     const auto colors = call.strings("color");
     require_count(colors.size(), picture.meshes.size(), "colours");
     for (std::size_t i = 0; i < colors.size(); ++i) {
-        picture.meshes[i].style.color = parse_color(colors[i]);
+        paint_mesh(picture.meshes[i].style, colors[i]);
     }
 }
 
@@ -562,7 +561,8 @@ std::vector<Parameter> content_options() {
             .optional("all"),
         strings("captions", "In cells, a line of text below each mesh.").optional(),
         either("color", {string("name", "One for all."), strings("names", "One for each mesh.")},
-               "Colour of the meshes: \"#rrggbb\" or one of " + std::string(color_names()) + ".")
+               "Colour of the meshes: \"#rrggbb\" or one of " + std::string(color_names()) +
+                   "; with \"#rrggbbaa\" they are seen through, the less so the greater aa is.")
             .optional("clay"),
         boolean("vertex_colors", "Draws the attribute \"color\" where a mesh has it.")
             .defaults(style.vertex_colors),

@@ -49,6 +49,16 @@ std::string check_color(const std::string& text) {
     return "";
 }
 
+std::string check_mesh_color(const std::string& text) {
+    try {
+        MeshStyle style;
+        paint_mesh(style, text);
+    } catch (const Error& error) {
+        return error.message();
+    }
+    return "";
+}
+
 std::string check_background(const std::string& text) {
     return text == "transparent" ? "" : check_color(text);
 }
@@ -89,8 +99,9 @@ void declare_content(CLI::App& app, Request& request) {
                    "Angle in degrees above which smooth shading keeps an edge (default: 50)")
         ->check(CLI::Range(0.0, 180.0));
     app.add_flag("--wire", style.wire, "Draw the edges of the faces");
-    app.add_option("--color", request.color, "Colour of the meshes (default: clay)")
-        ->check(check_color);
+    app.add_option("--color", request.color,
+                   "Colour of the meshes; #rrggbbaa: seen through (default: clay)")
+        ->check(check_mesh_color);
     app.add_option("--region", request.region, "Name of a region to draw in blue");
     app.add_option("--handles", request.handles, "Names of regions to draw in purple");
     app.add_flag("--boundaries", style.boundaries, "Draw the open boundaries in colours");
@@ -148,7 +159,7 @@ void options_of(Request& request) {
     picture.options.background = request.background == "transparent"
                                      ? std::nullopt
                                      : std::optional<Color>(parse_color(request.background));
-    request.style.color = parse_color(request.color);
+    paint_mesh(request.style, request.color);
     request.style.shading = request.shading == "flat" ? Shading::flat : Shading::smooth;
     request.style.crease = request.crease * kDegree;
 }

@@ -42,7 +42,7 @@ local lissom = {}
 ---@field columns? integer 0: all meshes in one space. Else each in a cell of its own, this many a row, all seen by the same camera. Default: 0.
 ---@field fit? "all"|"each" In cells, a view frames all meshes at one scale, or each by itself. Default: all.
 ---@field captions? string[] In cells, a line of text below each mesh.
----@field color? string|string[] Colour of the meshes: "#rrggbb" or one of white, black, gray, lightgray, darkgray, clay, red, orange, yellow, green, teal, blue, purple, sand. Default: clay.
+---@field color? string|string[] Colour of the meshes: "#rrggbb" or one of white, black, gray, lightgray, darkgray, clay, red, orange, yellow, green, teal, blue, purple, sand; with "#rrggbbaa" they are seen through, the less so the greater aa is. Default: clay.
 ---@field vertex_colors? boolean Draws the attribute "color" where a mesh has it. Default: true.
 ---@field shading? "smooth"|"flat" flat shows the faces. Default: "smooth".
 ---@field crease? number Smooth shading keeps edges sharp where faces meet at more than this angle. In degrees. Default: 50.

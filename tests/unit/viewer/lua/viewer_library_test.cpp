@@ -155,6 +155,12 @@ TEST_CASE("scripts draw hair, and every option of it changes the picture") {
         CAPTURE(option);
         CHECK(picture("mesh = block, hair = { " + std::string(option) + " }") != plain);
     }
+    const std::string gray = picture("mesh = block, color = '#cccccc'");
+    CHECK(picture("mesh = block, color = '#ccccccff'") == gray);
+    CHECK(picture("mesh = block, color = '#cccf'") == gray);
+    const std::string open = picture("mesh = block, color = '#cccccc40'");
+    CHECK(open != gray);
+    CHECK(picture("mesh = block, color = '#cccccc80'") != open);
     CHECK(picture("meshes = { block, block }, offsets = { { -1, 0, 0 }, { 1, 0, 0 } }, "
                   "strands = { hair, hair }, columns = 2") != plain);
     const auto fails = [&](const std::string& options) {
@@ -291,6 +297,8 @@ TEST_CASE("misuse is an error that names the option") {
     refuses("shading = 'flat', crease = 30", "bad option 'crease'");
     refuses("line_width = 2", "bad option 'line_width'");
     refuses("color = 'blau'", "is not a colour");
+    refuses("color = '#12345g78'", "'#12345g78' is not a colour");
+    refuses("color = '#123456g8'", "'#123456g8' is not a colour");
     refuses("region = 'lift'", "no region 'lift', did you mean 'left'?");
     refuses("region = lissom.shapes.box():region{ all = true }", "belongs to none of the meshes");
     refuses("scalars = 'height'", "no attribute 'height'");
