@@ -1,7 +1,7 @@
 --- Draws stream curves, which hair follows, and edits them by hint strokes.
 --
--- by draw: a stroke that begins on the scalp is a new stream. With a stream chosen by a click, or begun at
--- one, it is a hint: across the stream it cuts, from it to elsewhere it goes on there, from it back to it it
+-- by draw: a stroke that begins on the scalp is a new stream; one that ends at the tie of a tail goes into it.
+-- With a stream chosen by a click, or begun at one, it is a hint: across the stream it cuts, from it to elsewhere it goes on there, from it back to it it
 -- takes the place of the part between. What it is taken for stands at the cursor; Alt takes the next reading.
 -- Seen from far beside the view that streams were drawn in (v: from now on this one) hints change the depth:
 -- they are drawn on the surface that is shown.
@@ -45,7 +45,8 @@ local keys = {
 
 return require("lissom").tool{
     name = "stream",
-    help = "Draw from the scalp: a stream. Click one: strokes across or from it change it, Alt: otherwise.",
+    help = "Draw from the scalp: a stream; to a tie: into it. Click one: strokes across or from it change "
+        .. "it, Alt: otherwise.",
     params = hair.with_params{
         by = { type = "choice", default = "draw", choices = { "draw", "pull", "rub" } },
         stop = { type = "boolean", default = true, help = "Hair ends where the streams do that are drawn." },

@@ -177,6 +177,13 @@ function artist:choose(curve)
     error("the curve is hidden")
 end
 
+--- Presses a key that changes something.
+function artist:key(key)
+    self.host:key{ key = key }
+    self.others = self.others + 1
+    return self
+end
+
 --- Draws an ellipse around a point of the world, of radii in pixels.
 function artist:ring(center, wide, high, share)
     local x, y = self.hand.camera:project(center, size)
@@ -199,7 +206,8 @@ function artist:off(curve, route)
 end
 
 --- Draws a stream as it is seen from one side, and where there is a second one again from there:
--- { azimuth, elevation } each. Returns how far off it is then, and how far it was before.
+-- { azimuth, elevation } each, with the number of the first point that is drawn again as a third. Returns
+-- how far off it is then, and how far it was before.
 function artist:stream(places, first, second)
     local points, before = self.route(places), #self.style:curves()
     self:look(first[1], first[2]):stroke(points)
@@ -208,8 +216,11 @@ function artist:stream(places, first, second)
     local guessed = self:off(curve, points)
     if not second then return guessed, guessed end
     self:look(second[1], second[2])
-    local seen = self:seen(points)
-    seen[1] = self:seen{ curve:course()[1] }[1]
+    local seen, course = self:seen(points), curve:course()
+    local from = second[3] or 1
+    seen = table.move(seen, from, #seen, 1, {})
+    local near = hair.nearest(course, self.hand.camera, size, seen[1][1], seen[1][2])
+    seen[1] = self:seen{ from == 1 and course[1] or near.point }[1]
     self:choose(curve):pixels(seen)
     self.host:click{ x = 5, y = 5 }
     expect.equal(#self.style:curves(), before + (self.hand.tool.params.symmetric and 2 or 1))
@@ -233,12 +244,13 @@ function artist:done(name, fresh)
     expect.equal(self.hand:steps(), self.strokes + self.others)
 end
 
--- Pictures of it with many strands, in the folder that the environment names.
+-- Its file, and pictures of it with many strands, in the folder that the environment names.
 function artist:show(name)
     local style, folder = self.style, os.getenv("LISSOM_SKETCHES")
     local scalp, long = style:scalp(), self.hair_length or 0.25
     local count = tonumber(os.getenv("LISSOM_STRANDS") or 100000)
     local one = hair.find(self.scene, self.hand.tool.params)
+    assert(style:save(folder .. "/" .. name .. ".json"))
     local strands = assert(style:grow{ count = count, length = long, cut = hair.cut(one) })
     require("hairdo").detail(strands)
     for _, view in ipairs(self.views or { { 0, 4 }, { 35, 12 }, { 90, 4 }, { 180, 4 } }) do

@@ -384,7 +384,7 @@ test("a profile that begins beyond the tie leaves the tie where it is", function
     end
     h:drag(points, {}, 4)
     expect.truthy(#tails()[1]:profiles()[1] > 3)
-    expect.near(tails()[1]:tie().center, tie.center, 0.01)
+    expect.near(tails()[1]:tie().center, tie.center, 0.014)     -- half a step of the grid
     expect.near(tails()[1]:tie().radius, tie.radius, 0.004)
     h:there_and_back()
 end)

@@ -302,3 +302,30 @@ test("on a head alone the first stroke begins a hairstyle, in its own step", fun
     expect.error(function() draw{ { 5, 5 }, { 50, 90 }, { 80, 120 } } end, "starts beside")
     expect.equal(h.scene:hash(), before)
 end)
+
+test("a stream that ends at a tie goes into it, as does its mirror image; hair goes on there", function()
+    begin(90)
+    local tie, out = style:at{ azimuth = 115, elevation = 20, lift = 0.018 }
+    local spine, metre = { tie }, style:scalp():scale()
+    for i = 1, 8 do
+        spine[i + 1] = { tie[1] + 0.012 * i * out[1] * metre, tie[2] - 0.003 * i * i * metre,
+            tie[3] + 0.012 * i * out[3] * metre }
+    end
+    local tails = { style:ponytail{ spine = spine, radius = 0.02 } }
+    for _, point in ipairs(spine) do point[1] = 2 * style:scalp():center()[1] - point[1] end
+    tails[2] = style:ponytail{ spine = spine, radius = 0.02 }
+    local end_of = tails[1]:tie().center
+    h.host:set{ symmetric = true }
+    draw{ pixel(over(40, 55)), pixel(over(80, 45)), at(tails[1], 0, -22, -14) }
+    local streams = { style:curves()[3], style:curves()[4] }
+    expect.equal(#style:curves(), 4)
+    for i, stream in ipairs(streams) do
+        local points, ring = stream:points(), tails[i]:tie()
+        expect.near(length{ points[#points], ring.center }, 0.5 * ring.radius, 0.05 * ring.radius)
+        expect.equal(stream:options().stop, 0)
+    end
+    -- One that ends farther off is a stream as others are.
+    draw{ pixel(over(40, 30)), pixel(over(70, 5)), { at(tails[1], 0)[1] - 150, at(tails[1], 0)[2] + 160 } }
+    expect.truthy(length{ style:curves()[5]:points()[#style:curves()[5]:points()], end_of } > 0.05 * metre)
+    expect.truthy(style:curves()[5]:options().stop > 0)
+end)

@@ -3,6 +3,7 @@
 -- `twin`; and those that the stroke makes, `drafts`.
 local curves = require "tools.support.curves"
 local hair = require "tools.support.hair"
+local tie = require "tools.support.tie"
 local vectors = require "vectors"
 
 local stream_hands = {}
@@ -17,6 +18,22 @@ local function put_back(self, one)
     if self.target then put(self, one, self.before) end
     for _, curve in ipairs(self.drafts or {}) do curve:remove() end
     self.drafts, self.support = nil, nil
+end
+
+-- A stream that is drawn, and its mirror image where the tool is symmetric; where they end at a tie they go
+-- into it, and hair goes on there. Whether the first does.
+local function add_streams(self, one, points, camera, size)
+    local into = tie.led_into(one, points, camera, size)
+    local lists = { into or points }
+    if self.params.symmetric then
+        local image = curves.mirrored(one.scalp, points)
+        lists[2] = into and tie.led_into(one, image) or image
+    end
+    self.drafts = {}
+    for i, list in ipairs(lists) do
+        self.drafts[i] = assert(one.style:stream{ points = list, stop = not into and self.params.stop })
+    end
+    return into ~= nil
 end
 
 local hands = {}
@@ -38,12 +55,8 @@ function hands.draw(self, one, ev, camera)
         put(self, one, self.target:points())
     else
         given.on = one.scalp
-        local points = camera:stroke(given).points
-        self.drafts = { assert(one.style:stream{ points = points, stop = self.params.stop }) }
-        if self.params.symmetric then
-            points = curves.mirrored(one.scalp, points)
-            self.drafts[2] = assert(one.style:stream{ points = points, stop = self.params.stop })
-        end
+        local into = add_streams(self, one, camera:stroke(given).points, camera, ev.size)
+        if into then name = "stream into the tie" end
     end
     local hard = self.support and (self.support:end_on() > 1 / 3 and ": seen end-on, draw on the strip"
         or reading.pixels < 120 and ": come nearer" or not reading.sure and "?") or ""

@@ -113,6 +113,7 @@ function parts.hints(self, ev, one, curve, camera, pixels)
             self.support = curves.support(curve, "auto", camera, self.state.viewpoint)
             local given = { points = self.pixels, size = ev.size, on = self.support }
             curves.apply(curve, name, camera:stroke(given).points)
+            if name ~= "cut" then curve:set{ spine = tail.leaving(one, curve:points()) } end
             return nil, self.support:mode() == "ruled" and "in depth" or nil
         end }
     end
@@ -168,6 +169,24 @@ local function height(head, point)
     return is_out and near.distance or -near.distance
 end
 
+local leaving = 0.035           -- metres over which a tail leaves the head straight
+
+--- Points of a spine so that it leaves the head along its normal, and then goes on as it was drawn: a tie
+-- that is tilted would have hair get in from one side alone.
+function tail.leaving(one, points)
+    local metre, length, list = one.scalp:scale(), 0, { points[1] }
+    local near = one.scalp:head():nearest(points[1])
+    local away = vectors.plus(points[1], near.position, -1)
+    if vectors.length(away) < 1e-6 * metre or vectors.dot(away, near.normal) <= 0 then return points end
+    for i = 2, #points do
+        length = length + vectors.length(vectors.plus(points[i], points[i - 1], -1))
+        local straight = vectors.plus(points[1], vectors.unit(away), length)
+        local t = math.max(0, 1 - length / (leaving * metre))
+        list[i] = vectors.plus(points[i], vectors.plus(straight, points[i], -1), t * t * (3 - 2 * t))
+    end
+    return list
+end
+
 --- The spine of a tail from a stroke over the head, or in the middle of it: from where it is high enough for
 -- a tie.
 function tail.spine(ev, one, pixels, in_middle)
@@ -184,7 +203,7 @@ function tail.spine(ev, one, pixels, in_middle)
     end
     local wanted, first = math.min(tie_height * scalp:scale(), 0.8 * highest), 1
     while heights[first] < wanted do first = first + 1 end
-    return table.move(points, first, #points, 1, {})
+    return tail.leaving(one, table.move(points, first, #points, 1, {}))
 end
 
 -- From the spine to a point beside it, and how far along the spine that is.
@@ -287,7 +306,18 @@ end
 local gathered = { count = 8, reach = 0.14, low = 0.006 }       -- metres
 local in_tie = 0.03             -- metres from a tie within which streams end that were gathered into it
 
---- Draws streams over the hair around a tail into its tie, in place of those that did so.
+-- Whether a point is nearer to the tie of another tail.
+local function is_of_other(one, curve, point)
+    local nearest, best = math.huge, nil
+    for _, other in ipairs(hair.curves(one, "ponytail")) do
+        local off = vectors.length(vectors.plus(point, other:tie().center, -1))
+        if off < nearest then best, nearest = other, off end
+    end
+    return best ~= curve
+end
+
+--- Draws streams over the hair around a tail into its tie, in place of those that did so; not from where
+-- another tail is nearer.
 function tail.gather(one, curve)
     local tie, scalp = curve:tie(), one.scalp
     for _, stream in ipairs(hair.curves(one, "stream")) do
@@ -300,6 +330,7 @@ function tail.gather(one, curve)
     function options.skip(azimuth, elevation)
         local found, at = pcall(scalp.at, scalp, { azimuth = azimuth, elevation = elevation })
         return not found or not region:contains(scalp:head():nearest(at).vertex)
+            or is_of_other(one, curve, at)
     end
     hairdo.gather(one.style, direction_of(scalp, tie), options)
 end
