@@ -1,8 +1,9 @@
 --- Draws stream curves, which hair follows, and edits them by hint strokes.
 --
--- by draw: a stroke that begins on the scalp is a new stream; one that ends at the tie of a tail goes into it.
--- With a stream chosen by a click, or begun at one, it is a hint: across the stream it cuts, from it to elsewhere it goes on there, from it back to it it
--- takes the place of the part between. What it is taken for stands at the cursor; Alt takes the next reading.
+-- by draw: a stroke that begins on the scalp is a new stream; one that ends at the tie of a tail goes into
+-- it. With a stream chosen by a click, or begun at one, it is a hint: across the stream it cuts, from it to
+-- elsewhere it goes on there, from it back to it it takes the place of the part between. What it is taken for
+-- stands at the cursor; Alt takes the next reading.
 -- Seen from far beside the view that streams were drawn in (v: from now on this one) hints change the depth:
 -- they are drawn on the surface that is shown.
 -- by pull: a drag moves a stream there, at its first point the root over the scalp. by rub: smooths it.
