@@ -18,7 +18,7 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
     const RotationSystem& second = *motion.method().second;
     Deviation& deviation = scratch.deviation;
     const bool winds = share_of_turns(input.greatest_turn) > 0.0;
-    if (!winds) find_rotations(input, deviation, context, scratch.rotations);
+    if (!winds) find_rotations(input, deviation, scratch.part, context, scratch.rotations);
     const Mat3 remainder = motion.base_linear() - input.base_rotation;
     if (!remainder.isZero(0.0)) {
         for_each_block(context, patch.vertex_count, [&](Index begin, Index end) {
@@ -27,7 +27,7 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
             }
         });
     }
-    if (winds) wind_rotations(input, deviation, scratch.second, context, scratch.rotations);
+    if (winds) wind_rotations(input, scratch, context);
     second.solve(scratch.rotations, deviation, input.draft, scratch.second, context);
     const int steps = motion.options().refine;
     for (int step = 1; step <= steps; ++step) {
@@ -101,16 +101,10 @@ DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation,
     const Motion motion(prepared, poses, asked);
     std::vector<Vec3> positions = take_positions(scratch.state(), prepared);
     if (const LinearSolution* solution = motion.method().solution.get()) {
-        const Mat4 shift = motion.base() - matrix_of({});
-        const std::vector<Index>& rows = motion.method().frame_row;
-        const Vec3& origin = prepared.patch().origin;
+        const LinearSolution::Places places{motion.base() - matrix_of({}), prepared.patch().origin,
+                                            motion.method().frame_row, positions};
         for_each_block(context, solution->rows(), [&](Index begin, Index end) {
-            std::array<Vec4, kFrameBlock> x;
-            solution->positions(shift, motion.differences(), asked.fixed, x.data(), begin, end);
-            for (Index row = begin; row < end; ++row) {
-                if (rows[row] == kNoIndex) continue;
-                positions[rows[row]] = x[row - begin].head<3>() + origin;
-            }
+            solution->place(motion.differences(), asked.fixed, places, begin, end);
         });
     }
     return framed(preparation, motion, poses, std::move(positions));

@@ -8,13 +8,25 @@
 namespace lissom {
 namespace {
 
-// Where a vertex goes that handle h holds: transform(p), to the bit, unless the patch knows better.
-Vec3 held_position(const RestShape& rest, const HandlePose& pose, Index v) {
+// Where vertices go that a handle holds: transform(p), to the bit, unless the patch knows better.
+// Calls put(row, position) for each of `vertices`.
+template <typename Put>
+void for_each_held(const RestShape& rest, const HandlePose& pose, std::span<const Index> vertices,
+                   const Put& put) {
     const Affine& transform = pose.transform;
-    const Vec3& before = rest.positions[rest.region_row[v]];
-    if (transform.is_identity()) return before;
-    if (!rest.far_away || transform.linear == Mat3::Identity()) return transform(before);
-    return rest.origin() + pose.local_transform(rest.patch().rest[v]);
+    const auto place = [&](const auto& where) {
+        for (const Index v : vertices) put(v, where(v));
+    };
+    const auto before = [&](Index v) -> const Vec3& { return rest.positions[rest.region_row[v]]; };
+    if (transform.is_identity()) {
+        place(before);
+    } else if (!rest.far_away || transform.linear == Mat3::Identity()) {
+        place([&](Index v) -> Vec3 { return transform(before(v)); });
+    } else {
+        place([&](Index v) -> Vec3 {
+            return rest.origin() + pose.local_transform(rest.patch().rest[v]);
+        });
+    }
 }
 
 // Held vertices lie where they were asked to, to the bit; vertices without faces that nothing holds
@@ -25,10 +37,10 @@ void place_held(const Preparation& prepared, const Poses& poses, std::vector<Vec
     for (const Index row : prepared.resting_rows) positions[row] = rest.positions[row];
     for (std::size_t h = 0; h < holds.handles.size(); ++h) {
         if (!holds.handles[h]) continue;
-        for (const Index v : holds.handles[h]->local) {
-            if (!prepared.known.position[v]) continue;
-            positions[rest.region_row[v]] = held_position(rest, poses.handles[h], v);
-        }
+        for_each_held(rest, poses.handles[h], holds.handles[h]->local,
+                      [&](Index v, const Vec3& at) {
+                          if (prepared.known.position[v]) positions[rest.region_row[v]] = at;
+                      });
     }
     for (std::size_t t = 0; t < holds.targets.size(); ++t) {
         const Target& target = *holds.targets[t];

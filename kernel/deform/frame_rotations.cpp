@@ -9,6 +9,7 @@
 
 #include "kernel/deform/frame_steps.h"
 #include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/rotation/turn_loops.h"
 #include "kernel/deform/rotation/winding.h"
 #include "kernel/deform/system/frame_blocks.h"
 
@@ -29,15 +30,15 @@ double turn_fraction(double greatest) {
 
 // Where local vertices lie, relative to where the base takes them, if the handles of the solution
 // differ from it by `differences` and nothing else moves.
-Deviation spread_moves(const Motion& motion, std::span<const Mat4> differences,
-                       const Context& context) {
+void spread_moves(const Motion& motion, std::span<const Mat4> differences, const Context& context,
+                  Deviation& x) {
     const std::vector<Index>& handles = motion.solution().handles();
     const Patch& patch = motion.patch();
     const auto number_of = [&](Index owner) {
         const auto found = std::find(handles.begin(), handles.end(), owner);
         return found == handles.end() ? kNoIndex : index_of(found - handles.begin());
     };
-    Deviation x(patch.vertex_count, Vec4::Zero());
+    x.assign(patch.vertex_count, Vec4::Zero());
     for_each_block(context, patch.vertex_count, [&](Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
             const Index n = number_of(motion.prepared().owner[v]);
@@ -50,7 +51,6 @@ Deviation spread_moves(const Motion& motion, std::span<const Mat4> differences,
         motion.solution().handle_part(differences, moved.data(), begin, end);
         for (Index row = begin; row < end; ++row) x[free[row]] = moved[row - begin];
     });
-    return x;
 }
 
 // Gradients of weights serve where there are at most so many handles: more would take longer to
@@ -111,7 +111,7 @@ Mat3 rotation_of(const Motion& motion, const Mat3& gradient) {
 
 // Each handle goes `fraction` of its way from the base, along a screw.
 std::optional<TurnPart> part_of_turns(const Motion& motion, double greatest_turn,
-                                      const Context& context) {
+                                      Deviation& scratch, const Context& context) {
     const double fraction = turn_fraction(greatest_turn);
     if (fraction >= 1.0) return std::nullopt;
     const std::vector<Index>& handles = motion.solution().handles();
@@ -132,33 +132,39 @@ std::optional<TurnPart> part_of_turns(const Motion& motion, double greatest_turn
         differences.push_back(matrix_of(at) - base);
         remainders.push_back(padded(screw.remainder));
     }
-    return TurnPart{fraction, spread_moves(motion, differences, context),
-                    SpreadMoves(motion, remainders, context)};
+    spread_moves(motion, differences, context, scratch);
+    return TurnPart{fraction, scratch, SpreadMoves(motion, remainders, context)};
 }
 
 void turn_on(const Motion& motion, const TurnPart& part, const Index* vertices, Mat3* gradient,
              Index begin, Index end) {
-    const Mat3 back = nearest_rotation(motion.base_linear()).transpose();
-    const double further = 1.0 / part.fraction - 1.0;
+    const Mat3 base_linear = motion.base_linear();
     const std::size_t count = end - begin;
-    std::array<Mat3, kFrameBlock> rotation, added;
-    nearest_rotations({gradient, count}, {rotation.data(), count});
+    Vec4 base;
+    std::array<Vec4, kFrameBlock> rotation;
+    std::array<Mat3, kFrameBlock> added;
+    nearest_quaternions({&base_linear, 1}, {&base, 1});
+    nearest_quaternions({gradient, count}, {rotation.data(), count});
     part.remainder.gather(vertices, added.data(), begin, end);
-    for (std::size_t i = 0; i < count; ++i) {
-        gradient[i] = turned_further(rotation[i] * back, further) * gradient[i] + added[i];
-    }
+    turn_further({rotation.data(), count}, base, 1.0 / part.fraction - 1.0, {gradient, count});
+    for (std::size_t i = 0; i < count; ++i) gradient[i] += added[i];
+}
+
+void first_gradients(const Motion& motion, const TurnPart* part, std::span<const Vec4> deviation,
+                     Mat3* m, Index begin, Index end) {
+    const Index* vertices = motion.method().gathered.data();
+    const Vec4* x = part ? part->deviation.data() : deviation.data();
+    const Mat3 base = motion.base_linear();
+    motion.prepared().gradient_loop().gather(vertices, x, m, begin, end);
+    for (Index i = 0; i < end - begin; ++i) m[i] += base;
+    if (part) turn_on(motion, *part, vertices, m, begin, end);
 }
 
 void first_rotations(const Motion& motion, const TurnPart* part, std::span<const Vec4> deviation,
                      Mat3* s, Index begin, Index end) {
-    const Index* vertices = motion.method().gathered.data();
-    const Vec4* x = part ? part->deviation.data() : deviation.data();
-    const Mat3 base = motion.base_linear();
     const std::size_t count = end - begin;
     std::array<double, kFrameBlock> scale;
-    motion.prepared().gradient_loop().gather(vertices, x, s, begin, end);
-    for (std::size_t i = 0; i < count; ++i) s[i] += base;
-    if (part) turn_on(motion, *part, vertices, s, begin, end);
+    first_gradients(motion, part, deviation, s, begin, end);
     const bool scales = motion.scales();
     for (std::size_t i = 0; i < count; ++i) scale[i] = scales ? uniform_scale(s[i]) : 1.0;
     nearest_rotations({s, count}, {s, count});
@@ -189,10 +195,11 @@ void turn_held(const SecondInput& input, Rotations& rotations) {
     }
 }
 
-void find_rotations(const SecondInput& input, std::span<const Vec4> deviation,
+void find_rotations(const SecondInput& input, std::span<const Vec4> deviation, Deviation& scratch,
                     const Context& context, Rotations& rotations) {
     const Motion& motion = input.motion;
-    const std::optional<TurnPart> part = part_of_turns(motion, input.greatest_turn, context);
+    const std::optional<TurnPart> part =
+        part_of_turns(motion, input.greatest_turn, scratch, context);
     const TurnPart* const of = part ? &*part : nullptr;
     const std::vector<Index>& vertices = motion.method().gathered;
     for_each_block(context, count_of(vertices), [&](Index begin, Index end) {

@@ -48,7 +48,8 @@ struct DraftMemo {
 struct FrameScratch::State {
     AskedMemo asked;
     std::optional<DraftMemo> draft;
-    Deviation deviation;
+    /// Of all that is asked for, and of a part of the turns.
+    Deviation deviation, part;
     /// Sized, and zero outside the region, for `sized_for`.
     Rotations rotations;
     std::weak_ptr<const Preparation> sized_for;
@@ -81,7 +82,7 @@ class SpreadMoves {
 /// The first system at a fraction of the turns that are asked for.
 struct TurnPart {
     double fraction = 1.0;
-    Deviation deviation;
+    std::span<const Vec4> deviation;
     /// What the handles' translations and the targets add that the turns do not.
     SpreadMoves remainder;
 };
@@ -106,9 +107,10 @@ void solve_first(const Motion& motion, const Context& context, Deviation& deviat
 Mat3 gradient_of(const Motion& motion, std::span<const Vec4> deviation, Index v,
                  const TurnPart* part = nullptr);
 
-/// The part of the turns that the first system is asked for, where it is not asked for all.
+/// The part of the turns that the first system is asked for, where it is not asked for all; its
+/// deviation is in `scratch`.
 std::optional<TurnPart> part_of_turns(const Motion& motion, double greatest_turn,
-                                      const Context& context);
+                                      Deviation& scratch, const Context& context);
 /// Turns gradients of `part` on by what it leaves, and adds the remainders: of vertices [begin,
 /// end).
 void turn_on(const Motion& motion, const TurnPart& part, const Index* vertices, Mat3* gradient,
@@ -116,17 +118,19 @@ void turn_on(const Motion& motion, const TurnPart& part, const Index* vertices, 
 
 /// The share of the field of turns in the rotations, 0 to 1.
 double share_of_turns(double greatest_turn);
-/// S_i that the first system leads to, of the vertices [begin, end) of those that are gathered.
+/// M_i that the first system leads to, of the vertices [begin, end) of those that are gathered.
+void first_gradients(const Motion& motion, const TurnPart* part, std::span<const Vec4> deviation,
+                     Mat3* m, Index begin, Index end);
+/// S_i of the same.
 void first_rotations(const Motion& motion, const TurnPart* part, std::span<const Vec4> deviation,
                      Mat3* s, Index begin, Index end);
 /// Handles turn as a whole, and targets as they are asked to.
 void turn_held(const SecondInput& input, Rotations& rotations);
 /// The rotations that the first system leads to.
-void find_rotations(const SecondInput& input, std::span<const Vec4> deviation,
+void find_rotations(const SecondInput& input, std::span<const Vec4> deviation, Deviation& scratch,
                     const Context& context, Rotations& rotations);
 /// The same where handles turn too far for it: by the field of turns, or between both.
-void wind_rotations(const SecondInput& input, std::span<const Vec4> deviation,
-                    RotationSystem::Scratch& scratch, const Context& context, Rotations& rotations);
+void wind_rotations(const SecondInput& input, FrameScratch::State& scratch, const Context& context);
 /// Over-relaxation of an ARAP iteration: 0 for none.
 double over_relaxation(double greatest_turn, bool last);
 /// Takes those that fit the positions of the second system best, and goes on by `further` times the

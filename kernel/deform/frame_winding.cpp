@@ -7,6 +7,7 @@
 
 #include "kernel/deform/frame_steps.h"
 #include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/rotation/turn_loops.h"
 #include "kernel/deform/rotation/winding.h"
 #include "kernel/deform/system/frame_blocks.h"
 #include "kernel/solve/dual/least_norm.h"
@@ -25,8 +26,8 @@ class MeanOfTurns {
   public:
     MeanOfTurns(const Motion& motion, const TurnAnswers& answers, const std::vector<Vec4>& value)
         : answers_(answers), value_(value) {
-        const auto all_answer = [](const auto& weights) { return !weights.empty(); };
-        if (!std::all_of(answers.weights.begin(), answers.weights.end(), all_answer)) {
+        const auto answers_to = [](const auto& response) { return !response.answer.empty(); };
+        if (!std::all_of(answers.of_handles.begin(), answers.of_handles.end(), answers_to)) {
             add_silent(motion);
         }
     }
@@ -34,7 +35,8 @@ class MeanOfTurns {
     Vec4 at(Index v) const {
         Sum sum = silent_.empty() ? Sum{} : silent_[v];
         for (std::size_t n = 0; n < value_.size(); ++n) {
-            if (!answers_.weights[n].empty()) sum.add(answers_.weights[n][v], value_[n]);
+            if (!answers_.of_handles[n].answer.empty())
+                sum.add(answers_.of_handles[n].answer[v], value_[n]);
         }
         const double total = sum.total + std::clamp(sum.remainder, 0.0, 1.0);
         return total > 0.0 ? Vec4(sum.field / total) : sum.field;
@@ -60,7 +62,7 @@ class MeanOfTurns {
         const std::vector<Index>& free = motion.method().first->free_vertices();
         silent_.resize(motion.patch().vertex_count);
         for (std::size_t n = 0; n < value_.size(); ++n) {
-            if (!answers_.weights[n].empty()) continue;
+            if (!answers_.of_handles[n].answer.empty()) continue;
             const Index h = solution.handles()[n];
             for (const Index v : prepared.held[h]) silent_[v].add(1.0, value_[n]);
             for (std::size_t row = 0; row < free.size(); ++row) {
@@ -95,7 +97,7 @@ TurnAnswers find_answers(const Preparation& prepared, RotationSystem::Scratch& s
     const std::vector<Index>& all = prepared.implicit()->solution->handles();
     const std::vector<Index> movable = movable_handles(prepared);
     const auto count = count_of(movable);
-    TurnAnswers answers{std::vector<std::vector<double>>(all.size()),
+    TurnAnswers answers{std::vector<RotationSystem::Response>(all.size()),
                         Eigen::MatrixXd(count, count)};
     for (Index first = 0; first < count; first += 3) {
         const Index last = std::min(count, first + 3);
@@ -104,11 +106,11 @@ TurnAnswers find_answers(const Preparation& prepared, RotationSystem::Scratch& s
             for (const Index v : prepared.held[movable[k]]) x[v][k - first] = 1.0;
         }
         second.solve({}, x, false, scratch, context);
+        std::vector<RotationSystem::Response> responses =
+            second.responses(x, last - first, scratch, context);
         for (Index k = first; k < last; ++k) {
             const auto n = std::find(all.begin(), all.end(), movable[k]) - all.begin();
-            for (const Vec4& row : x) {
-                answers.weights[n].push_back(row[k - first]);
-            }
+            answers.of_handles[n] = std::move(responses[k - first]);
         }
         for (Index j = 0; j < count; ++j) {
             const Vec3 force =
@@ -135,12 +137,11 @@ Eigen::MatrixXd forces_on(const SecondInput& input, const std::vector<Index>& mo
             forces.push_back(second.force(rotations.data(), x, prepared.held[h], scratch, context));
         }
     } else {
-        std::vector<RotationSystem::Group> groups;
         for (const Index h : movable) {
             const auto n = std::find(all.begin(), all.end(), h) - all.begin();
-            groups.push_back({prepared.held[h], answers.weights[n]});
+            forces.push_back(
+                second.solved_force(rotations.data(), deviation, answers.of_handles[n], context));
         }
-        forces = second.solved_forces(rotations.data(), deviation, groups, scratch, context);
     }
     Eigen::MatrixXd rows(count_of(forces), 3);
     for (std::size_t j = 0; j < forces.size(); ++j) {
@@ -177,42 +178,75 @@ void take_mean_turns(const SecondInput& input, const TurnAnswers& answers, const
                      Rotations& rotations) {
     const Motion& motion = input.motion;
     const bool scales = motion.scales();
-    const Mat3 base = nearest_rotation(motion.base_linear());
-    const double base_scale = scales ? uniform_scale(motion.base_linear()) : 1.0;
+    const Mat3 base_linear = motion.base_linear();
+    const double base_scale = scales ? uniform_scale(base_linear) : 1.0;
+    Vec4 base;
+    nearest_quaternions({&base_linear, 1}, {&base, 1});
     const std::vector<Vec4> turns = motion.relative_turns();
     const MeanOfTurns mean(motion, answers, turns);
     for (const std::vector<Index>* vertices :
          {&motion.method().gathered, &motion.method().averaged}) {
         for_each_block(context, count_of(*vertices), [&](Index begin, Index end) {
+            std::array<Vec4, kFrameBlock> turn;
+            std::array<Mat3, kFrameBlock> s;
+            const std::size_t count = end - begin;
+            for (Index i = begin; i < end; ++i) turn[i - begin] = mean.at((*vertices)[i]);
+            rotations_of_turns({turn.data(), count}, base, {s.data(), count});
             for (Index i = begin; i < end; ++i) {
-                const Index v = (*vertices)[i];
-                const Vec4 turn = mean.at(v);
-                const double scale = scales ? base_scale * std::exp(turn[3]) : 1.0;
-                rotations[v].topRows<3>() =
-                    scale * rotation_of_turn(turn.head<3>()) * base - input.base_rotation;
+                const double scale = scales ? base_scale * std::exp(turn[i - begin][3]) : 1.0;
+                rotations[(*vertices)[i]].topRows<3>() = scale * s[i - begin] - input.base_rotation;
             }
         });
     }
 }
 
-// S_i nearest to those of `rotations` with the given gradients added, which they replace.
-void bend(const SecondInput& input, std::span<const Index> vertices, const Rotations& rotations,
-          std::span<Mat3> gradient) {
-    const bool scales = input.motion.scales();
-    std::array<double, kFrameBlock> scale;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        gradient[i] += input.base_rotation + rotations[vertices[i]].topRows<3>();
-        scale[i] = scales ? uniform_scale(gradient[i]) : 1.0;
+// S_i of a block of vertices, as rotations and scales, nearest to gradients.
+class NearestBlock {
+  public:
+    NearestBlock(const Motion& motion, std::span<const Mat3> gradient) {
+        if (motion.scales()) {
+            std::transform(gradient.begin(), gradient.end(), scale_.begin(), uniform_scale);
+        } else {
+            std::fill_n(scale_.begin(), gradient.size(), 1.0);
+        }
+        nearest_quaternions(gradient, {rotation_.data(), gradient.size()});
     }
-    nearest_rotations(gradient, gradient);
-    for (std::size_t i = 0; i < vertices.size(); ++i) gradient[i] *= scale[i];
-}
 
-// S_i at `share` of the way from `first` to `now`.
+    // At `share` of the way from `first` to these.
+    void blend(const NearestBlock& first, double share, std::span<Mat3> s) const {
+        const std::size_t count = s.size();
+        blend_rotations({first.rotation_.data(), count}, {rotation_.data(), count}, share, s);
+        for (std::size_t i = 0; i < count; ++i) {
+            s[i] *= (1.0 - share) * first.scale_[i] + share * scale_[i];
+        }
+    }
+
+  private:
+    std::array<Vec4, kFrameBlock> rotation_;
+    std::array<double, kFrameBlock> scale_;
+};
+
+// The same of one vertex.
 Mat3 blended(const Motion& motion, const Mat3& first, const Mat3& now, double share) {
     if (!motion.scales()) return rotation_between(first, now, share);
     const double scale = (1.0 - share) * uniform_scale(first) + share * uniform_scale(now);
     return scale * rotation_between(nearest_rotation(first), nearest_rotation(now), share);
+}
+
+// Adds S_i of `rotations` to gradients of what bends the surface.
+void bend(const SecondInput& input, std::span<const Index> vertices, const Rotations& rotations,
+          std::span<Mat3> gradient) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        gradient[i] += input.base_rotation + rotations[vertices[i]].topRows<3>();
+    }
+}
+
+void take_nearest(const Motion& motion, std::span<Mat3> s) {
+    std::array<double, kFrameBlock> scale;
+    const bool scales = motion.scales();
+    for (std::size_t i = 0; i < s.size(); ++i) scale[i] = scales ? uniform_scale(s[i]) : 1.0;
+    nearest_rotations(s, s);
+    for (std::size_t i = 0; i < s.size(); ++i) s[i] *= scale[i];
 }
 
 }  // namespace
@@ -224,33 +258,39 @@ double share_of_turns(double greatest_turn) {
 // Each vertex turns by the mean of the handles' rotation vectors; the second system says where the
 // handles would then lie by themselves, and what they are off by bends the surface as pure
 // translations do.
-void wind_rotations(const SecondInput& input, std::span<const Vec4> deviation,
-                    RotationSystem::Scratch& scratch, const Context& context,
-                    Rotations& rotations) {
+void wind_rotations(const SecondInput& input, FrameScratch::State& scratch,
+                    const Context& context) {
     const double share = share_of_turns(input.greatest_turn);
     const Motion& motion = input.motion;
     const ImplicitMethod& method = motion.method();
-    const TurnAnswers& answers =
-        method.answers.get([&] { return find_answers(motion.prepared(), scratch, context); });
+    const Deviation& deviation = scratch.deviation;
+    Rotations& rotations = scratch.rotations;
+    const TurnAnswers& answers = method.answers.get(
+        [&] { return find_answers(motion.prepared(), scratch.second, context); });
     turn_held(input, rotations);
     take_mean_turns(input, answers, context, rotations);
     const SpreadMoves moves(
-        motion, mismatches(input, answers, rotations, deviation, scratch, context), context);
+        motion, mismatches(input, answers, rotations, deviation, scratch.second, context), context);
     // Beyond a right angle, and so here, the first system is never asked for all of the turns.
     const std::optional<TurnPart> part =
-        share < 1.0 ? part_of_turns(motion, input.greatest_turn, context) : std::nullopt;
+        share < 1.0 ? part_of_turns(motion, input.greatest_turn, scratch.part, context)
+                    : std::nullopt;
 
     const std::vector<Index>& vertices = method.gathered;
     for_each_block(context, count_of(vertices), [&](Index begin, Index end) {
         std::array<Mat3, kFrameBlock> now, first;
         const std::size_t count = end - begin;
+        const std::span<Mat3> s(now.data(), count);
         moves.gather(vertices.data(), now.data(), begin, end);
-        bend(input, {vertices.data() + begin, count}, rotations, {now.data(), count});
-        if (part) first_rotations(motion, &*part, deviation, first.data(), begin, end);
+        bend(input, {vertices.data() + begin, count}, rotations, s);
+        if (part) {
+            first_gradients(motion, &*part, deviation, first.data(), begin, end);
+            NearestBlock(motion, s).blend(NearestBlock(motion, {first.data(), count}), share, s);
+        } else {
+            take_nearest(motion, s);
+        }
         for (Index i = begin; i < end; ++i) {
-            const Mat3& s = now[i - begin];
-            rotations[vertices[i]].topRows<3>() =
-                (part ? blended(motion, first[i - begin], s, share) : s) - input.base_rotation;
+            rotations[vertices[i]].topRows<3>() = now[i - begin] - input.base_rotation;
         }
     });
     if (!part) return;

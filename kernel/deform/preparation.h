@@ -29,11 +29,11 @@
 
 namespace lissom {
 
-/// How the second system answers to translations of handles: where they take the vertices, a list
-/// for each handle of the solution, empty where the second system knows nothing of it; and the
-/// force on movable handle j that handle k makes.
+/// How the second system answers to translations of handles: its response to each handle of the
+/// solution, empty where the second system knows nothing of it; and the force on movable handle j
+/// that handle k makes.
 struct TurnAnswers {
-    std::vector<std::vector<double>> weights;
+    std::vector<RotationSystem::Response> of_handles;
     Eigen::MatrixXd stiffness;
 };
 

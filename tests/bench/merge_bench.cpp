@@ -179,7 +179,9 @@ void run_merge(Report& report) {
             report.add_ratio(name + ": merge / its two factorisations", "factorisations",
                              {quantile(times.quotients, 0.5), quantile(times.quotients, 0.25),
                               quantile(times.quotients, 0.75)},
-                             main_row ? 2.0 : -1.0);
+                             main_row ? 2.0 : -1.0, Better::less,
+                             "the seam 44 % (its triangles made anew 14), factorisations 20, what "
+                             "else prepares them 18, the solve 9");
             if (threads != 1) continue;
             const double each = 1e3 * times.whole / times.free_vertices;
             if (main_row) smallest = each;

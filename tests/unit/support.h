@@ -15,7 +15,8 @@ namespace lissom::test {
 /// Says that a test does nothing because `what` is absent; a failure where the environment has
 /// `requirement`, as where everything that tests need is known to be there.
 inline void skip(const char* requirement, const std::string& what) {
-    if (std::getenv(requirement)) FAIL(requirement << " is set, and this is absent: " << what);
+    if (std::getenv(requirement))
+        FAIL(std::string(requirement) << " is set, and this is absent: " << what);
     MESSAGE("skipped: " << what);
 }
 

@@ -40,13 +40,15 @@ std::vector<Index> faces_within(const Topology& topology, const Region& region, 
 // Vertices of the faces and of the region (which may have vertices without faces), ascending.
 std::vector<Index> vertices_of(const Topology& topology, const std::vector<Index>& faces,
                                const Region& region) {
-    std::vector<Index> vertices = region.vertices();
+    std::vector<char> seen(topology.vertex_count(), 0);
+    for (const Index v : region.vertices()) seen[v] = 1;
     for (const Index f : faces) {
-        const std::span<const Index> face = topology.face(f);
-        vertices.insert(vertices.end(), face.begin(), face.end());
+        for (const Index v : topology.face(f)) seen[v] = 1;
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::vector<Index> vertices;
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+        if (seen[v]) vertices.push_back(v);
+    }
     return vertices;
 }
 
@@ -213,11 +215,16 @@ void insert_virtual_vertices(Patch& patch) {
     patch.on_boundary.resize(real);
     patch.vertex_count = patch.real_count;
     patch.split_triangles = patch.triangles;
+    patch.surface_count = patch.vertex_count;
+    const auto may_be_lonely = [&](Index v) { return patch.in_region[v] && patch.on_boundary[v]; };
+    bool any = false;
+    for (Index v = 0; v < patch.real_count; ++v) any = any || may_be_lonely(v);
+    if (!any) return;
     const Rings rings = build_rings(patch.real_count, patch.triangles);
     EdgeSplitter splitter(patch.split_triangles);
     std::vector<Index> lonely;
     for (Index v = 0; v < patch.real_count; ++v) {
-        if (!patch.in_region[v] || !patch.on_boundary[v] || rings.count(v) != 2) continue;
+        if (!may_be_lonely(v) || rings.count(v) != 2) continue;
         lonely.push_back(v);
         splitter.name(rings.ring(v)[0], rings.ring(v)[1]);
     }

@@ -1,5 +1,6 @@
 #include "kernel/deform/rotation/polar.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -7,9 +8,12 @@
 
 #include "kernel/core/error.h"
 #include "kernel/core/lanes.h"
+#include "kernel/deform/rotation/rotation_lanes.h"
 
 namespace lissom {
 namespace {
+
+using namespace rotation_lanes;
 
 // Below this ratio of the relevant singular value sums the Newton step is not to be trusted.
 constexpr double kSmallestGap = 1e-3;
@@ -28,70 +32,6 @@ Mat3 rotation_by_svd(const Mat3& m) {
     Mat3 u = svd.matrixU();
     if ((u * svd.matrixV().transpose()).determinant() < 0.0) u.col(2) = -u.col(2);
     return u * svd.matrixV().transpose();
-}
-
-// What follows runs on plain numbers, for one matrix, and on lanes, for four: conditions are then
-// answered lane by lane, and what any lane needs is done for all.
-
-LISSOM_INLINE void take_root(double& x) {
-    x = std::sqrt(x);
-}
-// Of one condition, or of several that were combined bit by bit.
-LISSOM_INLINE bool is_any(bool condition) {
-    return condition;
-}
-LISSOM_INLINE bool is_any(int condition) {
-    return condition != 0;
-}
-LISSOM_INLINE void load(const Mat3* m, int entry, double& x) {
-    x = m->data()[entry];
-}
-LISSOM_INLINE void store(const double& x, Mat3* m, int entry) {
-    m->data()[entry] = x;
-}
-
-#if defined(__GNUC__)
-#define LISSOM_HAS_LANES
-LISSOM_INLINE void take_root(Lanes<double>& x) {
-    for (int c = 0; c < 4; ++c) x[c] = std::sqrt(x[c]);
-}
-template <typename Condition>
-LISSOM_INLINE bool is_any(const Condition& condition) {
-    return (condition[0] | condition[1] | condition[2] | condition[3]) != 0;
-}
-LISSOM_INLINE void load(const Mat3* m, int entry, Lanes<double>& x) {
-    x = Lanes<double>{m[0].data()[entry], m[1].data()[entry], m[2].data()[entry],
-                      m[3].data()[entry]};
-}
-LISSOM_INLINE void store(const Lanes<double>& x, Mat3* m, int entry) {
-    for (int c = 0; c < 4; ++c) m[c].data()[entry] = x[c];
-}
-#endif
-
-// 3 x 3, column-major.
-template <typename T>
-struct Matrix {
-    T e[9] = {};
-};
-
-template <typename T>
-LISSOM_INLINE void multiply(const Matrix<T>& a, const Matrix<T>& b, Matrix<T>& product) {
-    for (int c = 0; c < 3; ++c) {
-        for (int r = 0; r < 3; ++r) {
-            product.e[3 * c + r] =
-                a.e[r] * b.e[3 * c] + a.e[3 + r] * b.e[3 * c + 1] + a.e[6 + r] * b.e[3 * c + 2];
-        }
-    }
-}
-
-template <typename T>
-LISSOM_INLINE void multiply_transposed(const Matrix<T>& a, const Matrix<T>& b, Matrix<T>& product) {
-    for (int c = 0; c < 3; ++c) {
-        for (int r = 0; r < 3; ++r) {
-            product.e[3 * c + r] = a.e[3 * r] * b.e[3 * c] + a.e[3 * r + 1] * b.e[3 * c + 1] +
-                                   a.e[3 * r + 2] * b.e[3 * c + 2];
-        }
-    }
 }
 
 // The symmetric matrix whose top eigenvector is the quaternion (w, x, y, z) of the nearest
@@ -157,11 +97,6 @@ LISSOM_INLINE void take_adjugate_column(const T (&k)[4][4], int column, T (&q)[4
     q[3] = -sign * (a * n.m12 - b * n.m02 + c * n.m01);
 }
 
-template <typename T>
-LISSOM_INLINE void take_squared_norm(const T (&q)[4], T& sum) {
-    sum = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-}
-
 // Null vector of the symmetric matrix k of rank 3 and norm about 1, and its squared norm. The first
 // column of the adjugate serves unless its own component, the cosine of half the rotation's angle,
 // is small.
@@ -179,27 +114,6 @@ LISSOM_INLINE void find_null_vector(const T (&k)[4][4], T (&best)[4], T& best_no
         for (int i = 0; i < 4; ++i) best[i] = better ? candidate[i] : best[i];
         best_norm = better ? norm : best_norm;
     }
-}
-
-// The rotation of a quaternion that need not have unit length.
-template <typename T>
-LISSOM_INLINE void fill_rotation(const T (&q)[4], Matrix<T>& r) {
-    T norm;
-    take_squared_norm(q, norm);
-    const T two = 2.0 / norm;
-    const T x = two * q[1], y = two * q[2], z = two * q[3];
-    const T wx = x * q[0], wy = y * q[0], wz = z * q[0];
-    const T xx = x * q[1], xy = x * q[2], xz = x * q[3];
-    const T yy = y * q[2], yz = y * q[3], zz = z * q[3];
-    r.e[0] = 1.0 - yy - zz;
-    r.e[1] = xy + wz;
-    r.e[2] = xz - wy;
-    r.e[3] = xy - wz;
-    r.e[4] = 1.0 - xx - zz;
-    r.e[5] = yz + wx;
-    r.e[6] = xz + wy;
-    r.e[7] = yz - wx;
-    r.e[8] = 1.0 - xx - yy;
 }
 
 // One Newton step on the rotation: (tr S I - S) w = axial(S) for S = guess^T m, which is symmetric
@@ -220,11 +134,19 @@ LISSOM_INLINE void find_newton_step(const Matrix<T>& s, T (&step)[4], T& determi
     step[3] = half * (ee * x + ff * y + cc * z);
 }
 
-// Nearest rotations of the matrices at `m`; `doubt` is above zero for each that is not to be
-// trusted.
+// The nearest rotations of the matrices at `m`, each as that of a quaternion and then of a small
+// step.
 template <typename T>
-LISSOM_INLINE void find_rotations(const Mat3* m, Mat3* r, T& doubt) {
-    Matrix<T> unit, guess, s, turn, result;
+struct PolarParts {
+    Matrix<T> guess;
+    T quaternion[4], step[4];
+    // Above zero for each that is not to be trusted.
+    T doubt;
+};
+
+template <typename T>
+LISSOM_INLINE void find_parts(const Mat3* m, PolarParts<T>& parts) {
+    Matrix<T> unit, s;
     T norm = T{};
     for (int i = 0; i < 9; ++i) {
         load(m, i, unit.e[i]);
@@ -233,7 +155,7 @@ LISSOM_INLINE void find_rotations(const Mat3* m, Mat3* r, T& doubt) {
     take_root(norm);
     for (T& entry : unit.e) entry = norm > 0.0 ? entry / norm : T{};
 
-    T k[4][4], root, quaternion[4], length, step[4], determinant;
+    T k[4][4], root, length, determinant;
     fill_quaternion_matrix(unit, k);
     const Minors<T> upper(k, 0, 1), lower(k, 2, 3);
     const T c0 = upper.m01 * lower.m23 - upper.m02 * lower.m13 + upper.m03 * lower.m12 +
@@ -243,45 +165,81 @@ LISSOM_INLINE void find_rotations(const Mat3* m, Mat3* r, T& doubt) {
                          e[6] * (e[1] * e[5] - e[4] * e[2]));
     find_greatest_root(c1, c0, root);
     for (int i = 0; i < 4; ++i) k[i][i] -= root;
-    find_null_vector(k, quaternion, length);
-    fill_rotation(quaternion, guess);
+    find_null_vector(k, parts.quaternion, length);
+    fill_rotation(parts.quaternion, parts.guess);
 
-    multiply_transposed(guess, unit, s);
-    find_newton_step(s, step, determinant);
-    fill_rotation(step, turn);
-    multiply(guess, turn, result);
-    for (int i = 0; i < 9; ++i) store(result.e[i], r, i);
+    multiply_transposed(parts.guess, unit, s);
+    find_newton_step(s, parts.step, determinant);
     const auto trusted =
         (length > kSmallestGap * kSmallestGap) & (determinant > kSmallestGap) & (norm > 0.0);
     const T one = T{} + 1.0;
-    doubt = trusted ? T{} : one;
+    parts.doubt = trusted ? T{} : one;
+}
+
+template <typename T>
+LISSOM_INLINE void store_nearest(const PolarParts<T>& parts, Mat3* r) {
+    Matrix<T> turn, result;
+    fill_rotation(parts.step, turn);
+    multiply(parts.guess, turn, result);
+    for (int i = 0; i < 9; ++i) store(result.e[i], r, i);
+}
+
+template <typename T>
+LISSOM_INLINE void store_nearest(const PolarParts<T>& parts, Vec4* q) {
+    T product[4], norm;
+    compose(parts.quaternion, parts.step, product);
+    take_squared_norm(product, norm);
+    take_root(norm);
+    for (int i = 0; i < 4; ++i) store(product[i] / norm, q, i);
+}
+
+void store_by_svd(const Mat3& m, Mat3& r) {
+    r = rotation_by_svd(m);
+}
+
+void store_by_svd(const Mat3& m, Vec4& q) {
+    const Eigen::Quaterniond nearest(rotation_by_svd(m));
+    q = {nearest.w(), nearest.x(), nearest.y(), nearest.z()};
+}
+
+template <typename Rotation>
+void store_one(const Mat3& m, Rotation& r) {
+    PolarParts<double> parts;
+    find_parts(&m, parts);
+    if (parts.doubt > 0.0) return store_by_svd(m, r);
+    store_nearest(parts, &r);
 }
 
 #ifdef LISSOM_HAS_LANES
 constexpr std::size_t kWidth = 4;
 
-LISSOM_INLINE void find_four(const Mat3* m, Mat3* r) {
+template <typename Rotation>
+LISSOM_INLINE void find_four(const Mat3* m, Rotation* r) {
     const Mat3 copy[kWidth] = {m[0], m[1], m[2], m[3]};
-    double __attribute__((vector_size(32))) doubt;
-    find_rotations(copy, r, doubt);
-    if (!is_any(doubt > 0.0)) return;
+    PolarParts<double __attribute__((vector_size(32)))> parts;
+    find_parts(copy, parts);
+    store_nearest(parts, r);
+    if (!is_any(parts.doubt > 0.0)) return;
     for (std::size_t c = 0; c < kWidth; ++c) {
-        if (doubt[c] > 0.0) r[c] = rotation_by_svd(copy[c]);
+        if (parts.doubt[c] > 0.0) store_by_svd(copy[c], r[c]);
     }
 }
 
-void find_fours(const Mat3* m, Mat3* r, std::size_t count) {
+template <typename Rotation>
+void find_fours(const Mat3* m, Rotation* r, std::size_t count) {
     for (std::size_t i = 0; i < count; i += kWidth) find_four(m + i, r + i);
 }
 
 #ifdef LISSOM_HAS_AVX2_PATH
-LISSOM_AVX2 void find_fours_with_avx2(const Mat3* m, Mat3* r, std::size_t count) {
+template <typename Rotation>
+LISSOM_AVX2 void find_fours_with_avx2(const Mat3* m, Rotation* r, std::size_t count) {
     for (std::size_t i = 0; i < count; i += kWidth) find_four(m + i, r + i);
 }
 #endif
 
 // Multiples of four; returns how many were done.
-std::size_t find_in_lanes(const Mat3* m, Mat3* r, std::size_t count) {
+template <typename Rotation>
+std::size_t find_in_lanes(const Mat3* m, Rotation* r, std::size_t count) {
     count -= count % kWidth;
 #ifdef LISSOM_HAS_AVX2_PATH
     if (has_avx2()) {
@@ -293,26 +251,35 @@ std::size_t find_in_lanes(const Mat3* m, Mat3* r, std::size_t count) {
     return count;
 }
 #else
-std::size_t find_in_lanes(const Mat3*, Mat3*, std::size_t) {
+template <typename Rotation>
+std::size_t find_in_lanes(const Mat3*, Rotation*, std::size_t) {
     return 0;
 }
 #endif
+
+template <typename Rotation>
+void find_nearest(std::span<const Mat3> m, std::span<Rotation> r) {
+    if (m.size() != r.size()) {
+        throw Error(ErrorCode::invalid_argument, "one rotation is needed for each matrix");
+    }
+    std::size_t i = find_in_lanes(m.data(), r.data(), m.size());
+    for (; i < m.size(); ++i) store_one(m[i], r[i]);
+}
 
 }  // namespace
 
 Mat3 nearest_rotation(const Mat3& m) {
     Mat3 r;
-    double doubt = 0.0;
-    find_rotations(&m, &r, doubt);
-    return doubt > 0.0 ? rotation_by_svd(m) : r;
+    store_one(m, r);
+    return r;
 }
 
 void nearest_rotations(std::span<const Mat3> m, std::span<Mat3> r) {
-    if (m.size() != r.size()) {
-        throw Error(ErrorCode::invalid_argument, "one rotation is needed for each matrix");
-    }
-    std::size_t i = find_in_lanes(m.data(), r.data(), m.size());
-    for (; i < m.size(); ++i) r[i] = nearest_rotation(m[i]);
+    find_nearest(m, r);
+}
+
+void nearest_quaternions(std::span<const Mat3> m, std::span<Vec4> q) {
+    find_nearest(m, q);
 }
 
 double uniform_scale(const Mat3& m) {

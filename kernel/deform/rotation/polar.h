@@ -21,6 +21,9 @@ Mat3 nearest_rotation(const Mat3& m);
 /// invalid_argument where the numbers of matrices differ.
 void nearest_rotations(std::span<const Mat3> m, std::span<Mat3> r);
 
+/// The same as unit quaternions (w, x, y, z), of either sign. Errors: as nearest_rotations.
+void nearest_quaternions(std::span<const Mat3> m, std::span<Vec4> q);
+
 /// Uniform scale of `m`: the root mean square of its singular values, |m|_F / sqrt 3 (Eq 2.11).
 double uniform_scale(const Mat3& m);
 

@@ -16,9 +16,6 @@ constexpr double kNoAngle = 1e-9;
 constexpr double kStep = kPi / 8.0;
 constexpr double kMostSteps = 4096.0;
 
-// From this angle on a rotation is turned further by less and less.
-constexpr double kSureAngle = 150.0 * kPi / 180.0;
-
 // A screw takes shifts across its axis along from this angle on, and up to the angles between which
 // that fades.
 constexpr double kScrewAngle = kPi / 2.0;
@@ -72,7 +69,7 @@ Mat3 rotation_between(const Mat3& from, const Mat3& to, double fraction) {
 
 Mat3 turned_further(const Mat3& rotation, double part) {
     const Eigen::AngleAxisd least(rotation);
-    const double sure = 1.0 - smooth_step((least.angle() - kSureAngle) / (kPi - kSureAngle));
+    const double sure = 1.0 - smooth_step((least.angle() - kSureTurn) / (kPi - kSureTurn));
     return rotation_of_turn(part * sure * least.angle() * least.axis());
 }
 

@@ -5,6 +5,9 @@
 
 namespace lissom {
 
+/// From this angle on a rotation is turned further by less and less; see turned_further.
+inline constexpr double kSureTurn = 150.0 * kPi / 180.0;
+
 /// The rotation about `turn` by its length in radians.
 Mat3 rotation_of_turn(const Vec3& turn);
 

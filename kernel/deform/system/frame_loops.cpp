@@ -26,18 +26,50 @@ LISSOM_INLINE void add_product(const PaddedMat3& m, const Row& v, Row& sum) {
     for (int d = 0; d < 3; ++d) sum += v[d] * column_of(m, d);
 }
 
+// sum += m w, for the four numbers at w.
+LISSOM_INLINE void add_transformed(const Mat4& m, const double* w, Row& sum) {
+    for (int d = 0; d < 4; ++d) {
+        sum += w[d] * *reinterpret_cast<const Row*>(m.data() + 4 * d);
+    }
+}
+
+LISSOM_INLINE void evaluate_row(const BasisLoop& loop, Index r, Row& sum) {
+    sum = Row{};
+    for (std::size_t h = 0; h < loop.count; ++h) {
+        add_transformed(loop.transform[h], loop.weight[h][r].data(), sum);
+    }
+}
+
 LISSOM_INLINE void evaluate_rows(const BasisLoop& loop, Vec4* x, Index begin, Index end) {
     for (Index r = begin; r < end; ++r) {
-        Row sum{};
-        for (std::size_t h = 0; h < loop.count; ++h) {
-            const double* weight = loop.weight[h][r].data();
-            const double* transform = loop.transform[h].data();
-            for (int d = 0; d < 4; ++d) {
-                sum += weight[d] * *reinterpret_cast<const Row*>(transform + 4 * d);
-            }
-        }
+        Row sum;
+        evaluate_row(loop, r, sum);
         row_of(x[r - begin]) = sum;
     }
+}
+
+template <bool moved>
+LISSOM_INLINE void place_rows(const BasisLoop& loop, const BasisLoop::Places& to, Index begin,
+                              Index end) {
+    const Vec4 origin = padded(to.origin);
+    for (Index r = begin; r < end; ++r) {
+        if (to.row[r] == kNoIndex) continue;
+        Row sum;
+        evaluate_row(loop, r, sum);
+        const double* p = to.rest[r].data();
+        const Row rest{p[0], p[1], p[2], 0.0};
+        sum += rest;
+        const double homogeneous[] = {p[0], p[1], p[2], 1.0};
+        if constexpr (moved) add_transformed(to.shift, homogeneous, sum);
+        sum += row_of(origin);
+        store(sum, to.out[to.row[r]].data());
+    }
+}
+
+LISSOM_INLINE void place_rows(const BasisLoop& loop, const BasisLoop::Places& to, Index begin,
+                              Index end) {
+    to.shift.isZero(0.0) ? place_rows<false>(loop, to, begin, end)
+                         : place_rows<true>(loop, to, begin, end);
 }
 
 LISSOM_INLINE void gather_rows(const GradientLoop& loop, const Index* vertex, const Vec4* x,
@@ -130,6 +162,10 @@ LISSOM_INLINE void fit_rows(const EnergyLoop& loop, const Vec4* x, const Index* 
 LISSOM_AVX2 void evaluate_with_avx2(const BasisLoop& loop, Vec4* x, Index begin, Index end) {
     evaluate_rows(loop, x, begin, end);
 }
+LISSOM_AVX2 void place_with_avx2(const BasisLoop& loop, const BasisLoop::Places& to, Index begin,
+                                 Index end) {
+    place_rows(loop, to, begin, end);
+}
 LISSOM_AVX2 void gather_with_avx2(const GradientLoop& loop, const Index* vertex, const Vec4* x,
                                   Mat3* m, Index begin, Index end) {
     gather_rows(loop, vertex, x, m, begin, end);
@@ -157,6 +193,13 @@ void BasisLoop::evaluate(Vec4* x, Index begin, Index end) const {
     if (has_avx2()) return evaluate_with_avx2(*this, x, begin, end);
 #endif
     evaluate_rows(*this, x, begin, end);
+}
+
+void BasisLoop::place(const Places& places, Index begin, Index end) const {
+#ifdef LISSOM_HAS_AVX2_PATH
+    if (has_avx2()) return place_with_avx2(*this, places, begin, end);
+#endif
+    place_rows(*this, places, begin, end);
 }
 
 void GradientLoop::gather(const Index* vertex, const Vec4* x, Mat3* m, Index begin,

@@ -24,12 +24,24 @@ inline PaddedMat3 padded_columns(const Mat3& m) {
 /// The solution of the first system by its basis: sum over h of transform_h weight_h, for `count`
 /// handles.
 struct BasisLoop {
+    /// Where what is evaluated goes: added to the rest position, the base's transform less the
+    /// identity of that, and the origin, to entry out[row] of each that is not kNoIndex.
+    struct Places {
+        const Vec3* rest;
+        Mat4 shift;
+        Vec3 origin;
+        const Index* row;
+        Vec3* out;
+    };
+
     const Mat4* transform;
     const Vec4* const* weight;
     std::size_t count;
 
     /// x[row - begin] for rows [begin, end).
     void evaluate(Vec4* x, Index begin, Index end) const;
+    /// The same to their places.
+    void place(const Places& places, Index begin, Index end) const;
 };
 
 /// Deformation gradients of positions x by their stencils (GradientStencils).

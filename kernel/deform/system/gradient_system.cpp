@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "kernel/core/large_pages.h"
 #include "kernel/deform/patch/row_accumulator.h"
 #include "kernel/deform/system/firm_factor.h"
 
@@ -15,12 +16,6 @@ struct CoherenceRows {
     std::vector<Vec3> value;
     std::vector<Index> known_begin{0}, known_column;
     std::vector<double> known_value;
-
-    void append(const CoherenceRows& part) {
-        append_rows(begin, column, value, part.begin, part.column, part.value);
-        append_rows(known_begin, known_column, known_value, part.known_begin, part.known_column,
-                    part.known_value);
-    }
 };
 
 // Rows of A and of both couplings for one chunk of free vertices.
@@ -64,17 +59,13 @@ class Assembler {
         return free;
     }
 
+    // Chunk by chunk: together they are the largest part of an assembly, too large to copy.
     void build_coherence(const Context& context) {
         const Index grain = assembly_grain(rings_.size());
-        std::vector<CoherenceRows> parts(chunk_count(rings_.size()));
+        coherence_.resize(chunk_count(rings_.size()));
         context.parallel_for(0, rings_.size(), grain, [&](Index begin, Index end) {
-            parts[begin / grain] = coherence_rows(begin, end);
+            coherence_[begin / grain] = coherence_rows(begin, end);
         });
-        std::size_t entries = 0;
-        for (const CoherenceRows& part : parts) entries += part.column.size();
-        coherence_.column.reserve(entries);
-        coherence_.value.reserve(entries);
-        for (const CoherenceRows& part : parts) coherence_.append(part);
     }
 
     std::vector<SystemRows> build_rows(const std::vector<Index>& free,
@@ -125,8 +116,21 @@ class Assembler {
         return std::binary_search(ring.begin(), ring.end(), c);
     }
 
+    // How many columns the rows of coherence over one ring can have at most.
+    std::size_t most_columns(Index begin, Index end) const {
+        std::size_t most = 0;
+        for (Index a = begin; a < end; ++a) {
+            most += 1 + rings_.count(a);
+            for (const Index b : rings_.ring(a)) most += rings_.count(b);
+        }
+        return most;
+    }
+
     CoherenceRows coherence_rows(Index begin, Index end) const {
         CoherenceRows rows;
+        const std::size_t most = most_columns(begin, end);
+        rows.column.reserve(most);
+        rows.value.reserve(most);
         RowAccumulator<Vec3> row(rings_.size());
         RowAccumulator<double> known_row(rings_.size()), pairs(rings_.size());
         const auto add_gradient = [&](Index a, double weight) {
@@ -199,12 +203,14 @@ class Assembler {
     void add_coherence_term(Index i, Index a, const Vec3& g, RowAccumulator<double>& row,
                             RowAccumulator<Vec3>& gradient_row) const {
         const Vec3 scaled = options_.coherence_weight * g;
-        for (Index e = coherence_.begin[a]; e < coherence_.begin[a + 1]; ++e) {
-            const Index k = coherence_.column[e];
-            if (needs(i, k)) row.add(k, scaled.dot(coherence_.value[e]));
+        const Index grain = assembly_grain(rings_.size()), n = a % grain;
+        const CoherenceRows& rows = coherence_[a / grain];
+        for (Index e = rows.begin[n]; e < rows.begin[n + 1]; ++e) {
+            const Index k = rows.column[e];
+            if (needs(i, k)) row.add(k, scaled.dot(rows.value[e]));
         }
-        for (Index e = coherence_.known_begin[a]; e < coherence_.known_begin[a + 1]; ++e) {
-            gradient_row.add(coherence_.known_column[e], coherence_.known_value[e] * scaled);
+        for (Index e = rows.known_begin[n]; e < rows.known_begin[n + 1]; ++e) {
+            gradient_row.add(rows.known_column[e], rows.known_value[e] * scaled);
         }
     }
 
@@ -263,7 +269,7 @@ class Assembler {
     std::vector<Vec3> delta_;
     std::vector<Index> row_of_;
     std::multimap<Index, const GradientTie*> ties_of_;
-    CoherenceRows coherence_;
+    std::vector<CoherenceRows> coherence_;
 };
 
 // Where `v` ends as a sum of solved positions: displaced vertices come back by v = M (v - v') + v'
@@ -293,6 +299,8 @@ GradientSystem::GradientSystem(const WorkingPatch& work, const GradientStencils&
     for (const SystemRows& part : parts) entries += part.matrix_column.size();
     matrix_.row.reserve(entries);
     matrix_.value.reserve(entries);
+    prefer_large_pages(matrix_.row);
+    prefer_large_pages(matrix_.value);
     for (const SystemRows& part : parts) {
         append_rows(matrix_.begin, matrix_.row, matrix_.value, part.matrix_begin,
                     part.matrix_column, part.matrix_value);

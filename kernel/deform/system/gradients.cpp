@@ -30,6 +30,7 @@ class Displacer {
           greatest_(std::max(options.degenerate_threshold, kGoodCondition)) {
         result_.displaced_rest = patch.rest;
         moved_.assign(patch.rest.size(), 0);
+        sound_.assign(patch.rest.size(), 0);
     }
 
     GradientStencils run() {
@@ -53,13 +54,19 @@ class Displacer {
     }
 
   private:
-    std::vector<Index> degenerate_vertices() const {
+    std::vector<Index> degenerate_vertices() {
         std::vector<Index> found;
         for (Index i = 0; i < rings_.size(); ++i) {
-            if (known_.gradient_wanted[i] && !known_.position[i] && is_degenerate(i))
-                found.push_back(i);
+            if (!known_.gradient_wanted[i] || known_.position[i] || is_sound(i)) continue;
+            found.push_back(i);
         }
         return found;
+    }
+
+    // Not degenerate; asked once only for as long as nothing around has moved.
+    bool is_sound(Index i) {
+        if (!sound_[i]) sound_[i] = !is_degenerate(i);
+        return sound_[i];
     }
 
     // Groups vertices at the same distance from the start, nearest first. This order does not
@@ -127,6 +134,8 @@ class Displacer {
         result_.displaced_rest[target] +=
             options_.displacement * length / rings_.count(target) * geometry_.normal[target];
         moved_[target] = 1;
+        sound_[target] = 0;
+        for (const Index j : rings_.ring(target)) sound_[j] = 0;
         return true;
     }
 
@@ -175,7 +184,7 @@ class Displacer {
         result_.self.assign(rings_.size(), Vec3::Zero());
         result_.neighbor.assign(rings_.neighbor.size(), Vec3::Zero());
         for (Index i = 0; i < rings_.size(); ++i) {
-            if (!known_.gradient_wanted[i] || is_degenerate(i)) continue;
+            if (!known_.gradient_wanted[i] || !is_sound(i)) continue;
             result_.defined[i] = 1;
             fill_stencil(i);
         }
@@ -191,7 +200,8 @@ class Displacer {
     /// degenerate: at first as the options say, then for what has no gradient yet.
     double greatest_, threshold_ = options_.degenerate_threshold;
     GradientStencils result_;
-    std::vector<char> moved_;
+    /// What has been displaced, and what is known not to be degenerate: the threshold only grows.
+    std::vector<char> moved_, sound_;
 };
 
 }  // namespace

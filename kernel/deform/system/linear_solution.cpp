@@ -35,6 +35,17 @@ std::vector<Value> folds(const LinearProblem& problem, const At& at) {
     return result;
 }
 
+// A loop over weights, with the list of where they are that it refers to.
+struct WeightLoop {
+    std::vector<const Vec4*> weights;
+    BasisLoop loop;
+
+    WeightLoop(std::span<const Mat4> differences, const std::vector<std::vector<Vec4>>& of) {
+        for (const std::vector<Vec4>& weight : of) weights.push_back(weight.data());
+        loop = {differences.data(), weights.data(), weights.size()};
+    }
+};
+
 }  // namespace
 
 Mat4 matrix_of(const Affine& transform) {
@@ -51,6 +62,9 @@ LinearSolution::LinearSolution(const LinearProblem& problem, const Context& cont
     fold_of_.assign(free.size(), kNoIndex);
     for (std::size_t f = 0; f < problem.gradients.displaced.size(); ++f) {
         fold_of_[row[problem.gradients.displaced[f]]] = index_of(f);
+    }
+    for (Index r = 0; r < rows(); ++r) {
+        if (fold_of_[r] != kNoIndex) folded_.push_back(r);
     }
     choose_base(problem);
     charge_ = context.charge(memory_bytes(), "the handle basis");
@@ -158,10 +172,7 @@ FixedPart LinearSolution::fixed_part(const LinearProblem& problem,
 
 void LinearSolution::handle_part(std::span<const Mat4> differences, Vec4* x, Index begin,
                                  Index end) const {
-    std::vector<const Vec4*> weights;
-    for (const std::vector<Vec4>& weight : weight_) weights.push_back(weight.data());
-    const BasisLoop loop{differences.data(), weights.data(), weights.size()};
-    loop.evaluate(x, begin, end);
+    WeightLoop(differences, weight_).loop.evaluate(x, begin, end);
 }
 
 void LinearSolution::deviations(std::span<const Mat4> differences, const FixedPart& fixed, Vec4* x,
@@ -171,19 +182,32 @@ void LinearSolution::deviations(std::span<const Mat4> differences, const FixedPa
     for (Index row = begin; row < end; ++row) x[row - begin].head<3>() += fixed.value[row];
 }
 
-void LinearSolution::positions(const Mat4& shift, std::span<const Mat4> differences,
-                               const FixedPart& fixed, Vec4* x, Index begin, Index end) const {
-    deviations(differences, fixed, x, begin, end);
-    const bool moved = !shift.isZero(0.0);
-    for (Index row = begin; row < end; ++row) {
-        Vec4& at = x[row - begin];
-        at.head<3>() += rest_[row];
-        if (moved) at += shift * homogeneous(rest_[row]);
-        const Index f = fold_of_[row];
-        if (f == kNoIndex) continue;
-        for (std::size_t h = 0; h < handles_.size(); ++h) at += differences[h] * fold_[h][f];
-        if (!fixed.fold.empty()) at.head<3>() += fixed.fold[f];
+void LinearSolution::place(std::span<const Mat4> differences, const FixedPart& fixed,
+                           const Places& places, Index begin, Index end) const {
+    WeightLoop(differences, weight_)
+        .loop.place(
+            {rest_.data(), places.shift, places.origin, places.row.data(), places.out.data()},
+            begin, end);
+    if (!fixed.value.empty()) {
+        for (Index row = begin; row < end; ++row) {
+            if (places.row[row] != kNoIndex) places.out[places.row[row]] += fixed.value[row];
+        }
     }
+    const auto first = std::lower_bound(folded_.begin(), folded_.end(), begin);
+    for (auto row = first; row != folded_.end() && *row < end; ++row) {
+        if (places.row[*row] != kNoIndex) place_folded(differences, fixed, places, *row);
+    }
+}
+
+// Adds what brings a displaced vertex back.
+void LinearSolution::place_folded(std::span<const Mat4> differences, const FixedPart& fixed,
+                                  const Places& places, Index row) const {
+    const Index f = fold_of_[row];
+    Vec3& at = places.out[places.row[row]];
+    for (std::size_t h = 0; h < handles_.size(); ++h) {
+        at += (differences[h] * fold_[h][f]).head<3>();
+    }
+    if (!fixed.fold.empty()) at += fixed.fold[f];
 }
 
 std::size_t LinearSolution::memory_bytes() const {

@@ -73,9 +73,16 @@ class LinearSolution {
     void deviations(std::span<const Mat4> differences, const FixedPart& fixed, Vec4* x, Index begin,
                     Index end) const;
     /// Positions of the free vertices [begin, end), for a base whose transform differs from the
-    /// identity by `shift`.
-    void positions(const Mat4& shift, std::span<const Mat4> differences, const FixedPart& fixed,
-                   Vec4* x, Index begin, Index end) const;
+    /// identity by `shift`, relative to `origin`: each to the entry of `out` that `row` says, or
+    /// none.
+    struct Places {
+        Mat4 shift;
+        Vec3 origin;
+        std::span<const Index> row;
+        std::span<Vec3> out;
+    };
+    void place(std::span<const Mat4> differences, const FixedPart& fixed, const Places& places,
+               Index begin, Index end) const;
 
     /// The weight of the translation of handle number h of `handles()`, degenerate vertices
     /// displaced.
@@ -99,14 +106,16 @@ class LinearSolution {
     void choose_base(const LinearProblem& problem);
     void solve_handles(const LinearProblem& problem, const Context& context);
     void fold_back(const LinearProblem& problem);
+    void place_folded(std::span<const Mat4> differences, const FixedPart& fixed,
+                      const Places& places, Index row) const;
 
     MemoryCharge charge_;
     Index base_ = kNoIndex;
     std::vector<Index> handles_;
     std::vector<Vec3> rest_;
     std::vector<std::vector<Vec4>> weight_, fold_;
-    /// Place of a displaced free vertex in the folds.
-    std::vector<Index> fold_of_;
+    /// Place of a displaced free vertex in the folds, and their rows, ascending.
+    std::vector<Index> fold_of_, folded_;
 };
 
 }  // namespace lissom

@@ -1,11 +1,12 @@
 #include "kernel/deform/system/rotation_system.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "kernel/core/large_pages.h"
 #include "kernel/deform/patch/patch_distance.h"
 #include "kernel/deform/patch/row_accumulator.h"
 #include "kernel/deform/system/firm_factor.h"
@@ -183,6 +184,8 @@ void RotationSystem::assemble(const std::vector<char>& position_known, const Con
     for (const SymmetricMatrix& part : parts) entries += part.row.size();
     matrix_.row.reserve(entries);
     matrix_.value.reserve(entries);
+    prefer_large_pages(matrix_.row);
+    prefer_large_pages(matrix_.value);
     for (const SymmetricMatrix& part : parts) {
         append_rows(matrix_.begin, matrix_.row, matrix_.value, part.begin, part.row, part.value);
     }
@@ -281,45 +284,56 @@ Vec3 RotationSystem::force(const PaddedMat3* transforms, std::span<const Vec4> x
                            std::span<const Index> vertices, Scratch& scratch,
                            const Context& context) const {
     bend(transforms, x, scratch.bent, context);
-    return bent_force(transforms, x, vertices, scratch.bent);
-}
-
-Vec3 RotationSystem::bent_force(const PaddedMat3* transforms, std::span<const Vec4> x,
-                                std::span<const Index> vertices, std::span<const Vec4> bent) const {
     std::vector<Vec3> parts(vertices.size());
-    energy().descend(transforms, x.data(), bent.data(), vertices.data(), parts.data(), 0,
+    energy().descend(transforms, x.data(), scratch.bent.data(), vertices.data(), parts.data(), 0,
                      count_of(vertices));
     Vec3 sum = Vec3::Zero();
     for (const Vec3& part : parts) sum += part;
     return sum;
 }
 
-std::vector<Vec3> RotationSystem::solved_forces(const PaddedMat3* transforms,
-                                                std::span<const Vec4> x,
-                                                std::span<const Group> groups, Scratch& scratch,
-                                                const Context& context) const {
-    bend(transforms, x, scratch.bent, context);
+// By their answers a the force is the sum over all vertices of a_i (B S - K x)_i. What of that S_i
+// takes is what fits it at positions a; and K a, of which K x takes the known part, is nothing at
+// free vertices.
+std::vector<RotationSystem::Response> RotationSystem::responses(std::span<const Vec4> x,
+                                                                Index count, Scratch& scratch,
+                                                                const Context& context) const {
+    const Index real = rings_.size();
+    std::vector<Index> all(at(real));
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<Mat3> levers(at(real));
+    std::vector<Vec3> pulls(at(real));
+    std::vector<char> is_free(at(real), 0);
+    for (const Index v : free_) is_free[v] = 1;
+    bend(nullptr, x, scratch.bent, context);
     const EnergyLoop loop = energy();
-    const auto count = count_of(free_);
-    std::vector<std::vector<Vec3>> parts(at((count + kFrameGrain - 1) / kFrameGrain),
-                                         std::vector<Vec3>(groups.size(), Vec3::Zero()));
-    for_each_block(context, count, [&](Index begin, Index end) {
-        std::array<Vec3, kFrameBlock> residual;
-        std::vector<Vec3>& sum = parts[begin / kFrameGrain];
-        loop.descend(transforms, x.data(), scratch.bent.data(), free_.data() + begin,
-                     residual.data(), 0, end - begin);
-        for (std::size_t g = 0; g < groups.size(); ++g) {
-            for (Index row = begin; row < end; ++row) {
-                sum[g] += groups[g].answer[free_[row]] * residual[row - begin];
-            }
+    loop.fit(x.data(), all.data(), levers.data(), 0, real);
+    loop.descend(nullptr, x.data(), scratch.bent.data(), all.data(), pulls.data(), 0, real);
+    std::vector<Response> result(at(count));
+    for (Index k = 0; k < count; ++k) {
+        Response& response = result[k];
+        for (const Vec4& row : x) response.answer.push_back(row[k]);
+        for (Index i = 0; i < real; ++i) {
+            response.lever.push_back(padded(levers[i].row(k).transpose()));
+            if (!is_free[i] && pulls[i][k] != 0.0) response.pull.emplace_back(i, pulls[i][k]);
         }
-    });
-    std::vector<Vec3> forces;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-        forces.push_back(bent_force(transforms, x, groups[g].vertices, scratch.bent));
-        for (const std::vector<Vec3>& part : parts) forces.back() += part[g];
     }
-    return forces;
+    return result;
+}
+
+Vec3 RotationSystem::solved_force(const PaddedMat3* transforms, std::span<const Vec4> x,
+                                  const Response& response, const Context& context) const {
+    const auto count = count_of(response.lever);
+    std::vector<Vec4> parts(at((count + kFrameGrain - 1) / kFrameGrain), Vec4::Zero());
+    context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
+        Vec4 sum = Vec4::Zero();
+        for (Index i = begin; i < end; ++i) sum += transforms[i] * response.lever[i].head<3>();
+        parts[begin / kFrameGrain] = sum;
+    });
+    Vec4 force = Vec4::Zero();
+    for (const Vec4& part : parts) force += part;
+    for (const auto& [v, pull] : response.pull) force += pull * x[v];
+    return force.head<3>();
 }
 
 // Right-hand side less what the matrix makes of x, without forming the matrix.

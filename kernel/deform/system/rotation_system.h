@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -75,19 +76,26 @@ class RotationSystem {
     Vec3 force(const PaddedMat3* transforms, std::span<const Vec4> x,
                std::span<const Index> vertices, Scratch& scratch, const Context& context) const;
 
-    /// Known vertices that move together, and where each local vertex is once `solve` has followed
-    /// one unit of their motion: 1 at themselves and 0 at other known ones.
-    struct Group {
-        std::span<const Index> vertices;
-        std::span<const double> answer;
+    /// How known vertices that move together are bound to the rest.
+    struct Response {
+        /// Where each local vertex is once `solve` has followed one unit of their motion: 1 at
+        /// themselves and 0 at other known ones.
+        std::vector<double> answer;
+        /// What the force on them takes of each transform: S_i lever[i] for real vertex i.
+        std::vector<Vec4> lever;
+        /// And of the position of each known vertex that it depends on.
+        std::vector<std::pair<Index, double>> pull;
     };
-    /// `force` on each group as it were after `solve`, without solving: x holds the known positions
-    /// and any guess of the free ones. As the matrix is symmetric, the solution need not be known:
-    /// what a guess leaves at a free vertex acts on the group by the vertex's answer. Not for a
-    /// system with ties.
-    std::vector<Vec3> solved_forces(const PaddedMat3* transforms, std::span<const Vec4> x,
-                                    std::span<const Group> groups, Scratch& scratch,
+    /// The responses of `count` groups of known vertices, at most three: coordinate k of x is their
+    /// motion and its answer by group k.
+    std::vector<Response> responses(std::span<const Vec4> x, Index count, Scratch& scratch,
                                     const Context& context) const;
+    /// `force` on the vertices of a response as it were after `solve`, without solving: x holds the
+    /// known positions, and its free ones do not matter. As the matrix is symmetric, the solution
+    /// need not be known: what it leaves at a free vertex is nothing, and what the transforms ask
+    /// for there acts on the group by the vertex's answer. Not for a system with ties.
+    Vec3 solved_force(const PaddedMat3* transforms, std::span<const Vec4> x,
+                      const Response& response, const Context& context) const;
     bool has_ties() const { return !ties_.empty(); }
 
     /// The loops over its energy.
@@ -99,8 +107,6 @@ class RotationSystem {
     void add_ties(const WorkingPatch& work);
     void bend(const PaddedMat3* transforms, std::span<const Vec4> x, std::vector<Vec4>& bent,
               const Context& context) const;
-    Vec3 bent_force(const PaddedMat3* transforms, std::span<const Vec4> x,
-                    std::span<const Index> vertices, std::span<const Vec4> bent) const;
     void find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
                        std::vector<Vec3>& residual, Scratch& scratch, const Context& context) const;
     void correct_further(std::span<Vec4> x, Scratch& scratch, const Context& context) const;

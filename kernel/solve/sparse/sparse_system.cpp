@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kernel/core/clock.h"
+#include "kernel/core/large_pages.h"
 #include "kernel/solve/sparse/sparse_system.h"
 #include "kernel/solve/sparse/sparse_system_check.h"
 #include "kernel/solve/sparse/supernodal_factor.h"
@@ -91,7 +92,7 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
     MemoryCharge charge = context.charge(state.nodes.value_count() * sizeof(double), purpose);
     const MemoryCharge working = context.charge(state.stats.working_bytes, purpose);
     const auto start = Clock::now();
-    if (!value) value = std::make_unique_for_overwrite<double[]>(state.nodes.value_count());
+    if (!value) value = large_array<double>(state.nodes.value_count());
     const Index failed =
         factor_supernodes(state.nodes, state.plan, matrix, value.get(), best_processor(), context);
     if (failed != kNoIndex) refuse_pivot(matrix, state.nodes.permutation[failed]);
@@ -134,12 +135,9 @@ SingleFactor SparseSystem::single_factor(const Context& context) const {
     require_factor(state_->factored);
     const Supernodes& from = state_->nodes;
     const double *value = state_->value.get(), *end = value + from.value_count();
-    SingleFactor::Supernodes nodes{from.super,
-                                   from.first_row,
-                                   from.first_value,
-                                   from.row,
-                                   std::vector<float>(from.value_count()),
-                                   0.0};
+    SingleFactor::Supernodes nodes{from.super, from.first_row, from.first_value, from.row, {}, 0.0};
+    nodes.value.reserve(from.value_count());
+    prefer_large_pages(nodes.value);
     for (Index s = 0; s < nodes.count(); ++s) {
         for (Index j = 0; j < nodes.columns(s); ++j) {
             nodes.scale =
@@ -147,8 +145,7 @@ SingleFactor SparseSystem::single_factor(const Context& context) const {
         }
     }
     const double inverse = 1.0 / nodes.scale;
-    std::transform(value, end, nodes.value.begin(),
-                   [&](double v) { return static_cast<float>(inverse * v); });
+    for (; value != end; ++value) nodes.value.push_back(static_cast<float>(inverse * *value));
     return {std::move(nodes), from.permutation, context};
 }
 

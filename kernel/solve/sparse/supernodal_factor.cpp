@@ -4,6 +4,8 @@
 #include <functional>
 #include <memory>
 
+#include "kernel/core/large_pages.h"
+
 namespace lissom {
 namespace {
 
@@ -89,7 +91,7 @@ class Factorization {
             first_extension_.push_back(end);
             end += t.above.size() * t.above.size();
         }
-        extensions_ = std::make_unique_for_overwrite<double[]>(end);
+        extensions_ = large_array<double>(end);
     }
 
     Index run(const Context& context) {

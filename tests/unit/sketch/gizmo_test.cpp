@@ -177,6 +177,7 @@ TEST_CASE("axes that are seen end-on and planes from the side are not offered") 
 
 TEST_CASE("what is held stays under the cursor: along axes, in planes, around rings") {
     test::Random random(2);
+    int along_axes = 0, in_planes = 0;
     for (int i = 0; i < 100; ++i) {
         const View view = random_view(random, i);
         const Gizmo gizmo =
@@ -203,8 +204,10 @@ TEST_CASE("what is held stays under the cursor: along axes, in planes, around ri
                 const Vec3 factors = scale.drag(place(out * from * x)).factors;
                 CHECK(factors[(k + 1) % 3] == 1.0);
                 if (from > 0.31 * length) CHECK(factors[k] == Approx(out));
+                ++along_axes;
             }
             if (std::abs(x.dot(to_eye)) < 0.3) continue;
+            ++in_planes;
             const Vec2 a(random.uniform(-1, 1), random.uniform(-1, 1)),
                 b(random.uniform(-2, 2), random.uniform(-2, 2));
             const auto in_plane = [&](const Vec2& p) {
@@ -236,6 +239,8 @@ TEST_CASE("what is held stays under the cursor: along axes, in planes, around ri
         GizmoDrag move(gizmo, GizmoPart::move_view, view, press);
         CHECK((place(move.drag(drop).translation) - drop).norm() < 1e-6);
     }
+    CHECK(along_axes > 200);
+    CHECK(in_planes > 150);
 }
 
 TEST_CASE("counter-clockwise in the picture is a positive turn about the direction to the viewer") {

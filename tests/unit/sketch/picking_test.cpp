@@ -233,15 +233,18 @@ TEST_CASE("a vertex is seen past its own faces from anywhere in front of them, h
                 3.0 * level + Vec3(0.0, 0.5 + std::pow(10.0, random.uniform(-5, 0)), 0);
             world.view = {Camera({.eye = place(eye), .target = place(Vec3(0, 0.5, 0))}),
                           {640, 480}};
+            int on_top = 0;
             for (Index v = 0; v < world.meshes[0].vertex_count(); ++v) {
                 const Vec3 p = world.meshes[0].position(v);
                 if (p.y() < 0.5) continue;
+                ++on_top;
                 const Vec3 seen = world.view.project(place(p));
                 const auto hit = pick(world.scene, world.view, seen.head<2>(),
                                       {.kinds = {PickKind::vertex}, .radius = 1e-3});
                 REQUIRE(hit);
                 CHECK((hit->position - place(p)).norm() < 0.05 * size);
             }
+            CHECK(on_top == 36);
         }
     }
 }
@@ -299,6 +302,7 @@ TEST_CASE("points and lines are picked with their place, hidden by surfaces unle
                    shapes.is_hidden(
                        p, [](const auto&) { return true; }, 2.0 * shapes.view.pixel_length(depth));
         };
+        int points_hit = 0, lines_hit = 0;
         for (int i = 0; i < 60; ++i) {
             const Vec2 cursor = random_cursor(random, shapes.view);
             double nearest = 12.0;
@@ -314,6 +318,7 @@ TEST_CASE("points and lines are picked with their place, hidden by surfaces unle
             REQUIRE(hit.has_value() == (expected != kNoIndex));
             if (hit) CHECK(hit->index == expected);
             if (hit) CHECK(hit->object == point_object);
+            points_hit += hit.has_value();
             const auto line =
                 pick(scene, shapes.view, cursor, {.kinds = {PickKind::polyline}, .radius = 12.0});
             if (!line) continue;
@@ -322,7 +327,11 @@ TEST_CASE("points and lines are picked with their place, hidden by surfaces unle
             const Vec3 a = cloud[at(first)], b = cloud[at(first + 1)];
             CHECK((place(a + line->along * (b - a)) - line->position).norm() < 1e-12);
             CHECK(!is_hidden(line->position));
+            ++lines_hit;
         }
+        CHECK(points_hit > 5);
+        CHECK(points_hit < 60);
+        CHECK(lines_hit > 5);
     }
     CHECK(loops.segments().size() == 300);
     CHECK(lines.segments().size() == 270);

@@ -120,3 +120,20 @@ TEST_CASE("nearest rotations: as one at a time, whatever stands beside a matrix"
     CHECK((in_place.back() - r.back()).norm() < 1e-13);
     CHECK_THROWS_AS(nearest_rotations(m, std::span(r).first(3)), Error);
 }
+
+TEST_CASE("nearest quaternions: of unit length, and those of the nearest rotations") {
+    std::mt19937 generator(7);
+    std::vector<Mat3> m;
+    for (int i = 0; i < 203; ++i) m.push_back(random_matrix(generator));
+    m[5] = Mat3::Zero();
+    m[50] = Vec3(1.0, 1.0, -1.0).asDiagonal();
+    std::vector<Vec4> q(m.size());
+    nearest_quaternions(m, q);
+    for (std::size_t i = 0; i < m.size(); ++i) {
+        CAPTURE(i);
+        CHECK(std::abs(q[i].norm() - 1.0) < 1e-15);
+        const Eigen::Quaterniond unit(q[i][0], q[i][1], q[i][2], q[i][3]);
+        CHECK((unit.toRotationMatrix() - nearest_rotation(m[i])).norm() < 1e-10);
+    }
+    CHECK_THROWS_AS(nearest_quaternions(m, std::span(q).first(3)), Error);
+}

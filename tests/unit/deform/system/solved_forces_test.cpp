@@ -10,15 +10,15 @@ using namespace lissom::test;
 
 namespace {
 
-// The answers of all local vertices to one unit of motion of `vertices`.
-std::vector<double> answer_to(const RotationSystem& system, const std::vector<Index>& vertices,
-                              std::size_t count) {
+// The responses of the vertices at both ends of a scene.
+std::vector<RotationSystem::Response> responses_of(const RotationSystem& system, const Scene& scene,
+                                                   std::size_t count) {
     std::vector<Vec4> x(count, Vec4::Zero());
-    for (const Index v : vertices) x[v][0] = 1.0;
-    system.solve({}, x, false, {});
-    std::vector<double> answer;
-    for (const Vec4& row : x) answer.push_back(row[0]);
-    return answer;
+    for (const Index v : scene.low) x[v][0] = 1.0;
+    for (const Index v : scene.high) x[v][1] = 1.0;
+    RotationSystem::Scratch scratch;
+    system.solve({}, x, false, scratch, {});
+    return system.responses(x, 2, scratch, {});
 }
 
 }  // namespace
@@ -45,17 +45,18 @@ TEST_CASE("forces where the free vertices would lie need no solution, from any g
             turns[v] = padded_columns(rotation(Vec3::UnitY(), t, Vec3::Zero()).linear);
             x[v] = padded(Vec3(0.3 * t, t, std::sin(9.0 * static_cast<double>(v))));
         }
-        const std::vector<double> low = answer_to(system, scene.low, count),
-                                  high = answer_to(system, scene.high, count);
-        const RotationSystem::Group groups[] = {{scene.low, low}, {scene.high, high}};
-        RotationSystem::Scratch scratch;
-        const std::vector<Vec3> forces = system.solved_forces(turns.data(), x, groups, scratch, {});
+        const auto responses = responses_of(system, scene, count);
         const Context threads = [] {
             ContextOptions two;
             two.threads = 2;
             return Context(two);
         }();
-        CHECK(system.solved_forces(turns.data(), x, groups, scratch, threads) == forces);
+        RotationSystem::Scratch scratch;
+        std::vector<Vec3> forces;
+        for (const RotationSystem::Response& response : responses) {
+            forces.push_back(system.solved_force(turns.data(), x, response, {}));
+            CHECK(system.solved_force(turns.data(), x, response, threads) == forces.back());
+        }
         system.solve(turns, x, false, {});
         for (std::size_t g = 0; g < 2; ++g) {
             const Vec3 expected =

@@ -399,6 +399,7 @@ TEST_CASE("of a convex surface those vertices are hidden none of whose faces is 
             const SpatialTree tree(mesh);
             const std::vector<Vec3> normals = face_normals(mesh);
             const double size = bounds(mesh).diagonal();
+            int hidden = 0, visible = 0;
             for (int i = 0; i < 60; ++i) {
                 // Eyes nearly in the plane of a face, on either side of it.
                 const Index f = random.index(mesh.face_count());
@@ -413,10 +414,13 @@ TEST_CASE("of a convex surface those vertices are hidden none of whose faces is 
                         best = std::max(best, normals[g].dot(towards.normalized()));
                     }
                     if (std::abs(best) < 1e-7) continue;
+                    ++(best < 0.0 ? hidden : visible);
                     CHECK(tree.hides(mesh.position(v), towards, {.eye = towards.norm()}) ==
                           (best < 0.0));
                 }
             }
+            CHECK(hidden > 50);
+            CHECK(visible > 50);
         }
     }
 }

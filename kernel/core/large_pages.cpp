@@ -1,0 +1,23 @@
+#include "kernel/core/large_pages.h"
+
+#include <cstdint>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace lissom {
+
+void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+    constexpr std::uintptr_t kLargePage = std::uintptr_t{2} << 20;
+    const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+    const std::uintptr_t skipped = (kLargePage - begin % kLargePage) % kLargePage;
+    if (bytes < skipped + kLargePage) return;
+    const std::size_t whole = (bytes - skipped) / kLargePage * kLargePage;
+    // Where it fails, pages stay as they are.
+    (void)madvise(static_cast<char*>(memory) + skipped, whole, MADV_HUGEPAGE);
+#endif
+}
+
+}  // namespace lissom
