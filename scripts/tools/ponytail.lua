@@ -67,4 +67,7 @@ return curve_tool.make{
         v = function(_, self, ev, one) self.state.viewpoint = hair.camera(ev.camera, one) end,
     },
     draw = tail.draw,
+    advise = function(one, _, strands)
+        if strands and tail.share(one, strands) < 0.85 then return "hair misses the tie: g gathers it" end
+    end,
 }

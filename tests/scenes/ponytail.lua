@@ -347,6 +347,19 @@ test("g: streams gather hair into the tie, once; more of the hair is in it then"
     h:there_and_back()
 end)
 
+test("hair that misses the tie is told, until it is gathered", function()
+    begin(nil, { 0.9, 0.05, 0 })
+    h.host:set{ tightness = 0 }
+    h:drag({ at(0, 0.09, -0.02), at(0, 0.13, -0.05), at(0, 0.15, -0.11), at(0, 0.06, -0.16),
+        at(0, -0.06, -0.17) }, nil, 12)
+    local share = require("tools.support.tail").share(hair.find(h.scene), h.scene:get("style hair"))
+    expect.truthy(share < 0.85, share)
+    expect.truthy(h.tool.advice:find("g gathers it", 1, true))
+    h:key("g")
+    expect.equal(h.tool.advice, nil)
+    expect.truthy(require("tools.support.tail").share(hair.find(h.scene), h.scene:get("style hair")) > share)
+end)
+
 test("in profile a stroke away from the head is a tail in its middle; Alt: beside it, as seen", function()
     begin(nil, { 0.9, 0.05, -0.08 })
     local route = { at(0, 0.06, -0.07), at(0, 0.075, -0.13), at(0, 0.03, -0.17), at(0, -0.1, -0.19) }

@@ -102,7 +102,10 @@ std::vector<Departure> curve_departures() {
 }
 
 std::vector<Departure> growth_departures() {
-    return {{"4.6", "Vectors longer than 1, which the field has away from curves",
+    return {{"4.6", "Strands in a tail",
+             "fill it: each is drawn to a place of its own in the cross section, with `spread`",
+             "follow the field alone", kByFidelity},
+            {"4.6", "Vectors longer than 1, which the field has away from curves",
              "count as of length 1", "count as they are", kByFidelity},
             {"4.6", "First segments that point into the head", "are turned along it",
              "stay as they are", kByFidelity},

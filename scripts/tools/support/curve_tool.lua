@@ -12,6 +12,7 @@
 --   remember(curve), put_back(curve, before)    what strokes change of a curve, before one: points alone
 --   keys                      functions of (curve, self, ev, one) by key
 --   draw(view, one, curve)    what belongs to the chosen one
+--   advise(one, curve, strands)       what to do next, after a stroke; nil where nothing is to be said
 --
 -- Where its parameter `symmetric` is set, the mirror image of a curve does what the curve does.
 local lissom = require "lissom"
@@ -133,6 +134,9 @@ function calls.release(self, ev)
     end
     self.curve = self.draft or self.curve
     if self.curve then choose(self, self.curve) end
+    if self.own.advise and self.curve and not self.advice then
+        self.advice = self.own.advise(one, self.curve, ev.scene:get(one.name .. " hair"))
+    end
     forget(self)
 end
 
@@ -144,6 +148,7 @@ function calls.key(self, ev)
     local action = self.own.keys and self.own.keys[ev.key]
     if ev.key ~= "delete" and not action then return end
     local twin = twin_of(self, one, curve)
+    self.advice = nil
     for _, each in ipairs{ curve, twin } do
         if action then action(each, self, ev, one) else each:remove() end
     end

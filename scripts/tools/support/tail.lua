@@ -335,6 +335,20 @@ function tail.gather(one, curve)
     hairdo.gather(one.style, direction_of(scalp, tie), options)
 end
 
+--- How much of the hair of a style is in its tails, 0 to 1; 1 where streams lead other hair elsewhere.
+function tail.share(one, strands)
+    local counted, sum = {}, 0
+    for _, curve in ipairs(one.style:curves()) do
+        if curve:kind() == "stream" and curve:options().stop > 0 then return 1 end
+        local name = curve:kind() == "ponytail" and curve:name()
+        if name and not counted[name] then
+            local own = strands:select{ group = name }
+            counted[name], sum = true, sum + (own and #own or 0)
+        end
+    end
+    return #strands > 0 and sum / #strands or 1
+end
+
 -- A circle around a tie.
 local function draw_circle(view, one, tie, radius)
     local level, up = across(one, tie.direction)
