@@ -221,9 +221,9 @@ test("long hair, half of it up: ten streams and more, partings on both sides, a 
     a:use("ponytail", { strands = 100, symmetric = false })
     tail(a, { { 180, 26, 8 }, { 180, 27, 30 }, to(0, 55, -140), to(0, 10, -158), to(0, -60, -166),
         to(0, -150, -170) }, { 180, 10 }, { 90, 5 }, 0.02)
-    a:use("stream", { symmetric = true })
+    a:use("stream", { symmetric = true, stop = false })
     low({ { 20, 54, 5 }, { 66, 58, 7 }, { 122, 48, 8 }, { 170, 33, 14 } }, { 80, 45 })
-    low({ { 30, 70, 6 }, { 120, 68, 8 }, { 172, 36, 14 } }, { 110, 50 })
+    low({ { 30, 70, 6 }, { 120, 68, 8 }, { 172, 40, 10 }, { 178, 30, 14 } }, { 120, 50 })
     low({ { 75, 44, 6 }, { 130, 44, 8 }, { 168, 30, 14 } }, { 120, 30 })
     low({ { 115, 35, 6 }, { 148, 32, 8 }, { 170, 27, 14 } }, { 150, 20 })
     a:use("parting", { strands = 100 })
@@ -233,6 +233,8 @@ test("long hair, half of it up: ten streams and more, partings on both sides, a 
         a:look(90 * side, 30)
         a:stroke(a.route{ { 47 * side, 41 }, { 62 * side, 34 }, { 88 * side, 34 }, { 116 * side, 28 },
             { 138 * side, 21 } }, { shift = true })
+        a:stroke(a.route{ { 70 * side, 42 }, { 92 * side, 44 }, { 112 * side, 42 } })
+        a:stroke(a.route{ { 78 * side, 30 }, { 88 * side, 22 }, { 98 * side, 8 } })
     end
     a:look(180, 15):stroke(a.route{ { 142, 20 }, { 180, 15 }, { -142, 20 } }, { shift = true })
     a:use("ponytail", { length = 0.46, cut = 0.34 })
