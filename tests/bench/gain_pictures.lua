@@ -26,7 +26,7 @@ for _, case in ipairs(cases) do
         local mesh = lissom.load(params.folder .. "/" .. case .. "__" .. way .. ".ply")
         if mesh then meshes[#meshes + 1], names[#names + 1] = mesh, way end
     end
-    for _, view in ipairs(#meshes > 0 and { "front", "side" } or {}) do
+    for _, view in ipairs(#meshes > 0 and { "front", "right" } or {}) do
         local file = params.folder .. "/" .. case .. "_" .. view .. ".png"
         assert(lissom.render{ meshes = meshes, columns = #meshes, wire = params.wire, view = view,
             size = { 480 * #meshes, 560 }, file = file })

@@ -68,6 +68,7 @@ int new_paste(Call& call) {
         options.loop = call.choice<PasteBoundary>("loop");
         options.share = call.number("ring");
         options.normals = call.number("normals");
+        options.crease = kDegree * call.number("crease");
         options.thesis = call.integer("fidelity") == 1;
         std::optional<Region> feature, onto;
         if (given) feature = call.object<RegionObject>("feature")->current();
@@ -260,6 +261,13 @@ std::vector<Parameter> paste_parameters() {
                "feature overhangs.")
             .at_least(0)
             .defaults(0.0),
+        number("crease",
+               "About the greatest angle at which part and target may meet, instead of the part's "
+               "boundary turning until its surface goes on in the target's: the more it turns, the "
+               "more the part is distorted beside it. 0: no crease, as with fidelity = \"thesis\".")
+            .in("degrees")
+            .between(0, 180)
+            .defaults(30.0),
         choice("fidelity", {"lissom", "thesis"},
                "thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, a "
                "boundary along edges, and its deformation, for comparison.")

@@ -1,6 +1,7 @@
 #include "kernel/merge/paste/part_trial.h"
 
 #include <utility>
+#include <vector>
 
 #include "kernel/core/error.h"
 
@@ -18,8 +19,10 @@ BoundaryDeformOptions paste_deformation(bool thesis) {
 }  // namespace
 
 void PartTrials::move(PartTrial& trial, const Context& context) const {
-    trial.moved = moved_part(trial.part, paste_values(trial.rim, trial.similarity, trial.scale),
-                             paste_deformation(options.thesis), context);
+    const double crease = options.thesis ? 0.0 : options.crease;
+    const std::vector<BoundaryValue> values =
+        paste_values(trial.rim, trial.similarity, trial.scale, crease);
+    trial.moved = moved_part(trial.part, values, paste_deformation(options.thesis), context);
     trial.near = near_distortion(trial.part, trial.moved.mesh, trial.scale);
 }
 

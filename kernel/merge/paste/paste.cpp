@@ -29,6 +29,8 @@ ParameterizeMethod method_for(const PasteOptions& options) {
 void require_options(const PasteOptions& options) {
     require(options.normals >= 0.0 && std::isfinite(options.normals),
             "the weight of the normals must be 0 or more");
+    require(options.crease >= 0.0 && options.crease <= kPi,
+            "the crease of a paste must lie between 0 and 180 degrees");
     require(options.share > 0.0 && options.share < 1.0,
             "the ring's share must lie between 0 and 1");
 }

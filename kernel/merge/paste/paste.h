@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/merge.h"
 #include "kernel/merge/paste/paste_options.h"
@@ -41,6 +42,10 @@ struct PasteOptions {
     double share = 0.5;
     /// Weight of the normals in the energy; 0.1 to 0.3 help where the feature overhangs.
     double normals = 0.0;
+    /// About the greatest angle, in radians, at which part and target may meet instead of the
+    /// part's boundary turning until its surface goes on in the target's: the more it turns, the
+    /// more the part is distorted beside it. 0: no crease. 0 to pi; the thesis takes 0.
+    double crease = 30.0 * kDegree;
     /// The thesis to the letter: maps that keep angles (LSCM), the energy of Eq 3.1 with its
     /// similarity, a boundary along edges, its deformation.
     bool thesis = false;

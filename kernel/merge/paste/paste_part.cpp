@@ -151,16 +151,44 @@ std::vector<RingPoint> rim_of(const PastePart& part, const RingSurface& surface)
     return rim;
 }
 
-std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
-                                        const PasteSimilarity& similarity, double scale) {
-    const std::size_t n = rim.size();
-    std::vector<Mat3> frames;
+namespace {
+
+// The least rotations that bring the surface of the part into that of the target.
+std::vector<Eigen::Quaterniond> tilts_of(std::span<const RingPoint> rim, const Mat3& rotation) {
+    std::vector<Eigen::Quaterniond> tilts;
     for (const RingPoint& point : rim) {
-        const Vec3 turned = similarity.rotation * point.normal;
+        const Vec3 turned = rotation * point.normal;
         const bool known = turned.norm() > 0.0 && point.image.normal.norm() > 0.0;
-        const Mat3 tilt = known ? least_rotation(turned, point.image.normal).toRotationMatrix()
-                                : Mat3(Mat3::Identity());
-        frames.push_back(tilt * similarity.rotation);
+        tilts.push_back(known ? least_rotation(turned, point.image.normal)
+                              : Eigen::Quaterniond::Identity());
+    }
+    return tilts;
+}
+
+// The part of the rotations that leaves `crease` of the larger ones.
+double tilt_share(std::span<const Eigen::Quaterniond> tilts, double crease) {
+    std::vector<double> angles;
+    for (const auto& tilt : tilts) {
+        angles.push_back(tilt.angularDistance(Eigen::Quaterniond::Identity()));
+    }
+    const std::size_t rank = angles.size() * 9 / 10;
+    std::nth_element(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(rank),
+                     angles.end());
+    return crease < angles[rank] ? 1.0 - crease / angles[rank] : 0.0;
+}
+
+}  // namespace
+
+std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
+                                        const PasteSimilarity& similarity, double scale,
+                                        double crease) {
+    const std::size_t n = rim.size();
+    const std::vector<Eigen::Quaterniond> tilts = tilts_of(rim, similarity.rotation);
+    const double share = tilt_share(tilts, crease);
+    std::vector<Mat3> frames;
+    for (const Eigen::Quaterniond& tilt : tilts) {
+        const Eigen::Quaterniond part = Eigen::Quaterniond::Identity().slerp(share, tilt);
+        frames.push_back(part.toRotationMatrix() * similarity.rotation);
     }
     for (int round = 0; round < kFrameAverages; ++round) {
         std::vector<Mat3> next;

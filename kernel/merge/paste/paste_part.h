@@ -42,9 +42,11 @@ PastePart part_inside(const Mesh& source, const PasteRegions& regions, const Pas
 std::vector<RingPoint> rim_of(const PastePart& part, const RingSurface& surface);
 
 /// Frames by the least rotation from the turned normals of the source to those of the target,
-/// averaged three times along the loop.
+/// averaged three times along the loop. All of these rotations are made smaller by one factor, so
+/// that `crease` is left of the larger ones.
 std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
-                                        const PasteSimilarity& similarity, double scale);
+                                        const PasteSimilarity& similarity, double scale,
+                                        double crease);
 
 struct MovedPart {
     Mesh mesh;

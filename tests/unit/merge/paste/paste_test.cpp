@@ -1,6 +1,9 @@
 // Pastes from end to end on generated shapes.
 #include "kernel/merge/paste/paste.h"
 
+#include <optional>
+#include <string>
+
 #include "kernel/mesh/measure/measures.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"
@@ -113,6 +116,33 @@ TEST_CASE("paste: a feature may have a handle") {
     CHECK(genus(result.merged.mesh.topology()) == 1);
 }
 
+TEST_CASE("paste: a crease is at most what is allowed, and takes distortion away") {
+    // A tube on a ball: it would have to turn by a right angle to go on in its surface.
+    Mesh tube = make_sphere({1.0, 24, SphereKind::triangles});
+    for (Vec3& p : tube.edit_positions()) p = Vec3(0.4 * p.x(), 3.0 * p.y(), 0.4 * p.z());
+    const Mesh target = egg();
+    double last = 0.0;
+    for (const double degrees : {60.0, 30.0, 0.0}) {
+        PasteOptions options;
+        options.crease = degrees * kDegree;
+        Paste paste(tube, target, select_plane(tube, {0, -1.0, 0}, {0, 1, 0}),
+                    select_plane(tube, {0, 1.0, 0}, {0, 1, 0}), std::nullopt,
+                    {.at = {0, 2, 0}, .scale = 0.8}, options);
+        paste.optimize();
+        const PasteResult result = paste.merge();
+        check_sound(result);
+        CAPTURE(degrees);
+        CHECK(result.merged.report.seam.after.greatest_dihedral < (degrees + 25.0) * kDegree);
+        CHECK(result.report.near.energy > last);
+        last = result.report.near.energy;
+    }
+    PasteOptions wrong;
+    wrong.crease = -1.0;
+    CHECK(error_of([&] {
+              horn_on_egg(horned_ball(), target, {.at = {0, 2, 0}}, wrong);
+          }).code() == ErrorCode::invalid_argument);
+}
+
 TEST_CASE("paste: a move that does not fit keeps the last good place") {
     const Mesh horn = horned_ball(), target = egg();
     const Region top = select_plane(target, {0, 0.2, 0}, {0, 1, 0});
@@ -130,6 +160,97 @@ TEST_CASE("paste: a move that does not fit keeps the last good place") {
     check_sound(paste.merge());
     paste.move({.at = {0.6, 1.7, 0.3}, .angle = 1.0, .scale = 0.6});
     check_sound(paste.merge());
+}
+
+TEST_CASE("paste: bad input is refused by name, with ids, and the meshes stay as they are") {
+    const Mesh horn = horned_ball(), target = egg(), other = make_torus();
+    const Region ring = around_horn(horn);
+    const std::uint64_t before[] = {hash(horn), hash(target), hash(other)};
+    struct Bad {
+        std::string what;
+        Region region;
+        std::optional<Region> feature, onto;
+        const Mesh& onto_mesh;
+        PastePlacement placement;
+        ErrorCode code;
+    };
+    const PastePlacement top{.at = {0, 2, 0}, .scale = 0.6};
+    const Region cap = select_plane(target, {0, 0.2, 0}, {0, 1, 0});
+    // Half a torus is a band.
+    const Region band = select_plane(other, {0, 0, 0}, {1, 0, 0});
+    const Bad cases[] = {
+        {"the feature touches the outline",
+         ring,
+         ring,
+         {},
+         target,
+         top,
+         ErrorCode::boundary_conflict},
+        {"the region of another mesh",
+         select_sphere(other, {1, 0, 0}, 0.3),
+         {},
+         {},
+         target,
+         top,
+         ErrorCode::topology_mismatch},
+        {"the feature of another mesh", ring, cap, {}, target, top, ErrorCode::topology_mismatch},
+        {"the target's region of another mesh",
+         ring,
+         {},
+         ring,
+         target,
+         top,
+         ErrorCode::topology_mismatch},
+        {"a target's region with a hole",
+         ring,
+         {},
+         band,
+         other,
+         {.at = {1, 0.4, 0}, .scale = 0.1},
+         ErrorCode::not_a_disk},
+        {"a target's region with a handle",
+         ring,
+         {},
+         Region::all(other.shared_topology()),
+         other,
+         {.at = {1, 0.4, 0}, .scale = 0.1},
+         ErrorCode::not_a_disk},
+        {"the target is smaller than the part",
+         ring,
+         {},
+         cap,
+         target,
+         {.at = {0, 2, 0}, .scale = 9.0},
+         ErrorCode::boundary_conflict},
+        {"the point lies outside the target's region",
+         ring,
+         {},
+         cap,
+         target,
+         {.at = {0, -2, 0}, .scale = 0.6},
+         ErrorCode::boundary_conflict},
+        {"no size",
+         ring,
+         {},
+         {},
+         target,
+         {.at = {0, 2, 0}, .scale = 0.0},
+         ErrorCode::invalid_argument},
+    };
+    for (const Bad& bad : cases) {
+        CAPTURE(bad.what);
+        const Error error = error_of(
+            [&] { Paste(horn, bad.onto_mesh, bad.region, bad.feature, bad.onto, bad.placement); });
+        CAPTURE(error.message());
+        CHECK(error.code() == bad.code);
+        CHECK(error.message().size() > 20);
+        const bool of_elements =
+            bad.code == ErrorCode::boundary_conflict || bad.code == ErrorCode::not_a_disk;
+        CHECK(error.elements().ids.empty() != of_elements);
+    }
+    CHECK(hash(horn) == before[0]);
+    CHECK(hash(target) == before[1]);
+    CHECK(hash(other) == before[2]);
 }
 
 TEST_CASE("paste: the size can be locked; nearest points and the thesis's way work too") {
