@@ -39,10 +39,12 @@ enum class Configuration { free, fixed };
 /// How a feature that keeps its shape in the free configuration finds the similarity it moves by.
 enum class FeatureMotion {
     /// Its Laplacian coordinates share a deformation gradient that is an unknown of the systems
-    /// (section 3.5).
+    /// (section 3.5). One factorisation less; the surface around features is distorted more.
     common,
     /// The surface is deformed without it first, and the similarity that fits what became of the
-    /// feature is kept in a second deformation, with factors of its own.
+    /// feature is kept in a second deformation, with factors of its own. On four merges of real
+    /// models the surface outside the features was distorted 5 to 44 % less than with `common`,
+    /// by energy, in up to twice the time.
     fitted,
 };
 
@@ -63,7 +65,7 @@ struct MergeOptions {
     /// stays where it is.
     std::vector<Region> fixed = {};
     /// Of the free configuration.
-    FeatureMotion feature_motion = FeatureMotion::common;
+    FeatureMotion feature_motion = FeatureMotion::fitted;
     /// In the fixed configuration: how far from its boundaries the source deforms, along its edges
     /// and in its unit; what is farther stays. Absent: all of it where features are fixed, else
     /// three radii of the largest boundary.

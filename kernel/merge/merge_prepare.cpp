@@ -427,6 +427,7 @@ MergeOptions MergeOptions::literal(Configuration configuration) {
     MergeOptions options;
     options.configuration = configuration;
     options.turn_frames = configuration == Configuration::free;
+    options.feature_motion = FeatureMotion::common;
     options.seam = SeamKind::band;
     options.collar = options.trim = options.refine = false;
     options.thesis = true;

@@ -36,6 +36,7 @@ std::vector<DirectionPair> given_directions(const Call& call) {
 
 // Those whose defaults the fidelity changes.
 void read_steps(const Call& call, MergeOptions& options) {
+    if (call.has("features")) options.feature_motion = call.choice<FeatureMotion>("features");
     if (call.has("frames")) options.turn_frames = call.integer("frames") == 0;
     if (call.has("seam")) options.seam = call.choice<SeamKind>("seam");
     if (call.has("collar")) options.collar = call.boolean("collar");
@@ -51,7 +52,6 @@ MergeOptions merge_options(const Call& call) {
     MergeOptions options;
     if (call.integer("fidelity") == 1) options = MergeOptions::literal(configuration);
     options.configuration = configuration;
-    options.feature_motion = call.choice<FeatureMotion>("features");
     read_steps(call, options);
     if (call.has("transition") && call.kind("transition") == Kind::boolean) {
         options.suit_transition = true;
@@ -259,9 +259,10 @@ std::vector<Parameter> merge_parameters(bool intersections) {
         choice("features", {"common", "fitted"},
                "How those of the free configuration find the similarity they move by. common: each "
                "has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the "
-               "surface is deformed without them first, and again with what fits; this takes twice "
-               "the time.")
-            .defaults("common"),
+               "surface is deformed without them first, and again with what fits: less distortion "
+               "around them, by 5 to 44 % on four merges of real models, in up to twice the time.")
+            .optional("\"fitted\"")
+            .thesis("3.5", "\"common\""),
         number("reach",
                "fixed configuration: how far from its boundaries the source deforms, along edges.")
             .above(0)
