@@ -79,10 +79,11 @@ SceneDrawer::SceneDrawer(const SceneTools& tools, const GpuScene& scene, const G
       hair_(hair),
       view_(view),
       options_(options),
-      openness_(compute_occlusion()) {}
+      computed_(compute_occlusion()),
+      openness_(options.occlusion > 0.0 ? computed_ : tools.occlusion.none()) {}
 
 gl::Framebuffer SceneDrawer::compute_occlusion() const {
-    if (options_.occlusion == 0.0) return tools_.occlusion.none();
+    if (options_.occlusion <= 0.0) return {};
     const double longest = std::max(options_.width, options_.height);
     const double scale = std::min(1.0, kOcclusionSize / longest);
     const gl::Extent extent{static_cast<int>(std::ceil(scale * options_.width)),

@@ -53,6 +53,7 @@ class SceneDrawer {
     Image picture(Progress& progress) const;
 
   private:
+    // Empty where there is none.
     gl::Framebuffer compute_occlusion() const;
     void draw_surfaces(const Tile& tile) const;
     void draw_through(const gl::Program& program, const GpuSurface& surface) const;
@@ -66,7 +67,8 @@ class SceneDrawer {
     const GpuHairShade& hair_;
     const SceneView& view_;
     const RenderOptions& options_;
-    gl::Framebuffer openness_;
+    gl::Framebuffer computed_;
+    const gl::Framebuffer& openness_;
 };
 
 /// The picture of a scene with all that it has, strands too. Errors: those of view_strands;

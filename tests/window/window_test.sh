@@ -1,112 +1,15 @@
 #!/usr/bin/env bash
-# Drives the real window under Xvfb with a hand made by xdotool: opens, turns, tells errors, runs scripts again,
-# takes pictures, types, stops a script that never ends, and closes.
+# Drives the real window under Xvfb with a hand made by xdotool: opens, turns, selects, drags a handle, undoes, drops
+# files, tells errors, runs scripts again, takes pictures, types, stops a script that never ends, and closes.
 # Usage: window_test.sh PROGRAM [FOLDER FOR SCREENSHOTS]
+# LISSOM_DROP_FILE is the program that drops files onto it, LISSOM_LOSE_CONTEXT the library by which the driver loses
+# what it has drawn; what needs them is left out where they are not set.
 set -euo pipefail
 
-for tool in Xvfb xdotool; do
-    command -v $tool >/dev/null && continue
-    echo "skipped: the window (no $tool)"
-    [ -z "${LISSOM_REQUIRE_GL:-}" ] || exit 1
-    exit 0
-done
-
-program=$(realpath "$1")
-shots=${2:-}
-work=$(mktemp -d)
-pids=()
-end() {
-    [ ${#pids[@]} -eq 0 ] || kill "${pids[@]}" 2>/dev/null || true
-    rm -rf "$work"
-}
-trap end EXIT
-cd "$work"
-export XDG_STATE_HOME=$work/state
-
-Xvfb -displayfd 3 -screen 0 1400x1000x24 -noreset -nolisten tcp 3>display >/dev/null 2>&1 &
-pids+=($!)
-for _ in $(seq 200); do
-    if [ -s display ]; then break; fi
-    sleep 0.1
-done
-DISPLAY=:$(cat display)
-export DISPLAY
-
-fail() {
-    echo "FAILED: $1"
-    sed 's/^/    told: /' told
-    shot failed
-    exit 1
-}
-
-shot() { # NAME : a picture of the screen, for whoever asked for them
-    if [ -n "$shots" ] && command -v import >/dev/null; then import -window root "$shots/$1.png"; fi
-}
-
-# What was told so far is passed over by the next `wait_for`.
-seen=0
-wait_for() { # TEXT : a line that begins so and was not told before
-    local count
-    for _ in $(seq 600); do
-        count=$(tail -n +$((seen + 1)) told | grep -nF -m 1 -- "$1" | cut -d: -f1) || true
-        if [ -n "$count" ]; then
-            seen=$((seen + count))
-            return
-        fi
-        kill -0 "$view" 2>/dev/null || fail "the program ended while '$1' was waited for"
-        sleep 0.1
-    done
-    fail "it never told '$1'"
-}
-
-open_view() { # ARGS...
-    seen=0
-    : >told
-    "$program" view --tell --size 1200x800 "$@" >told 2>&1 &
-    view=$!
-    pids+=("$view")
-    window=$(timeout 60 xdotool search --sync --onlyvisible --name lissom | head -n 1)
-}
-
-close_view() { # STATUS
-    local status=0
-    xdotool mousemove --window "$window" 700 300 key ctrl+q
-    for _ in $(seq 100); do
-        kill -0 "$view" 2>/dev/null || break
-        sleep 0.1
-    done
-    kill -0 "$view" 2>/dev/null && fail "it did not close"
-    wait "$view" || status=$?
-    [ $status -eq "$1" ] || fail "it ended with $status instead of $1"
-}
-
-drag() { # X Y DX DY : in ten moves
-    xdotool mousemove --window "$window" "$1" "$2" mousedown 1
-    for _ in $(seq 10); do
-        xdotool mousemove_relative -- "$3" "$4"
-        sleep 0.02
-    done
-    xdotool mouseup 1
-}
-
-# Whatever a script did, the window itself was never busy for longer; what the driver takes to draw is its own.
-check_work() {
-    local work
-    work=$(sed -n 's/^longest.* work \([0-9]*\).*/\1/p' told)
-    [ -n "$work" ] || fail "it does not tell how long it was busy"
-    [ "$work" -lt "${LISSOM_WINDOW_WORK:-50}" ] || fail "it was busy for $work ms"
-}
-
-type_text() { # TEXT : into the console
-    xdotool mousemove --window "$window" 700 783 click 1
-    sleep 0.3
-    xdotool type --delay 60 -- "$1"
-}
-
-type_line() { # TEXT
-    type_text "$1"
-    xdotool key Return
-}
+here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
+golden=$here/../scenes/golden
+# shellcheck source=tests/window/hand.sh
+. "$here/hand.sh"
 
 # --- A mesh: turned, seen from a side, drawn into a file that differs after a turn
 cat >box.obj <<'OBJ'
@@ -185,31 +88,7 @@ wait_for "error script.lua:2: cancelled"
 shot stopped
 printf 'print("again")\nwhile true do end\n' >script.lua
 wait_for "line again"
-drag 700 300 10 5
 close_view 0
-check_work
-
-# --- A kernel call that takes long
-cat >long.lua <<'LUA'
-local lissom = require "lissom"
-lissom.render{ mesh = lissom.shapes.torus{}, file = "seen.png" }
-local big = lissom.shapes.cactus{ vertices = 200000 }
-local edit = lissom.deform(big, { region = big:region{ all = true } })
-edit:handle(big:region("base"))
-edit:handle(big:region("tip"))
-print("going")
-edit:solve()
-print("solved")
-while true do end
-LUA
-open_view long.lua
-wait_for "line going"
-drag 700 300 10 5
-drag 800 350 -10 -5
-wait_for "line solved"
-drag 700 300 10 5
-close_view 0
-check_work
 
 # --- Tools: a drag is a step; undo, redo, save; a change of the tool's file; what was recorded repeats
 cat >ball.lua <<'LUA'
@@ -271,6 +150,92 @@ wait_for "history 1 of 1"
 close_view 0
 cd "$work"
 
+# --- Selecting, and a handle that is dragged by its gizmo; a disk that is full
+cp "$golden/cactus.lua" .
+open_view cactus.lua --tool select
+wait_for "tool select"
+wait_for "at rest"
+drag 700 300 6 2
+wait_for "history 1 of 1"
+xdotool key i
+wait_for "history 2 of 2"
+close_view 0
+largest=100 open_view cactus.lua --tool deform --journal handle.lua
+wait_for "tool deform"
+wait_for "at rest"
+drag 700 605 4 0
+wait_for "history 1 of 1"
+xdotool key p
+wait_for "history 2 of 2"
+drag 700 110 4 0
+wait_for "history 3 of 3"
+xdotool key Return
+wait_for "history 4 of 4"
+wait_for "at rest"
+shot handle
+# The middle of the gizmo moves the handle in the plane of the picture.
+drag 720 110 5 2
+wait_for "history 5 of 5"
+wait_for "at rest"
+shot handle_dragged
+grep -q "set_matrix" handle.lua || fail "no handle was dragged"
+xdotool key ctrl+z
+wait_for "history 4 of 5"
+grep -q "^error .*recovery" told || fail "a copy that cannot be written is not told"
+xdotool key ctrl+shift+z
+wait_for "history 5 of 5"
+close_view 0
+
+# --- Files are dropped: a broken one is told and changes nothing; the scene that another replaces is kept
+printf 'ply\nformat nonsense 1.0\n' >broken.ply
+if [ -n "${LISSOM_DROP_FILE:-}" ]; then
+    open_view ball.obj --tool bulge.lua
+    wait_for "at rest"
+    drag 700 300 5 2
+    wait_for "history 1 of 1"
+    sleep 2
+    "$LISSOM_DROP_FILE" "$window" broken.ply
+    wait_for "error "
+    drag 700 320 5 2
+    wait_for "history 2 of 2"
+    sleep 2
+    wait_for "at rest"
+    "$LISSOM_DROP_FILE" "$window" box.obj
+    wait_for "line the scene before was not saved"
+    wait_for "shown "
+    close_view 0
+    if grep -q "lissom: the scene was not saved" told; then fail "a scene without changes is told as unsaved"; fi
+    open_view state/lissom/unsaved.lissom
+    wait_for "shown "
+    close_view 0
+else
+    echo "skipped: dropping files (no LISSOM_DROP_FILE)"
+fi
+
+# --- The driver loses what was drawn: it is drawn again, and all goes on
+if [ -n "${LISSOM_LOSE_CONTEXT:-}" ]; then
+    LD_PRELOAD=$LISSOM_LOSE_CONTEXT open_view ball.obj --tool bulge.lua
+    wait_for "tool swell"
+    wait_for "at rest"
+    drag 700 300 5 2
+    wait_for "history 1 of 1"
+    wait_for "at rest"
+    kill -USR1 "$view"
+    xdotool mousemove --window "$window" 600 500
+    wait_for "line the graphics driver had lost the picture"
+    wait_for "at rest"
+    shot made_again
+    xdotool search --name lissom >found
+    window=$(head -n 1 found)
+    drag 700 320 5 2
+    wait_for "history 2 of 2"
+    xdotool key ctrl+z
+    wait_for "history 1 of 2"
+    close_view 0
+else
+    echo "skipped: a lost context (no LISSOM_LOSE_CONTEXT)"
+fi
+
 # --- A window that is killed: the next one offers its scene
 open_view ball.lissom --tool smooth
 wait_for "tool smooth"
@@ -289,7 +254,6 @@ wait_for "shown "
 close_view 0
 
 # --- What cannot be read is told, and the window stays
-printf 'ply\nformat nonsense 1.0\n' >broken.ply
 open_view broken.ply
 wait_for "error "
 close_view 0
@@ -299,4 +263,12 @@ status=0
 env -u DISPLAY -u WAYLAND_DISPLAY "$program" view box.obj >told 2>&1 || status=$?
 [ $status -eq 1 ] || fail "without a screen it ended with $status"
 grep -q "no_display" told || fail "without a screen it does not say so"
+
+# --- An OpenGL that is too old, where Mesa can act so
+status=0
+MESA_GL_VERSION_OVERRIDE=3.0 MESA_GLSL_VERSION_OVERRIDE=130 timeout 20 "$program" view box.obj >told 2>&1 || status=$?
+if [ $status -ne 124 ]; then
+    [ $status -eq 1 ] || fail "without OpenGL 3.3 it ended with $status"
+    grep -q "OpenGL 3.3" told || fail "without OpenGL 3.3 it does not say so"
+fi
 echo "window: all expectations hold"

@@ -45,6 +45,21 @@ Point parts(const Eigen::Vector3f& v) {
     return {v.x(), v.y(), v.z()};
 }
 
+// Unit vectors, and zero as zero.
+std::uint32_t packed_normal(const Eigen::Vector3f& sum) {
+    constexpr float kOne = 511.0f;
+    constexpr std::uint32_t kTenBits = 0x3ff;
+    const float length = sum.norm();
+    const Eigen::Vector3f n = length > 0.0f ? Eigen::Vector3f(kOne / length * sum) : sum;
+    const auto part = [&](int axis) {
+        // Rounded: the shift keeps what is cut off positive.
+        constexpr float kShift = 1024.5f;
+        const int value = static_cast<int>(n[axis] + kShift) - 1024;
+        return static_cast<std::uint32_t>(value) & kTenBits;
+    };
+    return part(0) | part(1) << 10 | part(2) << 20;
+}
+
 }  // namespace
 
 NormalGroups normal_groups(const SurfaceTriangles& triangles,
@@ -71,24 +86,27 @@ NormalGroups normal_groups(const SurfaceTriangles& triangles,
 
 void quick_surface_vertices(const Mesh& mesh, const Affine& to_picture,
                             const SurfaceTriangles& triangles, const NormalGroups& groups,
-                            std::vector<SurfaceVertex>& result) {
+                            std::vector<QuickVertex>& result) {
     const std::vector<Triangle>& list = triangles.faces->triangles;
     const std::vector<Eigen::Vector3f> points = float_positions(mesh, to_picture);
     const std::array<int, 3> order = drawn_corners(triangles.mirrored);
-    std::vector<Eigen::Vector3f> normals(at(groups.count), Eigen::Vector3f::Zero());
+    std::vector<Eigen::Vector3f> sums(at(groups.count), Eigen::Vector3f::Zero());
     for (std::size_t t = 0; t < list.size(); ++t) {
         const Eigen::Vector3f &a = points[list[t][order[0]]], &b = points[list[t][order[1]]],
                               &c = points[list[t][order[2]]];
         const Eigen::Vector3f area = (b - a).cross(c - a);
-        for (std::size_t i = 0; i < 3; ++i) normals[groups.of_entry[3 * t + i]] += area;
+        for (std::size_t i = 0; i < 3; ++i) sums[groups.of_entry[3 * t + i]] += area;
     }
-    for (Eigen::Vector3f& n : normals) {
-        const float length = n.norm();
-        if (length > 0.0f) n /= length;
-    }
+    std::vector<std::uint32_t> normals;
+    normals.reserve(sums.size());
+    for (const Eigen::Vector3f& sum : sums) normals.push_back(packed_normal(sum));
     result.resize(3 * list.size());
-    for (std::size_t e = 0; e < result.size(); ++e) {
-        result[e] = {parts(points[list[e / 3][order[e % 3]]]), parts(normals[groups.of_entry[e]])};
+    QuickVertex* next = result.data();
+    const Index* group = groups.of_entry.data();
+    for (const Triangle& t : list) {
+        for (const int corner : order) {
+            *next++ = {parts(points[at(t[corner])]), normals[at(*group++)]};
+        }
     }
 }
 

@@ -2,6 +2,8 @@
 /// area, in single precision, and creases stay where they were.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,10 +22,16 @@ struct NormalGroups {
 NormalGroups normal_groups(const SurfaceTriangles& triangles,
                            std::span<const SurfaceVertex> vertices, Shading shading);
 
+/// A corner of a triangle; its normal is packed as GL_INT_2_10_10_10_REV, ten bits a part.
+struct QuickVertex {
+    std::array<float, 3> position;
+    std::uint32_t normal;
+};
+
 /// What surface_vertices makes of `mesh` where the picture has it, but for the way normals are
-/// weighted.
+/// weighted, and their last bits.
 void quick_surface_vertices(const Mesh& mesh, const Affine& to_picture,
                             const SurfaceTriangles& triangles, const NormalGroups& groups,
-                            std::vector<SurfaceVertex>& result);
+                            std::vector<QuickVertex>& result);
 
 }  // namespace lissom

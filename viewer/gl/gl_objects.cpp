@@ -215,6 +215,13 @@ Program::Program(std::string_view name, const char* common, const char* vertex,
     if (!linked) throw_refused(name, info_log(program_.id(), glGetProgramiv, glGetProgramInfoLog));
 }
 
+GLint Program::location(const char* uniform) const {
+    const std::string_view name = uniform;
+    const auto known = locations_.find(name);
+    if (known != locations_.end()) return known->second;
+    return locations_.emplace(name, glGetUniformLocation(program_.id(), uniform)).first->second;
+}
+
 void Program::set(const char* uniform, int value) const {
     glUniform1i(location(uniform), value);
 }

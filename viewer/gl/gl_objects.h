@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -123,11 +125,11 @@ class Program {
     void set_buffer(const char* uniform, int unit, GLuint texture) const;
 
   private:
-    GLint location(const char* uniform) const {
-        return glGetUniformLocation(program_.id(), uniform);
-    }
+    GLint location(const char* uniform) const;
 
     Name<destroy_program> program_;
+    // Of uniforms that were set: drivers look them up by name slowly.
+    mutable std::map<std::string, GLint, std::less<>> locations_;
 };
 
 /// Throws where the driver reported an error since the last call: memory_limit where it has no

@@ -1,10 +1,12 @@
 #include "viewer/gl/gpu_scene.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -52,8 +54,8 @@ void read_field(const Field& field, std::size_t stride) {
     if (field.type == GL_UNSIGNED_INT) {
         glVertexAttribIPointer(field.location, field.parts, field.type, step, offset);
     } else {
-        glVertexAttribPointer(field.location, field.parts, field.type,
-                              field.type == GL_UNSIGNED_BYTE, step, offset);
+        const bool is_share = field.type == GL_UNSIGNED_BYTE || field.type == GL_INT_2_10_10_10_REV;
+        glVertexAttribPointer(field.location, field.parts, field.type, is_share, step, offset);
     }
 }
 
@@ -67,8 +69,8 @@ void read_fields(const gl::Buffer& buffer, std::initializer_list<Field> fields,
 class Upload {
   public:
     Upload(const Vec3& origin, const ValueRange& range, const Context& context,
-           std::vector<SurfaceVertex>* quick)
-        : origin_(origin), range_(range), context_(context), quick_(quick) {}
+           std::vector<QuickVertex>* quick, std::span<const PreparedSurface> prepared)
+        : origin_(origin), range_(range), context_(context), quick_(quick), prepared_(prepared) {}
 
     const Uploads& total() const { return total_; }
 
@@ -92,13 +94,17 @@ class Upload {
     GpuMarks::Array instances(const std::vector<Entry>& entries,
                               std::initializer_list<Field> fields);
     void fill(GpuSurface& surface, const GpuSurface* before, bool same_range);
+    void fill_colors(GpuSurface& surface);
+    const PreparedSurface* prepared_vertices(const GpuSurface& surface) const;
+    const PreparedSurface* prepared_colors(const GpuSurface& surface) const;
     void fill_vertices(GpuSurface& surface, const GpuSurface* before);
 
     Vec3 origin_;
     ValueRange range_;
     const Context& context_;
     // Where vertices that moved are made fast; null where they are made exactly.
-    std::vector<SurfaceVertex>* quick_;
+    std::vector<QuickVertex>* quick_;
+    std::span<const PreparedSurface> prepared_;
     Uploads total_;
 };
 
@@ -122,8 +128,10 @@ bool same_faces(const Mesh& a, const Mesh& b) {
            f.vertices == g.vertices;
 }
 
-bool same_wire(const MeshStyle& a, const MeshStyle& b) {
-    return a.wire == b.wire && a.wire_width == b.wire_width && a.wire_color == b.wire_color;
+// Of what is read while a surface is drawn.
+bool same_drawing(const MeshStyle& a, const MeshStyle& b) {
+    return a.wire == b.wire && a.wire_width == b.wire_width && a.wire_color == b.wire_color &&
+           a.opacity == b.opacity;
 }
 
 std::shared_ptr<const GpuSurface> Upload::surface(const DrawnMesh& drawn,
@@ -134,7 +142,7 @@ std::shared_ptr<const GpuSurface> Upload::surface(const DrawnMesh& drawn,
     result->revision = drawn.mesh->revision();
     const bool same_topology = before && same_faces(*before->drawn.mesh, *drawn.mesh);
     const bool same_range = known == range_;
-    if (same_topology && same_wire(before->drawn.style, drawn.style)) {
+    if (same_topology && same_drawing(before->drawn.style, drawn.style)) {
         const Kept keep = kept(*before, *result, same_range);
         if (keep.vertices && keep.colors && keep.marks) return before;
     }
@@ -142,18 +150,62 @@ std::shared_ptr<const GpuSurface> Upload::surface(const DrawnMesh& drawn,
     return result;
 }
 
+// Whether vertices that moved can be made fast from those of `before`; may be null.
+bool moves_fast(const DrawnMesh& drawn, const GpuSurface* before) {
+    return before && before->drawn.style.shading == drawn.style.shading &&
+           before->drawn.style.crease == drawn.style.crease &&
+           before->triangles.mirrored == (drawn.transform.linear.determinant() < 0.0);
+}
+
+// Those that were prepared for it; null where there are none.
+const PreparedSurface* Upload::prepared_vertices(const GpuSurface& surface) const {
+    for (const PreparedSurface& one : prepared_) {
+        const bool fits =
+            one.needs.vertices && one.needs.origin == origin_ && one.revision == surface.revision;
+        if (fits && same_vertices(one.needs.drawn, surface.drawn)) return &one;
+    }
+    return nullptr;
+}
+
+const PreparedSurface* Upload::prepared_colors(const GpuSurface& surface) const {
+    for (const PreparedSurface& one : prepared_) {
+        const bool fits = one.needs.colors && one.needs.drawn.mesh == surface.drawn.mesh &&
+                          one.revision == surface.revision && one.needs.range == range_;
+        if (fits && same_colors(one.needs.drawn, surface.drawn) &&
+            one.triangles.same_as(surface.triangles)) {
+            return &one;
+        }
+    }
+    return nullptr;
+}
+
+void Upload::fill_colors(GpuSurface& surface) {
+    const auto send = [&](const std::vector<SurfaceColor>& colors) {
+        surface.colors = std::make_shared<const gl::Buffer>(buffer(colors, &Uploads::colors));
+    };
+    if (const PreparedSurface* ready = prepared_colors(surface)) return send(ready->colors);
+    send(surface_colors(*surface.drawn.mesh, surface.drawn.style, range_, surface.triangles,
+                        context_));
+}
+
 // Of a mesh that moved, `before` is the one with the same faces; may be null.
 void Upload::fill_vertices(GpuSurface& surface, const GpuSurface* before) {
     const auto& [mesh, style, transform, object] = surface.drawn;
     const Affine to_picture = translation(-origin_) * transform;
-    const bool keeps = quick_ && before && before->drawn.style.shading == style.shading &&
-                       before->drawn.style.crease == style.crease &&
-                       before->triangles.mirrored == (to_picture.linear.determinant() < 0.0);
+    const bool keeps = quick_ && moves_fast(surface.drawn, before);
     if (keeps && before->groups) {
         surface.triangles = before->triangles;
         surface.groups = before->groups;
         quick_surface_vertices(*mesh, to_picture, surface.triangles, *surface.groups, *quick_);
         surface.vertices = std::make_shared<const gl::Buffer>(buffer(*quick_, &Uploads::vertices));
+        surface.is_quick = true;
+        return;
+    }
+    if (const PreparedSurface* ready = prepared_vertices(surface)) {
+        surface.triangles = ready->triangles;
+        surface.groups = ready->groups;
+        surface.vertices =
+            std::make_shared<const gl::Buffer>(buffer(ready->vertices, &Uploads::vertices));
         return;
     }
     const std::vector<Vec3> positions = picture_positions(*mesh, to_picture);
@@ -167,6 +219,19 @@ void Upload::fill_vertices(GpuSurface& surface, const GpuSurface* before) {
         normal_groups(surface.triangles, vertices, style.shading));
 }
 
+void read_vertices(const GpuSurface& surface) {
+    if (surface.is_quick) {
+        return read_fields(*surface.vertices,
+                           {{0, 3, GL_FLOAT, offsetof(QuickVertex, position)},
+                            {1, 4, GL_INT_2_10_10_10_REV, offsetof(QuickVertex, normal)}},
+                           sizeof(QuickVertex));
+    }
+    read_fields(*surface.vertices,
+                {{0, 3, GL_FLOAT, offsetof(SurfaceVertex, position)},
+                 {1, 3, GL_FLOAT, offsetof(SurfaceVertex, normal)}},
+                sizeof(SurfaceVertex));
+}
+
 void Upload::fill(GpuSurface& surface, const GpuSurface* before, bool same_range) {
     const auto& [mesh, style, transform, object] = surface.drawn;
     const MemoryCharge charge = context_.charge(
@@ -176,23 +241,21 @@ void Upload::fill(GpuSurface& surface, const GpuSurface* before, bool same_range
     if (keep.vertices) {
         surface.triangles = before->triangles;
         surface.vertices = before->vertices;
+        surface.is_quick = before->is_quick;
         surface.groups = before->groups;
     } else {
         fill_vertices(surface, before);
     }
     const bool keep_colors = keep.colors && surface.triangles.same_as(before->triangles);
-    surface.colors = keep_colors
-                         ? before->colors
-                         : std::make_shared<const gl::Buffer>(buffer(
-                               surface_colors(*mesh, style, range_, surface.triangles, context_),
-                               &Uploads::colors));
+    if (keep_colors) {
+        surface.colors = before->colors;
+    } else {
+        fill_colors(surface);
+    }
     surface.marks = keep.marks ? before->marks : marks(build_marks(surface.drawn));
     surface.layout = gl::make_vertex_array();
     glBindVertexArray(surface.layout.id());
-    read_fields(*surface.vertices,
-                {{0, 3, GL_FLOAT, offsetof(SurfaceVertex, position)},
-                 {1, 3, GL_FLOAT, offsetof(SurfaceVertex, normal)}},
-                sizeof(SurfaceVertex));
+    read_vertices(surface);
     read_fields(*surface.colors,
                 {{2, 4, GL_UNSIGNED_BYTE, offsetof(SurfaceColor, color)},
                  {3, 1, GL_FLOAT, offsetof(SurfaceColor, value)},
@@ -273,18 +336,23 @@ Placement place(const Snapshot& snapshot, const Placement& before) {
         for_each_point(snapshot, visit);
         for (const Vec3& p : result.strand_corners) visit(p);
     };
+    // About one of the points, so that no digits are lost where all are far away.
+    std::optional<Vec3> first;
     double count = 0.0, square = 0.0;
     Vec3 sum = Vec3::Zero();
     for_all([&](const Vec3& p) {
-        require(p.allFinite(), "a transform, line or point of the drawing is NaN or infinite",
-                ErrorCode::not_finite);
-        sum += p;
+        if (!first) first = p;
+        const Vec3 offset = p - *first;
+        sum += offset;
+        square += offset.squaredNorm();
         ++count;
     });
     if (count == 0.0) return result;
-    result.center = sum / count;
-    for_all([&](const Vec3& p) { square += (p - result.center).squaredNorm(); });
-    result.size = std::sqrt(square / count);
+    require(std::isfinite(square), "a transform, line or point of the drawing is NaN or infinite",
+            ErrorCode::not_finite);
+    const Vec3 mean = sum / count;
+    result.center = *first + mean;
+    result.size = std::sqrt(std::max(square / count - mean.squaredNorm(), 0.0));
     return result;
 }
 
@@ -319,16 +387,70 @@ void GpuSurface::draw() const {
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * triangles.faces->triangles.size()));
 }
 
-Uploads GpuScene::update(const Snapshot& snapshot, const Context& context, MovedVertices moved) {
+PreparedSurface prepare(SurfaceNeeds needs, const Context& context) {
+    const auto& [mesh, style, transform, object] = needs.drawn;
+    const Affine to_picture = translation(-needs.origin) * transform;
+    const SurfaceTriangles* known = needs.known.faces ? &needs.known : nullptr;
+    PreparedSurface result;
+    result.revision = mesh->revision();
+    const std::vector<Vec3> positions = picture_positions(*mesh, to_picture);
+    // Those that are on the card already stay as they are.
+    result.triangles =
+        known && !needs.vertices ? *known : surface_triangles(*mesh, positions, to_picture, known);
+    if (needs.vertices) {
+        result.vertices = surface_vertices(*mesh, style, positions, result.triangles, context);
+        result.groups = std::make_shared<const NormalGroups>(
+            normal_groups(result.triangles, result.vertices, style.shading));
+    }
+    if (needs.colors) {
+        result.colors = surface_colors(*mesh, style, needs.range, result.triangles, context);
+    }
+    result.needs = std::move(needs);
+    return result;
+}
+
+bool GpuScene::keeps_origin(const Placement& placement) const {
+    const bool anything = !shown_.surfaces.empty() || !shown_.overlays.empty();
+    const double apart = (placement.center - shown_.origin).norm();
+    return anything && apart <= kOriginReach * placement.size;
+}
+
+Vec3 GpuScene::next_origin(const Placement& placement) const {
+    return keeps_origin(placement) ? shown_.origin : placement.center;
+}
+
+std::vector<SurfaceNeeds> GpuScene::needs(const Snapshot& snapshot) const {
+    const Placement placement = place(snapshot, shown_.placement);
+    const Vec3 origin = next_origin(placement);
+    Known known(keeps_origin(placement) ? shown_.surfaces : decltype(shown_.surfaces){});
+    std::vector<SurfaceNeeds> result;
+    for (const DrawnMesh& drawn : snapshot.meshes) {
+        const auto found = known.take(drawn.object);
+        const bool same = found && same_faces(*found->drawn.mesh, *drawn.mesh);
+        const GpuSurface* const before = same ? found.get() : nullptr;
+        GpuSurface next;
+        next.drawn = drawn;
+        next.revision = drawn.mesh->revision();
+        const Kept keep =
+            before ? kept(*before, next, shown_.snapshot.range == snapshot.range) : Kept{};
+        const bool is_quick = before && before->groups && moves_fast(drawn, before);
+        SurfaceNeeds needed{drawn,         !keep.vertices && !is_quick, !keep.colors, {}, origin,
+                            snapshot.range};
+        if (before) needed.known = before->triangles;
+        if (needed.vertices || needed.colors) result.push_back(std::move(needed));
+    }
+    return result;
+}
+
+Uploads GpuScene::update_with(std::span<const PreparedSurface> prepared, const Snapshot& snapshot,
+                              const Context& context, MovedVertices moved) {
     if (snapshot.revision != 0 && snapshot.revision == shown_.snapshot.revision) return {};
     Shown next{snapshot, place(snapshot, shown_.placement), {}, {}, {}};
-    const bool anything = !shown_.surfaces.empty() || !shown_.overlays.empty();
-    const double apart = (next.placement.center - shown_.origin).norm();
-    const bool same_origin = anything && apart <= kOriginReach * next.placement.size;
-    next.origin = same_origin ? shown_.origin : next.placement.center;
+    const bool same_origin = keeps_origin(next.placement);
+    next.origin = next_origin(next.placement);
 
     Upload upload(next.origin, snapshot.range, context,
-                  moved == MovedVertices::quick ? &scratch_ : nullptr);
+                  moved == MovedVertices::quick ? &scratch_ : nullptr, prepared);
     Known known(same_origin ? shown_.surfaces : decltype(shown_.surfaces){});
     for (const DrawnMesh& drawn : snapshot.meshes) {
         next.surfaces.push_back(

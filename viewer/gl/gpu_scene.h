@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -48,6 +49,8 @@ struct GpuSurface {
     std::uint64_t revision = 0;
     SurfaceTriangles triangles;
     std::shared_ptr<const gl::Buffer> vertices, colors;
+    /// Whether the entries of `vertices` are QuickVertex, else SurfaceVertex.
+    bool is_quick = false;
     /// Made when vertices first move.
     std::shared_ptr<const NormalGroups> groups;
     gl::VertexArray layout;
@@ -67,6 +70,31 @@ struct Placement {
     std::map<const Strands*, Box> strand_boxes;
 };
 
+/// What an update has to find out of a mesh; what it can take over is not.
+struct SurfaceNeeds {
+    DrawnMesh drawn;
+    bool vertices = false, colors = false;
+    /// Triangles of the same faces that are known; null where none are.
+    SurfaceTriangles known = {};
+    /// The point that is at zero on the card, and the scale of values.
+    Vec3 origin = Vec3::Zero();
+    ValueRange range = {};
+};
+
+/// That, found out by any thread: needs no context.
+struct PreparedSurface {
+    SurfaceNeeds needs;
+    std::uint64_t revision = 0;
+    SurfaceTriangles triangles = {};
+    std::vector<SurfaceVertex> vertices = {};
+    std::vector<SurfaceColor> colors = {};
+    /// Of the vertices, so that the mesh can move fast from then on.
+    std::shared_ptr<const NormalGroups> groups = nullptr;
+};
+
+/// Errors: those of surface_colors; cancelled.
+PreparedSurface prepare(SurfaceNeeds needs, const Context& context = {});
+
 /// How the vertices of a mesh that moved are made: as those of a picture, or fast, see
 /// quick_vertices.h; polygons then keep their diagonals.
 enum class MovedVertices { exact, quick };
@@ -79,7 +107,15 @@ class GpuScene {
     /// Errors: not_finite for a transform, line or point; those of surface_colors; memory_limit;
     /// cancelled.
     Uploads update(const Snapshot& snapshot, const Context& context = {},
-                   MovedVertices moved = MovedVertices::exact);
+                   MovedVertices moved = MovedVertices::exact) {
+        return update_with({}, snapshot, context, moved);
+    }
+    /// The same; what was `prepared` is taken from there.
+    Uploads update_with(std::span<const PreparedSurface> prepared, const Snapshot& snapshot,
+                        const Context& context, MovedVertices moved);
+    /// What `update` has to find out for the meshes of `snapshot`, where vertices that moved are
+    /// made fast. Only those that need anything.
+    std::vector<SurfaceNeeds> needs(const Snapshot& snapshot) const;
 
     const Snapshot& snapshot() const { return shown_.snapshot; }
     const Placement& placement() const { return shown_.placement; }
@@ -103,9 +139,12 @@ class GpuScene {
         /// One for each overlay of the snapshot.
         std::vector<std::shared_ptr<const GpuMarks>> overlays;
     };
+    Vec3 next_origin(const Placement& placement) const;
+    bool keeps_origin(const Placement& placement) const;
+
     Shown shown_;
     // Of quick updates, so that none allocates.
-    std::vector<SurfaceVertex> scratch_;
+    std::vector<QuickVertex> scratch_;
 };
 
 }  // namespace lissom

@@ -14,13 +14,22 @@ void clear(float openness, float depth) {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
+// One texel that is open to all sides.
+gl::Framebuffer make_open() {
+    gl::Framebuffer openness = gl::Framebuffer::texture({1, 1}, kOpennessFormat, false);
+    openness.bind();
+    clear(1.0f, 0.0f);
+    return openness;
+}
+
 }  // namespace
 
 Occlusion::Occlusion()
     : geometry_("geometry", shaders::kCommon, shaders::kGeometryVertex, shaders::kGeometryFragment),
       occlusion_("occlusion", shaders::kCommon, shaders::kCoverVertex, shaders::kOcclusionFragment),
       blur_("blur", shaders::kCommon, shaders::kCoverVertex, shaders::kOcclusionBlurFragment),
-      no_vertices_(gl::make_vertex_array()) {}
+      no_vertices_(gl::make_vertex_array()),
+      none_(make_open()) {}
 
 gl::Framebuffer Occlusion::compute(const GpuScene& scene, const ViewParameters& view,
                                    const OcclusionOptions& options) const {
@@ -41,13 +50,6 @@ gl::Framebuffer Occlusion::compute(const GpuScene& scene, const ViewParameters& 
     glDrawArrays(GL_TRIANGLES, 0, 3);
     blur(openness, half, geometry, false, options.radius);
     blur(half, openness, geometry, true, options.radius);
-    return openness;
-}
-
-gl::Framebuffer Occlusion::none() const {
-    gl::Framebuffer openness = gl::Framebuffer::texture({1, 1}, kOpennessFormat, false);
-    openness.bind();
-    clear(1.0f, 0.0f);
     return openness;
 }
 

@@ -24,7 +24,7 @@ class Occlusion {
     gl::Framebuffer compute(const GpuScene& scene, const ViewParameters& view,
                             const OcclusionOptions& options) const;
     /// The same where nothing darkens: one texel.
-    gl::Framebuffer none() const;
+    const gl::Framebuffer& none() const { return none_; }
 
   private:
     gl::Framebuffer draw_geometry(const GpuScene& scene, const ViewParameters& view,
@@ -34,6 +34,7 @@ class Occlusion {
 
     gl::Program geometry_, occlusion_, blur_;
     gl::VertexArray no_vertices_;
+    gl::Framebuffer none_;
 };
 
 }  // namespace lissom

@@ -63,12 +63,22 @@ Modifiers modifiers_of(int bits) {
             (bits & GLFW_MOD_ALT) != 0};
 }
 
-// Through EGL, which starts sooner, else through GLX.
+// How a context is asked for.
+struct ContextKind {
+    int api, robustness;
+};
+// Through EGL, which starts sooner, else through GLX; one that tells when it is lost, else any.
+constexpr std::array kContextKinds{ContextKind{GLFW_EGL_CONTEXT_API, GLFW_LOSE_CONTEXT_ON_RESET},
+                                   ContextKind{GLFW_EGL_CONTEXT_API, GLFW_NO_ROBUSTNESS},
+                                   ContextKind{GLFW_NATIVE_CONTEXT_API, GLFW_LOSE_CONTEXT_ON_RESET},
+                                   ContextKind{GLFW_NATIVE_CONTEXT_API, GLFW_NO_ROBUSTNESS}};
+
 GLFWwindow* create(const std::string& title, gl::Extent size) {
     std::string reason;
-    for (const int api : {GLFW_EGL_CONTEXT_API, GLFW_NATIVE_CONTEXT_API}) {
+    for (const ContextKind& kind : kContextKinds) {
         glfwDefaultWindowHints();
-        glfwWindowHint(GLFW_CONTEXT_CREATION_API, api);
+        glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, kind.robustness);
+        glfwWindowHint(GLFW_CONTEXT_CREATION_API, kind.api);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -79,7 +89,10 @@ GLFWwindow* create(const std::string& title, gl::Extent size) {
                 glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr)) {
             return window;
         }
-        reason += (reason.empty() ? "" : "; ") + last_error();
+        const std::string error = last_error();
+        if (reason.find(error) == std::string::npos) {
+            reason += (reason.empty() ? "" : "; ") + error;
+        }
     }
     throw Error(ErrorCode::no_display,
                 "no window with OpenGL 3.3 can be opened here (" + reason +
@@ -102,6 +115,9 @@ void fit_to_screen(GLFWwindow* window) {
 struct GlfwWindow::State {
     Library library;
     GLFWwindow* window = nullptr;
+    std::string title;
+    bool can_be_lost = false;
+    std::function<void(const std::string&)> driver_listener;
     InputQueue inputs;
     Modifiers modifiers;
     // Where the cursor was when the last input came, in units of the screen: when that is read, it
@@ -134,6 +150,13 @@ struct GlfwWindow::State {
     }
 
     void listen();
+    void open(gl::Extent size);
+    void listen_to_driver();
+    static void EPOXY_CALLSPEC hear_driver(GLenum, GLenum type, GLuint, GLenum, GLsizei,
+                                           const GLchar* message, const void* state) {
+        if (type == GL_DEBUG_TYPE_PERFORMANCE || type == GL_DEBUG_TYPE_OTHER) return;
+        static_cast<const State*>(state)->driver_listener(message);
+    }
 };
 
 void GlfwWindow::State::listen() {
@@ -180,13 +203,46 @@ void GlfwWindow::State::listen() {
     });
 }
 
+void GlfwWindow::State::open(gl::Extent size) {
+    window = create(title, size);
+    fit_to_screen(window);
+    glfwMakeContextCurrent(window);
+    glfwSwapInterval(0);
+    can_be_lost = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
+    listen();
+    listen_to_driver();
+}
+
+void GlfwWindow::State::listen_to_driver() {
+    if (!driver_listener || !epoxy_has_gl_extension("GL_KHR_debug")) return;
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(&hear_driver, this);
+}
+
 GlfwWindow::GlfwWindow(const std::string& title, gl::Extent size)
     : state_(std::make_unique<State>()) {
-    state_->window = create(title, size);
-    fit_to_screen(state_->window);
-    glfwMakeContextCurrent(state_->window);
-    glfwSwapInterval(0);
-    state_->listen();
+    state_->title = title;
+    state_->open(size);
+}
+
+bool GlfwWindow::lost() const {
+    return state_->can_be_lost && glGetGraphicsResetStatus() != GL_NO_ERROR;
+}
+
+void GlfwWindow::reopen() {
+    gl::Extent size;
+    int x = 0, y = 0;
+    glfwGetWindowSize(state_->window, &size.width, &size.height);
+    glfwGetWindowPos(state_->window, &x, &y);
+    glfwDestroyWindow(std::exchange(state_->window, nullptr));
+    state_->open(size);
+    glfwSetWindowPos(state_->window, x, y);
+}
+
+void GlfwWindow::listen_to_driver(std::function<void(const std::string&)> listener) {
+    state_->driver_listener = std::move(listener);
+    state_->listen_to_driver();
 }
 
 GlfwWindow::~GlfwWindow() = default;
@@ -224,6 +280,7 @@ bool GlfwWindow::close_requested() const {
 }
 
 void GlfwWindow::set_title(const std::string& title) {
+    state_->title = title;
     glfwSetWindowTitle(state_->window, title.c_str());
 }
 

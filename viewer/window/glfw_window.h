@@ -1,6 +1,7 @@
 /// GlfwWindow: a window of the desktop with an OpenGL context, and the input that it gets.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -19,6 +20,15 @@ class GlfwWindow {
     ~GlfwWindow();
     GlfwWindow(const GlfwWindow&) = delete;
     GlfwWindow& operator=(const GlfwWindow&) = delete;
+
+    /// Whether the driver has lost what was drawn with this context (it was reset, or the screen
+    /// was taken away); `reopen` is all that helps then. false where a driver cannot tell.
+    bool lost() const;
+    /// Opens a window of the same size with a new context in the place of this one; what belonged
+    /// to the old context has to be gone. Errors: no_display.
+    void reopen();
+    /// Hands over what the driver complains of, where it does; for tests.
+    void listen_to_driver(std::function<void(const std::string&)> listener);
 
     /// Waits for input or `wake`, `seconds` at most; 0: looks only.
     void wait(double seconds);

@@ -26,6 +26,8 @@ class HairMaker {
     /// Makes the hair of `snapshot` instead of what is being made; nothing where its strands and
     /// meshes are those of the last one.
     void make(const Snapshot& snapshot);
+    /// The next call of `make` makes its hair whatever was made before.
+    void forget() { last_.reset(); }
     /// Finds the light of `light` for a camera that turns the world by `to_view`, after that;
     /// `number` is the caller's. Instead of what was asked for before.
     void direct(std::shared_ptr<const HairLight> light, const Mat3& to_view, std::uint64_t number);

@@ -44,6 +44,8 @@ void Painter::paint(const Picture& picture, Result result, const Context& contex
         if (!result.path.empty()) save_picture(result.image, result.path, context);
     } catch (const Error& error) {
         if (error.code() == ErrorCode::cancelled) return;
+        // Its context may be lost.
+        renderer_.reset();
         result.error = error.message();
     } catch (const std::bad_alloc&) {
         result.error = "there is no memory for this picture";

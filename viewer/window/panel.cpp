@@ -163,7 +163,8 @@ constexpr const char* kKeys =
     "left drag: turn; with a tool: the right button, or alt\n"
     "shift and drag, or the middle button: move\n"
     "wheel: nearer, towards the cursor; in a tool's drag: the tool's\n"
-    "1 to 7: sides   F: all   O: perspective\n"
+    "1 to 7: sides   O: perspective\n"
+    "F or Home: what is selected, else all; with shift: all\n"
     "W: wire   B: boundaries (without a tool)\n"
     "Ctrl-Z, Ctrl-Shift-Z: undo, redo\n"
     "Ctrl-S: save the scene   F12: picture\n"
@@ -269,12 +270,21 @@ Panel::Panel(GlfwWindow& window) : state_(std::make_unique<State>(window.scale()
     load_font(scale);
     set_sizes(scale);
     set_colors(true);
-    ImGui_ImplOpenGL3_Init("#version 330");
+    enter_context();
 }
 
 Panel::~Panel() {
-    ImGui_ImplOpenGL3_Shutdown();
+    leave_context();
     ImGui::DestroyContext();
+}
+
+void Panel::enter_context() {
+    ImGui_ImplOpenGL3_Init("#version 330");
+}
+
+// Between contexts there is nothing to leave.
+void Panel::leave_context() {
+    if (ImGui::GetIO().BackendRendererUserData) ImGui_ImplOpenGL3_Shutdown();
 }
 
 void Panel::feed(const Input& input) {
@@ -369,7 +379,7 @@ void Panel::State::view_section(const PanelContent& content, DisplaySettings& se
     ImGui::Checkbox("sharp", &settings.sharp);
     ImGui::Checkbox("normals", &settings.vertex_normals);
     ImGui::SameLine(0.5f * ImGui::GetWindowWidth());
-    ImGui::Checkbox("of faces", &settings.face_normals);
+    ImGui::Checkbox("face normals", &settings.face_normals);
     ImGui::Checkbox("see through", &settings.see_through);
     draw_colors(content, answers);
 }

@@ -85,6 +85,11 @@ class Panel {
     Panel(const Panel&) = delete;
     Panel& operator=(const Panel&) = delete;
 
+    /// Gives up what belongs to the context of the window, and makes it again in another one, which
+    /// is current by then.
+    void leave_context();
+    void enter_context();
+
     /// Takes input for the next frames, in its order.
     void feed(const Input& input);
     /// Whether input is left that one frame more must take: a press and a release are never taken

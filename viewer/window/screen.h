@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "kernel/sketch/camera.h"
 #include "viewer/draw/image.h"
@@ -31,8 +32,12 @@ class Screen {
     ~Screen();
 
     /// Becomes what `snapshot` shows; see GpuScene::update.
-    Uploads update(const Snapshot& snapshot) {
-        return scene_.update(snapshot, {}, MovedVertices::quick);
+    Uploads update(const Snapshot& snapshot, std::span<const PreparedSurface> prepared = {}) {
+        return scene_.update_with(prepared, snapshot, {}, MovedVertices::quick);
+    }
+    /// What `update` would have to find out for it; see GpuScene.
+    std::vector<SurfaceNeeds> needs(const Snapshot& snapshot) const {
+        return scene_.needs(snapshot);
     }
     /// The strands of what is shown, and the light for one camera; see GpuHair. Bytes sent.
     std::size_t set_hair(const Hair& hair) { return hair_.update(hair); }

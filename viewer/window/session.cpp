@@ -309,6 +309,10 @@ bool Session::finish(double seconds) {
 void Session::run(const std::vector<std::string>& words) {
     program_.forget_interrupt();
     plays_ = shows_hand_ = false;
+    if (!is_script(words.front()) || is_recording(words.front())) {
+        ran_.clear();
+        kept_.clear();
+    }
     if (is_recording(words.front())) {
         open_recording(words.front());
     } else if (is_script(words.front())) {
@@ -335,13 +339,26 @@ void Session::open_script(const lua::ScriptArguments& arguments) {
     pictures_ = 0;
 }
 
+// A script that runs again finds what was selected and the tool as they were; one that fails leaves
+// the scene before it to the tools.
 void Session::run_script(const std::vector<std::string>& words) {
+    if (bench_ && ran_ == words[0]) kept_ = bench_->kept().value_or(kept_);
+    if (ran_ != words[0]) kept_.clear();
+    auto script = std::exchange(script_, nullptr);
+    auto bench = std::exchange(bench_, nullptr);
     open_script({words[0], {words.begin() + 1, words.end()}});
     lua_State* L = script_->lua();
     const cli::ScriptResult result = script_->run_file(words[0]);
     publish_parameters();
     find_files();
-    if (!succeeds(result)) return lua_settop(L, 0);
+    if (!succeeds(result)) {
+        lua_settop(L, 0);
+        if (!bench || !bench->has_scene() || ran_ != words[0]) return;
+        bench_ = std::move(bench);
+        script_ = std::move(script);
+        return;
+    }
+    ran_ = words[0];
     const bool returns = show_values();
     succeeds(bench_->take_values(1, lua_gettop(L)));
     // What its command line said is not in a recording.
@@ -475,9 +492,13 @@ bool Session::succeeds(const cli::ScriptResult& result) {
 // A scene is there that was not before: it is seen and recorded as `open`, and the tool works on
 // it unless a recording brings its own.
 void Session::settle_scene(const std::vector<std::string>& open, bool takes_tool) {
+    ++scene_number_;
     if (bench_->has_scene()) {
         bench_->publish_scene();
         succeeds(bench_->take(look_));
+        // A recording begins with what the script has made.
+        const bool records = !options_.record.empty() || !options_.journal.empty();
+        if (!kept_.empty()) succeeds(bench_->restore(std::exchange(kept_, ""), !records));
         std::vector<std::string> told;
         for (const std::string& path : open) told.push_back(told_path(path));
         const auto record = [&](const char* method, const std::vector<std::string>& files) {
@@ -488,8 +509,10 @@ void Session::settle_scene(const std::vector<std::string>& open, bool takes_tool
         if (!options_.tool.empty() && takes_tool) settle_tool(options_.tool);
         if (pictures_ == 0) return show_scene(true);
     }
+    ToolState state = bench_->state();
+    state.scene = scene_number_;
     const std::lock_guard lock(mutex_);
-    tool_state_ = bench_->state();
+    tool_state_ = std::move(state);
 }
 
 bool Session::settle_tool(const std::string& word) {
@@ -540,16 +563,21 @@ void Session::show_scene(bool always) {
     succeeds(bench_->draw());
     try {
         ToolState state = bench_->state();
+        state.scene = scene_number_;
+        state.camera = bench_->looked();
+        if (state.camera) look_.camera = *state.camera;
         if (shows_hand_) state.hand = bench_->hand();
         // The last event shows it as well.
         shows_hand_ = plays_;
-        const bool same = state == last_state_;
+        const bool same = state == last_state_ && !state.camera;
         if (same && !always) return;
         Picture picture = bench_->picture();
         std::vector<std::string> names = bench_->names_of(picture);
         show(frozen(std::move(picture)), std::move(names));
         last_state_ = state;
         const std::lock_guard lock(mutex_);
+        // One that the window has not seen yet.
+        if (tool_state_ && !state.camera) state.camera = tool_state_->camera;
         tool_state_ = std::move(state);
     } catch (const Error& error) {
         tell(LineKind::error, error.message());

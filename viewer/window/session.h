@@ -193,6 +193,9 @@ class Session {
     std::unique_ptr<ToolBench> bench_;
     ToolInput look_;
     std::string recorded_, told_;
+    // The script whose scene there is, and what stays of it when it runs again.
+    std::string ran_, kept_;
+    std::uint64_t scene_number_ = 0;
     bool record_fails_ = false;
     ToolState last_state_;
     std::size_t pictures_ = 0;

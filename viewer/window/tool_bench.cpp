@@ -503,6 +503,30 @@ void ToolBench::revive_scene() {
     lua_pop(L, 2);
 }
 
+std::optional<std::string> ToolBench::kept() {
+    if (!has_scene_) return std::nullopt;
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_host();
+    std::optional<std::string> text;
+    if (call("keep", 1).status == cli::kSuccess && lua_type(L, -1) == LUA_TSTRING) {
+        text = lua_tostring(L, -1);
+    }
+    lua_settop(L, top);
+    return text;
+}
+
+cli::ScriptResult ToolBench::restore(const std::string& kept, bool selects) {
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_host();
+    lua_pushlstring(L, kept.data(), kept.size());
+    lua_pushboolean(L, selects ? 1 : 0);
+    cli::ScriptResult result = call("restore", 3);
+    lua_settop(L, top);
+    return result;
+}
+
 cli::ScriptResult ToolBench::record(const char* method, const std::vector<std::string>& open,
                                     const LoadOptions& options) {
     lua_State* L = script_.lua();
@@ -701,6 +725,19 @@ ToolState ToolBench::state() {
     return state;
 }
 
+std::optional<Camera> ToolBench::looked() {
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_host();
+    std::optional<Camera> camera;
+    if (call("looked", 1).status == cli::kSuccess) {
+        lua::Holder* holder = lua::find_holder(L, -1, lua::CameraObject::kTypeName);
+        if (holder) camera = static_cast<lua::CameraObject*>(holder->object.get())->camera;
+    }
+    lua_settop(L, top);
+    return camera;
+}
+
 // ---- Files
 
 std::vector<std::string> shipped_tools() {
@@ -708,7 +745,9 @@ std::vector<std::string> shipped_tools() {
     const std::string folder = cli::Script::shipped_scripts();
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(fs::path(folder) / "tools", error)) {
-        if (entry.path().extension() == ".lua") names.push_back(entry.path().stem().string());
+        const std::string name = entry.path().stem().string();
+        // The window does what that does where no tool is in hand.
+        if (entry.path().extension() == ".lua" && name != "navigate") names.push_back(name);
     }
     std::sort(names.begin(), names.end());
     return names;

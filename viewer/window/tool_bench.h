@@ -2,6 +2,7 @@
 /// thread of the script.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -76,6 +77,10 @@ struct PlayedHand {
 /// What the panel says of the scene and the tool.
 struct ToolState {
     bool has_scene = false;
+    /// Another number: another scene.
+    std::uint64_t scene = 0;
+    /// Where the tool has set it since the last state: what the scene is to be seen by.
+    std::optional<Camera> camera;
     /// What can be shown by itself, in the order of the scene.
     std::vector<ToolObject> objects;
     /// Name of the tool in hand; empty for none.
@@ -143,6 +148,12 @@ class ToolBench {
     /// Something else than a tool may have changed the scene: true where a recording lacks that.
     bool changed_outside();
 
+    /// What is selected, and the tool's parameters and state, as a text for `restore` in another
+    /// state of Lua; nothing where there is no scene.
+    std::optional<std::string> kept();
+    /// Takes that back before a tool is taken in hand; what was selected only where it `selects`.
+    cli::ScriptResult restore(const std::string& kept, bool selects);
+
     /// Begins a recording ("record") or a journal ("keep_journal"); `open` are the files of the
     /// scene, where nothing else led to it, and how they were read.
     cli::ScriptResult record(const char* method, const std::vector<std::string>& open,
@@ -174,6 +185,8 @@ class ToolBench {
     /// A name for each mesh of the picture.
     std::vector<std::string> names_of(const Picture& picture);
     ToolState state();
+    /// The camera that the tool has set since the last call.
+    std::optional<Camera> looked();
 
   private:
     cli::ScriptResult call(const char* method, int count);

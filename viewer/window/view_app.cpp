@@ -27,6 +27,7 @@
 #include "viewer/window/recovery.h"
 #include "viewer/window/screen.h"
 #include "viewer/window/session.h"
+#include "viewer/window/surface_maker.h"
 
 namespace lissom::window {
 namespace {
@@ -43,6 +44,8 @@ constexpr double kSlowFrame = 0.05;
 constexpr double kCopyEvery = 1.0;
 // Frames in which the driver makes its programs ready: they are not measured.
 constexpr int kFirstFrames = 3;
+// Meshes with more corners are made ready for the graphics card beside the window.
+constexpr Index kManyCorners = 60000;
 // Of a line of the wheel.
 constexpr double kZoomStep = 1.15;
 
@@ -68,6 +71,18 @@ std::vector<std::string> words_of(const std::vector<lua::ScriptParameter>& param
     return words;
 }
 
+// Of the selected vertices of all meshes, in the world.
+Box selected_bounds(const Picture& picture) {
+    Box box;
+    for (const DrawnMesh& drawn : picture.meshes) {
+        if (!drawn.style.region) continue;
+        for (const Index v : drawn.style.region->vertices()) {
+            box.extend(drawn.transform(drawn.mesh->position(v)));
+        }
+    }
+    return box;
+}
+
 // A file beside those that are there.
 std::string new_picture_path() {
     std::error_code error;
@@ -91,7 +106,11 @@ class ViewApp {
               program, [] { GlfwWindow::wake(); }, options.session),
           painter_(threads_of(program), [] { GlfwWindow::wake(); }),
           hair_maker_(threads_of(program), [] { GlfwWindow::wake(); }),
+          surface_maker_(threads_of(program), [] { GlfwWindow::wake(); }),
           colorer_([] { GlfwWindow::wake(); }) {
+        if (options_.tells) {
+            window_.listen_to_driver([this](const std::string& text) { tell("driver " + text); });
+        }
         content_.driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
         if (options.words.empty()) content_.lines.push_back({LineKind::message, kWelcome});
         content_.tools = shipped_tools();
@@ -127,6 +146,7 @@ class ViewApp {
     std::string scene_path() const;
     void save();
     void keep_unsaved();
+    void keep_replaced();
     void offer_recovery();
     void take_results();
     void show(Shown shown);
@@ -148,15 +168,22 @@ class ViewApp {
         drawing_.busy += thread_seconds() - work;
     }
     void draw_scene();
+    void send_scene();
+    struct Sent;
+    void send(const Sent& sent, std::span<const PreparedSurface> prepared);
+    void make_again();
     bool at_rest() const {
-        return seconds_since(last_change_) > kRest && !dragged_ && !tool_drags_ &&
+        return is_sent() && seconds_since(last_change_) > kRest && !dragged_ && !tool_drags_ &&
                frames_owed_ == 0;
+    }
+    bool is_sent() const {
+        return !shown_ || (uploaded_ == shown_->picture && uploaded_settings_ == settings_);
     }
     void take_hair();
     void fill_hair();
     bool hair_is_filled() const {
         if (hair_maker_.busy()) return false;
-        return screen_.hair().empty() || (filled_ == change_ && !screen_.filling());
+        return screen_->hair().empty() || (filled_ == change_ && !screen_->filling());
     }
     void ask_for_sharp();
     void tell(const std::string& text) {
@@ -171,7 +198,7 @@ class ViewApp {
         rested_ = change_;
     }
     View view() const {
-        const Canvas canvas = screen_.beside_legend(panel_.canvas(window_.size()));
+        const Canvas canvas = screen_->beside_legend(panel_.canvas(window_.size()));
         return {camera_, {1.0 * canvas.width, 1.0 * canvas.height}};
     }
     void moved() {
@@ -184,18 +211,23 @@ class ViewApp {
         moved();
         tell_camera();
     }
-    void frame_all() {
-        if (shown_ && !shown_->bounds.empty()) set_camera(framed(view(), shown_->bounds));
+    void frame_inside(const Box& box) {
+        if (!box.empty()) set_camera(framed(view(), box));
     }
+    void frame_all() {
+        if (shown_) frame_inside(shown_->bounds);
+    }
+    void frame_selection();
     void look_from(StandardView side);
 
     ViewOptions options_;
     GlfwWindow window_;
     Panel panel_;
-    Screen screen_;
+    std::optional<Screen> screen_{std::in_place};
     Session session_;
     Painter painter_;
     HairMaker hair_maker_;
+    SurfaceMaker surface_maker_;
     Colorer colorer_;
     FileWatch watch_, tool_watch_;
     Presets presets_;
@@ -225,6 +257,15 @@ class ViewApp {
     std::uint64_t change_ = 1, asked_ = 0, sharp_ = 0, drawn_ = 0;
     // Of the change that light in hair was asked for, and that all strands are drawn for.
     std::uint64_t directed_ = 0, filled_ = 0;
+    // What is on the graphics card, and what is made ready for it.
+    struct Sent {
+        Snapshot snapshot;
+        std::shared_ptr<const Picture> picture;
+        DisplaySettings settings;
+    };
+    std::optional<Sent> preparing_;
+    std::optional<SurfaceMaker::Result> prepared_;
+    std::uint64_t preparations_ = 0;
     std::shared_ptr<const Picture> uploaded_;
     DisplaySettings uploaded_settings_;
     Canvas drawn_canvas_;
@@ -331,6 +372,17 @@ void ViewApp::keep_unsaved() {
               << std::endl;
 }
 
+// Another scene has taken the place of one that was not saved.
+void ViewApp::keep_replaced() {
+    const std::filesystem::path kept =
+        saved_change_ == scene_change_ ? std::filesystem::path() : recovery_.keep();
+    saved_change_ = copied_change_ = ++scene_change_;
+    if (kept.empty()) return;
+    std::string text = "the scene before was not saved; lissom view " + kept.string() + " opens it";
+    tell("line " + text);
+    content_.lines.push_back({LineKind::warning, std::move(text)});
+}
+
 // At the start: what a killed window has left.
 void ViewApp::offer_recovery() {
     for (const std::filesystem::path& left : Recovery::left_in(state_folder())) {
@@ -343,7 +395,7 @@ void ViewApp::offer_recovery() {
 
 double ViewApp::wait_time() const {
     if (frames_owed_ > 0 || panel_.owes_frame()) return 0.0;
-    if (screen_.filling()) return 0.0;
+    if (screen_->filling()) return 0.0;
     if (session_.busy()) return 0.1;
     if (player_ && !player_->is_paused()) return std::min(player_->wait(), 0.1);
     const bool sharpens = sharp_ != change_ && settings_.sharp;
@@ -550,13 +602,22 @@ void ViewApp::answer_tool(const ToolAnswers& answers) {
 
 void ViewApp::take_tool_state(ToolState state) {
     if (state.tool != content_.tool.tool) tell("tool " + state.tool);
-    if (state.place != content_.tool.place || state.steps.size() != content_.tool.steps.size()) {
+    if (state.scene != content_.tool.scene) {
+        keep_replaced();
+    } else if (state.place != content_.tool.place ||
+               state.steps.size() != content_.tool.steps.size()) {
         ++scene_change_;
+    }
+    if (state.place != content_.tool.place || state.steps.size() != content_.tool.steps.size()) {
         tell("history " + std::to_string(state.place) + " of " +
              std::to_string(state.steps.size()));
     }
     content_.tool = std::move(state);
     frames_owed_ = 2;
+    if (content_.tool.camera && !content_.tool.hand) {
+        camera_ = *content_.tool.camera;
+        moved();
+    }
     if (!content_.tool.hand) return;
     // What the recorded hand saw; the last of it may come after the end.
     const gl::Extent seen = content_.tool.hand->size;
@@ -575,7 +636,18 @@ void ViewApp::look_from(StandardView side) {
     set_camera(frame_box(side, shown_->bounds, framing));
 }
 
+// All where nothing is selected.
+void ViewApp::frame_selection() {
+    if (!shown_) return;
+    const Box selected = selected_bounds(*shown_->picture);
+    frame_inside(selected.empty() ? shown_->bounds : selected);
+}
+
 void ViewApp::press_key(const Input& input) {
+    const auto frame_what_shift_says = [&] {
+        input.modifiers.shift ? frame_all() : frame_selection();
+    };
+    if (input.key == Key::home) frame_what_shift_says();
     if (input.key == Key::f12) wants_picture_ = true;
     if (input.key == Key::f5) answer({.run_again = true});
     if (input.key != Key::character || input.modifiers.alt) return;
@@ -594,7 +666,7 @@ void ViewApp::press_key(const Input& input) {
         StandardView::top,   StandardView::bottom, StandardView::three_quarter};
     const char32_t letter = input.character;
     if (letter >= U'1' && letter <= U'7') look_from(kSides[letter - U'1']);
-    if (letter == U'F') frame_all();
+    if (letter == U'F') frame_what_shift_says();
     if (letter == U'O') answer({.toggle_ortho = true});
     if (letter == U'W') settings_.wire = !settings_.wire;
     if (letter == U'B') settings_.boundaries = !settings_.boundaries;
@@ -625,9 +697,13 @@ void ViewApp::take_results() {
         show(std::move(colored->shown));
     }
     take_hair();
+    if (auto made = surface_maker_.take()) {
+        prepared_ = std::move(made);
+        moved();
+    }
     if (auto result = painter_.take(); result && result->number == change_) {
         sharp_ = change_;
-        if (result->error.empty()) screen_.take(result->image);
+        if (result->error.empty()) screen_->take(result->image);
         if (!result->error.empty()) {
             content_.lines.push_back({LineKind::error, result->error});
             settings_.sharp = false;
@@ -759,22 +835,69 @@ void ViewApp::open_editor(const SourcePlace& place) {
 // Tools learn how wide the picture is beside it.
 void ViewApp::update_legend() {
     const Canvas canvas = panel_.canvas(window_.size());
-    const Canvas before = screen_.beside_legend(canvas);
-    screen_.set_legend(shown_legend(*shown_->picture, settings_), canvas.height,
-                       background_of(settings_));
-    if (!(screen_.beside_legend(canvas) == before)) tell_camera();
+    const Canvas before = screen_->beside_legend(canvas);
+    screen_->set_legend(shown_legend(*shown_->picture, settings_), canvas.height,
+                        background_of(settings_));
+    if (!(screen_->beside_legend(canvas) == before)) tell_camera();
+}
+
+// The driver has lost all that was drawn: it is sent to a new window.
+void ViewApp::make_again() {
+    screen_.reset();
+    panel_.leave_context();
+    try {
+        window_.reopen();
+    } catch (const Error&) {
+        keep_unsaved();
+        throw;
+    }
+    panel_.enter_context();
+    screen_.emplace();
+    uploaded_.reset();
+    preparing_.reset();
+    hair_maker_.forget();
+    drawn_canvas_ = {};
+    moved();
+    const char* const text = "the graphics driver had lost the picture; all of it was made again";
+    content_.lines.push_back({LineKind::warning, text});
+    tell(std::string("line ") + text);
+}
+
+void ViewApp::send(const Sent& sent, std::span<const PreparedSurface> prepared) {
+    screen_->update(sent.snapshot, prepared);
+    hair_maker_.make(sent.snapshot);
+    uploaded_ = sent.picture;
+    uploaded_settings_ = sent.settings;
+}
+
+// What takes long is made beside the window, which shows what was there before meanwhile; of many
+// that follow each other some are seen.
+void ViewApp::send_scene() {
+    if (preparing_) {
+        const auto ready = std::exchange(prepared_, std::nullopt);
+        if (!ready || ready->number != preparations_) return;
+        const Sent sent = *std::exchange(preparing_, std::nullopt);
+        if (!ready->error.empty()) throw Error(ErrorCode::internal, ready->error);
+        send(sent, ready->surfaces);
+        if (is_sent()) return;
+    }
+    Sent next{quick_snapshot(*shown_->picture, settings_), shown_->picture, settings_};
+    std::vector<SurfaceNeeds> needs = screen_->needs(next.snapshot);
+    Index corners = 0;
+    for (const SurfaceNeeds& one : needs) corners += one.drawn.mesh->topology().corner_count();
+    if (corners <= kManyCorners) return send(next, {});
+    preparing_ = std::move(next);
+    surface_maker_.make(std::move(needs), ++preparations_);
 }
 
 void ViewApp::draw_scene() {
     const Canvas canvas = panel_.canvas(window_.size());
     const bool resized = !(canvas == drawn_canvas_);
     const bool other_settings = !(uploaded_settings_ == settings_);
-    if (shown_ && (uploaded_ != shown_->picture || other_settings)) {
-        const Snapshot snapshot = quick_snapshot(*shown_->picture, settings_);
-        screen_.update(snapshot);
-        hair_maker_.make(snapshot);
-        uploaded_ = shown_->picture;
-        uploaded_settings_ = settings_;
+    if (is_sent()) {
+        preparing_.reset();
+    } else {
+        send_scene();
     }
     if (shown_ && (resized || other_settings)) update_legend();
     if (drawn_ != change_ || resized) {
@@ -782,11 +905,11 @@ void ViewApp::draw_scene() {
             ++change_;
             tell_camera();
         }
-        drawing([&] { screen_.draw(camera_, canvas, background_of(settings_), coarseness_); });
+        drawing([&] { screen_->draw(camera_, canvas, background_of(settings_), coarseness_); });
         drawn_ = change_;
         drawn_canvas_ = canvas;
     }
-    drawing([&] { screen_.show(canvas, window_.size().height); });
+    drawing([&] { screen_->show(canvas, window_.size().height); });
 }
 
 void ViewApp::frame() {
@@ -796,6 +919,7 @@ void ViewApp::frame() {
     if (size.width == 0 || size.height == 0) return;
     const auto start = Clock::now();
     const std::uint64_t before = drawn_;
+    if (window_.lost()) make_again();
     try {
         draw_scene();
     } catch (const Error& error) {
@@ -831,20 +955,20 @@ void ViewApp::take_hair() {
     if (auto made = hair_maker_.take()) {
         std::string wrong = made->error;
         try {
-            screen_.set_hair(made->hair);
+            screen_->set_hair(made->hair);
         } catch (const Error& error) {
             wrong = error.message();
-            screen_.set_hair({});
+            screen_->set_hair({});
         }
         if (!wrong.empty()) content_.lines.push_back({LineKind::error, wrong});
         moved();
     }
     auto directed = hair_maker_.take_directed();
     if (!directed || directed->number != change_) return;
-    if (directed->light != screen_.hair().light()) return;
-    screen_.direct_light(directed->bytes);
-    screen_.begin_fill(camera_, panel_.canvas(window_.size()), background_of(settings_),
-                       settings_.sharp ? kLongFill : kLongestFill);
+    if (directed->light != screen_->hair().light()) return;
+    screen_->direct_light(directed->bytes);
+    screen_->begin_fill(camera_, panel_.canvas(window_.size()), background_of(settings_),
+                        settings_.sharp ? kLongFill : kLongestFill);
     filled_ = change_;
 }
 
@@ -855,15 +979,15 @@ void ViewApp::fill_hair() {
         return;
     }
     if (filled_ == change_) {
-        if (!screen_.fill()) return;
+        if (!screen_->fill()) return;
         tell("filled");
         frames_owed_ = 1;
         return;
     }
-    const bool ready = !screen_.hair().empty() && !hair_maker_.busy() && drawn_ == change_;
+    const bool ready = !screen_->hair().empty() && !hair_maker_.busy() && drawn_ == change_;
     if (!ready || directed_ == change_) return;
     const Mat4 turn = view_matrix(camera_, Vec3::Zero());
-    hair_maker_.direct(screen_.hair().light(), turn.topLeftCorner<3, 3>(), change_);
+    hair_maker_.direct(screen_->hair().light(), turn.topLeftCorner<3, 3>(), change_);
     directed_ = change_;
 }
 

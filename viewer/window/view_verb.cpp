@@ -1,8 +1,13 @@
 #include "viewer/window/view_verb.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "bindings/cli/load_flags.h"
 #include "kernel/core/index.h"
@@ -19,28 +24,54 @@ std::string check_size(const std::string& text) {
     return good ? "" : "a size is written as 1280x800";
 }
 
+constexpr std::array<std::string_view, 3> kToolOptions{"--tool", "--record", "--journal"};
+
 // Options that may be given the name of a script.
-bool takes_value(const std::string& word) {
-    return word == "--tool" || word == "--record" || word == "--journal";
+bool takes_value(std::string_view word) {
+    return std::find(kToolOptions.begin(), kToolOptions.end(), word) != kToolOptions.end();
+}
+
+// Whether it is one of these with its value, as in --tool=select.
+bool has_value(std::string_view word) {
+    const std::size_t end = word.find('=');
+    return end != std::string_view::npos && takes_value(word.substr(0, end));
+}
+
+// What stands before or behind a script.
+struct ViewWords {
+    std::vector<std::string> own, scripts;
+};
+
+// Words behind a script are the script's, but for what takes a tool in hand; behind "--" those,
+// too.
+ViewWords split_words(const std::vector<std::string>& words) {
+    ViewWords result;
+    bool behind = false, all = false;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        if (behind && !all && word == "--") {
+            all = true;
+            continue;
+        }
+        const bool is_value = i > 0 && !all && takes_value(words[i - 1]);
+        const bool of_tools = !all && (is_value || takes_value(word) || has_value(word));
+        (behind && !of_tools ? result.scripts : result.own).push_back(word);
+        behind = behind || (!is_value && window::is_script(word) && !window::is_recording(word));
+    }
+    return result;
 }
 
 }  // namespace
 
 int view(Program& program, const std::vector<std::string>& words) {
-    // Words behind a script are the script's.
-    std::vector<std::string> own;
+    const ViewWords split = split_words(words);
     window::ViewOptions options;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        own.push_back(words[i]);
-        const bool is_value = i > 0 && takes_value(words[i - 1]);
-        if (is_value || !window::is_script(words[i]) || window::is_recording(words[i])) continue;
-        options.words.assign(words.begin() + index_of(i) + 1, words.end());
-        break;
-    }
+    options.words = split.scripts;
     CLI::App app(
         "Shows meshes, or what a script draws or returns, in a window. Words after a script are "
-        "the script's; its parameters become sliders, and it runs again when its file changes. A "
-        "file written by --record is played.",
+        "the script's, but for --tool, --record and --journal before a \"--\"; its parameters "
+        "become sliders, and it runs again when its file changes. A file written by --record is "
+        "played.",
         "lissom view");
     std::vector<std::string> files;
     std::string size = "1280x800";
@@ -67,7 +98,7 @@ int view(Program& program, const std::vector<std::string>& words) {
     flags.declare(app);
     app.add_flag("--tell", options.tells, "Write what the window does, for tests");
     int status = kSuccess;
-    if (!program.parse(app, own, status)) return status;
+    if (!program.parse(app, split.own, status)) return status;
     std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height);
     if (files.size() > 1 && window::is_script(files.back())) {
         return program.fail("lissom view: give either meshes or one script", kUsage);

@@ -618,6 +618,7 @@
 ---@field hit fun(self: any): lissom.PickHit? The surface under the cursor.
 ---@field pick fun(self: any, options: table?): lissom.PickHit? camera:pick of the scene at the cursor.
 ---@field select fun(self: any, options: table): lissom.Selected[] camera:select of the scene.
+---@field look fun(self: any, camera: lissom.Camera) From now on the scene is seen by this camera; no step of the scene.
 
 ---What a tool draws on, over the picture. Colours are "#rrggbb"; each method returns the view.
 ---@class lissom.ToolView
@@ -2633,6 +2634,56 @@ function Camera:unproject(pixel, size) end
 ---@return number[] origin # Where the ray starts.
 ---@return number[] direction # Where it goes; unit length.
 function Camera:ray(x, y, size) end
+
+---Turns it about its target, as a drag by so many pixels does: across the height of the picture by half a turn; up and down no further than along its up.
+---@param right number Pixels to the right.
+---@param down number Pixels down.
+---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@return lissom.Camera camera # Another camera.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Camera:orbit(right, down, size) end
+
+---Moves it beside itself: what is as far away as its target follows the drag.
+---@param right number Pixels to the right.
+---@param down number Pixels down.
+---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@return lissom.Camera camera # Another camera.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Camera:pan(right, down, size) end
+
+---@class lissom.Camera.ZoomOptions
+---@field extent? number How large what is looked at is: its distance stays between 1e-6 and 1e6 times that. Default: 1.
+
+---Comes nearer to what is seen at a pixel, which stays there.
+---@param x number Pixels from the left.
+---@param y number Pixels from the top.
+---@param factor number 2: half the distance, 0.5: twice the distance.
+---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@param options? lissom.Camera.ZoomOptions
+---@return lissom.Camera camera # Another camera.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Camera:zoom(x, y, factor, size, options) end
+
+---@class lissom.Camera.FrameOptions
+---@field margin? number Share of the picture left free on every side. Default: 0.06.
+
+---Looks in the same direction at the box around points, as near as the margin allows.
+---@param points lissom.Vector[] What to show.
+---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@param options? lissom.Camera.FrameOptions
+---@return lissom.Camera camera # Another camera.
+function Camera:frame(points, size, options) end
+
+---The camera without perspective, or with it, that shows as much as far away as its target is.
+---@param parallel boolean Without perspective.
+---@return lissom.Camera camera # Another camera.
+function Camera:parallel(parallel) end
 
 ---@class lissom.Camera.PickOptions
 ---@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, the curves of hairstyles, and for polylines the strands of hair.

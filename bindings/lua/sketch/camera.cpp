@@ -1,10 +1,12 @@
 // lissom.camera, lissom.frame and lissom.Camera.
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/sketch/camera_object.h"
+#include "bindings/lua/sketch/navigation.h"
 
 namespace lissom::lua {
 namespace {
@@ -235,6 +237,7 @@ Type camera_type() {
         "corner of the picture.";
     type.operators = {{"__tostring", camera_text, "tostring(camera)", "where it stands and looks"}};
     type.methods = camera_methods();
+    for (Function& method : navigation_methods()) type.methods.push_back(std::move(method));
     return type;
 }
 

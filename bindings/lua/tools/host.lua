@@ -76,6 +76,18 @@ end
 
 function Event:hit() return self:pick() end
 
+-- By event: the host that calls the tool.
+local callers = setmetatable({}, { __mode = "k" })
+
+-- Not noted: a recording comes to it again by the tool.
+function Event:look(camera)
+    local host = callers[self]
+    if not (host and host.working) then error("ev:look is for the functions of a tool that runs", 2) end
+    if type(camera) ~= "userdata" then error("ev:look takes a camera", 2) end
+    host:see_by(camera)
+    host.looked, self.camera = true, host.camera
+end
+
 function Event:select(options) return self.camera:select(filled(self, options)) end
 
 local event_fields = {
@@ -114,6 +126,7 @@ function Host:event(kind, fields)
         x = self.x, y = self.y, start = held.start, button = held.button,
         shift = false, ctrl = false, alt = false }
     for key, value in pairs(fields or {}) do event[key] = value end
+    callers[event] = self
     return setmetatable(event, Event)
 end
 
@@ -370,13 +383,24 @@ end
 -- Sees the scene by a camera of these numbers, to which the same numbers in a recording lead again.
 function Host:look_by(numbers)
     self:ready()
+    self:take_numbers(numbers)
+    self:note{ "look", self.numbers }
+    return self
+end
+
+function Host:take_numbers(numbers)
     self.size = checked_size(numbers.size)
     self.camera = lissom.camera{ eye = numbers.eye, target = numbers.target, up = numbers.up,
         fov = numbers.fov, ortho = numbers.ortho }
     self.numbers = { eye = numbers.eye, target = numbers.target, up = numbers.up, fov = numbers.fov,
         ortho = numbers.ortho, size = self.size }
-    self:note{ "look", self.numbers }
-    return self
+end
+
+-- A tool looks by another camera.
+function Host:see_by(camera)
+    local numbers = camera_numbers(camera)
+    numbers.size = self.size
+    self:take_numbers(numbers)
 end
 
 function Host:look(camera, size)

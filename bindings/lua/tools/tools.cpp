@@ -436,7 +436,9 @@ std::vector<Record> tool_records() {
           {"fun(self: any, options: table?): lissom.PickHit?", "pick",
            "camera:pick of the scene at the cursor."},
           {"fun(self: any, options: table): lissom.Selected[]", "select",
-           "camera:select of the scene."}}},
+           "camera:select of the scene."},
+          {"fun(self: any, camera: lissom.Camera)", "look",
+           "From now on the scene is seen by this camera; no step of the scene."}}},
         {"lissom.ToolView",
          "What a tool draws on, over the picture. Colours are \"#rrggbb\"; each method returns the "
          "view.",

@@ -3,6 +3,20 @@
 -- The modules that the tool loaded last has brought along.
 local tool_modules = {}
 
+-- The values of parameters that are not their defaults.
+local function changed_values(tool)
+    local values = {}
+    for _, p in ipairs(tool.params:schema()) do
+        if p.value ~= p.default then values[p.name] = p.value end
+    end
+    return values
+end
+
+-- Values that another version of the tool refuses are left out.
+local function take_values(tool, values)
+    for name, value in pairs(values) do pcall(function() tool.params[name] = value end) end
+end
+
 -- `told` is what a recording calls the tool.
 local function use(host, word, told)
     if word == "" then return host:use(nil) end
@@ -21,11 +35,14 @@ local function use(host, word, told)
     for name in pairs(package.loaded) do
         if not before[name] then table.insert(tool_modules, name) end
     end
+    local before_run = host.kept
+    host.kept = nil
     if old and old.name == tool.name then
         tool.state = old.state
-        for _, p in ipairs(old.params:schema()) do
-            if p.value ~= p.default then pcall(function() tool.params[p.name] = p.value end) end
-        end
+        take_values(tool, changed_values(old))
+    elseif before_run and before_run.name == tool.name then
+        tool.state = before_run.state
+        take_values(tool, before_run.values)
     end
     return host:use(tool, told or word)
 end
@@ -50,6 +67,13 @@ local function draw(host)
     host.drawn = host:draw()
 end
 
+-- The camera that the tool has set since the last call, else nil.
+local function looked(host)
+    local camera = host.looked and host.camera or nil
+    host.looked = nil
+    return camera
+end
+
 -- Whether one of the values is an object of the scene, or the scene itself.
 local function holds(host, ...)
     for i = 1, select("#", ...) do
@@ -62,9 +86,56 @@ local function holds(host, ...)
     return false
 end
 
+-- ---- What stays when a script runs again, in a Lua state of its own: what was selected, and the tool's
+-- parameters and state, as far as these are numbers, texts and tables of them.
+
+local function plain_text(value, depth)
+    if type(value) == "string" or type(value) == "boolean" then return text_of(value) end
+    if type(value) == "number" then return value - value == 0 and text_of(value) or nil end
+    if type(value) ~= "table" or getmetatable(value) or depth > 8 then return nil end
+    local parts = {}
+    for key, item in next, value do
+        local text = type(key) ~= "boolean" and type(key) ~= "table" and plain_text(item, depth + 1)
+        local name = text and plain_text(key, depth)
+        if name then table.insert(parts, "[" .. name .. "] = " .. text) end
+    end
+    return "{ " .. table.concat(parts, ", ") .. " }"
+end
+
+-- The meshes of a scene by name.
+local function each_mesh(scene, visit)
+    for _, name in ipairs(scene:names()) do
+        if scene:info(name).kind == "mesh" then visit(name, scene:get(name)) end
+    end
+end
+
+local function keep(host)
+    local selected, tool = {}, host.tool
+    each_mesh(host.scene, function(name, mesh)
+        local region = mesh:region("selected")
+        if region then selected[name] = { count = mesh:vertex_count(), vertices = region:vertices() } end
+    end)
+    local kept = tool and { name = tool.name, values = changed_values(tool), state = tool.state }
+    return plain_text({ selected = selected, tool = kept }, 0)
+end
+
+-- What was selected only where it `selects`, and of meshes with as many vertices as before: no step.
+local function restore(host, text, selects)
+    local before = load("return " .. text, "=kept", "t", {})()
+    host.kept = before.tool
+    if not selects then return end
+    each_mesh(host.scene, function(name, mesh)
+        local one = before.selected[name]
+        if one and one.count == mesh:vertex_count() then
+            mesh:set_region("selected", mesh:region{ vertices = one.vertices })
+        end
+    end)
+    host.scene:clear_history()
+end
+
 local function method(host, name, ...) return host[name](host, ...) end
 
 return { tool = make_tool, host = make_host, replay = replay, open = open_scene, load_tool = load_tool,
     host_of = host_of, look = look, use = use, tool_files = tool_files, draw = draw, holds = holds,
     save = save, method = method, sketch = sketch, open_recording = open_recording, play = play,
-    event_kind = event_kind }
+    event_kind = event_kind, looked = looked, keep = keep, restore = restore }

@@ -45,3 +45,31 @@ TEST_CASE("screen: the legend takes the columns that it takes of a finished pict
     screen.set_legend(std::nullopt, canvas.height, kWhite);
     CHECK(screen.beside_legend(canvas) == canvas);
 }
+
+TEST_CASE(
+    "screen: while it moves, too, lines are seen through meshes that are to be seen through") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    Screen screen;
+    Picture picture;
+    picture.meshes = {{std::make_shared<const Mesh>(test::make_square())}};
+    picture.marks.lines = {{{Vec3(-0.9, 0, -0.5), Vec3(0.9, 0, -0.5)}, false, {0, 0, 1}, 12.0}};
+    const auto blue = [&](bool through) {
+        DisplaySettings settings;
+        settings.see_through = through;
+        screen.update(quick_snapshot(picture, settings));
+        screen.draw(test::front_camera(2.4), {0, 0, 96, 96}, kWhite, 1);
+        const Image image = screen.picture();
+        int count = 0;
+        for (int y = 44; y < 52; ++y) {
+            for (int x = 20; x < 76; ++x) {
+                const Color color = image.color(x, y);
+                count += color.b > color.r + 0.3;
+            }
+        }
+        return count;
+    };
+    CHECK(blue(false) == 0);
+    CHECK(blue(true) == doctest::Approx(0.5 * 8 * 56).epsilon(0.05));
+}

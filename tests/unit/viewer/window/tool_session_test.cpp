@@ -327,6 +327,59 @@ TEST_CASE("session: objects of a scene are hidden and shown again, which is a st
     CHECK(host.lines.empty());
 }
 
+TEST_CASE("session: a script that runs again finds selection, tool, parameters and state") {
+    ToolHost host;
+    const std::string tool = host_tool(host.folder);
+    const std::string script =
+        "local lissom = require 'lissom'\nlocal p = lissom.params{ size = { type = 'number', "
+        "default = 1 } }\nlocal ball = lissom.shapes.sphere{}\nball:transform{ scale = p.size }\n"
+        "return { ball = ball }\n";
+    host.run(script);
+    ToolInput look = input(Kind::look);
+    look.camera = Camera({.eye = {0.0, 0.0, 5.0}});
+    look.size = {640, 480};
+    host.session.post(look);
+    host.session.use_tool(tool);
+    host.session.set_tool_parameter("step", 0.25);
+    host.wait();
+    host.drag(3);
+    host.session.evaluate(
+        "local b = scene:get('ball'); "
+        "b:set_region('selected', b:region{ vertices = { 3, 5 } })");
+    host.wait();
+    const auto asks = [&](const std::string& answer) {
+        host.lines.clear();
+        host.session.post(key("s"));
+        host.session.evaluate("#scene:get('ball'):region('selected')");
+        host.wait();
+        CHECK(host.says(LineKind::message, answer));
+        CHECK(host.says(LineKind::result, "2"));
+    };
+    asks("drags\t3\t0.25");
+    host.run(script, {"--size=2"});
+    CHECK(host.state().steps.empty());
+    asks("drags\t3\t0.25");
+    // A version that fails leaves the scene to the tools, and what follows finds all of it.
+    host.run("error('broken')");
+    CHECK(host.says(LineKind::error, "script.lua:1: broken"));
+    host.drag(1);
+    CHECK(host.state().steps.size() == 1);
+    host.run(script);
+    CHECK(host.state().steps.empty());
+    asks("drags\t4\t0.25");
+    // Other faces have no selection, and another script nothing of it.
+    host.run("return { ball = require('lissom').shapes.box{} }");
+    host.session.evaluate("scene:get('ball'):region('selected')");
+    host.wait();
+    CHECK(host.says(LineKind::result, "nil"));
+    host.run(script);
+    host.session.open({host.folder.write("other.lua", script)});
+    host.lines.clear();
+    host.session.post(key("s"));
+    host.wait();
+    CHECK(host.says(LineKind::message, "drags\tnil\t0.1"));
+}
+
 TEST_CASE("session: a script's scene comes without steps to undo") {
     ToolHost host;
     host.run(
