@@ -109,12 +109,12 @@ class Upload {
 };
 
 // What a surface has in common with the one before it.
-struct Kept {
+struct KeptParts {
     bool vertices = false, colors = false, marks = false;
 };
 
 // `a` and `b` have one topology.
-Kept kept(const GpuSurface& a, const GpuSurface& b, bool same_range) {
+KeptParts kept(const GpuSurface& a, const GpuSurface& b, bool same_range) {
     const bool unmoved = a.revision == b.revision;
     return {unmoved && same_vertices(a.drawn, b.drawn),
             same_colors(a.drawn, b.drawn) && (same_range || a.drawn.style.values.empty()),
@@ -143,7 +143,7 @@ std::shared_ptr<const GpuSurface> Upload::surface(const DrawnMesh& drawn,
     const bool same_topology = before && same_faces(*before->drawn.mesh, *drawn.mesh);
     const bool same_range = known == range_;
     if (same_topology && same_drawing(before->drawn.style, drawn.style)) {
-        const Kept keep = kept(*before, *result, same_range);
+        const KeptParts keep = kept(*before, *result, same_range);
         if (keep.vertices && keep.colors && keep.marks) return before;
     }
     fill(*result, same_topology ? before.get() : nullptr, same_range);
@@ -237,7 +237,7 @@ void Upload::fill(GpuSurface& surface, const GpuSurface* before, bool same_range
     const MemoryCharge charge = context_.charge(
         3 * (sizeof(SurfaceVertex) + sizeof(SurfaceColor)) * mesh->topology().corner_count(),
         "the geometry of the picture");
-    const Kept keep = before ? kept(*before, surface, same_range) : Kept{};
+    const KeptParts keep = before ? kept(*before, surface, same_range) : KeptParts{};
     if (keep.vertices) {
         surface.triangles = before->triangles;
         surface.vertices = before->vertices;
@@ -431,8 +431,8 @@ std::vector<SurfaceNeeds> GpuScene::needs(const Snapshot& snapshot) const {
         GpuSurface next;
         next.drawn = drawn;
         next.revision = drawn.mesh->revision();
-        const Kept keep =
-            before ? kept(*before, next, shown_.snapshot.range == snapshot.range) : Kept{};
+        const KeptParts keep =
+            before ? kept(*before, next, shown_.snapshot.range == snapshot.range) : KeptParts{};
         const bool is_quick = before && before->groups && moves_fast(drawn, before);
         SurfaceNeeds needed{drawn,         !keep.vertices && !is_quick, !keep.colors, {}, origin,
                             snapshot.range};
