@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The real window is never away for longer than 50 ms, whatever scripts, tools and the kernel do: loops that never end,
-# a kernel call that takes long, a mesh of many faces that comes, is painted and is bent.
+# in a script and in a drag, and a kernel call that takes long.
 # Usage: blocked_test.sh PROGRAM [FOLDER FOR SCREENSHOTS]; LISSOM_CALL_SECONDS is how long the kernel call takes.
 set -euo pipefail
 
@@ -80,24 +80,4 @@ grep "^line smoothed" told
 close_view 0
 check_work
 
-# --- A mesh of many faces is made ready beside the window: it comes, its colours change, its vertices move
-cat >large.lua <<'LUA'
-local lissom = require "lissom"
-local scene = lissom.scene{}
-scene:add("cactus", lissom.shapes.cactus{ vertices = 150000 })
-return scene
-LUA
-open_view large.lua --tool select
-wait_for "tool select"
-wait_for "at rest"
-drag 700 300 3 3
-wait_for "history 1 of 1"
-wait_for "at rest"
-shot large
-type_line 'scene:get("cactus"):transform{ scale = 1.1 }'
-wait_for "history 2 of 2"
-wait_for "at rest"
-xdotool mousemove --window "$window" 700 300 click 3
-close_view 0
-check_work
 echo "window: never away for longer than it may be"
