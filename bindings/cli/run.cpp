@@ -1,6 +1,12 @@
 // lissom run FILE [--name value ...]
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "bindings/cli/json.h"
 #include "bindings/cli/script.h"
@@ -11,6 +17,13 @@
 namespace lissom::cli {
 namespace {
 
+// Options before the file that take the next word.
+bool takes_word(const std::string& word) {
+    constexpr std::string_view kOptions[] = {"--threads", "--seconds", "--memory",
+                                             "--output",  "--read",    "--write"};
+    return std::find(std::begin(kOptions), std::end(kOptions), word) != std::end(kOptions);
+}
+
 // Words up to the file are the program's, those after it the script's.
 struct Words {
     std::vector<std::string> own;
@@ -20,7 +33,7 @@ struct Words {
         std::size_t i = 0;
         while (i < words.size() && words[i].size() > 1 && words[i][0] == '-') {
             own.push_back(words[i]);
-            if (words[i++] == "--threads" && i < words.size()) own.push_back(words[i++]);
+            if (takes_word(words[i++]) && i < words.size()) own.push_back(words[i++]);
         }
         if (i == words.size()) return;
         own.push_back(words[i]);
@@ -104,7 +117,8 @@ int refuse_words(Program& program, const std::string& script, const std::string&
 }
 
 // Runs the script, unless its text shows that it does not take a word of its command line.
-int run_file(Program& program, const lua::ScriptArguments& arguments) {
+int run_file(Program& program, const lua::ScriptArguments& arguments,
+             const std::optional<lua::SandboxLimits>& limits) {
     const bool from_input = arguments.script == "-";
     const std::optional<std::string> text = script_text(arguments.script);
     const ScriptTraits traits = text ? script_traits(*text) : ScriptTraits{true, true};
@@ -113,7 +127,7 @@ int run_file(Program& program, const lua::ScriptArguments& arguments) {
     if (!unclaimed.empty() && !traits.may_declare) {
         return refuse_words(program, arguments.script, unclaimed);
     }
-    Script script(program, arguments);
+    Script script(program, arguments, limits);
     lua::set_reads_words(script.lua(), traits.reads_words);
     const lua::State& state = script.state();
     if (only_help && !traits.may_declare) return print_parameters(program, state);
@@ -127,6 +141,49 @@ int run_file(Program& program, const lua::ScriptArguments& arguments) {
     return ended_well ? kSuccess : report(program, result);
 }
 
+// The sandbox that the command line asks for.
+class SandboxFlags {
+  public:
+    explicit SandboxFlags(CLI::App& app) {
+        const auto add = [&](const char* name, auto& value, const std::string& help) {
+            return app.add_option(name, value, help)->check(CLI::NonNegativeNumber);
+        };
+        app.add_flag("--sandbox", asked_,
+                     "For a script that nobody vouches for: no system, no files but those allowed "
+                     "here, and within limits (0: none)");
+        given_ = {add("--seconds", limits_.seconds, "Time that it may take; 10"),
+                  add("--memory", memory_, "MiB that it may use; 256"),
+                  add("--output", output_, "MiB that it may print and write; 64"),
+                  app.add_option("--read", read_, "A folder whose files it may read; repeatable")
+                      ->allow_extra_args(false),
+                  app.add_option("--write", write_, "A folder whose files it may write; repeatable")
+                      ->allow_extra_args(false)};
+    }
+
+    // Whether the limits are of a sandbox that was asked for.
+    bool are_consistent() const {
+        return asked_ || std::none_of(given_.begin(), given_.end(),
+                                      [](const CLI::Option* option) { return *option; });
+    }
+    std::optional<lua::SandboxLimits> limits() const {
+        if (!asked_) return {};
+        constexpr double kMiB = 1 << 20;
+        lua::SandboxLimits limits = limits_;
+        limits.memory_bytes = static_cast<std::size_t>(memory_ * kMiB);
+        limits.output_bytes = static_cast<std::size_t>(output_ * kMiB);
+        limits.read_folders.assign(read_.begin(), read_.end());
+        limits.write_folders.assign(write_.begin(), write_.end());
+        return limits;
+    }
+
+  private:
+    bool asked_ = false;
+    lua::SandboxLimits limits_;
+    double memory_ = 256.0, output_ = 64.0;
+    std::vector<std::string> read_, write_;
+    std::vector<const CLI::Option*> given_;
+};
+
 }  // namespace
 
 int run_script(Program& program, const std::vector<std::string>& words) {
@@ -137,10 +194,15 @@ int run_script(Program& program, const std::vector<std::string>& words) {
         "lissom run");
     std::string file;
     app.add_option("FILE", file, "The script; - for the standard input")->required();
+    const SandboxFlags sandbox(app);
     int status = kSuccess;
     if (!program.parse(app, split.own, status)) return status;
     if (program.json()) program.output = Output::json_errors;
-    return run_file(program, split.script);
+    if (!sandbox.are_consistent()) {
+        return program.fail(
+            "--seconds, --memory, --output, --read and --write are limits of --sandbox", kUsage);
+    }
+    return run_file(program, split.script, sandbox.limits());
 }
 
 }  // namespace lissom::cli

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -78,17 +79,22 @@ int prepare(lua_State* L) {
     return 0;
 }
 
-std::string search_path(const std::string& script) {
-    std::string path;
-    const auto add = [&](const std::string& folder) {
-        path += folder + "/?.lua;" + folder + "/?/init.lua;";
-    };
+std::vector<fs::path> module_folders(const std::string& script) {
+    std::vector<fs::path> folders;
     if (!script.empty()) {
-        const std::string folder = fs::path(script).parent_path().string();
-        add(folder.empty() ? "." : folder);
+        const fs::path folder = fs::path(script).parent_path();
+        folders.push_back(folder.empty() ? "." : folder);
     }
     const std::string shipped = Script::shipped_scripts();
-    if (!shipped.empty()) add(shipped);
+    if (!shipped.empty()) folders.push_back(shipped);
+    return folders;
+}
+
+std::string search_path(const std::string& script) {
+    std::string path;
+    for (const fs::path& folder : module_folders(script)) {
+        path += folder.string() + "/?.lua;" + folder.string() + "/?/init.lua;";
+    }
     return path;
 }
 
@@ -225,9 +231,31 @@ std::string Script::shipped_scripts() {
     return "";
 }
 
-Script::Script(Program& program, lua::ScriptArguments arguments)
+Script::Script(Program& program, lua::ScriptArguments arguments,
+               const std::optional<lua::SandboxLimits>& limits)
     : program_(program), options_(program.host_options()) {
     options_.arguments = std::move(arguments);
+    if (limits) {
+        open_in_sandbox(*limits);
+    } else {
+        open_trusted();
+    }
+    program.listen(state().context);
+}
+
+void Script::open_in_sandbox(const lua::SandboxLimits& given) {
+    lua::SandboxLimits limits = given;
+    limits.module_folders = module_folders(options_.arguments.script);
+    sandbox_ =
+        std::make_unique<lua::Sandbox>(std::move(limits), options_, [this](std::string_view text) {
+            program_.clear_progress();
+            std::fwrite(text.data(), 1, text.size(), stdout);
+        });
+    L_ = sandbox_->lua();
+    set_arguments(L_, options_.arguments);
+}
+
+void Script::open_trusted() {
     const Opening opening{&options_, search_path(options_.arguments.script)};
     L_ = luaL_newstate();
     if (!L_) throw std::bad_alloc();
@@ -238,12 +266,17 @@ Script::Script(Program& program, lua::ScriptArguments arguments)
         lua_close(L_);
         throw std::runtime_error(message);
     }
-    program.listen(state().context);
 }
 
 Script::~Script() {
     Interrupt::forget();
-    lua_close(L_);
+    if (!sandbox_) lua_close(L_);
+}
+
+// As lua_pcall of the function on top of the stack.
+int Script::call_protected(int handler) {
+    if (sandbox_) return sandbox_->call(0, LUA_MULTRET, handler);
+    return lua_pcall(L_, 0, LUA_MULTRET, handler);
 }
 
 ScriptResult Script::run_file(const std::string& path) {
@@ -287,7 +320,7 @@ ScriptResult Script::call_function() {
     const std::size_t dropped_before = state().dropped_count;
     lua_pushcfunction(L_, explain_error);
     lua_insert(L_, function);
-    const int status = lua_pcall(L_, 0, LUA_MULTRET, function);
+    const int status = call_protected(function);
     lua_remove(L_, function);
     program_.clear_progress();
     if (status != LUA_OK) return failure();

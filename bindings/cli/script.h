@@ -2,10 +2,13 @@
 /// to read them.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bindings/cli/program.h"
+#include "bindings/lua/sandbox/sandbox.h"
 
 namespace lissom::cli {
 
@@ -32,8 +35,10 @@ struct ScriptResult {
 
 class Script {
   public:
-    /// `arguments.script` is empty for a state that runs no script.
-    Script(Program& program, lua::ScriptArguments arguments);
+    /// `arguments.script` is empty for a state that runs no script. With limits it runs in a sandbox,
+    /// whose modules are those beside the script and those that ship with the program.
+    Script(Program& program, lua::ScriptArguments arguments,
+           const std::optional<lua::SandboxLimits>& limits = {});
     ~Script();
     Script(const Script&) = delete;
     Script& operator=(const Script&) = delete;
@@ -57,6 +62,9 @@ class Script {
     static std::string shipped_scripts();
 
   private:
+    void open_trusted();
+    void open_in_sandbox(const lua::SandboxLimits& limits);
+    int call_protected(int handler);
     ScriptResult run_loaded(int status);
     ScriptResult failure();
     ScriptResult dropped(std::size_t before);
@@ -64,6 +72,8 @@ class Script {
 
     Program& program_;
     lua::HostOptions options_;
+    // Null for a script that is trusted.
+    std::unique_ptr<lua::Sandbox> sandbox_;
     lua_State* L_ = nullptr;
 };
 

@@ -461,12 +461,12 @@ int render(Call& call) {
     RendererSlot& renderer = renderer_slot(call);
     const bool done = call.attempt([&] {
         require_picture_path(file_path(file));
-        require_folder_of(file_path(file));
+        require_folder_of(call.file(file, FileUse::write));
         const Picture picture = compose(call, view, size);
         if (const PictureListener* listener = picture_listener(call.lua())) (*listener)(picture);
         if (!renderer) renderer = std::make_unique<Renderer>();
         const Image image = draw_picture(*renderer, picture, call.context());
-        save_picture(image, file_path(file), call.context());
+        save_picture(image, call.file(file, FileUse::write), call.context());
     });
     return done ? call.push(file) : call.fail();
 }

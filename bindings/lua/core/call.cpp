@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/parser.h"
 
 namespace lissom::lua {
@@ -207,6 +208,12 @@ bool Call::end_work() {
     release_collected(L_, *state_->listeners);
     state_->end_operation(L_);
     return !failed_;
+}
+
+std::filesystem::path Call::file(std::string_view text, FileUse use) const {
+    std::filesystem::path path = file_path(text);
+    if (state_->host.check_file) state_->host.check_file(path, use);
+    return path;
 }
 
 int Call::fail() {

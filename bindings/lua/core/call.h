@@ -19,6 +19,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -159,6 +160,9 @@ class Call {
     }
 
     // ---- Step 3: C++.
+
+    /// The path of a script's UTF-8 text, where the host lets it use that file.
+    std::filesystem::path file(std::string_view text, FileUse use) const;
 
     /// Runs `work` and keeps what it throws as the call's failure; false then. `work` calls no Lua.
     template <typename Work>

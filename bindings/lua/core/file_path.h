@@ -2,14 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <string_view>
 
 namespace lissom::lua {
 
 /// The path of a script's UTF-8 text. Inside Call::attempt only.
-inline std::filesystem::path file_path(const char* text) {
-    const std::string bytes(text);
-    return std::filesystem::path(std::u8string(bytes.begin(), bytes.end()));
+inline std::filesystem::path file_path(std::string_view text) {
+    return std::filesystem::path(std::u8string(text.begin(), text.end()));
 }
 
 }  // namespace lissom::lua

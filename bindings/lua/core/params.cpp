@@ -116,7 +116,7 @@ void take_arguments(State& state, ParameterSet& set, std::vector<std::string>& r
     const ScriptArguments& arguments = state.host.arguments;
     if (arguments.script.empty()) {
         set.require_values();
-        for (const ScriptParameter& p : set.list) p.make_folder();
+        for (const ScriptParameter& p : set.list) p.make_folder(state);
         return;
     }
     const auto& words = arguments.words;
@@ -130,7 +130,7 @@ void take_arguments(State& state, ParameterSet& set, std::vector<std::string>& r
         throw ParameterError(stray_word_text(rest.front()));
     }
     set.require_values();
-    for (const ScriptParameter& p : set.list) p.make_folder();
+    for (const ScriptParameter& p : set.list) p.make_folder(state);
     state.script_end = ScriptEnd::none;
 }
 
@@ -242,7 +242,7 @@ int set_value(Call& call) {
             p->check(value);
             ScriptParameter changed = *p;
             changed.value = value;
-            changed.make_folder();
+            changed.make_folder(call.state());
             *p = std::move(changed);
         } catch (const ParameterError& error) {
             throw Error(ErrorCode::invalid_argument, error.message);

@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <tuple>
 
+#include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/parser.h"
+#include "bindings/lua/core/state.h"
 #include "kernel/core/error.h"
 #include "kernel/core/nearest.h"
 #include "kernel/io/stream/file.h"
@@ -138,12 +140,13 @@ void ScriptParameter::check(const ParameterValue& given) const {
     if (!fits) refuse(*this, value_text(given));
 }
 
-void ScriptParameter::make_folder() const {
+void ScriptParameter::make_folder(const State& state) const {
     if (type != ParameterType::folder || !value) return;
     const std::string& name_of_folder = std::get<std::string>(*value);
     try {
-        lissom::make_folder(
-            std::filesystem::path(std::u8string(name_of_folder.begin(), name_of_folder.end())));
+        const std::filesystem::path path = file_path(name_of_folder);
+        if (state.host.check_file) state.host.check_file(path, FileUse::write);
+        lissom::make_folder(path);
     } catch (const Error& error) {
         throw ParameterError("parameter '" + name + "': " + error.message());
     }

@@ -16,6 +16,8 @@ namespace lissom::lua {
 /// The order of the choices of `type` in the registration.
 enum class ParameterType { number, integer, boolean, string, choice, file, folder };
 
+struct State;
+
 using ParameterValue = std::variant<bool, double, std::string>;
 
 /// Name of a type: "number", ...
@@ -37,9 +39,9 @@ struct ScriptParameter {
     ParameterValue from_text(const std::string& text) const;
     /// Checks a value. Throws ParameterError.
     void check(const ParameterValue& value) const;
-    /// Makes the folder that the value names, where this is a folder to write to. Throws
-    /// ParameterError.
-    void make_folder() const;
+    /// Makes the folder that the value names, where this is a folder to write to and the
+    /// host of the state allows it. Throws ParameterError.
+    void make_folder(const State& state) const;
     /// What values there are: "number from 0 to 1", "small, medium or large".
     std::string accepted() const;
 };

@@ -1,6 +1,7 @@
 /// State: what the binding keeps for one Lua state. Nothing is shared between states.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,6 +25,9 @@ struct ScriptArguments {
     std::vector<std::string> words;
 };
 
+/// What a script does with a file.
+enum class FileUse { read, write };
+
 /// What a host may set when it opens the binding. Every field is optional.
 struct HostOptions {
     ContextOptions context = {};
@@ -32,6 +36,9 @@ struct HostOptions {
     ScriptArguments arguments = {};
     /// Called after every operation of the kernel, on the thread of the state.
     std::function<void()> operation_ended = {};
+    /// Asked about each path that a script gives, before the file is opened: throws Error where the
+    /// script may not use it. Null allows all. Called on the thread of the state.
+    std::function<void(const std::filesystem::path& path, FileUse use)> check_file = {};
 };
 
 struct ParameterSet;

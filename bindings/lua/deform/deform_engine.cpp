@@ -5,7 +5,6 @@
 #include <memory>
 #include <utility>
 
-#include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/deform/deform_object.h"
 #include "kernel/io/basis_file.h"
@@ -42,8 +41,8 @@ int save_basis_file(Call& call) {
     const bool done = call.attempt([&] {
         Deformer& deformer = edit->deformer();
         const std::vector<std::string> names = handle_names(call, *edit, deformer);
-        save_basis(make_engine_basis(deformer, names, call.context()), file_path(path),
-                   call.context());
+        save_basis(make_engine_basis(deformer, names, call.context()),
+                   call.file(path, FileUse::write), call.context());
     });
     if (!done) return call.fail();
     call.charge(edit);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/hair/strands_object.h"
@@ -54,29 +55,27 @@ int make_hairstyle(Call& call) {
 
 // ---- Files
 
-std::filesystem::path style_path(std::string_view text) {
-    return std::filesystem::path(std::u8string(text.begin(), text.end()));
-}
-
 int save_style(Call& call) {
     const auto style = call.self<HairstyleObject>();
     const char* path = call.string("path");
     const char* head = call.has("head") ? call.string("head") : "";
     const bool done = call.attempt([&] {
-        lissom::save_style(content_of(style->style(), head), style_path(path), call.context());
+        lissom::save_style(content_of(style->style(), head), call.file(path, FileUse::write),
+                           call.context());
     });
     return done ? call.push_argument() : call.fail();
 }
 
 // The head that a style names, beside the style's file where its path is relative.
-std::shared_ptr<MeshObject> named_head(const std::filesystem::path& style,
-                                       const StyleContent& content, const Context& context) {
+std::shared_ptr<MeshObject> named_head(const Call& call, const std::filesystem::path& style,
+                                       const StyleContent& content) {
     if (content.head.empty()) {
         throw Error(ErrorCode::invalid_argument,
                     display_name(style) + ": the style names no head; give one");
     }
-    return std::make_shared<MeshObject>(
-        load_mesh(style.parent_path() / style_path(content.head), {}, context));
+    return std::make_shared<MeshObject>(load_mesh(
+        call.file(display_name(style.parent_path() / file_path(content.head)), FileUse::read), {},
+        call.context()));
 }
 
 // The hairstyle of a file. Values that no style can have are the file's mistake, not the script's.
@@ -96,14 +95,14 @@ int load_style(Call& call) {
     const auto head = call.object<MeshObject>("head");
     const auto result = call.create<HairstyleObject>();
     const bool done = call.attempt([&] {
-        const StyleContent content = lissom::load_style(style_path(path), call.context());
-        const auto mesh =
-            has_head ? head.share() : named_head(style_path(path), content, call.context());
+        const std::filesystem::path file = call.file(path, FileUse::read);
+        const StyleContent content = lissom::load_style(file, call.context());
+        const auto mesh = has_head ? head.share() : named_head(call, file, content);
         const auto scalp =
             has_scalp ? call.object<ScalpObject>("scalp")->scalp
                       : std::make_shared<const Scalp>(mesh->mesh, ScalpOptions{}, call.context());
         result.set(std::make_shared<HairstyleObject>(
-            mesh, style_of(style_path(path), content, mesh->mesh, scalp, call.context())));
+            mesh, style_of(file, content, mesh->mesh, scalp, call.context())));
     });
     if (!done) return call.fail();
     call.remember(result.get());

@@ -1,7 +1,6 @@
 // lissom.Strands: files.
 #include <filesystem>
 
-#include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/up_option.h"
 #include "bindings/lua/hair/strands_methods.h"
 #include "bindings/lua/mesh/mesh_object.h"
@@ -15,8 +14,9 @@ int load_hair(Call& call) {
     StrandLoadOptions options;
     options.up = up_axis(call);
     if (call.has("unit")) options.unit = call.number("unit");
-    return new_strands(call,
-                       [&] { return load_strands(file_path(path), options, call.context()); });
+    return new_strands(call, [&] {
+        return load_strands(call.file(path, FileUse::read), options, call.context());
+    });
 }
 
 void push_findings(const Call& call, const StrandReport& report) {
@@ -62,9 +62,10 @@ int save_hair(Call& call) {
         options.unit = call.number("unit");
         options.mend = call.boolean("mend");
         report = has_rib_scene(call)
-                     ? save_rib(strands->strands, file_path(path), rib_scene(call), options,
-                                call.context())
-                     : save_strands(strands->strands, file_path(path), options, call.context());
+                     ? save_rib(strands->strands, call.file(path, FileUse::write), rib_scene(call),
+                                options, call.context())
+                     : save_strands(strands->strands, call.file(path, FileUse::write), options,
+                                    call.context());
     });
     if (!done) return call.fail();
     call.push_argument();

@@ -4,7 +4,6 @@
 #include <memory>
 #include <utility>
 
-#include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 
@@ -23,7 +22,7 @@ int save_part_file(Call& call) {
         PartFrame frame;
         if (call.has("up")) frame.up = call.vector("up");
         if (call.has("front")) frame.front = call.vector("front");
-        save_part(part, frame, file_path(path), call.context());
+        save_part(part, frame, call.file(path, FileUse::write), call.context());
     });
     return done ? call.push(true) : call.fail();
 }
@@ -55,7 +54,7 @@ int load_part_file(Call& call) {
     lua_createtable(call.lua(), 0, 5);
     const auto mesh = call.create<MeshObject>();
     const bool done = call.attempt([&] {
-        objects = part_objects(load_part(file_path(path), call.context()));
+        objects = part_objects(load_part(call.file(path, FileUse::read), call.context()));
         mesh.set(objects.mesh);
     });
     if (!done) return call.fail();

@@ -1,7 +1,6 @@
 // lissom.load and mesh:save.
 #include <filesystem>
 
-#include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/core/up_option.h"
 #include "bindings/lua/mesh/mesh_object.h"
@@ -18,7 +17,8 @@ int load(Call& call) {
     options.unit = call.number("unit");
     options.repair = call.boolean("repair");
     if (call.has("weld")) options.weld = given_weld(call);
-    return new_mesh(call, [&] { return load_mesh(file_path(path), options, call.context()); });
+    return new_mesh(
+        call, [&] { return load_mesh(call.file(path, FileUse::read), options, call.context()); });
 }
 
 int save(Call& call) {
@@ -31,8 +31,9 @@ int save(Call& call) {
     options.endianness = call.choice<Endianness>("endianness");
     options.origin = call.choice<FileOrigin>("origin");
     SavedFile saved;
-    const bool done = call.attempt(
-        [&] { saved = save_mesh(mesh->mesh, file_path(path), options, call.context()); });
+    const bool done = call.attempt([&] {
+        saved = save_mesh(mesh->mesh, call.file(path, FileUse::write), options, call.context());
+    });
     if (!done) return call.fail();
     call.push_argument();
     return 1 + (options.origin == FileOrigin::keep ? 0 : call.push_vector(saved.origin));

@@ -22,8 +22,10 @@ int save_scene_file(Call& call) {
     if (call.has("form")) options.form = call.choice<SceneForm>("form");
     options.history = call.boolean("history");
     auto& left_out = call.hold<std::vector<std::string>>();
-    const bool done =
-        call.attempt([&] { left_out = save_scene(self->scene, path, options, call.context()); });
+    const bool done = call.attempt([&] {
+        left_out =
+            save_scene(self->scene, call.file(path, FileUse::write), options, call.context());
+    });
     if (!done) return call.fail();
     call.push_argument();
     lua_createtable(call.lua(), count_of(left_out), 0);
@@ -42,7 +44,8 @@ int load_scene_file(Call& call) {
         SceneOptions options;
         options.history_bytes = static_cast<std::size_t>(bytes);
         auto made = std::make_shared<SceneObject>(options);
-        load_scene(path, made->scene, *script_item_maker(), call.context());
+        load_scene(call.file(path, FileUse::read), made->scene, *script_item_maker(),
+                   call.context());
         result.set(std::move(made));
     });
     if (!done) return call.fail();

@@ -1,0 +1,70 @@
+#include "bindings/lua/sandbox/folder_rights.h"
+
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/io/stream/file.h"
+
+namespace lissom::lua {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_below(const fs::path& real, const fs::path& folder) {
+    std::error_code failed;
+    const fs::path place = real.lexically_relative(fs::weakly_canonical(folder, failed));
+    return !failed && !place.empty() && *place.begin() != "..";
+}
+
+bool is_below_any(const fs::path& path, const std::vector<fs::path>& folders) {
+    std::error_code failed;
+    const fs::path real = fs::weakly_canonical(path, failed);
+    if (failed) return false;
+    for (const fs::path& folder : folders) {
+        if (is_below(real, folder)) return true;
+    }
+    return false;
+}
+
+// A link to a file that is not there yet leads anywhere.
+bool is_open_link(const fs::path& path) {
+    std::error_code failed;
+    return fs::is_symlink(fs::symlink_status(path, failed)) && !fs::exists(path, failed);
+}
+
+}  // namespace
+
+void FolderRights::check(const fs::path& path, FileUse use) {
+    const bool reads = use == FileUse::read;
+    const std::vector<fs::path>& folders = reads ? read_ : write_;
+    if (!is_below_any(path, folders) || (!reads && is_open_link(path))) {
+        throw Error(reads ? ErrorCode::file_unreadable : ErrorCode::file_write_failed,
+                    display_name(path) + ": the script may not " + (reads ? "read" : "write") +
+                        " here; the host says below which folders it may");
+    }
+    if (reads) return;
+    count_written();
+    if (most_bytes_ != 0 && bytes_ > most_bytes_) {
+        throw Error(ErrorCode::file_write_failed,
+                    display_name(path) + ": the script has written as much as it may, " +
+                        std::to_string(most_bytes_) + " bytes");
+    }
+    pending_ = path;
+}
+
+void FolderRights::count_written() {
+    std::error_code failed;
+    const fs::path path = std::exchange(pending_, {});
+    if (path.empty()) return;
+    const auto size = fs::file_size(path, failed);
+    if (!failed) bytes_ += static_cast<std::size_t>(size);
+}
+
+bool FolderRights::count_output(std::size_t bytes) {
+    bytes_ += bytes;
+    return most_bytes_ == 0 || bytes_ <= most_bytes_;
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,34 @@
+/// Which files a script may use.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "bindings/lua/core/state.h"
+
+namespace lissom::lua {
+
+/// Folders as they are when a script asks: links are followed first. Adds up what it has written.
+class FolderRights {
+  public:
+    FolderRights(std::vector<std::filesystem::path> read, std::vector<std::filesystem::path> write,
+                 std::size_t most_bytes)
+        : read_(std::move(read)), write_(std::move(write)), most_bytes_(most_bytes) {}
+
+    /// Errors: file_unreadable, file_write_failed: the path is outside of the folders, or enough
+    /// was written.
+    void check(const std::filesystem::path& path, FileUse use);
+    /// Counts `bytes` of other output. False where it is too much.
+    bool count_output(std::size_t bytes);
+
+  private:
+    void count_written();
+
+    std::vector<std::filesystem::path> read_, write_;
+    // The file that was asked for last: what it has become is not known before the next question.
+    std::filesystem::path pending_;
+    std::size_t most_bytes_, bytes_ = 0;
+};
+
+}  // namespace lissom::lua

@@ -1,0 +1,347 @@
+// Lua's base library, tables and require without what reaches out of the sandbox, and ended when
+// the script has to.
+#include <cctype>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "bindings/lua/sandbox/sandbox_state.h"
+#include "kernel/core/error.h"
+#include "kernel/io/stream/file.h"
+
+namespace lissom::lua {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Elements that one call of a table function may pass over.
+constexpr lua_Integer kMostElements = 10'000'000;
+
+void end_in_time(lua_State* L) {
+    if (stop_of(L).asked()) raise_stopped(L);
+}
+
+// Upvalue 1: the function.
+int call_in_time(lua_State* L) {
+    end_in_time(L);
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+    return lua_gettop(L);
+}
+
+void remove_fields(lua_State* L, int table, std::initializer_list<const char*> names) {
+    table = lua_absindex(L, table);
+    for (const char* name : names) {
+        lua_pushnil(L);
+        lua_setfield(L, table, name);
+    }
+}
+
+// Keeps these fields of the global table `name`, and no others.
+void keep_fields(lua_State* L, const char* name, std::initializer_list<const char*> names) {
+    lua_newtable(L);
+    lua_getglobal(L, name);
+    for (const char* field : names) {
+        lua_getfield(L, -1, field);
+        lua_setfield(L, -3, field);
+    }
+    lua_pop(L, 1);
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+    lua_pushvalue(L, -2);
+    lua_setfield(L, -2, name);
+    lua_pop(L, 1);
+    lua_setglobal(L, name);
+}
+
+// load(chunk, name, mode, env): of text only. Upvalue 1: Lua's.
+int load_text(lua_State* L) {
+    end_in_time(L);
+    const int given = lua_gettop(L);
+    lua_settop(L, given < 3 ? 3 : given > 4 ? 4 : given);
+    lua_pushliteral(L, "t");
+    lua_replace(L, 3);
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+    return lua_gettop(L);
+}
+
+// Finalizers run where no limit is looked at. Upvalue 1: Lua's.
+int set_metatable(lua_State* L) {
+    if (lua_istable(L, 2)) {
+        lua_pushliteral(L, "__gc");
+        if (lua_rawget(L, 2) != LUA_TNIL) {
+            return luaL_error(L, "a metatable with __gc is not for scripts in a sandbox");
+        }
+        lua_pop(L, 1);
+    }
+    lua_settop(L, 2);
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, 2, 1);
+    return 1;
+}
+
+// Upvalue 1: Lua's.
+int collect_garbage(lua_State* L) {
+    end_in_time(L);
+    static const char* const kOptions[] = {"collect", "count", "step", nullptr};
+    luaL_checkoption(L, 1, "collect", kOptions);
+    lua_settop(L, 1);
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, 1, LUA_MULTRET);
+    return lua_gettop(L);
+}
+
+// A handler of messages. An error that a hook raises is handled while hooks are off: a handler
+// would then run without limits, and there is nothing left to handle. Upvalue 1: the script's.
+int handle_message(lua_State* L) {
+    lua_settop(L, 1);
+    if (stop_of(L).asked()) return 1;
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, 1, 1);
+    return 1;
+}
+
+// Upvalue 1: Lua's.
+int call_with_handler(lua_State* L) {
+    luaL_checkany(L, 2);
+    lua_pushvalue(L, 2);
+    lua_pushcclosure(L, handle_message, 1);
+    lua_replace(L, 2);
+    return call_in_time(L);
+}
+
+void replace_global(lua_State* L, const char* name, lua_CFunction with) {
+    lua_getglobal(L, name);
+    lua_pushcclosure(L, with, 1);
+    lua_setglobal(L, name);
+}
+
+// ---- Coroutines. One that a hook's error has ended keeps its hooks off: what it has to close must
+// not be called then.
+
+// Upvalue 1: the coroutine. Its results, or its error with the place of the call.
+int resume_wrapped(lua_State* L) {
+    lua_State* thread = lua_tothread(L, lua_upvalueindex(1));
+    const int given = lua_gettop(L);
+    if (!lua_checkstack(thread, given)) return luaL_error(L, "too many arguments to resume");
+    if (lua_status(thread) == LUA_OK && lua_gettop(thread) == 0) {
+        return luaL_error(L, "cannot resume dead coroutine");
+    }
+    lua_xmove(L, thread, given);
+    int count = 0;
+    const int status = lua_resume(thread, L, given, &count);
+    if (status == LUA_OK || status == LUA_YIELD) {
+        if (!lua_checkstack(L, count + 1)) {
+            lua_pop(thread, count);
+            return luaL_error(L, "too many results to resume");
+        }
+        lua_xmove(thread, L, count);
+        return count;
+    }
+    end_in_time(L);
+    const int closed = lua_resetthread(thread);
+    lua_xmove(thread, L, closed == LUA_OK ? 0 : 1);
+    if (closed == LUA_OK) lua_pushnil(L);
+    if (status != LUA_ERRMEM && lua_type(L, -1) == LUA_TSTRING) {
+        luaL_where(L, 1);
+        lua_insert(L, -2);
+        lua_concat(L, 2);
+    }
+    return lua_error(L);
+}
+
+int wrap_coroutine(lua_State* L) {
+    luaL_checktype(L, 1, LUA_TFUNCTION);
+    lua_State* thread = lua_newthread(L);
+    lua_pushvalue(L, 1);
+    lua_xmove(L, thread, 1);
+    lua_pushcclosure(L, resume_wrapped, 1);
+    return 1;
+}
+
+// The length that a table function asks for again must be the same.
+void require_own_length(lua_State* L) {
+    luaL_checktype(L, 1, LUA_TTABLE);
+    if (luaL_getmetafield(L, 1, "__len") != LUA_TNIL) {
+        luaL_error(L, "a table with __len is not for this function in a sandbox");
+    }
+}
+
+int call_with_own_length(lua_State* L) {
+    require_own_length(L);
+    return call_in_time(L);
+}
+
+// The range first..last of arguments, whose defaults are set.
+void require_range(lua_State* L, lua_Integer first, lua_Integer last) {
+    if (last < first) return;
+    const auto count = static_cast<lua_Unsigned>(last) - static_cast<lua_Unsigned>(first);
+    if (count >= static_cast<lua_Unsigned>(kMostElements)) {
+        luaL_error(L, "too many elements for one call in a sandbox");
+    }
+}
+
+int concatenate(lua_State* L) {
+    lua_settop(L, 4);
+    const lua_Integer first = luaL_optinteger(L, 3, 1);
+    const lua_Integer last = lua_isnoneornil(L, 4) ? luaL_len(L, 1) : luaL_checkinteger(L, 4);
+    require_range(L, first, last);
+    lua_pushinteger(L, first);
+    lua_replace(L, 3);
+    lua_pushinteger(L, last);
+    lua_replace(L, 4);
+    return call_in_time(L);
+}
+
+int unpack(lua_State* L) {
+    const lua_Integer first = luaL_optinteger(L, 2, 1);
+    const lua_Integer last = lua_isnoneornil(L, 3) ? luaL_len(L, 1) : luaL_checkinteger(L, 3);
+    require_range(L, first, last);
+    lua_settop(L, 1);
+    lua_pushinteger(L, first);
+    lua_pushinteger(L, last);
+    return call_in_time(L);
+}
+
+int move(lua_State* L) {
+    require_range(L, luaL_checkinteger(L, 2), luaL_checkinteger(L, 3));
+    return call_in_time(L);
+}
+
+void replace_field(lua_State* L, const char* name, lua_CFunction with) {
+    lua_getfield(L, -1, name);
+    lua_pushcclosure(L, with, 1);
+    lua_setfield(L, -2, name);
+}
+
+// Letters, digits, '_' and dots between them: no way out of a folder.
+bool is_module_name(std::string_view name) {
+    bool after_dot = true;
+    for (const char c : name) {
+        if (c == '.' && after_dot) return false;
+        after_dot = c == '.';
+        if (!after_dot && c != '_' && !std::isalnum(static_cast<unsigned char>(c))) return false;
+    }
+    return !after_dot;
+}
+
+std::string module_path(std::string_view name) {
+    std::string path(name);
+    for (char& c : path) c = c == '.' ? '/' : c;
+    return path + ".lua";
+}
+
+// The text of a module, and its path; "" where there is none.
+std::string module_text(const Sandbox& sandbox, std::string_view name, std::string& place) {
+    for (const fs::path& folder : module_folders_of(sandbox)) {
+        const fs::path path = folder / module_path(name);
+        std::error_code failed;
+        if (!fs::is_regular_file(path, failed)) continue;
+        place = "@" + display_name(path);
+        return read_file(path, sandbox.state().context).bytes;
+    }
+    return "";
+}
+
+// Pushes the function of the module, or false.
+void push_module(lua_State* L, const char* name) {
+    char message[256];
+    message[0] = '\0';
+    bool found = false;
+    try {
+        std::string place;
+        const std::string text = module_text(sandbox_of(L), name, place);
+        found = !text.empty();
+        if (found) {
+            // Pushes a function or a message, and raises nothing but for want of memory.
+            luaL_loadbufferx(L, text.data(), text.size(), place.c_str(), "t");
+        }
+    } catch (const std::exception& error) {
+        std::snprintf(message, sizeof message, "%s", error.what());
+        found = false;
+    }
+    if (message[0] != '\0') luaL_error(L, "module '%s': %s", name, message);
+    if (!found) lua_pushboolean(L, 0);
+}
+
+int require_module(lua_State* L) {
+    const char* name = luaL_checkstring(L, 1);
+    lua_settop(L, 1);
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+    lua_getfield(L, 2, name);
+    if (lua_toboolean(L, -1)) return 1;
+    lua_pop(L, 1);
+    if (!is_module_name(name)) {
+        return luaL_error(L, "module '%s': a sandbox looks for names like 'parts.wheel' only",
+                          name);
+    }
+    push_module(L, name);
+    if (lua_isstring(L, -1)) return lua_error(L);
+    if (!lua_isfunction(L, -1)) return luaL_error(L, "module '%s' not found", name);
+    lua_pushvalue(L, 1);
+    lua_call(L, 1, 1);
+    if (lua_isnil(L, -1)) {
+        lua_pop(L, 1);
+        lua_pushboolean(L, 1);
+    }
+    lua_pushvalue(L, -1);
+    lua_setfield(L, 2, name);
+    return 1;
+}
+
+}  // namespace
+
+void wrap_costly(lua_State* L, const char* library, std::initializer_list<const char*> names) {
+    lua_getglobal(L, library);
+    for (const char* name : names) {
+        lua_getfield(L, -1, name);
+        lua_pushcclosure(L, call_in_time, 1);
+        lua_setfield(L, -2, name);
+    }
+    lua_pop(L, 1);
+}
+
+void make_base_safe(lua_State* L) {
+    lua_pushglobaltable(L);
+    remove_fields(L, -1, {"dofile", "loadfile", "warn"});
+    lua_pop(L, 1);
+    replace_global(L, "load", load_text);
+    replace_global(L, "setmetatable", set_metatable);
+    replace_global(L, "collectgarbage", collect_garbage);
+    keep_fields(L, LUA_OSLIBNAME, {"clock", "date", "difftime", "time"});
+    keep_fields(L, LUA_DBLIBNAME, {"traceback"});
+    replace_global(L, "xpcall", call_with_handler);
+    lua_getglobal(L, LUA_COLIBNAME);
+    lua_pushcfunction(L, wrap_coroutine);
+    lua_setfield(L, -2, "wrap");
+    lua_pop(L, 1);
+    wrap_costly(L, LUA_COLIBNAME, {"close"});
+    wrap_costly(L, LUA_UTF8LIBNAME, {"len", "offset", "codepoint"});
+}
+
+void make_tables_safe(lua_State* L) {
+    lua_getglobal(L, LUA_TABLIBNAME);
+    replace_field(L, "concat", concatenate);
+    replace_field(L, "unpack", unpack);
+    replace_field(L, "move", move);
+    for (const char* name : {"insert", "remove", "sort"}) {
+        replace_field(L, name, call_with_own_length);
+    }
+    lua_pop(L, 1);
+}
+
+void make_require_safe(lua_State* L) {
+    lua_pushcfunction(L, require_module);
+    lua_setglobal(L, "require");
+    lua_newtable(L);
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+    lua_setfield(L, -2, "loaded");
+    lua_setglobal(L, "package");
+}
+
+}  // namespace lissom::lua

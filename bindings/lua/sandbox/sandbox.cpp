@@ -1,0 +1,306 @@
+#include "bindings/lua/sandbox/sandbox.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+#include <new>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "bindings/lua/sandbox/folder_rights.h"
+#include "bindings/lua/sandbox/sandbox_state.h"
+#include "kernel/core/error.h"
+
+namespace lissom::lua {
+namespace {
+
+// Instructions between two looks at the limits. Any count takes Lua's loops off their fast path; so
+// few keep short what a script does between them by calls of C functions.
+constexpr int kInstructions = 100;
+
+// Lua's registry has the sandbox under this address.
+const char kSandboxKey = 0;
+
+// Asks for a stop when the time is over, unless it is gone before.
+class Watch {
+  public:
+    Watch(double seconds, const std::function<void()>& over) {
+        if (seconds > 0.0) watcher_ = std::thread([this, seconds, over] { wait(seconds, over); });
+    }
+    Watch(const Watch&) = delete;
+    Watch& operator=(const Watch&) = delete;
+    ~Watch() {
+        {
+            const std::lock_guard lock(mutex_);
+            ended_ = true;
+        }
+        changed_.notify_all();
+        if (watcher_.joinable()) watcher_.join();
+    }
+
+  private:
+    void wait(double seconds, const std::function<void()>& over) {
+        std::unique_lock lock(mutex_);
+        const std::chrono::duration<double> time(seconds);
+        if (!changed_.wait_for(lock, time, [this] { return ended_; })) over();
+    }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool ended_ = false;
+    std::thread watcher_;
+};
+
+}  // namespace
+
+struct Sandbox::Parts {
+    SandboxLimits limits;
+    HostOptions options;
+    std::function<void(std::string_view)> print;
+    FolderRights rights;
+    Stop stop;
+    std::atomic<SandboxEnd> end = SandboxEnd::none;
+    std::int64_t instructions = 0;
+    lua_State* L = nullptr;
+    // Before the state has an account, what Lua takes is only counted.
+    std::shared_ptr<MemoryAccount> account;
+    std::size_t early_bytes = 0;
+
+    void ask(SandboxEnd why) {
+        SandboxEnd none = SandboxEnd::none;
+        end.compare_exchange_strong(none, why);
+        stop.ask();
+    }
+    bool take(std::size_t bytes);
+    void give_back(std::size_t bytes);
+};
+
+bool Sandbox::Parts::take(std::size_t bytes) {
+    if (!account) {
+        if (limits.memory_bytes != 0 && early_bytes + bytes > limits.memory_bytes) return false;
+        early_bytes += bytes;
+        return true;
+    }
+    try {
+        account->charge(bytes, "a script");
+    } catch (const Error&) {
+        return false;
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+    return true;
+}
+
+void Sandbox::Parts::give_back(std::size_t bytes) {
+    if (account) {
+        account->release(bytes);
+    } else {
+        early_bytes -= bytes;
+    }
+}
+
+namespace {
+
+// lua_Alloc.
+void* allocate(void* own, void* block, std::size_t old_size, std::size_t new_size) {
+    Sandbox::Parts& parts = *static_cast<Sandbox::Parts*>(own);
+    if (!block) old_size = 0;
+    if (new_size > old_size && !parts.take(new_size - old_size)) return nullptr;
+    if (new_size == 0) {
+        std::free(block);
+        parts.give_back(old_size);
+        return nullptr;
+    }
+    void* moved = std::realloc(block, new_size);
+    if (!moved) {
+        // Lua relies on blocks that become smaller.
+        if (new_size <= old_size) return block;
+        parts.give_back(new_size - old_size);
+        return nullptr;
+    }
+    if (new_size < old_size) parts.give_back(old_size - new_size);
+    return moved;
+}
+
+void look_at_limits(lua_State* L, lua_Debug*) {
+    const Sandbox& sandbox = sandbox_of(L);
+    Sandbox::Parts& parts = sandbox.parts();
+    parts.instructions += lua_gethookcount(L);
+    if (parts.limits.instructions != 0 && parts.instructions > parts.limits.instructions) {
+        parts.ask(SandboxEnd::instructions);
+    }
+    if (sandbox.state().context.cancelled()) parts.ask(SandboxEnd::cancelled);
+    if (!parts.stop.asked()) return;
+    // A script that catches the error gets it again at once: it cannot go on.
+    lua_sethook(L, look_at_limits, LUA_MASKCOUNT, 1);
+    raise_stopped(L);
+}
+
+int print(lua_State* L) {
+    const Sandbox& sandbox = sandbox_of(L);
+    const int count = lua_gettop(L);
+    luaL_Buffer line;
+    luaL_buffinit(L, &line);
+    for (int i = 1; i <= count; ++i) {
+        if (i > 1) luaL_addchar(&line, '\t');
+        luaL_tolstring(L, i, nullptr);
+        luaL_addvalue(&line);
+    }
+    luaL_addchar(&line, '\n');
+    luaL_pushresult(&line);
+    Sandbox::Parts& parts = sandbox.parts();
+    if (sandbox.state().only_help) return 0;
+    std::size_t size = 0;
+    const char* text = lua_tolstring(L, -1, &size);
+    if (!parts.rights.count_output(size)) {
+        parts.ask(SandboxEnd::output);
+        raise_stopped(L);
+    }
+    if (parts.print) parts.print({text, size});
+    return 0;
+}
+
+void open_libraries(lua_State* L) {
+    const luaL_Reg libraries[] = {
+        {LUA_GNAME, luaopen_base},        {LUA_TABLIBNAME, luaopen_table},
+        {LUA_STRLIBNAME, luaopen_string}, {LUA_MATHLIBNAME, luaopen_math},
+        {LUA_UTF8LIBNAME, luaopen_utf8},  {LUA_COLIBNAME, luaopen_coroutine},
+        {LUA_OSLIBNAME, luaopen_os},      {LUA_DBLIBNAME, luaopen_debug}};
+    for (const luaL_Reg& library : libraries) {
+        luaL_requiref(L, library.name, library.func, 1);
+        lua_pop(L, 1);
+    }
+}
+
+// Protected: argument 1 is the sandbox.
+int prepare_sandbox(lua_State* L) {
+    auto* sandbox = static_cast<Sandbox*>(lua_touserdata(L, 1));
+    lua_pushlightuserdata(L, sandbox);
+    raw_set_pointer(L, LUA_REGISTRYINDEX, &kSandboxKey);
+    open_libraries(L);
+    make_base_safe(L);
+    make_tables_safe(L);
+    make_strings_safe(L);
+    lua_gc(L, LUA_GCGEN, 0, 0);
+    lua_pushcfunction(L, print);
+    lua_setglobal(L, "print");
+    open(L, sandbox->parts().options);
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+    lua_insert(L, -2);
+    lua_setfield(L, -2, "lissom");
+    make_require_safe(L);
+    return 0;
+}
+
+void require_limits(const SandboxLimits& limits) {
+    if (limits.seconds >= 0.0 && limits.instructions >= 0) return;
+    throw Error(ErrorCode::invalid_argument,
+                "the limits of a sandbox are not below zero; zero is no limit");
+}
+
+}  // namespace
+
+Sandbox& sandbox_of(lua_State* L) {
+    raw_get_pointer(L, LUA_REGISTRYINDEX, &kSandboxKey);
+    auto* sandbox = static_cast<Sandbox*>(lua_touserdata(L, -1));
+    lua_pop(L, 1);
+    return *sandbox;
+}
+
+const Stop& stop_of(lua_State* L) {
+    return sandbox_of(L).parts().stop;
+}
+
+const std::vector<std::filesystem::path>& module_folders_of(const Sandbox& sandbox) {
+    return sandbox.parts().limits.module_folders;
+}
+
+void raise_stopped(lua_State* L) {
+    const char* text = "cancelled [cancelled]";
+    switch (sandbox_of(L).end()) {
+        case SandboxEnd::seconds:
+            text = "the time of the script is over [cancelled]";
+            break;
+        case SandboxEnd::instructions:
+            text = "the script has run as many instructions as it may [cancelled]";
+            break;
+        case SandboxEnd::output:
+            text = "the script has written as much as it may [cancelled]";
+            break;
+        case SandboxEnd::none:
+        case SandboxEnd::cancelled:
+            break;
+    }
+    luaL_error(L, "%s", text);
+    std::abort();
+}
+
+Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
+                 std::function<void(std::string_view)> print) {
+    require_limits(limits);
+    FolderRights rights(limits.read_folders, limits.write_folders, limits.output_bytes);
+    parts_ = std::make_unique<Parts>(std::move(limits), std::move(options), std::move(print),
+                                     std::move(rights));
+    Parts& parts = *parts_;
+    parts.options.context.memory_limit = parts.limits.memory_bytes;
+    parts.options.check_file = [&parts](const std::filesystem::path& path, FileUse use) {
+        parts.rights.check(path, use);
+    };
+    parts.L = lua_newstate(allocate, &parts);
+    bool opened = false;
+    if (parts.L) {
+        lua_pushcfunction(parts.L, prepare_sandbox);
+        lua_pushlightuserdata(parts.L, this);
+        opened = lua_pcall(parts.L, 1, 0, 0) == LUA_OK;
+    }
+    if (!opened) {
+        const char* text = parts.L ? lua_tostring(parts.L, -1) : nullptr;
+        const std::string why = text ? text : "not enough memory";
+        if (parts.L) lua_close(parts.L);
+        throw Error(ErrorCode::memory_limit, "the sandbox cannot be opened: " + why);
+    }
+    const std::shared_ptr<MemoryAccount> account = state().context.memory();
+    account->charge(parts.early_bytes, "a script");
+    parts.account = account;
+    lua_sethook(parts.L, look_at_limits, LUA_MASKCOUNT, kInstructions);
+}
+
+Sandbox::~Sandbox() {
+    lua_close(parts_->L);
+}
+
+lua_State* Sandbox::lua() const {
+    return parts_->L;
+}
+
+std::shared_ptr<MemoryAccount> Sandbox::memory() const {
+    return parts_->account;
+}
+
+SandboxEnd Sandbox::end() const {
+    return parts_->end;
+}
+
+int Sandbox::call(int arguments, int results, int handler) {
+    Parts& parts = *parts_;
+    const Context context = state().context;
+    parts.end = SandboxEnd::none;
+    parts.stop.clear();
+    parts.instructions = 0;
+    lua_sethook(parts.L, look_at_limits, LUA_MASKCOUNT, kInstructions);
+    int status = LUA_OK;
+    {
+        const Watch watch(parts.limits.seconds, [&parts, &context] {
+            parts.ask(SandboxEnd::seconds);
+            context.cancel();
+        });
+        status = lua_pcall(parts.L, arguments, results, handler);
+    }
+    // What asked for this is the limit, not the host.
+    if (parts.end == SandboxEnd::seconds) context.clear_cancel();
+    return status;
+}
+
+}  // namespace lissom::lua

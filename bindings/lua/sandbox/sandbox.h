@@ -1,0 +1,71 @@
+/// Sandbox: a Lua state for scripts that nobody vouches for. It has Lua's language, strings,
+/// tables, numbers and coroutines, and the library; it has no operating system, no files but those
+/// allowed, no binary chunks, and it ends when a limit is reached, whatever the script does to go
+/// on.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "bindings/lua/core/state.h"
+
+namespace lissom::lua {
+
+/// What a script may use. The time and the instructions are those of one run.
+struct SandboxLimits {
+    /// Wall time; 0: as long as it takes.
+    double seconds = 10.0;
+    /// Of Lua's virtual machine, counted in hundreds; 0: any number.
+    std::int64_t instructions = 0;
+    /// Lua's and the kernel's together; 0: as much as there is.
+    std::size_t memory_bytes = std::size_t{256} << 20;
+    /// What is printed, and the files that are written. A file is counted when it is there, so that
+    /// the last one may go beyond; 0: any number.
+    std::size_t output_bytes = std::size_t{64} << 20;
+    /// Files below them may be read, or written. Without any, none may.
+    std::vector<std::filesystem::path> read_folders, write_folders;
+    /// Where `require` looks for NAME.lua, besides what is in the library.
+    std::vector<std::filesystem::path> module_folders;
+};
+
+/// Why a script was ended.
+enum class SandboxEnd { none, seconds, instructions, output, cancelled };
+
+class Sandbox {
+  public:
+    /// Opens the state. `print` gets what the script prints, with its line ends. Of `options` the
+    /// memory limit and the check of files are replaced.
+    /// Errors: memory_limit where the state itself does not fit; invalid_argument for limits below
+    /// zero.
+    Sandbox(SandboxLimits limits, HostOptions options,
+            std::function<void(std::string_view)> print = {});
+    ~Sandbox();
+    Sandbox(const Sandbox&) = delete;
+    Sandbox& operator=(const Sandbox&) = delete;
+
+    lua_State* lua() const;
+    State& state() const { return *find_state(lua()); }
+    /// The memory that Lua and the kernel have taken.
+    std::shared_ptr<MemoryAccount> memory() const;
+
+    /// Calls the function below `arguments` values on the stack as lua_pcall does, within the
+    /// limits and with a handler of messages at stack index `handler` (0: none). The state is of
+    /// use afterwards whatever has happened.
+    int call(int arguments, int results, int handler = 0);
+    /// Why the last call was ended; none also where it failed by itself.
+    SandboxEnd end() const;
+
+    /// For what runs inside of it.
+    struct Parts;
+    Parts& parts() const { return *parts_; }
+
+  private:
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace lissom::lua

@@ -1,0 +1,32 @@
+/// What the parts of a sandbox know of it; private to bindings/lua/sandbox.
+#pragma once
+
+#include <initializer_list>
+
+#include "bindings/lua/core/compat.h"
+#include "bindings/lua/sandbox/sandbox.h"
+#include "bindings/lua/sandbox/stop.h"
+
+namespace lissom::lua {
+
+/// The sandbox of a state.
+Sandbox& sandbox_of(lua_State* L);
+const Stop& stop_of(lua_State* L);
+const std::vector<std::filesystem::path>& module_folders_of(const Sandbox& sandbox);
+
+/// Raises the error that ends the script.
+[[noreturn]] void raise_stopped(lua_State* L);
+
+/// Replaces functions of a library, each of which may take some milliseconds without a step of
+/// Lua's, by ones that end a script first whose time is over.
+void wrap_costly(lua_State* L, const char* library, std::initializer_list<const char*> names);
+
+/// Each replaces what is in the globals.
+void make_base_safe(lua_State* L);
+void make_tables_safe(lua_State* L);
+void make_strings_safe(lua_State* L);
+
+/// require, and a table `package` with what it has loaded.
+void make_require_safe(lua_State* L);
+
+}  // namespace lissom::lua

@@ -1,0 +1,33 @@
+/// When a script has to end: asked by everything that can take long.
+#pragma once
+
+#include <atomic>
+
+namespace lissom::lua {
+
+/// Thrown, in C++ only, by work that was stopped.
+struct Stopped {};
+
+/// Set once by whoever watches the limits; read on the thread of the script.
+class Stop {
+  public:
+    bool asked() const { return asked_.load(std::memory_order_relaxed); }
+    void ask() { asked_.store(true, std::memory_order_relaxed); }
+    void clear() { asked_.store(false, std::memory_order_relaxed); }
+
+    /// Throws Stopped where it was asked for, each time that `ticks` has counted some thousand
+    /// steps.
+    void tick(unsigned& ticks, unsigned steps = 1) const {
+        ticks += steps;
+        if (ticks < kSteps) return;
+        ticks = 0;
+        if (asked()) throw Stopped{};
+    }
+
+  private:
+    static constexpr unsigned kSteps = 4096;
+
+    std::atomic<bool> asked_ = false;
+};
+
+}  // namespace lissom::lua

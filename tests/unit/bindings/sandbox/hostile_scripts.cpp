@@ -1,0 +1,328 @@
+#include "tests/unit/bindings/sandbox/hostile_scripts.h"
+
+namespace lissom::test {
+namespace {
+
+using enum HostileEnd;
+
+// Loops that no error of the script's own ends.
+std::vector<HostileScript> endless() {
+    return {
+        {"loop", "while true do end", time},
+        {"repeat", "repeat until false", time},
+        {"goto", "::again:: goto again", time},
+        {"tail calls", "local function f() return f() end f()", time},
+        {"loop in pcall", "pcall(function() while true do end end) while true do end", time},
+        {"pcall for ever", "while true do pcall(function() while true do end end) end", time},
+        {"pcall in pcall",
+         "local function f() pcall(f) while true do end end while true do pcall(f) end", time},
+        {"xpcall whose handler loops",
+         "while true do xpcall(function() while true do end end, function() while true do end end) "
+         "end",
+         time},
+        {"error handler that calls itself",
+         "local function h() xpcall(error, h) end while true do xpcall(error, h) end", time},
+        {"coroutine", "coroutine.wrap(function() while true do end end)()", time},
+        {"coroutines for ever",
+         "while true do pcall(coroutine.wrap(function() while true do end end)) end", time},
+        {"coroutine in coroutine",
+         "local function f() return coroutine.wrap(f)() end while true do pcall(f) end", time},
+        {"resume for ever",
+         "while true do coroutine.resume(coroutine.create(function() while true do end end)) end",
+         time},
+        {"yield for ever",
+         "local c = coroutine.wrap(function() while true do coroutine.yield() end end) "
+         "while true do c() end",
+         time},
+        {"close that loops",
+         "do local x <close> = setmetatable({}, { __close = function() while true do end end }) "
+         "end",
+         time},
+        {"close that loops after an error",
+         "while true do pcall(function() local x <close> = setmetatable({}, "
+         "{ __close = function() while true do end end }) error() end) end",
+         time},
+        {"coroutine.close that loops",
+         "local c = coroutine.create(function() local x <close> = setmetatable({}, "
+         "{ __close = function() while true do end end }) coroutine.yield() end) "
+         "coroutine.resume(c) coroutine.close(c) while true do end",
+         time},
+        {"close that loops in a coroutine that is ended",
+         "coroutine.wrap(function() local x <close> = setmetatable({}, { __close = function() "
+         "while true do end end }) while true do end end)()",
+         time},
+        {"coroutine.close of one that was ended",
+         "while true do local c = coroutine.create(function() local x <close> = setmetatable({}, "
+         "{ __close = function() while true do end end }) while true do end end) "
+         "coroutine.resume(c) coroutine.close(c) end",
+         time},
+        {"handler of a coroutine",
+         "coroutine.wrap(function() xpcall(function() while true do end end, "
+         "function() while true do end end) while true do end end)()",
+         time},
+        {"index that loops",
+         "local t = setmetatable({}, { __index = function() while true do end end }) return t.x",
+         time},
+        {"tostring that loops",
+         "print(setmetatable({}, { __tostring = function() while true do end end }))", time},
+        {"comparison that loops",
+         "local m = { __lt = function() while true do end end } "
+         "return setmetatable({}, m) < setmetatable({}, m)",
+         time},
+        {"sort with a comparison that loops",
+         "table.sort({ 1, 2, 3 }, function() while true do end end)", time},
+        {"sort with a comparison that is always true, for ever",
+         "while true do pcall(table.sort, { 5, 3, 1, 4, 2 }, function() return true end) end",
+         time},
+        {"gsub whose function loops", "('x'):gsub('x', function() while true do end end)", time},
+        {"load whose reader loops", "load(function() while true do end end)", time},
+        {"load whose reader never ends", "load(function() return ' ' end)", any},
+        {"concat with an index that loops",
+         "table.concat(setmetatable({}, { __index = function() while true do end end }), '', 1, 9)",
+         time},
+        {"iterator that never ends", "for _ in function() return 1 end do end", time},
+        {"next over its own table", "local t = { 1 } while true do for k in pairs(t) do end end",
+         time},
+        {"collections for ever",
+         "local t = {} for i = 1, 1e5 do t[i] = {} end while true do collectgarbage() end", time},
+        {"rep and forget", "while true do local s = ('x'):rep(1e6) end", time},
+        {"sorted again and again",
+         "local t = {} for i = 1, 1e5 do t[i] = i end while true do table.sort(t) end", time},
+        {"moved again and again", "local t = {} while true do table.move(t, 1, 1e6, 2) end", time},
+        {"moved by metamethods without a step",
+         "local t = setmetatable({}, { __index = type }) "
+         "local u = setmetatable({}, { __newindex = type }) "
+         "while true do table.move(t, 1, 9e6, 1, u) end",
+         time},
+        {"modules for ever", "while true do pcall(require, 'none') end", time},
+        {"assert for ever", "while true do pcall(assert, false) end", time},
+        {"meshes for ever",
+         "local lissom = require 'lissom' while true do lissom.shapes.sphere() end", time},
+        {"kernel call in pcall for ever",
+         "local lissom = require 'lissom' local m = lissom.shapes.sphere{ segments = 60 } "
+         "while true do pcall(m.smooth, m, { iterations = 1000 }) end",
+         time},
+        {"one long kernel call",
+         "local lissom = require 'lissom' local m = lissom.shapes.sphere{ segments = 200 } "
+         "m:smooth{ iterations = 1000000 } while true do end",
+         any},
+    };
+}
+
+// Patterns that Lua's own matcher would not finish in hours.
+std::vector<HostileScript> patterns() {
+    return {
+        {"find: lazy items", "return ('a'):rep(150):find('.-.-.-.-.-b')", time},
+        {"find: long and lazy", "return ('a'):rep(200000):find('.-b')", time},
+        {"find: greedy items", "return ('a'):rep(300):find('a*a*a*a*a*b')", time},
+        {"find: optional items",
+         "return ('a'):rep(28):find(('a?'):rep(28) .. ('a'):rep(28) .. 'b')", any},
+        {"match", "return ('a'):rep(150):match('(.-)(.-)(.-)(.-)(.-)b')", time},
+        {"gmatch", "for _ in ('a'):rep(300):gmatch('a*a*a*a*a*b') do end", time},
+        {"gsub", "return ('a'):rep(300):gsub('a*a*a*a*a*b', '')", time},
+        {"gsub in pcall", "while true do pcall(string.gsub, ('a'):rep(300), 'a*a*a*a*a*b', '') end",
+         time},
+        {"find in a coroutine",
+         "coroutine.wrap(function() return ('a'):rep(300):find('a*a*a*a*a*b') end)()", time},
+        {"balanced", "while true do ('('):rep(100000):find('%b()') end", time},
+        {"plain", "return ('a'):rep(4000000):find(('a'):rep(2000000) .. 'b', 1, true)", any},
+        {"plain for ever",
+         "while true do ('a'):rep(1000000):find(('a'):rep(500000) .. 'b', 1, true) end", time},
+        {"the original by the metatable of strings",
+         "local find = getmetatable('').__index.find return find(('a'):rep(300), 'a*a*a*a*a*b')",
+         time},
+        {"deep captures", "return ('x'):find(('('):rep(300) .. 'x')", error, "captures"},
+        {"deep pattern", "return ('x'):rep(1000):find(('x?'):rep(1000))", error, "too complex"},
+        {"no end of a set", "return ('x'):find('[a')", error, "missing ']'"},
+        {"no end of an escape", "return ('x'):find('%')", error, "ends with '%'"},
+        {"no arguments of %b", "return ('x'):find('%b')", error, "%b"},
+        {"capture that is not there", "return ('x'):find('%1')", error, "capture index"},
+        {"frontier without a set", "return ('x'):find('%f')", error, "missing '['"},
+        {"replacement that refers to nothing", "return ('x'):gsub('x', '%2')", error,
+         "capture index"},
+    };
+}
+
+// What would take more memory than there is.
+std::vector<HostileScript> memory() {
+    const char* const enough = "not enough memory";
+    return {
+        {"rep", "return ('x'):rep(1e9)", error, enough},
+        {"rep beyond all sizes", "return ('x'):rep(math.maxinteger)", error, "too large"},
+        {"rep with a separator", "return ('x'):rep(1e9, 'y')", error, "memory"},
+        {"doubling", "local s = 'x' while true do s = s .. s end", error, enough},
+        {"table", "local t = {} for i = 1, 1e9 do t[i] = i end", error, enough},
+        {"table by keys", "local t = {} for i = 1, 1e9 do t['k' .. i] = i end", error, enough},
+        {"nested tables", "local t = {} while true do t = { t, t } end", any},
+        {"closures", "local t = {} while true do t[#t + 1] = function() return t end end", error,
+         enough},
+        {"coroutines", "local t = {} while true do t[#t + 1] = coroutine.create(print) end", error,
+         enough},
+        {"concat",
+         "local t = {} for i = 1, 1000 do t[i] = ('x'):rep(1e5) end "
+         "return table.concat(t)",
+         error, enough},
+        {"concat of what is not there",
+         "return table.concat(setmetatable({}, { __index = type }), '', 1, 9e6)", error, enough},
+        {"gsub that grows", "local s = 'x' while true do s = s:gsub('.', '%0%0') end", any},
+        {"format", "local s = '' while true do s = string.format('%s%s%s', s, s, 'x') end", any},
+        {"swallowed by pcall",
+         "local t = {} while true do pcall(function() while true do t[#t + 1] = ('x'):rep(1e5) .. "
+         "#t end end) end",
+         time},
+        {"stack", "local function f() return 1 + f() end return f()", error, "overflow"},
+        {"stack by pcall", "local function f() return pcall(f) end return f()", any},
+        {"stack by metamethods",
+         "local t = {} setmetatable(t, { __index = function(_, k) return t[k] end }) return t.x",
+         error, "overflow"},
+        {"stack by tostring",
+         "local t = {} setmetatable(t, { __tostring = function() return tostring(t) end }) "
+         "return tostring(t)",
+         error, "overflow"},
+        {"long argument list", "return select('#', table.unpack({}, 1, 1e7))", error, "unpack"},
+        {"longer argument list", "return table.unpack({}, 1, math.maxinteger)", error,
+         "too many elements"},
+        {"bytes as results", "return #{ ('x'):rep(1e7):byte(1, -1) }", error, "string slice"},
+        {"length that lies",
+         "return table.sort(setmetatable({}, { __len = function() return 1e9 end }))", error,
+         "__len"},
+        {"insert with a length that lies",
+         "table.insert(setmetatable({}, { __len = function() return 1e9 end }), 1, 1)", error,
+         "__len"},
+        {"concat with a length that lies",
+         "return table.concat(setmetatable({}, { __len = function() return math.maxinteger end }))",
+         error, "too many elements"},
+        {"move of everything", "table.move({}, 1, math.maxinteger - 1, 2)", error,
+         "too many elements"},
+        {"deeply nested source", "return load(('('):rep(1e5))", any},
+        {"long source", "return load(('x = 1 '):rep(1e6))", any},
+        {"mesh larger than all memory",
+         "local lissom = require 'lissom' "
+         "return assert(lissom.shapes.plane{ segments = { 100000, 100000 } })",
+         error},
+        {"many meshes",
+         "local lissom = require 'lissom' local t = {} "
+         "while true do t[#t + 1] = assert(lissom.shapes.sphere{ segments = 100 }) end",
+         error},
+        {"number of many digits", "return tonumber(('9'):rep(1e7))", any},
+        {"pack", "return string.pack('s8', ('x'):rep(1e8))", error, enough},
+    };
+}
+
+// Ways out.
+std::vector<HostileScript> ways_out() {
+    return {
+        {"io", "return io == nil and package.loaded.io == nil", harmless},
+        {"files of Lua", "return dofile == nil and loadfile == nil", harmless},
+        {"os",
+         "return os.execute == nil and os.exit == nil and os.remove == nil and "
+         "os.rename == nil and os.getenv == nil and os.tmpname == nil and "
+         "os.setlocale == nil",
+         harmless},
+        {"os that is loaded", "return package.loaded.os.execute == nil and require('os') == os",
+         harmless},
+        {"debug",
+         "return debug.getregistry == nil and debug.sethook == nil and "
+         "debug.getupvalue == nil and debug.setmetatable == nil and "
+         "debug.getinfo == nil and package.loaded.debug == debug",
+         harmless},
+        {"package",
+         "return package.loadlib == nil and package.cpath == nil and "
+         "package.searchers == nil and package.path == nil and "
+         "package.searchpath == nil",
+         harmless},
+        {"preload",
+         "package.preload = { evil = function() return io end } "
+         "return pcall(require, 'evil') == false",
+         harmless},
+        {"module by a path", "require '../../../etc/passwd'", error, "names like"},
+        {"module by an absolute path", "require '/etc/passwd'", error, "names like"},
+        {"module by dots", "require '..etc.passwd'", error, "names like"},
+        {"module with a zero byte", "require 'a\\0b'", error},
+        {"binary chunk", "return load('\\27Lua') == nil", harmless},
+        {"binary chunk by its mode", "return load('\\27Lua', 'x', 'b') == nil", harmless},
+        {"binary chunk by a reader",
+         "local n = 0 return load(function() n = n + 1 if n == 1 then return '\\27Lua' end end, "
+         "'x', 'bt') == nil",
+         harmless},
+        {"string.dump", "return string.dump == nil", harmless},
+        {"finalizer", "setmetatable({}, { __gc = function() while true do end end })", error,
+         "__gc"},
+        {"finalizer set later",
+         "local m = {} setmetatable({}, m) m.__gc = function() while true do end end "
+         "collectgarbage() return true",
+         harmless},
+        {"finalizer behind an index",
+         "setmetatable({}, setmetatable({}, { __index = { __gc = print } })) collectgarbage() "
+         "return true",
+         harmless},
+        {"collection that is stopped", "collectgarbage('stop')", error, "invalid option"},
+        {"collection that never comes", "collectgarbage('setpause', 1e9)", error, "invalid option"},
+        {"globals of the library replaced",
+         "_G.setmetatable = nil string.find = nil print = nil "
+         "return require('lissom').shapes.box():vertex_count() == 8",
+         harmless},
+        {"metatable of strings replaced",
+         "getmetatable('').__index = nil return pcall(function() return ('x').find end) == false",
+         harmless},
+        {"metatable of a mesh",
+         "local m = require('lissom').shapes.box() local t = getmetatable(m) "
+         "if type(t) == 'table' and t.__gc then t.__gc(m) pcall(t.__gc, {}) pcall(t.__gc) end "
+         "pcall(function() return m:vertex_count() end) return true",
+         harmless},
+        {"methods on other things",
+         "local m = require('lissom').shapes.box() "
+         "for _, x in ipairs{ 1, 'x', {}, print, coroutine.create(print) } do "
+         "assert(not pcall(m.vertex_count, x)) end return true",
+         harmless},
+        {"read a file of the system",
+         "return select(3, require('lissom').load('/etc/passwd')) == 'file_unreadable'", harmless},
+        {"read upwards",
+         "return select(3, require('lissom').load('../../../../../../../../etc/passwd.obj')) == "
+         "'file_unreadable'",
+         harmless},
+        {"ask whether a file is there",
+         "local l = require('lissom') local _, a = l.load('/etc/passwd.obj') "
+         "local _, b = l.load('/etc/none.obj') "
+         "return a:gsub('passwd', 'none') == b",
+         harmless},
+        {"write a file",
+         "return select(3, require('lissom').shapes.box():save('/tmp/lissom_hostile.obj')) == "
+         "'file_write_failed'",
+         harmless},
+        {"write a scene",
+         "return select(3, require('lissom').scene():save('/tmp/lissom_hostile')) == "
+         "'file_write_failed'",
+         harmless},
+        {"read strands",
+         "return select(3, require('lissom').load_strands('/etc/passwd')) == 'file_unreadable'",
+         harmless},
+        {"parameter that makes a folder",
+         "return pcall(require('lissom').params, { out = { type = 'folder', "
+         "default = '/tmp/lissom_hostile_folder' } }) == false",
+         harmless},
+        {"print without end", "while true do print(('x'):rep(1000)) end", error, "written as much"},
+        {"print without end in pcall", "while true do pcall(print, ('x'):rep(1000)) end", error,
+         "written as much"},
+        {"error that is no text",
+         "error(setmetatable({}, { __tostring = function() return 1 end }))", error},
+        {"error without a value", "error()", error},
+        {"yield outside of a coroutine", "coroutine.yield()", error, "outside a coroutine"},
+        {"environment of load",
+         "local f = load('return io, os', 'x', 't', {}) local a, b = f() return a == nil and "
+         "b == nil",
+         harmless},
+    };
+}
+
+}  // namespace
+
+std::vector<HostileScript> hostile_scripts() {
+    std::vector<HostileScript> all = endless();
+    for (const auto& more : {patterns(), memory(), ways_out()}) {
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    return all;
+}
+
+}  // namespace lissom::test
