@@ -152,7 +152,7 @@ class SandboxFlags {
                      "For a script that nobody vouches for: no system, no files but those allowed "
                      "here, and within limits (0: none)");
         given_ = {add("--seconds", limits_.seconds, "Time that it may take; 10"),
-                  add("--memory", memory_, "MiB that it may use; 256"),
+                  add("--memory", memory_, "MiB of Lua and the solvers; 256"),
                   add("--output", output_, "MiB that it may print and write; 64"),
                   app.add_option("--read", read_, "A folder whose files it may read; repeatable")
                       ->allow_extra_args(false),
@@ -162,8 +162,9 @@ class SandboxFlags {
 
     // Whether the limits are of a sandbox that was asked for.
     bool are_consistent() const {
-        return asked_ || std::none_of(given_.begin(), given_.end(),
-                                      [](const CLI::Option* option) { return *option; });
+        return asked_ || std::none_of(given_.begin(), given_.end(), [](const CLI::Option* option) {
+                   return option->count() > 0;
+               });
     }
     std::optional<lua::SandboxLimits> limits() const {
         if (!asked_) return {};

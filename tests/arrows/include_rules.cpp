@@ -20,6 +20,7 @@ struct Rule {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> table = {
         {"kernel/core", {"kernel/core"}, {"Eigen", "TBB"}},
+        {"kernel/core/large_pages.cpp", {"kernel/core"}, {"platform"}},
         {"kernel/core/machine_memory.cpp", {"kernel/core"}, {"platform"}},
         {"kernel/solve", {"kernel/core", "kernel/solve"}, {"Eigen", "CHOLMOD"}},
         {"kernel/mesh", {"kernel/core", "kernel/solve", "kernel/mesh"}, {"Eigen", "OpenMesh"}},

@@ -176,7 +176,7 @@ end
 local mesh, report = lissom.scatter{
     source = source, target = lissom.shapes.sphere{ segments = 24, radius = 3 },
     region = source:region{ sphere = { center = { 0, 1.3, 0 }, radius = 0.95 } },
-    at = { { 3, 0, 0 }, { 0, 3, 0 }, { 0, 0, 3 }, { 3, 0.1, 0 } }, scales = { 0.6 },
+    at = { { 3, 0, 0 }, { 0, 3, 0 }, { 0, 0, 3 }, { 3, 0.1, 0 } }, scales = { 0.5 },
 }
 assert(mesh:is_closed() and #report.refused == 1 and report.refused[1].place == 4))"}};
 }

@@ -12,16 +12,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_below(const fs::path& real, const fs::path& folder) {
+// The path from the root on, with links followed as far as it is there; empty where it fails.
+fs::path real_path(const fs::path& path) {
     std::error_code failed;
-    const fs::path place = real.lexically_relative(fs::weakly_canonical(folder, failed));
-    return !failed && !place.empty() && *place.begin() != "..";
+    const fs::path whole = path.empty() ? fs::path() : fs::absolute(path, failed);
+    if (failed || whole.empty()) return {};
+    const fs::path real = fs::weakly_canonical(whole, failed);
+    return failed ? fs::path() : real;
+}
+
+bool is_below(const fs::path& real, const fs::path& folder) {
+    const fs::path place = real.lexically_relative(real_path(folder));
+    return !place.empty() && *place.begin() != "..";
 }
 
 bool is_below_any(const fs::path& path, const std::vector<fs::path>& folders) {
-    std::error_code failed;
-    const fs::path real = fs::weakly_canonical(path, failed);
-    if (failed) return false;
+    const fs::path real = real_path(path);
+    if (real.empty()) return false;
     for (const fs::path& folder : folders) {
         if (is_below(real, folder)) return true;
     }

@@ -185,9 +185,11 @@ bool Matcher::at_frontier(std::size_t s, std::size_t set) const {
 // Behind the text of an earlier capture, where it stands at `s` again.
 std::size_t Matcher::repeated(std::size_t s, char digit) const {
     const int i = digit - '1';
-    if (i < 0 || i >= count_ || captures_[i].length >= Capture::kPosition) {
+    if (i < 0 || i >= count_ || captures_[i].length == Capture::kOpen) {
         throw PatternError("invalid capture index %" + std::to_string(i + 1));
     }
+    // A position is no text, which stands nowhere.
+    if (captures_[i].length == Capture::kPosition) return kNone;
     const std::string_view part = text_.substr(captures_[i].begin, captures_[i].length);
     return text_.substr(s).starts_with(part) ? s + part.size() : kNone;
 }

@@ -60,12 +60,12 @@ struct Sandbox::Parts {
     HostOptions options;
     std::function<void(std::string_view)> print;
     FolderRights rights;
-    Stop stop;
+    Stop stop = {};
     std::atomic<SandboxEnd> end = SandboxEnd::none;
     std::int64_t instructions = 0;
     lua_State* L = nullptr;
     // Before the state has an account, what Lua takes is only counted.
-    std::shared_ptr<MemoryAccount> account;
+    std::shared_ptr<MemoryAccount> account = {};
     std::size_t early_bytes = 0;
 
     void ask(SandboxEnd why) {
@@ -241,8 +241,8 @@ Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
                  std::function<void(std::string_view)> print) {
     require_limits(limits);
     FolderRights rights(limits.read_folders, limits.write_folders, limits.output_bytes);
-    parts_ = std::make_unique<Parts>(std::move(limits), std::move(options), std::move(print),
-                                     std::move(rights));
+    parts_.reset(
+        new Parts{std::move(limits), std::move(options), std::move(print), std::move(rights)});
     Parts& parts = *parts_;
     parts.options.context.memory_limit = parts.limits.memory_bytes;
     parts.options.check_file = [&parts](const std::filesystem::path& path, FileUse use) {

@@ -22,7 +22,8 @@ struct SandboxLimits {
     double seconds = 10.0;
     /// Of Lua's virtual machine, counted in hundreds; 0: any number.
     std::int64_t instructions = 0;
-    /// Lua's and the kernel's together; 0: as much as there is.
+    /// What Lua takes and what the kernel charges to its context, together; meshes and strands are
+    /// not among it yet. 0: as much as there is.
     std::size_t memory_bytes = std::size_t{256} << 20;
     /// What is printed, and the files that are written. A file is counted when it is there, so that
     /// the last one may go beyond; 0: any number.

@@ -37,7 +37,7 @@ Mat3 rotation_by_svd(const Mat3& m) {
 // The symmetric matrix whose top eigenvector is the quaternion (w, x, y, z) of the nearest
 // rotation.
 template <typename T>
-LISSOM_INLINE void fill_quaternion_matrix(const Matrix<T>& m, T (&k)[4][4]) {
+LISSOM_INLINE void fill_quaternion_matrix(const LaneMatrix<T>& m, T (&k)[4][4]) {
     const T &xx = m.e[0], &yy = m.e[4], &zz = m.e[8];
     k[0][0] = xx + yy + zz;
     k[1][1] = xx - yy - zz;
@@ -119,7 +119,7 @@ LISSOM_INLINE void find_null_vector(const T (&k)[4][4], T (&best)[4], T& best_no
 // One Newton step on the rotation: (tr S I - S) w = axial(S) for S = guess^T m, which is symmetric
 // at the optimum. Gives the step as a quaternion, and the determinant on the left.
 template <typename T>
-LISSOM_INLINE void find_newton_step(const Matrix<T>& s, T (&step)[4], T& determinant) {
+LISSOM_INLINE void find_newton_step(const LaneMatrix<T>& s, T (&step)[4], T& determinant) {
     const T x = s.e[5] - s.e[7], y = s.e[6] - s.e[2], z = s.e[1] - s.e[3];
     const T a = s.e[4] + s.e[8], b = s.e[0] + s.e[8], c = s.e[0] + s.e[4];
     const T d = -0.5 * (s.e[1] + s.e[3]), e = -0.5 * (s.e[2] + s.e[6]),
@@ -138,7 +138,7 @@ LISSOM_INLINE void find_newton_step(const Matrix<T>& s, T (&step)[4], T& determi
 // step.
 template <typename T>
 struct PolarParts {
-    Matrix<T> guess;
+    LaneMatrix<T> guess;
     T quaternion[4], step[4];
     // Above zero for each that is not to be trusted.
     T doubt;
@@ -146,7 +146,7 @@ struct PolarParts {
 
 template <typename T>
 LISSOM_INLINE void find_parts(const Mat3* m, PolarParts<T>& parts) {
-    Matrix<T> unit, s;
+    LaneMatrix<T> unit, s;
     T norm = T{};
     for (int i = 0; i < 9; ++i) {
         load(m, i, unit.e[i]);
@@ -178,7 +178,7 @@ LISSOM_INLINE void find_parts(const Mat3* m, PolarParts<T>& parts) {
 
 template <typename T>
 LISSOM_INLINE void store_nearest(const PolarParts<T>& parts, Mat3* r) {
-    Matrix<T> turn, result;
+    LaneMatrix<T> turn, result;
     fill_rotation(parts.step, turn);
     multiply(parts.guess, turn, result);
     for (int i = 0; i < 9; ++i) store(result.e[i], r, i);

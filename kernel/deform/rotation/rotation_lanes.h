@@ -52,12 +52,13 @@ LISSOM_INLINE void store(const Lanes<double>& x, Values* to, int entry) {
 
 /// 3 x 3, column-major.
 template <typename T>
-struct Matrix {
+struct LaneMatrix {
     T e[9] = {};
 };
 
 template <typename T>
-LISSOM_INLINE void multiply(const Matrix<T>& a, const Matrix<T>& b, Matrix<T>& product) {
+LISSOM_INLINE void multiply(const LaneMatrix<T>& a, const LaneMatrix<T>& b,
+                            LaneMatrix<T>& product) {
     for (int c = 0; c < 3; ++c) {
         for (int r = 0; r < 3; ++r) {
             product.e[3 * c + r] =
@@ -67,7 +68,8 @@ LISSOM_INLINE void multiply(const Matrix<T>& a, const Matrix<T>& b, Matrix<T>& p
 }
 
 template <typename T>
-LISSOM_INLINE void multiply_transposed(const Matrix<T>& a, const Matrix<T>& b, Matrix<T>& product) {
+LISSOM_INLINE void multiply_transposed(const LaneMatrix<T>& a, const LaneMatrix<T>& b,
+                                       LaneMatrix<T>& product) {
     for (int c = 0; c < 3; ++c) {
         for (int r = 0; r < 3; ++r) {
             product.e[3 * c + r] = a.e[3 * r] * b.e[3 * c] + a.e[3 * r + 1] * b.e[3 * c + 1] +
@@ -84,7 +86,7 @@ LISSOM_INLINE void take_squared_norm(const T (&q)[4], T& sum) {
 
 /// The rotation of a quaternion that need not have unit length.
 template <typename T>
-LISSOM_INLINE void fill_rotation(const T (&q)[4], Matrix<T>& r) {
+LISSOM_INLINE void fill_rotation(const T (&q)[4], LaneMatrix<T>& r) {
     T norm;
     take_squared_norm(q, norm);
     const T two = 2.0 / norm;

@@ -122,7 +122,7 @@ LISSOM_INLINE void spread(const Vec4& from, T (&q)[4]) {
 
 template <typename T>
 LISSOM_INLINE void store_matrix(const T (&q)[4], Mat3* r) {
-    Matrix<T> m;
+    LaneMatrix<T> m;
     fill_rotation(q, m);
     for (int i = 0; i < 9; ++i) store(m.e[i], r, i);
 }
@@ -165,7 +165,7 @@ struct FurtherStep {
         spread(back, away);
         compose(whole, away, relative);
         take_part<true>(relative, part, further);
-        Matrix<T> turn, before, after;
+        LaneMatrix<T> turn, before, after;
         fill_rotation(further, turn);
         for (int e = 0; e < 9; ++e) load(m + i, e, before.e[e]);
         multiply(turn, before, after);

@@ -12,6 +12,7 @@
 #include "kernel/merge/paste/paste_map.h"
 #include "kernel/merge/paste/paste_regions.h"
 #include "kernel/mesh/derive.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/parameterize/uv_grid.h"
 
 namespace lissom {

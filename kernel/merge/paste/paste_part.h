@@ -16,6 +16,7 @@
 #include "kernel/merge/paste/opened_target.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/merge/paste/paste_energy.h"
+#include "kernel/merge/paste/paste_map.h"
 #include "kernel/merge/paste/paste_regions.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"

@@ -13,6 +13,7 @@
 #include "kernel/merge/paste/paste.h"
 #include "kernel/merge/paste/paste_energy.h"
 #include "kernel/merge/paste/paste_map.h"
+#include "kernel/merge/paste/paste_options.h"
 #include "kernel/merge/paste/paste_regions.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"

@@ -46,6 +46,14 @@ TEST_CASE("sandbox: files are allowed below the folders, and nowhere else") {
     CHECK_FALSE(allows(none, in / "a.obj", FileUse::read));
 }
 
+TEST_CASE("sandbox: relative paths are those of the working folder") {
+    FolderRights here({"."}, {"."}, 0);
+    CHECK(allows(here, "new.obj", FileUse::write));
+    CHECK(allows(here, "./deep/new.obj", FileUse::read));
+    CHECK(allows(here, fs::current_path() / "new.obj", FileUse::write));
+    CHECK_FALSE(allows(here, "../new.obj", FileUse::write));
+}
+
 TEST_CASE("sandbox: links lead nowhere that the folders do not") {
     const test::TemporaryFolder folder;
     const fs::path in = folder / "in", secret = folder / "secret";

@@ -152,7 +152,7 @@ std::vector<HostileScript> memory() {
         {"rep with a separator", "return ('x'):rep(1e9, 'y')", error, "memory"},
         {"doubling", "local s = 'x' while true do s = s .. s end", error, enough},
         {"table", "local t = {} for i = 1, 1e9 do t[i] = i end", error, enough},
-        {"table by keys", "local t = {} for i = 1, 1e9 do t['k' .. i] = i end", error, enough},
+        {"table by keys", "local t = {} for i = 1, 1e9 do t['k' .. i] = i end", any},
         {"nested tables", "local t = {} while true do t = { t, t } end", any},
         {"closures", "local t = {} while true do t[#t + 1] = function() return t end end", error,
          enough},
@@ -170,15 +170,15 @@ std::vector<HostileScript> memory() {
          "local t = {} while true do pcall(function() while true do t[#t + 1] = ('x'):rep(1e5) .. "
          "#t end end) end",
          time},
-        {"stack", "local function f() return 1 + f() end return f()", error, "overflow"},
+        {"stack", "local function f() return 1 + f() end return f()", error},
         {"stack by pcall", "local function f() return pcall(f) end return f()", any},
         {"stack by metamethods",
          "local t = {} setmetatable(t, { __index = function(_, k) return t[k] end }) return t.x",
-         error, "overflow"},
+         error},
         {"stack by tostring",
          "local t = {} setmetatable(t, { __tostring = function() return tostring(t) end }) "
          "return tostring(t)",
-         error, "overflow"},
+         error},
         {"long argument list", "return select('#', table.unpack({}, 1, 1e7))", error, "unpack"},
         {"longer argument list", "return table.unpack({}, 1, math.maxinteger)", error,
          "too many elements"},
@@ -196,14 +196,6 @@ std::vector<HostileScript> memory() {
          "too many elements"},
         {"deeply nested source", "return load(('('):rep(1e5))", any},
         {"long source", "return load(('x = 1 '):rep(1e6))", any},
-        {"mesh larger than all memory",
-         "local lissom = require 'lissom' "
-         "return assert(lissom.shapes.plane{ segments = { 100000, 100000 } })",
-         error},
-        {"many meshes",
-         "local lissom = require 'lissom' local t = {} "
-         "while true do t[#t + 1] = assert(lissom.shapes.sphere{ segments = 100 }) end",
-         error},
         {"number of many digits", "return tonumber(('9'):rep(1e7))", any},
         {"pack", "return string.pack('s8', ('x'):rep(1e8))", error, enough},
     };

@@ -91,7 +91,7 @@ TEST_CASE("patterns: the same as by Lua's own library") {
     Sandbox sandbox({}, {});
     Words words(7);
     int matched = 0;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 4'000; ++i) {
         const std::string text = words.text(), pattern = words.pattern(),
                           replacement = words.replacement();
         CAPTURE(text);
@@ -101,7 +101,7 @@ TEST_CASE("patterns: the same as by Lua's own library") {
         CHECK(without_messages(told(sandbox.lua(), text, pattern, replacement)) == expected);
         matched += expected.find("true 1") != std::string::npos;
     }
-    CHECK(matched > 3000);
+    CHECK(matched > 600);
     lua_close(own);
 }
 
