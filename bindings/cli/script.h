@@ -35,8 +35,8 @@ struct ScriptResult {
 
 class Script {
   public:
-    /// `arguments.script` is empty for a state that runs no script. With limits it runs in a sandbox,
-    /// whose modules are those beside the script and those that ship with the program.
+    /// `arguments.script` is empty for a state that runs no script. With limits it runs in a
+    /// sandbox, whose modules are those beside the script and those that ship with the program.
     Script(Program& program, lua::ScriptArguments arguments,
            const std::optional<lua::SandboxLimits>& limits = {});
     ~Script();
