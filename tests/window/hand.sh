@@ -85,8 +85,10 @@ close_view() { # STATUS
     if grep -q "^driver " told; then fail "the driver complains"; fi
 }
 
-drag() { # X Y DX DY : in ten moves
-    xdotool mousemove --window "$window" "$1" "$2" mousedown 1
+drag() { # X Y DX DY : in ten moves, from where the hand has come to before it presses
+    xdotool mousemove --window "$window" "$1" "$2"
+    sleep 0.1
+    xdotool mousedown 1
     for _ in $(seq 10); do
         xdotool mousemove_relative -- "$3" "$4"
         sleep 0.02
