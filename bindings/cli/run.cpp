@@ -1,6 +1,7 @@
 // lissom run FILE [--name value ...]
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <iterator>
 #include <optional>
@@ -141,12 +142,21 @@ int run_file(Program& program, const lua::ScriptArguments& arguments,
     return ended_well ? kSuccess : report(program, result);
 }
 
+// What is wrong with a limit, or "".
+std::string not_below_zero(std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool is_limit = end != text.c_str() && *end == '\0' && value >= 0.0 && value <= 1e12;
+    return is_limit ? "" : text + " is no limit: give a number from 0 (no limit) to 1e12";
+}
+
 // The sandbox that the command line asks for.
 class SandboxFlags {
   public:
     explicit SandboxFlags(CLI::App& app) {
         const auto add = [&](const char* name, auto& value, const std::string& help) {
-            return app.add_option(name, value, help)->check(CLI::NonNegativeNumber);
+            return app.add_option(name, value, help)
+                ->check(CLI::Validator(not_below_zero, "NUMBER"));
         };
         app.add_flag("--sandbox", asked_,
                      "For a script that nobody vouches for: no system, no files but those allowed "
