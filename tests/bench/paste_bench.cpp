@@ -188,7 +188,8 @@ void run_move(Report& report, double ring_vertices) {
     int step = 0;
     const auto move = [&] {
         PastePlacement place = kPlace;
-        place.at += 0.02 * Vec3(std::cos(++step), std::sin(step), 0.0);
+        ++step;
+        place.at += 0.02 * Vec3(std::cos(step), std::sin(step), 0.0);
         paste.move(place);
     };
     PasteMergeOptions quick;
