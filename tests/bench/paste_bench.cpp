@@ -1,6 +1,8 @@
 /// Speed of pasting and of what it stands on: the search for a boundary beside the thesis's minute,
 /// a part that follows the mouse, maps of disks and rings into the plane beside CGAL's, points
 /// found there, and holes closed with the least area.
+///
+///     bench_paste [--part=search|move|maps|holes] [--json]
 
 #include <algorithm>
 #include <cmath>
@@ -186,24 +188,29 @@ void run_move(Report& report, double ring_vertices) {
                 std::nullopt, kPlace);
     paste.optimize();
     int step = 0;
-    const auto move = [&] {
+    const auto next = [&] {
         PastePlacement place = kPlace;
         ++step;
         place.at += 0.02 * Vec3(std::cos(step), std::sin(step), 0.0);
-        paste.move(place);
+        return place;
     };
     PasteMergeOptions quick;
     quick.find_intersections = quick.compare = false;
-    report.add({"placed and optimised: " + name, 1e3 * median_seconds(11, move), "ms"});
-    report.add(
-        {"pasted: " + name, 1e3 * median_seconds(11, [&] { (void)paste.merge(quick); }), "ms"});
-    report.add({"both: " + name,
-                1e3 * median_seconds(11,
-                                     [&] {
-                                         move();
-                                         (void)paste.merge(quick);
-                                     }),
-                "ms"});
+    const auto row = [&](const std::string& what, const auto& run) {
+        report.add({what + ": " + name, 1e3 * median_seconds(11, run), "ms"});
+    };
+    const auto paste_it = [&] { (void)paste.merge(quick); };
+    row("placed and optimised", [&] { paste.move(next()); });
+    row("pasted", paste_it);
+    row("both", [&] {
+        paste.move(next());
+        paste_it();
+    });
+    row("placed, with the loop it had", [&] { paste.slide(next()); });
+    row("that and pasted", [&] {
+        paste.slide(next());
+        paste_it();
+    });
 }
 
 }  // namespace
@@ -212,16 +219,28 @@ void run_move(Report& report, double ring_vertices) {
 int main(int argc, char** argv) {
     using namespace lissom::bench;
     Report report(argc, argv);
-    for (const double vertices : {1e3, 1e4, 4.1e4}) run_search(report, vertices);
-    run_move(report, 1e3);
-    for (const double vertices : {1e3, 1e4, 5e4}) {
-        const lissom::Mesh disk = hills(vertices);
-        run_maps(report, "a disk", disk, vertices > 1e4 ? 5 : 15);
-        run_rival(report, disk, vertices > 1e4 ? 5 : 15);
-        run_maps(report, "a ring", ring(vertices), vertices > 1e4 ? 5 : 15);
+    const auto wanted = [&](const std::string& part) {
+        const std::string option = "--part=" + part;
+        return std::none_of(argv, argv + argc,
+                            [](const char* a) { return std::string(a).starts_with("--part="); }) ||
+               std::find(argv, argv + argc, option) != argv + argc;
+    };
+    if (wanted("search")) {
+        for (const double vertices : {1e3, 1e4, 4.1e4}) run_search(report, vertices);
     }
-    run_grid(report, ring(1e4));
-    report.title("holes");
-    for (const lissom::Index points : {100, 300, 500, 2000}) run_fill(report, points);
+    if (wanted("move")) run_move(report, 1e3);
+    if (wanted("maps")) {
+        for (const double vertices : {1e3, 1e4, 5e4}) {
+            const lissom::Mesh disk = hills(vertices);
+            run_maps(report, "a disk", disk, vertices > 1e4 ? 5 : 15);
+            run_rival(report, disk, vertices > 1e4 ? 5 : 15);
+            run_maps(report, "a ring", ring(vertices), vertices > 1e4 ? 5 : 15);
+        }
+        run_grid(report, ring(1e4));
+    }
+    if (wanted("holes")) {
+        report.title("holes");
+        for (const lissom::Index points : {100, 300, 500, 2000}) run_fill(report, points);
+    }
     return 0;
 }

@@ -12,6 +12,9 @@ namespace lissom {
 namespace {
 
 constexpr int kBandRings = 4;
+// Loops are sought that cost less than this many times the one that is known: that one is found
+// again, with other rounding.
+constexpr double kKnownLimit = 1.0 + 1e-9;
 // Points of a smoothed loop, over the mean edge of the band.
 constexpr double kSampling = 0.8;
 // Of the filter 2 X - (I + a L)^-1 X, which takes teeth away and hardly shrinks.
@@ -63,6 +66,7 @@ class BandGraph {
         find_band(loop);
         add_points();
         for (const Triangle& t : band_) add_ways(t);
+        first_side_way_ = ways_.size();
         for (const auto& [a, b] : sides_) {
             const Index middle = middle_of(a, b);
             add_way(node_[at(a)], middle);
@@ -88,8 +92,10 @@ class BandGraph {
         return sum / static_cast<double>(sides_.size());
     }
 
-    // Every loop around the ring crosses the ray that the winding is counted by.
-    std::vector<Index> cheapest(std::span<const double> cost, const Context& context) const {
+    /// The cheapest loop, `known` being one of edges. Every loop around the ring crosses the ray
+    /// that the winding is counted by.
+    std::vector<Index> cheapest(std::span<const double> cost, std::span<const Index> known,
+                                const Context& context) const {
         std::vector<Index> starts;
         for (const WindingEdge& way : ways_) {
             if (way.turns != 0) starts.push_back(way.turns > 0 ? way.a : way.b);
@@ -99,8 +105,14 @@ class BandGraph {
         const WindingGraph graph(count_of(points_), ways_);
         WindingSearch search(graph, cost);
         WindingLoop best;
+        best.cost = kKnownLimit * cost_of(known, cost);
+        search.bound(starts, best.cost);
+        std::stable_sort(starts.begin(), starts.end(), [&](Index a, Index b) {
+            return search.least_through(a) < search.least_through(b);
+        });
         for (const Index start : starts) {
             context.checkpoint();
+            if (!(search.least_through(start) < best.cost)) break;
             WindingLoop loop = search.through(start, {}, best.cost);
             if (!loop.vertices.empty()) best = std::move(loop);
         }
@@ -108,6 +120,18 @@ class BandGraph {
     }
 
   private:
+    double cost_of(std::span<const Index> loop, std::span<const double> cost) const {
+        const PasteChart& chart = surface_.map().source();
+        double sum = 0.0;
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const Index middle =
+                middle_of(chart.place_of(loop[k]), chart.place_of(loop[(k + 1) % loop.size()]));
+            const std::size_t way = first_side_way_ + 2 * at(middle - first_middle_);
+            sum += cost[way] + cost[way + 1];
+        }
+        return sum;
+    }
+
     void find_band(std::span<const Index> loop) {
         const PasteChart& chart = surface_.map().source();
         std::vector<int> ring(chart.map.vertex.size(), kBandRings + 1);
@@ -179,6 +203,8 @@ class BandGraph {
     std::vector<std::pair<Index, Index>> sides_;
     Index first_middle_ = 0;
     std::vector<WindingEdge> ways_;
+    // Two ways along each of `sides_` in turn.
+    std::size_t first_side_way_ = 0;
 };
 
 std::vector<Vec2> places_of(std::span<const RingPoint> points) {
@@ -342,7 +368,7 @@ std::optional<FreeLoop> free_loop(const RingSurface& surface, const PasteLoop& f
     PasteEnergy energy(graph.edges(), options);
     energy.fix_weights(from.first_scale);
     std::vector<Vec2> line;
-    for (const Index v : graph.cheapest(energy.costs(from.similarity), context)) {
+    for (const Index v : graph.cheapest(energy.costs(from.similarity), from.vertices, context)) {
         line.push_back(graph.points()[at(v)].uv);
     }
     if (line.size() < 3) return std::nullopt;
@@ -356,6 +382,14 @@ std::optional<FreeLoop> free_loop(const RingSurface& surface, const PasteLoop& f
         if (loop.energy <= from.energy) return loop;
     }
     return std::nullopt;
+}
+
+std::optional<FreeLoop> carried_loop(const RingSurface& surface, const FreeLoop& line,
+                                     const PasteLoop& from, const EnergyOptions& options) {
+    const std::vector<Vec2> places = places_of(line.points);
+    std::optional<std::vector<RingPoint>> points = clamped(surface, places, places);
+    if (!points || !is_simple(*points)) return std::nullopt;
+    return judged(std::move(*points), from, options);
 }
 
 }  // namespace lissom

@@ -76,4 +76,8 @@ struct FreeLoop {
 std::optional<FreeLoop> free_loop(const RingSurface& surface, const PasteLoop& from,
                                   const EnergyOptions& options, const Context& context);
 
+/// A line where it comes to lie on another surface. Nothing where it leaves that or crosses itself.
+std::optional<FreeLoop> carried_loop(const RingSurface& surface, const FreeLoop& line,
+                                     const PasteLoop& from, const EnergyOptions& options);
+
 }  // namespace lissom

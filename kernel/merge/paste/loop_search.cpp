@@ -182,10 +182,17 @@ class RingDivision {
         }
     }
 
-    std::vector<Index> cheapest() {
+    std::vector<Index> cheapest(std::span<const Index> known) {
         std::vector<Index> faces(inside_.size()), candidates(ring_.cut_.size());
         std::iota(faces.begin(), faces.end(), 0);
         std::iota(candidates.begin(), candidates.end(), 0);
+        for (const Index v : known) best_.push_back(ring_.local(v));
+        if (known.empty()) {
+            find_first(candidates);
+        } else {
+            least_ = cost_of(best_);
+        }
+        search_.bound(ring_.cut_, least_);
         divide(faces, {}, std::move(candidates));
         for (Index& v : best_) v = ring_.vertices_[at(v)];
         return std::move(best_);
@@ -195,6 +202,11 @@ class RingDivision {
     struct Halves {
         /// Faces, and the edges of the loop between them.
         std::vector<Index> outer, inner, rim;
+    };
+    struct Parts {
+        Halves halves;
+        /// Places in the cut that are left to seek through in either half.
+        std::vector<Index> before, behind;
     };
 
     // The edges of faces may be used and those of `rim`, and no others: where the loops around a
@@ -213,30 +225,26 @@ class RingDivision {
                                   ring_.vertices_[at(loop[(k + 1) % loop.size()])]);
     }
 
-    void keep(const std::vector<Index>& loop) {
+    double cost_of(const std::vector<Index>& loop) const {
         double sum = 0.0;
         for (std::size_t k = 0; k < loop.size(); ++k) sum += cost_[at(edge_of(loop, k))];
-        if (!(sum < least_)) return;
-        least_ = sum;
-        best_ = loop;
+        return sum;
     }
 
-    // Seeks through vertices of the cut, given by their places in it, ascending.
-    void divide(const std::vector<Index>& faces, const std::vector<Index>& rim,
-                std::vector<Index> candidates) {
-        while (!candidates.empty()) {
-            context_.checkpoint();
-            use(faces, rim, 1);
-            const std::size_t middle = candidates.size() / 2;
-            const Index place = candidates[middle];
-            const bool last = candidates.size() == 1;
-            const WindingLoop loop =
-                search_.through(ring_.cut_[at(place)], usable_, last ? least_ : kNoLoop);
-            use(faces, rim, 0);
+    void keep(std::vector<Index> loop) {
+        const double cost = cost_of(loop);
+        if (!(cost < least_)) return;
+        least_ = cost;
+        best_ = std::move(loop);
+    }
+
+    // Any loop, whose cost is a limit for all others. Candidates without one go.
+    void find_first(std::vector<Index>& candidates) {
+        while (!candidates.empty() && best_.empty()) {
+            const Index place = candidates[candidates.size() / 2];
+            WindingLoop loop = search_.through(ring_.cut_[at(place)]);
             if (!loop.vertices.empty()) {
-                keep(loop.vertices);
-                candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(middle));
-                if (!last) divide_at(loop.vertices, place, faces, candidates);
+                keep(std::move(loop.vertices));
                 return;
             }
             // What this vertex is connected with has no loop either.
@@ -244,11 +252,43 @@ class RingDivision {
         }
     }
 
+    double least_through(Index place) const { return search_.least_through(ring_.cut_[at(place)]); }
+
+    // Seeks through vertices of the cut, given by their places in it, ascending. Only a loop that
+    // is cheaper than all before is found, and divides what is left.
+    void divide(const std::vector<Index>& faces, const std::vector<Index>& rim,
+                std::vector<Index> candidates) {
+        use(faces, rim, 1);
+        WindingLoop loop;
+        Index place = kNoIndex;
+        while (loop.vertices.empty()) {
+            context_.checkpoint();
+            std::erase_if(candidates, [&](Index c) { return !(least_through(c) < least_); });
+            const auto next = std::min_element(
+                candidates.begin(), candidates.end(),
+                [&](Index a, Index b) { return least_through(a) < least_through(b); });
+            if (next == candidates.end()) break;
+            place = *next;
+            candidates.erase(next);
+            loop = search_.through(ring_.cut_[at(place)], usable_, least_);
+        }
+        use(faces, rim, 0);
+        if (loop.vertices.empty()) return;
+        if (!candidates.empty()) {
+            const Parts parts = parted(loop.vertices, place, faces, candidates);
+            keep(std::move(loop.vertices));
+            divide(parts.halves.outer, parts.halves.rim, parts.before);
+            divide(parts.halves.inner, parts.halves.rim, parts.behind);
+        } else {
+            keep(std::move(loop.vertices));
+        }
+    }
+
     // A cheaper loop touches neither `loop` from across nor the way to it from vertex `place` of
     // the cut, which it was found through. So it meets the cut before the first place on that way
     // or on the loop, or behind the last.
-    void divide_at(const std::vector<Index>& loop, Index place, const std::vector<Index>& faces,
-                   const std::vector<Index>& candidates) {
+    Parts parted(const std::vector<Index>& loop, Index place, const std::vector<Index>& faces,
+                 const std::vector<Index>& candidates) {
         Index first = kNoIndex, last = kNoIndex;
         for (const Index v : loop) {
             const Index here = place_in_cut_[at(v)];
@@ -256,17 +296,16 @@ class RingDivision {
             first = first == kNoIndex ? here : std::min(first, here);
             last = std::max(last, here);
         }
-        const Halves halves = divided(loop, faces);
-        const bool inward = holds(halves.inner, place), outward = holds(halves.outer, place);
+        Parts parts{divided(loop, faces), {}, {}};
+        const bool inward = holds(parts.halves.inner, place);
+        const bool outward = holds(parts.halves.outer, place);
         if (inward && !outward) last = std::max(last, place);
         if (outward && !inward) first = std::min(first, place);
-        std::vector<Index> before, behind;
         for (const Index c : candidates) {
-            if (c <= first) before.push_back(c);
-            if (c >= last) behind.push_back(c);
+            if (c <= first) parts.before.push_back(c);
+            if (c >= last) parts.behind.push_back(c);
         }
-        if (!before.empty()) divide(halves.outer, halves.rim, std::move(before));
-        if (!behind.empty()) divide(halves.inner, halves.rim, std::move(behind));
+        return parts;
     }
 
     bool holds(const std::vector<Index>& faces, Index place) const {
@@ -324,9 +363,9 @@ class RingDivision {
     std::vector<Index> best_;
 };
 
-std::vector<Index> LoopSearch::cheapest(std::span<const double> cost,
+std::vector<Index> LoopSearch::cheapest(std::span<const double> cost, std::span<const Index> known,
                                         const Context& context) const {
-    return RingDivision(*this, cost, context).cheapest();
+    return RingDivision(*this, cost, context).cheapest(known);
 }
 
 }  // namespace lissom

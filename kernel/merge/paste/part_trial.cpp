@@ -22,22 +22,30 @@ void PartTrials::move(PartTrial& trial, const Context& context) const {
     const double crease = options.thesis ? 0.0 : options.crease;
     const std::vector<BoundaryValue> values =
         paste_values(trial.rim, trial.similarity, trial.scale, crease);
-    trial.moved = moved_part(trial.part, values, paste_deformation(options.thesis), context);
-    trial.near = near_distortion(trial.part, trial.moved.mesh, trial.scale);
+    trial.moved = trial.moving->moved(values, context);
+    trial.near = near_distortion(trial.part(), trial.moved.mesh, trial.scale);
 }
 
-PartTrial PartTrials::trial_of(PastePart part, const PasteSimilarity& similarity,
+PartTrial PartTrials::trial_of(std::shared_ptr<MovingPart> part, const PasteSimilarity& similarity,
                                const Context& context) const {
     PartTrial trial{std::move(part), {}, similarity, 1.0, false, false, {}, {}};
     trial.scale = lock_scale ? placed.placement.scale : similarity.scale;
-    trial.rim = rim_of(trial.part, surface);
+    trial.rim = rim_of(trial.part(), surface);
     move(trial, context);
     return trial;
 }
 
-PartTrial PartTrials::along_loop(const Context& context) const {
+std::shared_ptr<MovingPart> PartTrials::inside(MovingParts::Boundary kind,
+                                               std::span<const Index> loop,
+                                               const Context& context) const {
     const Mesh& source = surface.map().source_mesh();
-    return trial_of(part_inside(source, regions, placed.loop.vertices, context),
+    return parts.inside(
+        kind, loop, [&] { return part_inside(source, regions, loop, context); },
+        paste_deformation(options.thesis), context);
+}
+
+PartTrial PartTrials::along_loop(const Context& context) const {
+    return trial_of(inside(MovingParts::Boundary::loop, placed.loop.vertices, context),
                     placed.loop.similarity, context);
 }
 
@@ -46,9 +54,13 @@ std::optional<PartTrial> PartTrials::along_line(const Context& context) const {
     std::vector<Vec2> line;
     for (const RingPoint& point : placed.line->points) line.push_back(point.uv);
     try {
-        PartTrial trial = trial_of(part_inside(surface.map().source_mesh(), regions,
-                                               surface.map().source(), line, context),
-                                   placed.line->similarity, context);
+        const auto make = [&] {
+            return part_inside(surface.map().source_mesh(), regions, surface.map().source(), line,
+                               context);
+        };
+        PartTrial trial =
+            trial_of(parts.inside(line, make, paste_deformation(options.thesis), context),
+                     placed.line->similarity, context);
         trial.smooth = true;
         return trial;
     } catch (const Error& error) {
@@ -61,9 +73,8 @@ PartTrial PartTrials::along_outline(const Context& context) const {
     PasteEnergy energy(ring_edges(surface.map(), ring, surface.images()), energy_for(options, 1));
     const std::vector<Index> edges = energy.edges_of(ring, regions.outer);
     const PasteSimilarity start = energy.start(edges);
-    PartTrial trial =
-        trial_of(part_inside(surface.map().source_mesh(), regions, regions.outer, context),
-                 energy.improved(edges, start), context);
+    PartTrial trial = trial_of(inside(MovingParts::Boundary::outline, regions.outer, context),
+                               energy.improved(edges, start), context);
     trial.outline = true;
     return trial;
 }

@@ -1,12 +1,16 @@
 /// Parts inside boundaries of one placement, deformed for comparison; private to kernel/merge.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/merge/paste/free_loop.h"
 #include "kernel/merge/paste/loop_search.h"
+#include "kernel/merge/paste/moving_part.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/merge/paste/paste_energy.h"
 #include "kernel/merge/paste/paste_part.h"
@@ -17,7 +21,7 @@ namespace lissom {
 
 /// The part inside one boundary, deformed.
 struct PartTrial {
-    PastePart part;
+    std::shared_ptr<MovingPart> moving;
     std::vector<RingPoint> rim;
     PasteSimilarity similarity;
     double scale = 1.0;
@@ -25,6 +29,8 @@ struct PartTrial {
     bool smooth = false, outline = false;
     MovedPart moved;
     PasteDistortion near;
+
+    const PastePart& part() const { return moving->part(); }
 };
 
 struct PartTrials {
@@ -34,6 +40,7 @@ struct PartTrials {
     const LoopSearch& ring;
     /// Its images are those of `surface`, but for the outline's.
     const PlacedFeature& placed;
+    MovingParts& parts;
     /// The size that the placement asks for, in place of the boundary's.
     bool lock_scale = false;
 
@@ -46,8 +53,10 @@ struct PartTrials {
     PartTrial along_outline(const Context& context) const;
 
   private:
-    PartTrial trial_of(PastePart part, const PasteSimilarity& similarity,
+    PartTrial trial_of(std::shared_ptr<MovingPart> part, const PasteSimilarity& similarity,
                        const Context& context) const;
+    std::shared_ptr<MovingPart> inside(MovingParts::Boundary kind, std::span<const Index> loop,
+                                       const Context& context) const;
 };
 
 }  // namespace lissom

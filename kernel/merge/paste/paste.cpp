@@ -122,7 +122,7 @@ std::vector<ImagePoint> Paste::State::images_of(const PasteMap& on, const PasteP
 
 PlacedFeature Paste::State::place(const PasteMap& on, const PastePlacement& placement,
                                   std::span<const Index> start, const PasteEffort& effort,
-                                  const Context& context) const {
+                                  const Context& context) {
     PlacedFeature place;
     place.placement = placement;
     place.angle = placement.angle.value_or(0.0);
@@ -135,6 +135,11 @@ PlacedFeature Paste::State::place(const PasteMap& on, const PastePlacement& plac
     if (closer && effort.closest) draw_closer(on, place, context);
     const bool smooth = options.loop == PasteBoundary::smooth && !options.thesis;
     if (smooth && effort.iterations > 0) free_boundary(on, place, context);
+    const bool stays = std::equal(place.loop.vertices.begin(), place.loop.vertices.end(),
+                                  start.begin(), start.end());
+    if (smooth && effort.iterations == 0 && effort.line && stays) {
+        keep_line(on, place, *effort.line);
+    }
     return place;
 }
 
@@ -142,6 +147,17 @@ void Paste::State::free_boundary(const PasteMap& on, PlacedFeature& place,
                                  const Context& context) const {
     const RingSurface surface(on, *triangles, place.images);
     place.line = free_loop(surface, place.loop, energy_for(options, 1), context);
+    note_line(place);
+}
+
+// The line that another placement had, where it lies on the target here.
+void Paste::State::keep_line(const PasteMap& on, PlacedFeature& place, const FreeLoop& line) const {
+    const RingSurface surface(on, *triangles, place.images);
+    place.line = carried_loop(surface, line, place.loop, energy_for(options, 1));
+    note_line(place);
+}
+
+void Paste::State::note_line(PlacedFeature& place) const {
     if (!place.line) return;
     place.loop.report.smooth_energy = place.line->energy;
     place.loop.report.smooth_misfit = place.line->misfit;
@@ -190,14 +206,14 @@ bool Paste::State::draw_once(const PasteMap& on, PlacedFeature& place,
 }
 
 double Paste::State::energy_near(const PasteMap& on, const PlacedFeature& place,
-                                 const Context& context) const {
+                                 const Context& context) {
     const RingSurface surface(on, *triangles, place.images);
-    return PartTrials{options, regions, surface, *ring, place}.along_loop(context).near.energy;
+    const PartTrials trials{options, regions, surface, *ring, place, parts};
+    return trials.along_loop(context).near.energy;
 }
 
 // Rounds of nearest points, kept where they leave the surface near the boundary less distorted.
-void Paste::State::draw_closer(const PasteMap& on, PlacedFeature& place,
-                               const Context& context) const {
+void Paste::State::draw_closer(const PasteMap& on, PlacedFeature& place, const Context& context) {
     PlacedFeature closer = place;
     for (int round = 0; round < kClosestRounds; ++round) {
         context.checkpoint();
@@ -429,7 +445,9 @@ void Paste::move(const PastePlacement& placement, const Context& context) try {
 }
 
 void Paste::slide(const PastePlacement& placement, const Context& context) try {
-    state_->move_to(placement, {}, context);
+    // What it was: a place that fails to move keeps it, one that moves makes another.
+    const std::optional<FreeLoop> line = state_->placed.line;
+    state_->move_to(placement, {0, false, line ? &*line : nullptr}, context);
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
 }

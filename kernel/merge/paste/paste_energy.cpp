@@ -239,7 +239,8 @@ PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, cons
     for (Index k = 0; k < options.iterations; ++k) {
         context.checkpoint();
         result.similarity = energy.improved(edges, result.similarity);
-        std::vector<Index> loop = ring.cheapest(energy.costs(result.similarity), context);
+        std::vector<Index> loop =
+            ring.cheapest(energy.costs(result.similarity), result.vertices, context);
         if (loop.empty()) break;
         edges = energy.edges_of(ring, loop);
         result.vertices = std::move(loop);

@@ -88,7 +88,7 @@ SewnSides sewn_along(const PartTrials& trials, const Mesh& target, PartTrial tri
     std::vector<Vec2> outline;
     for (const RingPoint& point : sides.source.rim) outline.push_back(point.image.uv);
     sides.opened = open_target(target, trials.surface.map().target(), outline, context);
-    sides.pair = paste_pair(sides.source.part, sides.opened, sides.source.rim);
+    sides.pair = paste_pair(sides.source.part(), sides.opened, sides.source.rim);
     lay_on_hole(trials, sides, context);
     result.sewn = sewn_well(sides, options, context);
     return result;
@@ -97,11 +97,11 @@ SewnSides sewn_along(const PartTrials& trials, const Mesh& target, PartTrial tri
 MergeReport merge_report(const PasteSides& sides, const Sewn& sewn,
                          const PasteMergeOptions& options, const Context& context) {
     MergeReport report;
-    const std::vector<Index> loops[] = {sides.source.part.loop, sides.opened.loop};
-    report.source_rim = seam_quality(sides.source.part.mesh, {&loops[0], 1});
+    const std::vector<Index> loops[] = {sides.source.part().loop, sides.opened.loop};
+    report.source_rim = seam_quality(sides.source.part().mesh, {&loops[0], 1});
     report.target_rim = seam_quality(sides.opened.mesh, {&loops[1], 1});
     JoinReport join;
-    join.source_size = count_of(sides.source.part.loop);
+    join.source_size = count_of(sides.source.part().loop);
     join.target_size = count_of(sides.opened.loop);
     join.scale = sides.source.scale;
     report.joins.push_back(join);
@@ -109,7 +109,7 @@ MergeReport merge_report(const PasteSides& sides, const Sewn& sewn,
     report.seam = sewn.report;
     if (options.find_intersections) {
         report.intersections =
-            new_intersections(sides.opened.mesh, sides.source.part.mesh, sewn, context);
+            new_intersections(sides.opened.mesh, sides.source.part().mesh, sewn, context);
     }
     const Verdict verdict = verdict_of(report, options.find_intersections);
     report.ok = verdict.good;
@@ -120,8 +120,8 @@ MergeReport merge_report(const PasteSides& sides, const Sewn& sewn,
 // The outline where the maps alone put it.
 PartTrial outline_trial(const PartTrials& trials, const Context& context) {
     const RingSurface mapped(trials.surface.map(), trials.surface.ring(), trials.placed.mapped);
-    const PartTrials marked{trials.options, trials.regions, mapped,
-                            trials.ring,    trials.placed,  trials.lock_scale};
+    const PartTrials marked{trials.options, trials.regions, mapped,           trials.ring,
+                            trials.placed,  trials.parts,   trials.lock_scale};
     return marked.along_outline(context);
 }
 
@@ -152,13 +152,13 @@ void unfold(const PartTrials& trials, const Mesh& target, const PasteReport& rep
 }  // namespace
 
 PasteResult Paste::merge(const PasteMergeOptions& options, const Context& context) try {
-    const State& state = *state_;
+    State& state = *state_;
     Progress progress(context, "paste");
     const auto start = Clock::now();
     const PlacedFeature& placed = state.placed;
     const RingSurface surface(*state.map, *state.triangles, placed.images);
-    const PartTrials trials{state.options, state.regions, surface,
-                            *state.ring,   placed,        options.lock_scale};
+    const PartTrials trials{state.options, state.regions, surface,           *state.ring,
+                            placed,        state.parts,   options.lock_scale};
     PasteReport report;
     report.search = placed.loop.report;
     report.source_map = state.source_map.quality();
@@ -177,7 +177,7 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.kept_outline = sides.source.outline;
     report.near = whole.near;
     report.laid = sides.source.near;
-    report.feature = feature_distortion(sides.source.part, sides.source.moved.mesh, report.scale,
+    report.feature = feature_distortion(sides.source.part(), sides.source.moved.mesh, report.scale,
                                         state.regions.feature);
     progress.step(0.4);
     PasteResult result{{}, std::move(report)};
@@ -186,12 +186,12 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     const MeshMap target_map =
         state.cleared ? composed(sides.opened.map, *state.cleared) : sides.opened.map;
     const Topology& first = (state.cleared ? state.given : state.target).topology();
-    const MeshMap origins = appended_map(target_map, sides.source.part.map, first);
+    const MeshMap origins = appended_map(target_map, sides.source.part().map, first);
     result.merged.provenance = composed(sewn.map, origins);
     result.report.euler_characteristic = euler_characteristic(sewn.mesh.topology());
     result.report.expected_characteristic =
         euler_characteristic(state.target.topology()) +
-        euler_characteristic(sides.source.part.mesh.topology()) - 1;
+        euler_characteristic(sides.source.part().mesh.topology()) - 1;
     result.merged.mesh = std::move(sewn.mesh);
     result.merged.side_of_face = std::move(sewn.side_of_face);
     result.merged.seams = std::move(sewn.seams);

@@ -13,7 +13,6 @@
 #include "kernel/merge/paste/face_set.h"
 #include "kernel/merge/paste/plane_line.h"
 #include "kernel/merge/provenance.h"
-#include "kernel/merge/turned.h"
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/measure/triangulation.h"
@@ -203,29 +202,6 @@ std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
         values.push_back({rim[k].image.position, frames[k], scale});
     }
     return values;
-}
-
-MovedPart moved_part(const PastePart& part, std::span<const BoundaryValue> values,
-                     const BoundaryDeformOptions& options, const Context& context) {
-    const Region all = Region::all(part.mesh.shared_topology());
-    const Region held(part.mesh.shared_topology(), part.loop);
-    BoundaryDeformer deformer(part.mesh, all, held, options, context);
-    std::vector<BoundaryValue> ordered(values.size());
-    for (std::size_t k = 0; k < part.loop.size(); ++k) {
-        const auto& ids = deformer.held().vertices();
-        const auto row = std::lower_bound(ids.begin(), ids.end(), part.loop[k]) - ids.begin();
-        ordered[at(row)] = values[k];
-    }
-    const BoundaryDeformation deformed = deformer.solve(ordered, context);
-    MovedPart result{part.mesh, deformer.stats()};
-    std::vector<Vec3> positions(part.mesh.positions().begin(), part.mesh.positions().end());
-    const std::vector<Index>& ids = deformer.region().vertices();
-    for (std::size_t row = 0; row < ids.size(); ++row) {
-        positions[at(ids[row])] = deformed.positions[row];
-    }
-    result.mesh.set_positions(std::move(positions));
-    turn_directions(part.mesh, deformer.region(), deformed, result.mesh);
-    return result;
 }
 
 PasteDistortion near_distortion(const PastePart& part, const Mesh& moved, double scale) {

@@ -10,7 +10,6 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/boundary/boundary_deformer.h"
-#include "kernel/deform/stats.h"
 #include "kernel/merge/loop/loop_pair.h"
 #include "kernel/merge/paste/free_loop.h"
 #include "kernel/merge/paste/opened_target.h"
@@ -48,13 +47,6 @@ std::vector<RingPoint> rim_of(const PastePart& part, const RingSurface& surface)
 std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
                                         const PasteSimilarity& similarity, double scale,
                                         double crease);
-
-struct MovedPart {
-    Mesh mesh;
-    DeformStats stats;
-};
-MovedPart moved_part(const PastePart& part, std::span<const BoundaryValue> values,
-                     const BoundaryDeformOptions& options, const Context& context);
 
 /// Of the faces within three rings of the loop, or of those of the given faces of the source.
 PasteDistortion near_distortion(const PastePart& part, const Mesh& moved, double scale);

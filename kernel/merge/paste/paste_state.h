@@ -10,6 +10,7 @@
 #include "kernel/core/index.h"
 #include "kernel/merge/paste/free_loop.h"
 #include "kernel/merge/paste/loop_search.h"
+#include "kernel/merge/paste/moving_part.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/merge/paste/paste_energy.h"
 #include "kernel/merge/paste/paste_map.h"
@@ -39,6 +40,8 @@ struct PasteEffort {
     Index iterations = 0;
     /// With rounds of nearest points, where the paste has them.
     bool closest = false;
+    /// The boundary free of edges that belongs to the loop to start from, where it stays there.
+    const FreeLoop* line = nullptr;
 };
 
 struct Paste::State {
@@ -60,6 +63,7 @@ struct Paste::State {
     std::optional<Region> onto;
     std::optional<MeshMap> cleared;
     PlacedFeature placed;
+    MovingParts parts;
 
     bool clears() const { return options.clear || options.cleared.has_value(); }
     /// What depends on the source alone.
@@ -83,16 +87,17 @@ struct Paste::State {
     void choose_angle(const PasteMap& on, PlacedFeature& place, const Context& context) const;
     PlacedFeature place(const PasteMap& on, const PastePlacement& placement,
                         std::span<const Index> start, const PasteEffort& effort,
-                        const Context& context) const;
+                        const Context& context);
     double size_of(const PasteMap& on, const std::vector<ImagePoint>& images) const;
     std::vector<ImagePoint> images_of(const PasteMap& on, const PastePlacement& placement,
                                       double angle) const;
     std::vector<ImagePoint> nearest_images(const PasteMap& on, const PlacedFeature& place) const;
     bool draw_once(const PasteMap& on, PlacedFeature& place, const Context& context) const;
-    double energy_near(const PasteMap& on, const PlacedFeature& place,
-                       const Context& context) const;
-    void draw_closer(const PasteMap& on, PlacedFeature& place, const Context& context) const;
+    double energy_near(const PasteMap& on, const PlacedFeature& place, const Context& context);
+    void draw_closer(const PasteMap& on, PlacedFeature& place, const Context& context);
     void free_boundary(const PasteMap& on, PlacedFeature& place, const Context& context) const;
+    void keep_line(const PasteMap& on, PlacedFeature& place, const FreeLoop& line) const;
+    void note_line(PlacedFeature& place) const;
     /// Whether the map has an image of all of the outline.
     bool covers(const PlacedFeature& place) const;
 };

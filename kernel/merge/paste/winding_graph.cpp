@@ -1,6 +1,8 @@
 #include "kernel/merge/paste/winding_graph.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <unordered_map>
 
 namespace lissom {
@@ -21,6 +23,15 @@ int sheet_of(Index node) {
 }
 bool is_sheet(int sheet) {
     return sheet >= -1 && sheet <= 1;
+}
+
+// Of bounds: one more to either side, since walks begin and end a sheet apart.
+constexpr int kBoundSheets = 5;
+// Bounds are sums in another order than walks.
+constexpr double kBoundRounding = 1.0 + 1e-12;
+
+std::size_t bound_of(Index vertex, int sheet) {
+    return at(vertex) * kBoundSheets + static_cast<std::size_t>(sheet + kBoundSheets / 2);
 }
 
 }  // namespace
@@ -45,9 +56,11 @@ WindingGraph::WindingGraph(Index vertex_count, std::span<const WindingEdge> edge
 
 WindingSearch::WindingSearch(const WindingGraph& graph, std::span<const double> cost)
     : graph_(graph),
-      cost_(cost),
       distance_(at(graph.vertex_count()) * kSheets, kUnsettled),
-      from_(distance_.size(), kNoIndex) {}
+      from_(distance_.size(), kNoIndex) {
+    cost_.reserve(graph.arcs_.size());
+    for (const WindingGraph::Arc& arc : graph.arcs_) cost_.push_back(cost[at(arc.edge)]);
+}
 
 void WindingSearch::clear() {
     for (const Index node : touched_) distance_[at(node)] = kUnsettled;
@@ -65,6 +78,45 @@ void WindingSearch::reach(Index node, Index from, double distance) {
     std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
 
+void WindingSearch::bound(std::span<const Index> starts, double limit) {
+    bound_.assign(at(graph_.vertex_count()) * kBoundSheets, kUnsettled);
+    std::vector<std::pair<double, std::size_t>> heap;
+    const auto reach_bound = [&](std::size_t node, double distance) {
+        if (!(distance < bound_[node])) return;
+        bound_[node] = distance;
+        heap.emplace_back(distance, node);
+        std::push_heap(heap.begin(), heap.end(), std::greater<>());
+    };
+    for (const Index start : starts) reach_bound(bound_of(start, 0), 0.0);
+    while (!heap.empty()) {
+        const auto [distance, node] = heap.front();
+        std::pop_heap(heap.begin(), heap.end(), std::greater<>());
+        heap.pop_back();
+        if (distance > bound_[node]) continue;
+        const Index v = index_of(node / kBoundSheets);
+        const int sheet = static_cast<int>(node % kBoundSheets) - kBoundSheets / 2;
+        for (Index k = graph_.begin_[at(v)]; k < graph_.begin_[at(v) + 1]; ++k) {
+            const auto& [to, edge, turns] = graph_.arcs_[at(k)];
+            const double reached = distance + cost_[at(k)];
+            if (reached >= limit || std::abs(sheet + turns) > kBoundSheets / 2) continue;
+            reach_bound(bound_of(to, sheet + turns), reached);
+        }
+    }
+}
+
+double WindingSearch::least_through(Index start) const {
+    return bound_[bound_of(start, 1)];
+}
+
+// Whether no walk that costs less than the limit goes on from here: neither to a start one sheet
+// above, nor, as the way back, to one a sheet below.
+bool WindingSearch::leads_nowhere(Index vertex, int sheet, double distance, double limit) const {
+    if (bound_.empty()) return false;
+    const double rest =
+        std::min(bound_[bound_of(vertex, sheet - 1)], bound_[bound_of(vertex, sheet + 1)]);
+    return distance + rest > limit * kBoundRounding;
+}
+
 void WindingSearch::meet(Index forward, Index backward, double cost) {
     if (!(cost < least_)) return;
     least_ = cost;
@@ -74,12 +126,13 @@ void WindingSearch::meet(Index forward, Index backward, double cost) {
 
 // The way back from the end of a walk, which is the start one sheet above, is the way forward one
 // sheet below: one search from the start does for both, and needs to go half the way only.
-void WindingSearch::settle(Index node, double distance, std::span<const char> usable) {
+void WindingSearch::settle(Index node, double distance, std::span<const char> usable,
+                           double limit) {
     const Index v = vertex_of(node);
     const int sheet = sheet_of(node);
     for (Index k = graph_.begin_[at(v)]; k < graph_.begin_[at(v) + 1]; ++k) {
         const auto& [to, edge, turns] = graph_.arcs_[at(k)];
-        const double reached = distance + cost_[at(edge)];
+        const double reached = distance + cost_[at(k)];
         if (!(reached < kUnsettled) || (!usable.empty() && !usable[at(edge)])) continue;
         const int next = sheet + turns;
         if (is_sheet(next - 1)) {
@@ -92,7 +145,8 @@ void WindingSearch::settle(Index node, double distance, std::span<const char> us
         }
         if (!is_sheet(next)) continue;
         const Index there = node_of(to, next);
-        if (reached < distance_[at(there)]) reach(there, node, reached);
+        if (!(reached < distance_[at(there)])) continue;
+        if (!leads_nowhere(to, next, reached, std::min(least_, limit))) reach(there, node, reached);
     }
 }
 
@@ -118,7 +172,7 @@ WindingLoop WindingSearch::through(Index start, std::span<const char> usable, do
         std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
         heap_.pop_back();
         if (distance > distance_[at(node)]) continue;
-        settle(node, distance, usable);
+        settle(node, distance, usable, limit);
     }
     WindingLoop loop;
     if (!(least_ < limit)) return loop;

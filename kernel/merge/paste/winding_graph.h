@@ -51,6 +51,12 @@ class WindingSearch {
     /// Both must outlive it. Costs are above 0, or infinite for edges that must not be used.
     WindingSearch(const WindingGraph& graph, std::span<const double> cost);
 
+    /// Finds what walks through vertices cost at least, where all loops around the ring pass one of
+    /// `starts`, so that `through` leaves out what belongs to no walk that costs less than `limit`.
+    void bound(std::span<const Index> starts, double limit);
+    /// What closed walks through one of those cost at least: infinite where that is the limit or
+    /// more.
+    double least_through(Index start) const;
     /// The cheapest closed walk through `start` that runs once around the ring, counter-clockwise,
     /// or the loop in it where it visits a vertex twice: a loop with a tail to the start. `usable`,
     /// one flag an edge, may leave edges out; walks that cost `limit` or more are not found.
@@ -66,15 +72,20 @@ class WindingSearch {
     };
     void clear();
     void reach(Index node, Index from, double distance);
-    void settle(Index node, double distance, std::span<const char> usable);
+    bool leads_nowhere(Index vertex, int sheet, double distance, double limit) const;
+    void settle(Index node, double distance, std::span<const char> usable, double limit);
     void meet(Index forward, Index backward, double cost);
     std::vector<Step> walk() const;
 
     const WindingGraph& graph_;
-    std::span<const double> cost_;
+    // Of arcs.
+    std::vector<double> cost_;
     std::vector<double> distance_;
     std::vector<Index> from_, touched_;
     std::vector<std::pair<double, Index>> heap_;
+    // Least costs from the starts on sheet 0 to each vertex on the sheets -2 to 2, where they are
+    // known.
+    std::vector<double> bound_;
     // The cheapest walk so far: to a node, over an edge or none, and back from another one.
     double least_ = std::numeric_limits<double>::infinity();
     Index forward_ = kNoIndex, backward_ = kNoIndex;

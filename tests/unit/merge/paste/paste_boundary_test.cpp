@@ -56,6 +56,35 @@ TEST_CASE("paste boundary: a smooth one is no sawtooth, costs no more, and paste
     }
 }
 
+TEST_CASE(
+    "paste boundary: a part that slides keeps its boundary, and what is kept changes nothing") {
+    const Mesh horn = horned_ball(32), target = egg();
+    const PastePlacement first{.at = {0, 2, 0}, .angle = 0.2, .scale = 0.8};
+    const PastePlacement second{.at = {0.5, 1.8, 0.4}, .angle = 0.3, .scale = 0.7};
+    Paste often = horn_on_egg(horn, target, first), once = horn_on_egg(horn, target, first);
+    const std::vector<Vec3> line = often.optimize().points();
+    once.optimize();
+    // Equal as it is made twice, and after another place.
+    const std::uint64_t at_first = hash(often.merge().merged.mesh);
+    CHECK(hash(often.merge().merged.mesh) == at_first);
+    often.slide(second);
+    REQUIRE(!often.loop().on_mesh());
+    REQUIRE(often.loop().points().size() == line.size());
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        CHECK((often.loop().points()[k] - line[k]).norm() < 1e-12);
+    }
+    const PasteResult slid = often.merge();
+    CHECK(slid.report.smooth);
+    CHECK(slid.merged.mesh.topology().is_closed());
+    CHECK(slid.report.euler_characteristic == slid.report.expected_characteristic);
+    CHECK(slid.report.search.smooth_energy);
+    once.slide(second);
+    CHECK(hash(once.merge().merged.mesh) == hash(slid.merged.mesh));
+    often.move(first);
+    once.move(first);
+    CHECK(hash(once.merge().merged.mesh) == hash(often.merge().merged.mesh));
+}
+
 TEST_CASE("paste boundary: a line through faces divides values by its side") {
     const Mesh grid = make_grid({.size = {2, 2}, .segments = {20, 20}});
     std::vector<Vec2> uv, circle;

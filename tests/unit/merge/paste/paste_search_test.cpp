@@ -7,6 +7,7 @@
 
 #include "kernel/merge/paste/loop_search.h"
 #include "kernel/merge/paste/paste_regions.h"
+#include "kernel/merge/paste/winding_graph.h"
 #include "tests/unit/merge/paste/loop_force.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"
@@ -144,9 +145,53 @@ TEST_CASE("loop search: equal to brute force on 4000 random annuli") {
         CHECK(std::set<Index>(loop.begin(), loop.end()).size() == loop.size());
         CHECK(winding_of(plane, Vec2::Zero(), loop) == 1);
         CHECK(cost_of(search, cost, loop) == doctest::Approx(least).epsilon(1e-12));
+        // Loops that are known shorten the search, and change nothing.
+        for (const std::vector<Index>& known : {annulus.regions.outer, loop}) {
+            if (!std::isfinite(cost_of(search, cost, known))) continue;
+            const double again = cost_of(search, cost, search.cheapest(cost, known, {}));
+            CHECK(again == doctest::Approx(least).epsilon(1e-12));
+        }
     }
     CHECK(found > 3000);
     CHECK(without > 0);
+}
+
+TEST_CASE("winding search: bounds leave nothing out, whether edges cross one another or not") {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int round = 0; round < 1000; ++round) {
+        const Annulus annulus = random_annulus(random);
+        const std::span<const Vec3> positions = annulus.mesh.positions();
+        std::vector<WindingEdge> edges;
+        std::vector<double> cost;
+        std::vector<Index> starts;
+        const auto add = [&](Index a, Index b) {
+            const int turns =
+                crossing(positions[at(a)].head<2>(), positions[at(b)].head<2>(), Vec2::Zero());
+            edges.push_back({a, b, turns});
+            cost.push_back(0.05 + unit(random));
+            if (turns != 0) starts.push_back(turns > 0 ? a : b);
+        };
+        for (const Index f : annulus.regions.ring) {
+            const std::span<const Index> face = annulus.mesh.topology().face(f);
+            for (std::size_t i = 0; i < face.size(); ++i) {
+                for (std::size_t j = 0; j < i; ++j) add(face[j], face[i]);
+            }
+        }
+        const WindingGraph graph(annulus.mesh.vertex_count(), edges);
+        WindingSearch plain(graph, cost), bounded(graph, cost);
+        double least = std::numeric_limits<double>::infinity();
+        for (const Index start : starts) least = std::min(least, plain.through(start).cost);
+        bounded.bound(starts, least * 1.0001);
+        double found = std::numeric_limits<double>::infinity();
+        for (const Index start : starts) {
+            const double cheapest = plain.through(start).cost;
+            const double bound = bounded.least_through(start);
+            CHECK((bound <= cheapest * (1.0 + 1e-12) || cheapest > least));
+            found = std::min(found, bounded.through(start, {}, least * 1.0001).cost);
+        }
+        CHECK(found == doctest::Approx(least).epsilon(1e-12));
+    }
 }
 
 TEST_CASE("paste search: the energy never increases, at twelve angles") {

@@ -1,0 +1,67 @@
+/// Parts that are deformed many times, for other places and by other boundaries; private to
+/// kernel/merge.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/deform/boundary/boundary_deformer.h"
+#include "kernel/deform/stats.h"
+#include "kernel/merge/paste/paste_part.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+struct MovedPart {
+    Mesh mesh;
+    DeformStats stats;
+};
+
+/// A part with its systems factored: to move it anew costs no more than to solve them.
+class MovingPart {
+  public:
+    /// Errors: as BoundaryDeformer.
+    MovingPart(PastePart part, const BoundaryDeformOptions& options, const Context& context);
+
+    const PastePart& part() const { return part_; }
+    /// `values` are of the part's loop, in its order. Errors: as BoundaryDeformer::solve.
+    MovedPart moved(std::span<const BoundaryValue> values, const Context& context);
+
+  private:
+    PastePart part_;
+    BoundaryDeformer deformer_;
+    /// The place among what is held of each vertex of the loop.
+    std::vector<std::size_t> held_;
+};
+
+/// The parts inside the boundaries that were asked for last: most moves change where a boundary
+/// lies, and not which one it is.
+class MovingParts {
+  public:
+    enum class Boundary { line, loop, outline };
+    using Make = std::function<PastePart()>;
+
+    /// The part inside a boundary, `make` where it is not the last one of its kind.
+    std::shared_ptr<MovingPart> inside(Boundary kind, std::span<const Index> loop, const Make& make,
+                                       const BoundaryDeformOptions& options,
+                                       const Context& context);
+    std::shared_ptr<MovingPart> inside(std::span<const Vec2> line, const Make& make,
+                                       const BoundaryDeformOptions& options,
+                                       const Context& context);
+
+  private:
+    struct Kept {
+        std::vector<Index> loop;
+        std::vector<Vec2> line;
+        std::shared_ptr<MovingPart> part;
+    };
+    std::array<Kept, 3> kept_;
+};
+
+}  // namespace lissom
