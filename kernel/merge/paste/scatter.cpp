@@ -21,6 +21,10 @@ namespace {
 // The disk of a place is this many times as wide as the ring on it, where there is room; ways along
 // edges are up to 1.4 times as long as the surface is wide.
 constexpr double kPlaceRoom = 1.5, kSmallerDisk = 0.85;
+// Edges of the target that a disk is wider than that: the collar of a seam takes up to two where
+// the part is much denser, the faces beside it must stay as they are, those that reach beyond the
+// disk are not in it, and edges grow longer on the way.
+constexpr double kSeamRoom = 5.0;
 constexpr int kSmallerDisks = 5;
 
 // A mesh while it is put together: for each vertex the one of the mesh before that it is, where
@@ -52,6 +56,17 @@ std::vector<Index> reachable_faces(const Mesh& mesh, std::span<const Index> plac
         }
     }
     return faces;
+}
+
+// Of the faces around a face.
+double longest_edge_at(const Mesh& mesh, Index face) {
+    double longest = 0.0;
+    for (const Index v : mesh.topology().face(face)) {
+        for (const Index n : mesh.topology().neighbors(v)) {
+            longest = std::max(longest, (mesh.position(n) - mesh.position(v)).norm());
+        }
+    }
+    return longest;
 }
 
 // The largest disk of faces without parts around a face; empty where there is none.
@@ -292,7 +307,8 @@ class Scatterer {
                        " is there already");
             return {};
         }
-        const double radius = kPlaceRoom * feature_.reach(placement.scale);
+        const double radius = kPlaceRoom * feature_.reach(placement.scale) +
+                              kSeamRoom * longest_edge_at(current_.mesh, point.face);
         std::vector<Index> faces = free_disk(current_, point.face, radius, context);
         if (faces.empty()) {
             refuse(i, ErrorCode::not_a_disk, "the surface around it is no disk between parts");

@@ -56,6 +56,34 @@ TEST_CASE("scatter: parts stand at all places, and the surface is closed") {
     }
 }
 
+TEST_CASE("scatter: parts of all sizes fit, on targets of all densities") {
+    Mesh horn = make_sphere({1.0, 16, SphereKind::quads});
+    for (Vec3& p : horn.edit_positions()) {
+        if (p.y() > 0.0) p.y() += 0.8 * std::exp(-12.0 * (p.x() * p.x() + p.z() * p.z()));
+    }
+    for (const auto& [kind, segments] :
+         {std::pair(SphereKind::triangles, 24), std::pair(SphereKind::triangles, 80),
+          std::pair(SphereKind::quads, 16), std::pair(SphereKind::quads, 24),
+          std::pair(SphereKind::quads, 60)}) {
+        const Mesh target = make_sphere({3.0, segments, kind});
+        for (double scale = 0.25; scale <= 0.85; scale += 0.05) {
+            const double angle = 7.0 * scale;
+            const std::vector<PastePlacement> places = {
+                {.at = {3, 0, 0}, .scale = scale},
+                {.at = {0, 3, 0}, .scale = scale},
+                {.at = 3.0 * Vec3(std::cos(angle), -1.2, std::sin(angle)).normalized(),
+                 .scale = scale}};
+            CAPTURE(segments);
+            CAPTURE(scale);
+            const ScatterResult result =
+                scatter(horn, target, around_horn(horn, 0.95), std::nullopt, places);
+            for (const RefusedPlace& refused : result.refused) MESSAGE(refused.message);
+            CHECK(result.refused.empty());
+            CHECK(result.mesh.topology().is_closed());
+        }
+    }
+}
+
 TEST_CASE("scatter: where two meet the first stays, and the other is told") {
     const Mesh horn = horned_ball(12), target = make_sphere({1.0, 32, SphereKind::triangles});
     std::vector<PastePlacement> places = {{.at = {0, 1, 0}, .scale = 0.2},
