@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "kernel/core/error.h"
-#include "viewer/draw/overlay.h"
+#include "viewer/draw/image/overlay.h"
 
 namespace lissom {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "kernel/sketch/camera.h"
-#include "viewer/draw/image.h"
+#include "viewer/draw/image/image.h"
 #include "viewer/draw/render_options.h"
 #include "viewer/draw/snapshot.h"
 #include "viewer/gl/platform.h"

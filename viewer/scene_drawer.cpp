@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "viewer/draw/colormap.h"
+#include "viewer/draw/image/colormap.h"
 #include "viewer/draw/studio_light.h"
 #include "viewer/gl/shaders.h"
 #include "viewer/strands/hair_light.h"

@@ -1,7 +1,7 @@
 /// Draws a scene that is on the graphics card into a picture. All of it needs a current context.
 #pragma once
 
-#include "viewer/draw/image.h"
+#include "viewer/draw/image/image.h"
 #include "viewer/draw/projection.h"
 #include "viewer/draw/render_options.h"
 #include "viewer/gl/gpu_scene.h"

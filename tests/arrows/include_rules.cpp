@@ -57,10 +57,10 @@ const std::vector<Rule>& rules() {
         {"viewer/window",
          {"kernel", "bindings", "viewer"},
          {"Eigen", "Lua", "OpenGL", "CLI11", "JSON", "printing", "platform"}},
-        {"viewer/window/glfw_window.cpp", {"kernel", "viewer"}, {"OpenGL", "GLFW"}},
-        {"viewer/window/panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
-        {"viewer/window/tool_panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
-        {"viewer/window/parameter_widgets.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
+        {"viewer/window/screen/glfw_window.cpp", {"kernel", "viewer"}, {"OpenGL", "GLFW"}},
+        {"viewer/window/panel/panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
+        {"viewer/window/panel/tool_panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
+        {"viewer/window/panel/parameter_widgets.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
         {"examples", {"kernel", "bindings/c"}, {"printing", "platform"}},
         {"examples/engine", {"bindings/engine"}, {"platform"}},
         {"tests/bench",
@@ -99,8 +99,9 @@ const std::vector<Names>& room_orders() {
          "bindings/lua/tools", "bindings/lua/reference"},
         {"bindings/cli/terminal", "bindings/cli/process", "bindings/cli/test/picture_check",
          "bindings/cli", "bindings/cli/test"},
-        {"viewer/draw", "viewer/strands", "viewer/gl", "viewer", "viewer/lua", "viewer/window",
-         "viewer/main"},
+        {"viewer/draw/image", "viewer/draw", "viewer/strands", "viewer/gl", "viewer", "viewer/lua",
+         "viewer/window/screen", "viewer/window/session", "viewer/window/makers",
+         "viewer/window/panel", "viewer/window", "viewer/main"},
     };
     return orders;
 }

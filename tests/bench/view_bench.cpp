@@ -32,10 +32,10 @@
 #include "viewer/draw/projection.h"
 #include "viewer/gl/platform.h"
 #include "viewer/lua/viewer_library.h"
-#include "viewer/window/display.h"
-#include "viewer/window/frame_times.h"
-#include "viewer/window/screen.h"
-#include "viewer/window/session.h"
+#include "viewer/window/screen/display.h"
+#include "viewer/window/screen/frame_times.h"
+#include "viewer/window/screen/screen.h"
+#include "viewer/window/session/session.h"
 
 namespace lissom::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "kernel/hair/strands/strands.h"
 #include "kernel/mesh/mesh.h"
-#include "viewer/draw/color.h"
+#include "viewer/draw/image/color.h"
 #include "viewer/draw/strand_style.h"
 
 namespace lissom {

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <span>
 
-#include "viewer/draw/colormap.h"
-#include "viewer/draw/overlay.h"
+#include "viewer/draw/image/colormap.h"
+#include "viewer/draw/image/overlay.h"
 
 namespace lissom {
 namespace {

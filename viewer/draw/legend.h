@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "viewer/draw/drawing.h"
-#include "viewer/draw/image.h"
+#include "viewer/draw/image/image.h"
 
 namespace lissom {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "viewer/draw/color.h"
+#include "viewer/draw/image/color.h"
 
 namespace lissom {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "kernel/core/geometry.h"
-#include "viewer/draw/color.h"
+#include "viewer/draw/image/color.h"
 
 namespace lissom {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "kernel/hair/hairstyle.h"
-#include "viewer/draw/color.h"
 #include "viewer/draw/drawing.h"
+#include "viewer/draw/image/color.h"
 #include "viewer/draw/legend.h"
 
 namespace lissom {

@@ -8,7 +8,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/mesh/measure/measures.h"
-#include "viewer/draw/colormap.h"
+#include "viewer/draw/image/colormap.h"
 #include "viewer/draw/shading_normals.h"
 
 namespace lissom {

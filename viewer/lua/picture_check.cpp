@@ -5,7 +5,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/io/stream/file.h"
-#include "viewer/draw/image_difference.h"
+#include "viewer/draw/image/image_difference.h"
 #include "viewer/lua/png_file.h"
 
 namespace lissom::cli {

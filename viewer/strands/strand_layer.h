@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kernel/core/index.h"
-#include "viewer/draw/image.h"
+#include "viewer/draw/image/image.h"
 #include "viewer/draw/render_options.h"
 #include "viewer/draw/view_parameters.h"
 #include "viewer/strands/strand_shadow.h"

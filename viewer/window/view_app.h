@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bindings/cli/program.h"
-#include "viewer/window/session.h"
+#include "viewer/window/session/session.h"
 
 namespace lissom::window {
 

@@ -11,7 +11,7 @@
 
 #include "bindings/cli/load_flags.h"
 #include "kernel/core/index.h"
-#include "viewer/window/session.h"
+#include "viewer/window/session/session.h"
 #include "viewer/window/view_app.h"
 
 namespace lissom::cli {

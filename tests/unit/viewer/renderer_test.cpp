@@ -5,7 +5,7 @@
 
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/viewer_support.h"
-#include "viewer/draw/colormap.h"
+#include "viewer/draw/image/colormap.h"
 
 using namespace lissom;
 using test::front_camera;

@@ -1,8 +1,8 @@
 #include "viewer/draw/legend.h"
 
 #include "tests/unit/viewer/viewer_support.h"
-#include "viewer/draw/colormap.h"
-#include "viewer/draw/overlay.h"
+#include "viewer/draw/image/colormap.h"
+#include "viewer/draw/image/overlay.h"
 
 using namespace lissom;
 

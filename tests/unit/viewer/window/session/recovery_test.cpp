@@ -1,0 +1,45 @@
+#include "viewer/window/session/recovery.h"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+
+#include "bindings/cli/process/process_number.h"
+#include "tests/unit/bindings/program_run.h"
+
+using namespace lissom;
+using window::Recovery;
+
+TEST_CASE("recovery: the copy of a program that ended well goes, that of a killed one is offered") {
+    const test::ProgramFolder folder;
+    const std::filesystem::path place = folder.path("state");
+    CHECK(Recovery::left_in(place).empty());
+    {
+        const Recovery own(place);
+        std::ofstream(own.file()) << "scene";
+        CHECK(std::filesystem::exists(own.file()));
+        CHECK(Recovery::left_in(place).empty());
+    }
+    CHECK(std::filesystem::is_empty(place));
+    // No process has such a number.
+    const std::string left = folder.write("state/recovery-999999999.lissom", "scene");
+    folder.write("state/recovery-x.lissom", "another file");
+    folder.write("state/notes.txt", "another file");
+    REQUIRE(Recovery::left_in(place).size() == 1);
+    CHECK(Recovery::left_in(place).front() == left);
+    CHECK(cli::process_runs(cli::process_number()));
+}
+
+TEST_CASE("recovery: what was not saved is kept where the window is closed") {
+    const test::ProgramFolder folder;
+    const std::filesystem::path place = folder.path("state");
+    std::filesystem::path kept;
+    {
+        const Recovery own(place);
+        CHECK(own.keep().empty());
+        std::ofstream(own.file()) << "scene";
+        kept = own.keep();
+    }
+    CHECK(std::filesystem::exists(kept));
+    CHECK(Recovery::left_in(place).empty());
+}

@@ -1,0 +1,686 @@
+// Tools of a session: what a hand does reaches them in order, becomes steps, and can be repeated.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "kernel/io/mesh_file.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/viewer/window/session/session_host.h"
+#include "viewer/window/session/tool_input.h"
+
+using namespace lissom;
+using namespace lissom::window;
+
+namespace {
+
+using Kind = ToolInput::Kind;
+
+// Pulls the vertex under the cursor.
+constexpr const char* kPull = R"(local lissom = require "lissom"
+return lissom.tool{ name = "pull", params = { step = { type = "number", default = 0.1, max = 5 } },
+    press = function(self, ev) self.hit = ev:hit() end,
+    drag = function(self)
+        local x, y, z = self.hit.mesh:position(self.hit.vertex)
+        self.hit.mesh:set_position(self.hit.vertex, x, y, z + self.params.step)
+        self.state.drags = (self.state.drags or 0) + 1
+    end,
+    wheel = function(self, ev) self.params.step = self.params.step + 0.1 * ev.lines end,
+    key = function(self, ev)
+        if ev.key == "s" then print("drags", self.state.drags, self.params.step) end
+        if ev.key == "l" then while true do end end
+        if ev.key == "e" then ev.scene:get("ball"):transform{ scale = 2 } error("oops") end
+    end,
+    draw = function(self, view)
+        if self.hit then view:points{ points = { self.hit.position } } end
+        view:label{ at = { 0, 0, 0 }, text = "here" }
+    end }
+)";
+
+ToolInput input(Kind kind, double x = 320.0, double y = 240.0) {
+    ToolInput made;
+    made.kind = kind;
+    made.at = {x, y};
+    return made;
+}
+
+ToolInput key(const char* name) {
+    ToolInput made;
+    made.kind = Kind::key;
+    made.key = name;
+    return made;
+}
+
+// A session with a ball in front of its camera.
+struct ToolHost : test::SessionHost {
+    explicit ToolHost(SessionOptions chosen = {}) : SessionHost(std::move(chosen)) {
+        save_mesh(make_sphere(), ball);
+    }
+
+    std::string ball = folder.path("ball.obj");
+
+    void open(const std::string& tool = {}) {
+        session.open({ball});
+        wait();
+        ToolInput look = input(Kind::look);
+        look.camera = Camera({.eye = {0.0, 0.0, 5.0}});
+        look.size = {640, 480};
+        session.post(look);
+        if (!tool.empty()) session.use_tool(tool);
+        wait();
+    }
+    void drag(int moves) {
+        session.post(input(Kind::press));
+        wait();
+        for (int i = 0; i < moves; ++i) {
+            session.post(input(Kind::move, 320.0 + i));
+            wait();
+        }
+        session.post(input(Kind::release));
+        wait();
+    }
+    // The positions that are shown.
+    std::vector<Vec3> shown() {
+        if (auto next = session.take_shown()) last = std::move(next);
+        REQUIRE(last);
+        REQUIRE(last->picture->meshes.size() == 1);
+        const auto positions = last->picture->meshes[0].mesh->positions();
+        return {positions.begin(), positions.end()};
+    }
+    ToolState state() {
+        if (auto next = session.take_tool_state()) known = std::move(*next);
+        return known;
+    }
+    std::optional<Shown> last;
+    ToolState known;
+};
+
+ToolInput played(std::size_t event) {
+    ToolInput made;
+    made.kind = Kind::play;
+    made.event = event;
+    return made;
+}
+
+// Opens a recording and plays all of it; the number of its events.
+std::size_t play_all(test::SessionHost& host, const std::string& record) {
+    host.session.open({record});
+    host.wait();
+    const auto playback = host.session.take_playback();
+    if (!playback) return 0;
+    for (std::size_t i = 0; i < playback->times.size(); ++i) host.session.post(played(i));
+    host.wait();
+    return playback->times.size();
+}
+
+std::string host_tool(const test::ProgramFolder& folder) {
+    return folder.write("pull.lua", kPull);
+}
+
+std::string content_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("tool input: moves and looks do not pile up, all else does") {
+    std::vector<ToolInput> inputs;
+    push_input(inputs, input(Kind::move, 1.0));
+    push_input(inputs, input(Kind::move, 2.0));
+    push_input(inputs, input(Kind::press, 2.0));
+    for (int i = 0; i < 100; ++i) push_input(inputs, input(Kind::move, i));
+    push_input(inputs, key("a"));
+    push_input(inputs, key("a"));
+    push_input(inputs, input(Kind::look));
+    push_input(inputs, input(Kind::look));
+    ToolInput shifted = input(Kind::move, 7.0);
+    push_input(inputs, input(Kind::move, 6.0));
+    shifted.modifiers.shift = true;
+    push_input(inputs, shifted);
+    ToolInput turned = input(Kind::wheel);
+    for (const double lines : {1.0, 2.0, -0.5}) {
+        turned.lines = lines;
+        push_input(inputs, turned);
+    }
+    REQUIRE(inputs.size() == 9);
+    CHECK(inputs[0].at.x() == 2.0);
+    CHECK(inputs[2].at.x() == 99.0);
+    CHECK(inputs[8].lines == 2.5);
+}
+
+TEST_CASE("tool input: keys have the names that tools know") {
+    Input typed;
+    typed.kind = Input::Kind::text;
+    typed.character = U'P';
+    CHECK(tool_key(typed) == "p");
+    typed.character = U'+';
+    CHECK(tool_key(typed) == "+");
+    typed.character = U'é';
+    CHECK(tool_key(typed).empty());
+    Input pressed;
+    pressed.kind = Input::Kind::key_down;
+    pressed.key = Key::enter;
+    CHECK(tool_key(pressed) == "enter");
+}
+
+TEST_CASE("session: a drag with a tool is one step, which undo takes back and redo does again") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    CHECK(host.state().tool == "pull");
+    const std::vector<Vec3> before = host.shown();
+    host.drag(4);
+    const std::vector<Vec3> after = host.shown();
+    CHECK(after != before);
+    CHECK(host.state().steps == std::vector<std::string>{"pull"});
+    CHECK(host.state().marks.labels.size() == 1);
+    CHECK(host.state().overlay.points.size() == 1);
+    host.session.post(input(Kind::undo));
+    host.wait();
+    CHECK(host.shown() == before);
+    CHECK(host.state().place == 0);
+    host.session.post(input(Kind::redo));
+    host.wait();
+    CHECK(host.shown() == after);
+    CHECK(host.lines.empty());
+}
+
+TEST_CASE("session: the wheel turns within a gesture of a tool") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    host.session.post(input(Kind::press));
+    ToolInput turned = input(Kind::wheel);
+    turned.lines = 2.0;
+    host.session.post(turned);
+    host.session.post(input(Kind::move, 330.0));
+    host.session.post(input(Kind::release));
+    host.wait();
+    const std::vector<Vec3> after = host.shown();
+    double most = 0.0;
+    for (const Vec3& p : after) most = std::max(most, p.z());
+    CHECK(most == doctest::Approx(1.3).epsilon(0.01));
+    CHECK(host.state().steps.size() == 1);
+}
+
+TEST_CASE("session: Escape in a drag, and an error in a tool, leave the scene as it was") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    const std::vector<Vec3> before = host.shown();
+    host.session.post(input(Kind::press));
+    host.session.post(input(Kind::move, 330.0));
+    host.wait();
+    CHECK(host.shown() != before);
+    host.session.post(input(Kind::cancel));
+    host.wait();
+    CHECK(host.shown() == before);
+    host.session.post(key("e"));
+    host.wait();
+    CHECK(host.says(LineKind::error, "pull.lua:13: oops"));
+    CHECK(host.shown() == before);
+    host.drag(1);
+    CHECK(host.shown() != before);
+}
+
+TEST_CASE("session: a tool that asks goes on asking after an error") {
+    ToolHost host;
+    host.open(host.folder.write("ask.lua", R"(local lissom = require "lissom"
+return lissom.tool{ name = "ask", run = function()
+    lissom.pick.point{ prompt = "Where?" }
+    error("not there")
+end })"));
+    CHECK(host.state().prompt == "Where?");
+    for (int i = 0; i < 2; ++i) {
+        host.lines.clear();
+        host.session.post(input(Kind::press));
+        host.session.post(input(Kind::release));
+        host.wait();
+        CHECK(host.says(LineKind::error, "not there"));
+        CHECK(host.state().prompt == "Where?");
+    }
+}
+
+TEST_CASE("session: a tool that never returns is stopped, and works again") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    const std::vector<Vec3> before = host.shown();
+    host.session.post(key("l"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    CHECK(host.session.busy());
+    host.session.cancel();
+    host.wait(10.0);
+    host.drag(2);
+    CHECK(host.shown() != before);
+    CHECK(host.state().steps.size() == 1);
+}
+
+TEST_CASE(
+    "session: a tool that is read again keeps its parameters and state; a broken one is not "
+    "taken") {
+    ToolHost host;
+    const std::string file = host.folder.write("pull.lua", kPull);
+    host.open(file);
+    REQUIRE_FALSE(host.session.tool_files().empty());
+    host.session.set_tool_parameter("step", 0.5);
+    host.drag(3);
+    std::string text = kPull;
+    text.replace(text.find("\"drags\""), 7, "\"again\"");
+    host.folder.write("pull.lua", text);
+    host.session.read_tool_again();
+    host.session.post(key("s"));
+    host.wait();
+    CHECK(host.says(LineKind::message, "again\t3\t0.5"));
+    host.folder.write("pull.lua", "this is no Lua");
+    host.session.read_tool_again();
+    host.wait();
+    CHECK(host.says(LineKind::error, "pull.lua:1:"));
+    CHECK(host.state().tool == "pull");
+    const std::vector<Vec3> before = host.shown();
+    host.drag(1);
+    CHECK(host.shown() != before);
+}
+
+TEST_CASE("session: a wrong value of a tool's parameter is told and not taken") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    host.session.set_tool_parameter("step", 50.0);
+    host.wait();
+    CHECK(host.says(LineKind::error, "at most 5"));
+    CHECK(std::get<double>(*host.state().parameters.front().value) == 0.1);
+}
+
+TEST_CASE("session: tools want a scene, which scripts give by what they return") {
+    ToolHost host;
+    const std::string tool = host.folder.write("pull.lua", kPull);
+    host.session.use_tool(tool);
+    host.wait();
+    CHECK(host.says(LineKind::warning, "tools work on a scene"));
+    host.run("local lissom = require 'lissom'\nreturn { ball = lissom.shapes.sphere{}, 3 }");
+    CHECK(host.state().has_scene);
+    host.session.use_tool(tool);
+    host.wait();
+    CHECK(host.state().tool == "pull");
+    CHECK(host.shown().size() > 10);
+    host.session.evaluate("print(#scene, scene:names()[1])");
+    host.wait();
+    CHECK(host.says(LineKind::message, "1\tball"));
+}
+
+TEST_CASE("session: objects of a scene are hidden and shown again, which is a step too") {
+    ToolHost host;
+    host.open();
+    REQUIRE(host.state().objects.size() == 1);
+    CHECK(host.state().objects.front().label.find("faces") != std::string::npos);
+    (void)host.shown();
+    host.session.show_object("ball", false);
+    host.session.show_object("no such object", false);
+    host.wait();
+    CHECK_FALSE(host.state().objects.front().visible);
+    CHECK(host.session.take_shown()->picture->meshes.empty());
+    host.session.post(input(Kind::undo));
+    host.wait();
+    CHECK(host.state().objects.front().visible);
+    CHECK(host.session.take_shown()->picture->meshes.size() == 1);
+    CHECK(host.lines.empty());
+}
+
+TEST_CASE("session: a script that runs again finds selection, tool, parameters and state") {
+    ToolHost host;
+    const std::string tool = host_tool(host.folder);
+    const std::string script =
+        "local lissom = require 'lissom'\nlocal p = lissom.params{ size = { type = 'number', "
+        "default = 1 } }\nlocal ball = lissom.shapes.sphere{}\nball:transform{ scale = p.size }\n"
+        "return { ball = ball }\n";
+    host.run(script);
+    ToolInput look = input(Kind::look);
+    look.camera = Camera({.eye = {0.0, 0.0, 5.0}});
+    look.size = {640, 480};
+    host.session.post(look);
+    host.session.use_tool(tool);
+    host.session.set_tool_parameter("step", 0.25);
+    host.wait();
+    host.drag(3);
+    host.session.evaluate(
+        "local b = scene:get('ball'); "
+        "b:set_region('selected', b:region{ vertices = { 3, 5 } })");
+    host.wait();
+    const auto asks = [&](const std::string& answer) {
+        host.lines.clear();
+        host.session.post(key("s"));
+        host.session.evaluate("#scene:get('ball'):region('selected')");
+        host.wait();
+        CHECK(host.says(LineKind::message, answer));
+        CHECK(host.says(LineKind::result, "2"));
+    };
+    asks("drags\t3\t0.25");
+    host.run(script, {"--size=2"});
+    CHECK(host.state().steps.empty());
+    asks("drags\t3\t0.25");
+    // A version that fails leaves the scene to the tools, and what follows finds all of it.
+    host.run("error('broken')");
+    CHECK(host.says(LineKind::error, "script.lua:1: broken"));
+    host.drag(1);
+    CHECK(host.state().steps.size() == 1);
+    host.run(script);
+    CHECK(host.state().steps.empty());
+    asks("drags\t4\t0.25");
+    // Other faces have no selection, and another script nothing of it.
+    host.run("return { ball = require('lissom').shapes.box{} }");
+    host.session.evaluate("scene:get('ball'):region('selected')");
+    host.wait();
+    CHECK(host.says(LineKind::result, "nil"));
+    host.run(script);
+    host.session.open({host.folder.write("other.lua", script)});
+    host.lines.clear();
+    host.session.post(key("s"));
+    host.wait();
+    CHECK(host.says(LineKind::message, "drags\tnil\t0.1"));
+}
+
+TEST_CASE("session: a script's scene comes without steps to undo") {
+    ToolHost host;
+    host.run(
+        "local lissom = require 'lissom'\nlocal scene = lissom.scene{}\n"
+        "scene:add('ball', lissom.shapes.sphere{})\nreturn scene");
+    CHECK(host.state().steps.empty());
+    host.session.post(input(Kind::undo));
+    host.wait();
+    CHECK(host.shown().size() > 10);
+}
+
+TEST_CASE("session: a scene is saved, and opened again as it was") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(3);
+    const std::vector<Vec3> after = host.shown();
+    const std::string path = host.folder.path("scene.lissom");
+    host.session.save_scene(path);
+    host.session.save_scene("/no such folder/scene.lissom");
+    host.wait();
+    CHECK(host.says(LineKind::result, "saved"));
+    CHECK(host.says(LineKind::error, "file_write_failed"));
+    host.session.open({path});
+    host.wait();
+    CHECK(host.shown() == after);
+    CHECK(host.state().has_scene);
+}
+
+TEST_CASE("session: hovering shows nothing new where a tool draws the same") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(1);
+    (void)host.shown();
+    for (int i = 0; i < 5; ++i) {
+        host.session.post(input(Kind::move, 10.0 * i));
+        host.wait();
+    }
+    CHECK_FALSE(host.session.take_shown());
+}
+
+TEST_CASE("session: what is recorded is a script that comes to the same scene") {
+    test::ProgramFolder outside;
+    const std::string record = outside.path("events.lua");
+    std::vector<Vec3> after;
+    ToolHost host({.record = record});
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(4);
+    host.session.set_tool_parameter("step", 0.25);
+    host.drag(2);
+    host.session.post(input(Kind::undo));
+    host.wait();
+    after = host.shown();
+    CHECK(host.lines.empty());
+    REQUIRE(content_of(record).find("replay") != std::string::npos);
+    const std::size_t events = play_all(host, record);
+    CHECK(events > 8);
+    CHECK(host.session.events_played() == events);
+    CHECK_FALSE(host.session.is_playing());
+    REQUIRE(host.lines.size() == 1);
+    CHECK(host.says(LineKind::result, "come to the scene that was recorded"));
+    CHECK(host.shown() == after);
+    // Not as a recording, but as the script that it is.
+    const std::string copied = "require('os') " + content_of(record);
+    host.session.open({outside.write("script.lua", copied)});
+    host.wait();
+    CHECK(host.lines.size() == 1);
+    CHECK(host.shown() == after);
+}
+
+TEST_CASE("session: events are recorded with their times, and played one by one") {
+    test::ProgramFolder outside;
+    const std::string record = outside.path("events.lua");
+    ToolHost recorder({.record = record});
+    recorder.open(host_tool(outside));
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    recorder.drag(3);
+    ToolHost host;
+    host.session.open({record});
+    host.wait();
+    const auto playback = host.session.take_playback();
+    REQUIRE(playback);
+    const std::vector<double>& times = playback->times;
+    CHECK(std::is_sorted(times.begin(), times.end()));
+    CHECK(times.back() >= 0.06);
+    CHECK(times.back() < 60.0);
+    // The hand of the recording is seen with its button down; two moves that wait are two.
+    std::size_t i = 0;
+    while (!(host.state().hand && host.state().hand->is_down)) {
+        REQUIRE(i < times.size());
+        host.session.post(played(i++));
+        host.wait();
+    }
+    CHECK(host.state().hand->size.width == 640);
+    CHECK(host.state().hand->at == Vec2(320.0, 240.0));
+    const std::vector<Vec3> before = host.shown();
+    host.session.post(played(i));
+    host.session.post(played(i + 1));
+    host.wait();
+    CHECK(host.session.events_played() == i + 2);
+    CHECK(host.shown() != before);
+    // Stopped there, nothing is held any more, and a hand goes on.
+    host.session.stop_playing();
+    host.session.post(played(i + 2));
+    host.wait();
+    CHECK_FALSE(host.session.is_playing());
+    CHECK(host.session.events_played() == i + 2);
+    CHECK(host.shown() == before);
+    CHECK(host.state().place == 0);
+    CHECK(host.state().tool == "pull");
+    host.drag(1);
+    CHECK(host.state().place == 1);
+    CHECK(host.lines.empty());
+}
+
+TEST_CASE("session: the first difference of a recording is told, and it is played on") {
+    test::ProgramFolder outside;
+    const std::string record = outside.path("events.lua");
+    const std::string tool = host_tool(outside);
+    ToolHost recorder({.record = record});
+    recorder.open(tool);
+    recorder.drag(1);
+    recorder.drag(1);
+    std::string other = kPull;
+    other.replace(other.find("z + self"), 8, "z - self");
+    outside.write("pull.lua", other);
+    test::SessionHost again;
+    const std::size_t events = play_all(again, record);
+    CHECK(again.session.events_played() == events);
+    REQUIRE(again.lines.size() == 1);
+    CHECK(again.says(LineKind::error, "the recording differs at event "));
+    CHECK(again.says(LineKind::error, ", release: the scene has the hash "));
+    // An error of a tool ends it, and names the event.
+    outside.write("pull.lua", "return require('lissom').tool{ name = 'pull', press = error }");
+    again.lines.clear();
+    CHECK(play_all(again, record) == events);
+    CHECK(again.session.events_played() < events);
+    CHECK(again.says(LineKind::error, "event "));
+    CHECK(again.says(LineKind::error, ", press: "));
+    CHECK_FALSE(again.session.is_playing());
+}
+
+TEST_CASE("session: a recording finds what lies beside it, and says what it lacks") {
+    test::ProgramFolder outside;
+    std::filesystem::create_directory(outside.path("models"));
+    save_mesh(make_sphere(), outside.path("models/ball.obj"));
+    host_tool(outside);
+    const std::string record = outside.path("events.lua");
+    {
+        test::SessionHost host({.tool = outside.path("pull.lua"), .record = record});
+        host.session.open({outside.path("models/ball.obj")});
+        host.wait();
+        ToolInput look = input(Kind::look);
+        look.camera = Camera({.eye = {0.0, 0.0, 5.0}});
+        look.size = {640, 480};
+        host.session.post(look);
+        host.session.post(input(Kind::press));
+        host.session.post(input(Kind::release));
+        host.wait();
+        CHECK(host.lines.empty());
+    }
+    const std::string text = content_of(record);
+    CHECK(text.find("open = { \"models/ball.obj\" }") != std::string::npos);
+    CHECK(text.find("{ \"tool\", \"pull.lua\"") != std::string::npos);
+    // All of it is moved.
+    test::ProgramFolder moved;
+    std::filesystem::copy(outside.path(""), moved.path(""),
+                          std::filesystem::copy_options::recursive);
+    test::SessionHost again;
+    CHECK(play_all(again, moved.path("events.lua")) > 3);
+    CHECK(again.says(LineKind::result, "come to the scene that was recorded"));
+    std::filesystem::remove(moved.path("pull.lua"));
+    again.lines.clear();
+    play_all(again, moved.path("events.lua"));
+    CHECK(again.says(LineKind::error, "pull.lua"));
+    std::filesystem::remove(moved.path("models/ball.obj"));
+    again.lines.clear();
+    CHECK(play_all(again, moved.path("events.lua")) == 0);
+    CHECK(again.says(LineKind::error, "the recording needs a file that cannot be opened"));
+    CHECK(again.says(LineKind::error, "models/ball.obj"));
+}
+
+TEST_CASE("session: a journal is a script of calls that comes to the same scene") {
+    test::ProgramFolder outside;
+    const std::string journal = outside.path("calls.lua");
+    ToolHost host({.journal = journal});
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(4);
+    host.drag(2);
+    host.session.post(input(Kind::undo));
+    host.session.show_object("ball", true);
+    host.wait();
+    const std::vector<Vec3> after = host.shown();
+    CHECK(host.lines.empty());
+    CHECK(content_of(journal).find("set_position") != std::string::npos);
+    host.session.open({journal});
+    host.wait();
+    CHECK(host.lines.empty());
+    CHECK(host.shown() == after);
+}
+
+TEST_CASE("session: a recording of a script's scene runs that script") {
+    test::ProgramFolder outside;
+    const std::string record = outside.path("events.lua");
+    ToolHost host({.tool = host_tool(outside), .record = record});
+    const std::string script =
+        host.folder.write("scene.lua", "return { ball = require('lissom').shapes.sphere{} }");
+    host.session.open({script});
+    host.wait();
+    ToolInput look = input(Kind::look);
+    look.camera = Camera({.eye = {0.0, 0.0, 5.0}});
+    look.size = {640, 480};
+    host.session.post(look);
+    host.drag(3);
+    const std::vector<Vec3> after = host.shown();
+    CHECK(host.lines.empty());
+    test::SessionHost again;
+    CHECK(play_all(again, record) > 5);
+    CHECK(again.lines.size() == 1);
+    CHECK(again.says(LineKind::result, "come to the scene that was recorded"));
+    const auto shown = again.session.take_shown();
+    REQUIRE(shown);
+    const auto positions = shown->picture->meshes.at(0).mesh->positions();
+    CHECK(std::vector<Vec3>(positions.begin(), positions.end()) == after);
+}
+
+TEST_CASE("session: a tool or a script cannot end the window") {
+    test::ProgramFolder outside;
+    ToolHost host;
+    host.open(outside.write("end.lua",
+                            "return require('lissom').tool{ name = 'end',\n"
+                            "press = function() os.exit(true) end }"));
+    host.session.post(input(Kind::press));
+    host.wait();
+    CHECK(host.says(LineKind::error, "end.lua:2: os.exit does not end the window"));
+    host.run("os.exit()");
+    CHECK(host.says(LineKind::error, "script.lua:1: os.exit does not end the window"));
+}
+
+TEST_CASE("session: a storm of Escapes leaves no step open") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    // The pulled vertex stays in front of the camera.
+    host.session.set_tool_parameter("step", 1e-3);
+    host.wait();
+    const std::vector<Vec3> before = host.shown();
+    for (int round = 0; round < 60; ++round) {
+        host.session.post(input(Kind::press));
+        for (int i = 0; i < 6; ++i) {
+            host.session.post(input(Kind::move, 320.0 + i));
+            std::this_thread::sleep_for(std::chrono::microseconds(137 * (round % 7)));
+            host.session.cancel();
+        }
+        host.session.post(input(Kind::release));
+    }
+    host.wait();
+    host.lines.clear();
+    host.session.post(input(Kind::cancel));
+    host.session.evaluate("print('depth', scene:depth())");
+    host.wait();
+    CHECK(host.says(LineKind::message, "depth\t0"));
+    const std::size_t steps = host.state().steps.size();
+    host.drag(2);
+    CHECK(host.state().steps.size() == steps + 1);
+    while (host.state().place > 0) {
+        host.session.post(input(Kind::undo));
+        host.wait();
+    }
+    CHECK(host.shown() == before);
+}
+
+TEST_CASE("session: a scene that a script closes is still the window's") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    host.session.evaluate("scene:close()");
+    host.wait();
+    const std::vector<Vec3> before = host.shown();
+    host.drag(2);
+    CHECK(host.shown() != before);
+    CHECK(host.state().steps.size() == 1);
+}
+
+TEST_CASE("session: what the console changes while events are recorded is told") {
+    test::ProgramFolder outside;
+    ToolHost host({.record = outside.path("events.lua")});
+    host.open(host.folder.write("pull.lua", kPull));
+    host.session.evaluate("#scene");
+    host.wait();
+    CHECK_FALSE(host.says(LineKind::warning, "recording"));
+    host.session.evaluate("scene:get('ball'):transform{ scale = 2 }");
+    host.wait();
+    CHECK(host.says(LineKind::warning, "the recording does not hold"));
+}
+
+TEST_CASE("session: a recording that cannot be written is told once") {
+    ToolHost host({.record = "/no such folder/events.lua"});
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(1);
+    host.drag(1);
+    std::size_t told = 0;
+    for (const ConsoleLine& line : host.lines) {
+        told += line.text.find("cannot be written") != std::string::npos ? 1 : 0;
+    }
+    CHECK(told == 1);
+}

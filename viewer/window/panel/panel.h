@@ -1,0 +1,115 @@
+/// Panel: the controls beside the picture: what is shown and how, the parameters of the script, and
+/// the console. Drawn by Dear ImGui into the window of the current context.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings/lua/core/script_parameters.h"
+#include "kernel/sketch/camera.h"
+#include "viewer/gl/gl_objects.h"
+#include "viewer/window/makers/coloring.h"
+#include "viewer/window/panel/tool_panel.h"
+#include "viewer/window/screen/display.h"
+#include "viewer/window/screen/glfw_window.h"
+#include "viewer/window/screen/input.h"
+#include "viewer/window/screen/screen.h"
+#include "viewer/window/session/session.h"
+#include "viewer/window/session/source_place.h"
+
+namespace lissom::window {
+
+/// How far a recording is played.
+struct PlayedPart {
+    std::string name;
+    std::size_t done = 0, count = 0;
+    double speed = 1.0;
+    bool is_paused = false;
+};
+
+/// What the panel shows; its own state is only how it is unfolded.
+struct PanelContent {
+    std::vector<std::string> objects;
+    std::vector<lua::ScriptParameter> parameters;
+    /// Names of the presets of the parameters; none where there is no script to keep them for.
+    std::optional<std::vector<std::string>> presets;
+    std::vector<ConsoleLine> lines;
+    /// How the line of the console may go on; the panel takes it.
+    std::optional<Completion> completion;
+    std::optional<PlayedPart> playing;
+    bool busy = false;
+    std::string stage;
+    double fraction = 0.0;
+    bool is_ortho = false;
+    /// Names of the tools that ship, and what there is to say of the one in hand.
+    std::vector<std::string> tools;
+    ToolState tool;
+    /// What the picture is seen by.
+    Camera camera;
+    PictureSize picture_size;
+    /// What may give the meshes their colours, and what does.
+    std::vector<Coloring> colorings;
+    Coloring coloring;
+    /// Of the last frame, without waiting.
+    double milliseconds = 0.0;
+    std::string driver;
+};
+
+/// What a person has asked for in one frame.
+struct PanelAnswers {
+    bool frame_all = false, toggle_ortho = false, screenshot = false, save = false,
+         run_again = false, cancel = false, compare_with_this = false;
+    std::optional<StandardView> view = std::nullopt;
+    std::optional<Coloring> coloring = std::nullopt;
+    /// A parameter has another value.
+    bool parameters_changed = false;
+    ToolAnswers tool = {};
+    /// A preset to take values from, to keep values in, or to forget.
+    std::optional<std::string> load_preset = std::nullopt, save_preset = std::nullopt,
+                               remove_preset = std::nullopt;
+    /// A line of Lua to evaluate.
+    std::optional<std::string> line = std::nullopt;
+    /// The line of the console up to the cursor, to be completed.
+    std::optional<std::string> complete = std::nullopt;
+    /// To be opened in an editor.
+    std::optional<SourcePlace> place = std::nullopt;
+};
+
+class Panel {
+  public:
+    /// A panel in `window`, whose context is current, also when the panel ends.
+    explicit Panel(GlfwWindow& window);
+    ~Panel();
+    Panel(const Panel&) = delete;
+    Panel& operator=(const Panel&) = delete;
+
+    /// Gives up what belongs to the context of the window, and makes it again in another one, which
+    /// is current by then.
+    void leave_context();
+    void enter_context();
+
+    /// Takes input for the next frames, in its order.
+    void feed(const Input& input);
+    /// Whether input is left that one frame more must take: a press and a release are never taken
+    /// at once.
+    bool owes_frame() const;
+    /// Whether the mouse, or what is typed, belongs to the panel.
+    bool wants_mouse() const;
+    bool wants_keys() const;
+
+    /// What the panel leaves free of a window.
+    Canvas canvas(gl::Extent window) const;
+
+    /// Draws a frame over what is in the window. Changes `settings` and the values of
+    /// `content.parameters` where a person does.
+    PanelAnswers draw(PanelContent& content, DisplaySettings& settings, gl::Extent window,
+                      double seconds);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lissom::window

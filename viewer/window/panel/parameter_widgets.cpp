@@ -1,0 +1,114 @@
+#include "viewer/window/panel/parameter_widgets.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace lissom::window {
+namespace {
+
+constexpr std::size_t kLongestValue = 1024;
+
+// A value of a number with all digits that a person may want to see.
+const char* number_format(const lua::ScriptParameter& p) {
+    return p.type == lua::ParameterType::integer ? "%.0f" : "%.4g";
+}
+
+bool edit_number(lua::ScriptParameter& p, double& value) {
+    const double before = value;
+    const bool limited = std::isfinite(p.min) && std::isfinite(p.max);
+    if (limited) {
+        ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &p.min, &p.max,
+                            number_format(p), ImGuiSliderFlags_AlwaysClamp);
+    } else {
+        const double step = p.step.value_or(
+            p.type == lua::ParameterType::integer ? 1.0 : std::max(std::abs(value), 1e-3) * 0.01);
+        ImGui::DragScalar("##value", ImGuiDataType_Double, &value, static_cast<float>(step), &p.min,
+                          &p.max, number_format(p), ImGuiSliderFlags_AlwaysClamp);
+    }
+    if (p.type == lua::ParameterType::integer) value = std::round(value);
+    return value != before;
+}
+
+bool edit_choice(const lua::ScriptParameter& p, std::string& value) {
+    bool changed = false;
+    if (!ImGui::BeginCombo("##value", value.c_str())) return false;
+    for (const std::string& choice : p.choices) {
+        if (!ImGui::Selectable(choice.c_str(), choice == value)) continue;
+        changed = choice != value;
+        value = choice;
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+bool edit_text(std::string& value) {
+    std::array<char, kLongestValue> text{};
+    value.copy(text.data(), text.size() - 1);
+    ImGui::InputText("##value", text.data(), text.size());
+    if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
+    value = text.data();
+    return true;
+}
+
+bool edit(lua::ScriptParameter& p) {
+    if (!p.value) p.value = p.default_value;
+    if (!p.value) {
+        switch (p.type) {
+            case lua::ParameterType::boolean:
+                p.value = false;
+                break;
+            case lua::ParameterType::number:
+            case lua::ParameterType::integer:
+                p.value = std::isfinite(p.min) ? p.min : 0.0;
+                break;
+            default:
+                p.value = std::string();
+        }
+    }
+    if (auto* flag = std::get_if<bool>(&*p.value)) return ImGui::Checkbox("##value", flag);
+    if (auto* number = std::get_if<double>(&*p.value)) return edit_number(p, *number);
+    auto& text = std::get<std::string>(*p.value);
+    return p.type == lua::ParameterType::choice ? edit_choice(p, text) : edit_text(text);
+}
+
+void help_marker(const lua::ScriptParameter& p) {
+    if (!ImGui::IsItemHovered()) return;
+    const std::string text = p.help + (p.help.empty() ? "" : "\n") + p.accepted();
+    ImGui::SetTooltip("%s", text.c_str());
+}
+
+}  // namespace
+
+std::optional<std::size_t> draw_parameters(std::vector<lua::ScriptParameter>& parameters) {
+    std::optional<std::size_t> changed;
+    std::string group;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        lua::ScriptParameter& p = parameters[i];
+        if (p.group != group) ImGui::TextDisabled("%s", p.group.c_str());
+        group = p.group;
+        ImGui::PushID(p.name.c_str());
+        const std::string label = p.name + (p.unit.empty() ? "" : " (" + p.unit + ")");
+        // A box has its name behind it, all else above.
+        const bool is_box = p.type == lua::ParameterType::boolean;
+        if (!is_box) {
+            ImGui::TextUnformatted(label.c_str());
+            help_marker(p);
+        }
+        ImGui::SetNextItemWidth(-1.0f);
+        if (edit(p)) changed = i;
+        help_marker(p);
+        if (is_box) {
+            ImGui::SameLine();
+            ImGui::TextUnformatted(label.c_str());
+            help_marker(p);
+        }
+        ImGui::PopID();
+    }
+    return changed;
+}
+
+}  // namespace lissom::window

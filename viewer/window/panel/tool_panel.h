@@ -1,0 +1,38 @@
+/// The part of the panel for tools: which is in hand, its parameters, the history of the scene; and
+/// what a tool draws over the picture. Drawn by Dear ImGui.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viewer/window/screen/screen.h"
+#include "viewer/window/session/tool_bench.h"
+
+namespace lissom::window {
+
+/// What a person has asked for in one frame.
+struct ToolAnswers {
+    /// Another tool; empty for none.
+    std::optional<std::string> tool = std::nullopt;
+    /// Place of a parameter of the tool that has another value.
+    std::optional<std::size_t> parameter = std::nullopt;
+    bool undo = false, redo = false;
+    /// An object that shall be seen or hidden.
+    std::optional<ToolObject> object = std::nullopt;
+};
+
+/// The objects of the scene, each with a box whether it is seen.
+ToolAnswers draw_scene_objects(const ToolState& state);
+
+/// Buttons for the tools called `names`, and the parameters of the one in hand, whose values a
+/// person may change.
+ToolAnswers draw_tools(const std::vector<std::string>& names, ToolState& state);
+/// The steps, those that were undone greyed.
+ToolAnswers draw_history(const ToolState& state);
+/// Text and lines of a tool over the part `canvas` of the window, which `camera` sees.
+void draw_marks(const ToolState& state, const Camera& camera, const PictureSize& size,
+                const Canvas& canvas);
+
+}  // namespace lissom::window

@@ -1,0 +1,99 @@
+/// Screen: draws a snapshot into the window of the current context, at once and plainly, and shows
+/// finished pictures there. All of it needs that context, also to end.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/sketch/camera.h"
+#include "viewer/draw/image/image.h"
+#include "viewer/draw/legend.h"
+#include "viewer/draw/snapshot.h"
+#include "viewer/gl/gl_objects.h"
+#include "viewer/gl/gpu_hair.h"
+#include "viewer/gl/gpu_scene.h"
+#include "viewer/scene_drawer.h"
+#include "viewer/window/screen/fill.h"
+
+namespace lissom::window {
+
+/// A rectangle of a window, in pixels from its top left corner.
+struct Canvas {
+    int x = 0, y = 0, width = 1, height = 1;
+
+    bool operator==(const Canvas&) const = default;
+};
+
+class Screen {
+  public:
+    Screen();
+    ~Screen();
+
+    /// Becomes what `snapshot` shows; see GpuScene::update.
+    Uploads update(const Snapshot& snapshot, std::span<const PreparedSurface> prepared = {}) {
+        return scene_.update_with(prepared, snapshot, {}, MovedVertices::quick);
+    }
+    /// What `update` would have to find out for it; see GpuScene.
+    std::vector<SurfaceNeeds> needs(const Snapshot& snapshot) const {
+        return scene_.needs(snapshot);
+    }
+    /// The strands of what is shown, and the light for one camera; see GpuHair. Bytes sent.
+    std::size_t set_hair(const Hair& hair) { return hair_.update(hair); }
+    std::size_t direct_light(std::span<const std::uint8_t> light) { return hair_.direct(light); }
+    const GpuHair& hair() const { return hair_; }
+    /// From now on `legend` stands at the right of what is drawn on a canvas of this height; taken
+    /// pictures have their own.
+    void set_legend(const std::optional<Legend>& legend, int height, const Color& background);
+    /// What the legend leaves free of a canvas.
+    Canvas beside_legend(const Canvas& canvas) const;
+    /// Draws what `camera` sees beside the legend, with one sample a pixel and without occlusion,
+    /// in a picture that is `coarseness` times smaller than `canvas`. Of the strands so many as are
+    /// drawn in a moment. A fill that is going on ends.
+    void draw(const Camera& camera, const Canvas& canvas, const Color& background, int coarseness);
+    /// Begins to draw what `draw` draws again, with smooth edges and more and more strands. Where
+    /// `longest` seconds are not enough for all, the last picture has as many as they are enough
+    /// for.
+    void begin_fill(const Camera& camera, const Canvas& canvas, const Color& background,
+                    double longest);
+    /// Draws the next slice of that; whether a picture is finished, which is shown from now on.
+    bool fill();
+    /// Whether a fill goes on.
+    bool filling() const { return filling_ != nullptr; }
+    /// Seconds that the last slice took, and that the strands of the last moving picture took.
+    double slice_seconds() const { return slice_seconds_; }
+    double moving_seconds() const { return moving_seconds_; }
+    /// Strands that stood for all in that.
+    Index moving_strands() const { return moving_; }
+    /// Shows `image` from now on.
+    void take(const Image& image);
+    /// Reads back what is shown, without the legend: for tests.
+    Image picture() const;
+    /// Copies what was drawn or taken last to `canvas` of a window of this height.
+    void show(const Canvas& canvas, int window_height) const;
+
+  private:
+    struct Filling;
+    RenderOptions options_of(const Canvas& canvas, const Color& background, int coarseness) const;
+    HairView hair_view(const SceneView& view) const;
+    Index wide_strands(const SceneView& view, int height, Index most, double least) const;
+    Index moving_strands(const SceneView& view, int height) const;
+    Index filled_strands(const SceneView& view, const RenderOptions& options) const;
+    void draw_moving_hair(const HairView& view, Index count);
+
+    SceneTools tools_;
+    GpuScene scene_;
+    GpuHair hair_;
+    int most_samples_ = 1;
+    std::unique_ptr<DrawTarget> target_;
+    Index moving_ = 0;
+    StrandPace moving_pace_, fill_pace_;
+    double slice_seconds_ = 0.0, moving_seconds_ = 0.0;
+    std::unique_ptr<Filling> filling_;
+    gl::Framebuffer legend_;
+    gl::Framebuffer filled_, finished_;
+    const gl::Framebuffer* shown_ = nullptr;
+};
+
+}  // namespace lissom::window

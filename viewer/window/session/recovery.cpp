@@ -1,0 +1,77 @@
+#include "viewer/window/session/recovery.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+#include "bindings/cli/process/process_number.h"
+
+namespace lissom::window {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPrefix = "recovery-", kSuffix = ".lissom", kUnsaved = "unsaved.lissom";
+
+// The process whose copy a file is; 0 for other files.
+long owner_of(const fs::path& path) {
+    const std::string name = path.filename().string();
+    if (name.size() <= kPrefix.size() + kSuffix.size() || !name.starts_with(kPrefix) ||
+        !name.ends_with(kSuffix)) {
+        return 0;
+    }
+    long number = 0;
+    const char* const end = name.data() + name.size() - kSuffix.size();
+    const auto [read, error] = std::from_chars(name.data() + kPrefix.size(), end, number);
+    return error == std::errc() && read == end ? number : 0;
+}
+
+}  // namespace
+
+Recovery::Recovery(fs::path folder) : folder_(std::move(folder)) {}
+
+Recovery::~Recovery() {
+    std::error_code error;
+    fs::remove(file(), error);
+}
+
+fs::path Recovery::file() const {
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    return folder_ /
+           (std::string(kPrefix) + std::to_string(cli::process_number()) + std::string(kSuffix));
+}
+
+fs::path Recovery::keep() const {
+    const fs::path kept = folder_ / kUnsaved;
+    std::error_code error;
+    fs::rename(file(), kept, error);
+    return error ? fs::path() : kept;
+}
+
+std::vector<fs::path> Recovery::left_in(const fs::path& folder) {
+    std::vector<std::pair<fs::file_time_type, fs::path>> found;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const long owner = owner_of(entry.path());
+        if (owner == 0 || cli::process_runs(owner)) continue;
+        found.emplace_back(entry.last_write_time(error), entry.path());
+    }
+    std::sort(found.rbegin(), found.rend());
+    std::vector<fs::path> paths;
+    for (auto& one : found) paths.push_back(std::move(one.second));
+    return paths;
+}
+
+fs::path state_folder() {
+    const char* const state = std::getenv("XDG_STATE_HOME");
+    if (state && *state) return fs::path(state) / "lissom";
+    const char* const home = std::getenv("HOME");
+    if (home && *home) return fs::path(home) / ".local" / "state" / "lissom";
+    std::error_code error;
+    return fs::temp_directory_path(error) / "lissom";
+}
+
+}  // namespace lissom::window

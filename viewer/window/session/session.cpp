@@ -1,0 +1,725 @@
+#include "viewer/window/session/session.h"
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+#include "bindings/cli/repl/display.h"
+#include "bindings/cli/repl/session_text.h"
+#include "bindings/cli/terminal/interrupt.h"
+#include "bindings/lua/core/failure.h"
+#include "viewer/lua/shown_values.h"
+#include "viewer/lua/viewer_library.h"
+
+namespace lissom::window {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Lines that are kept for a window that does not take them.
+constexpr std::size_t kMostLines = 10000;
+
+Box bounds_of(const Snapshot& snapshot) {
+    Box box;
+    const auto extend = [&](const Vec3& p) {
+        if (p.allFinite()) box.extend(p);
+    };
+    for_each_point(snapshot, extend);
+    for (const DrawnStrands& drawn : snapshot.strands) {
+        const std::span<const float> points = drawn.strands->points();
+        for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
+            const Vec3 p(points[i], points[i + 1], points[i + 2]);
+            extend(drawn.transform(p / drawn.style.unit));
+        }
+    }
+    return box;
+}
+
+// os.exit, which would end the window and what it holds.
+int refuse_exit(lua_State* L) {
+    return luaL_error(L, "os.exit does not end the window: return, or raise an error");
+}
+
+// Puts `refuse_exit` into the library `os`. Runs inside lua_pcall.
+int guard_exit(lua_State* L) {
+    lua_getglobal(L, "os");
+    lua_pushcfunction(L, refuse_exit);
+    lua_setfield(L, -2, "exit");
+    return 0;
+}
+
+// Adds the files of the modules that the state has loaded to the list at upvalue 1. Runs inside
+// lua_pcall: a script may have put anything in the place of `package`.
+int list_module_files(lua_State* L) {
+    auto* files = static_cast<std::vector<fs::path>*>(lua_touserdata(L, lua_upvalueindex(1)));
+    lua_getglobal(L, "package");
+    lua_getfield(L, 1, "loaded");
+    lua_pushnil(L);
+    while (lua_next(L, 2)) {
+        lua_settop(L, 3);
+        if (lua_type(L, 3) != LUA_TSTRING) continue;
+        lua_getfield(L, 1, "searchpath");
+        lua_pushvalue(L, 3);
+        lua_getfield(L, 1, "path");
+        lua_call(L, 2, 1);
+        lua::Failure failure;
+        const char* found = lua_tostring(L, 4);
+        failure.guard([&] {
+            if (found) files->emplace_back(found);
+        });
+        lua_settop(L, 3);
+    }
+    return 0;
+}
+
+// The variable `lissom`, for lines of the console, where the script has none. Runs inside
+// lua_pcall.
+int provide_library(lua_State* L) {
+    lua_getglobal(L, "lissom");
+    if (!lua_isnil(L, -1)) return 0;
+    lua_getglobal(L, "require");
+    lua_pushliteral(L, "lissom");
+    lua_call(L, 1, 1);
+    lua_setglobal(L, "lissom");
+    return 0;
+}
+
+// Writes a file whole or not at all.
+bool write_whole(const std::string& path, const std::string& text) {
+    const std::string beside = path + ".part";
+    std::error_code error;
+    {
+        std::ofstream file(beside, std::ios::binary);
+        if (!(file << text && file.flush())) {
+            file.close();
+            fs::remove(beside, error);
+            return false;
+        }
+    }
+    fs::rename(beside, path, error);
+    return !error;
+}
+
+}  // namespace
+
+bool is_script(const std::string& word) {
+    return fs::path(word).extension() == ".lua";
+}
+
+bool is_recording(const std::string& word) {
+    if (!is_script(word)) return false;
+    std::ifstream file(word);
+    std::string line;
+    constexpr int kMostComments = 20;
+    for (int i = 0; i < kMostComments && std::getline(file, line); ++i) {
+        if (line.empty() || line.starts_with("--")) continue;
+        return line.starts_with("return (require(\"lissom\").replay{");
+    }
+    return false;
+}
+
+Session::Session(cli::Program& program, std::function<void()> wake, SessionOptions options)
+    : program_(program), wake_(std::move(wake)), options_(std::move(options)) {
+    look_.kind = ToolInput::Kind::look;
+    look_.size = {1280, 960};
+    program_.log_filter = [this](LogLevel level, std::string_view text) {
+        if (level == LogLevel::warning || program_.debug) {
+            tell(level == LogLevel::warning ? LineKind::warning : LineKind::message,
+                 std::string(text));
+        }
+        return false;
+    };
+    program_.progress_listener = [this](std::string_view label, double fraction) {
+        const std::lock_guard lock(mutex_);
+        stage_ = label;
+        fraction_ = fraction;
+    };
+    listener_ = [this](const Picture& picture) {
+        ++pictures_;
+        show(frozen(picture));
+    };
+}
+
+Session::~Session() {
+    finish(1.0);
+    // The Lua state ends on the thread that it lived on.
+    worker_.post_only([this] {
+        bench_.reset();
+        script_.reset();
+    });
+    worker_.wait_idle(1.0);
+}
+
+// ---- The window's thread
+
+void Session::open(const std::vector<std::string>& words) {
+    {
+        const std::lock_guard lock(mutex_);
+        words_ = words;
+        parameters_ = std::vector<lua::ScriptParameter>();
+    }
+    cancel();
+    worker_.post_only([this, words] { run(words); });
+}
+
+void Session::run_again(const std::vector<std::string>& words) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (words_.empty()) return;
+        if (is_script(words_.front())) {
+            words_.resize(1);
+            words_.insert(words_.end(), words.begin(), words.end());
+        }
+    }
+    cancel();
+    worker_.post_only([this] {
+        std::unique_lock lock(mutex_);
+        const std::vector<std::string> now = words_;
+        lock.unlock();
+        run(now);
+    });
+}
+
+void Session::evaluate(const std::string& line) {
+    tell(LineKind::input, line);
+    worker_.post([this, line] { evaluate_line(line); });
+}
+
+void Session::complete(const std::string& text) {
+    worker_.post([this, text] { find_completions(text); });
+}
+
+void Session::cancel() {
+    if (busy()) cli::Interrupt::press();
+}
+
+void Session::use_tool(const std::string& word) {
+    worker_.post([this, word] {
+        program_.forget_interrupt();
+        if (settle_tool(word)) options_.tool = word;
+        show_scene(true);
+    });
+}
+
+void Session::read_tool_again() {
+    worker_.post([this] {
+        program_.forget_interrupt();
+        settle_tool(options_.tool);
+        show_scene(true);
+    });
+}
+
+void Session::post(ToolInput input) {
+    const std::lock_guard lock(mutex_);
+    const bool waits = !inputs_.empty();
+    push_input(inputs_, std::move(input));
+    if (!waits) worker_.post([this] { take_inputs(); });
+}
+
+void Session::save_scene(const std::string& path, bool is_recovery) {
+    worker_.post([this, path, is_recovery] {
+        if (!bench_ || !bench_->has_scene() || bench_->is_held()) return;
+        program_.forget_interrupt();
+        std::string left_out;
+        if (!succeeds(bench_->save(path, left_out)) || is_recovery) return;
+        tell(LineKind::result, "saved " + path);
+        if (!left_out.empty()) tell(LineKind::warning, left_out);
+    });
+}
+
+void Session::show_object(const std::string& name, bool visible) {
+    worker_.post([this, name, visible] {
+        if (!bench_ || !bench_->has_scene()) return;
+        program_.forget_interrupt();
+        succeeds(bench_->show(name, visible));
+        show_scene(true);
+    });
+}
+
+void Session::set_tool_parameter(const std::string& name, const lua::ParameterValue& value) {
+    worker_.post([this, name, value] {
+        if (!bench_ || !bench_->has_scene()) return;
+        program_.forget_interrupt();
+        succeeds(bench_->set(name, value));
+        show_scene(true);
+    });
+}
+
+std::optional<Playback> Session::take_playback() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(playback_, std::nullopt);
+}
+
+void Session::stop_playing() {
+    if (!plays_.exchange(false)) return;
+    cancel();
+    ToolInput stop;
+    stop.kind = ToolInput::Kind::stop;
+    post(std::move(stop));
+}
+
+std::optional<ToolState> Session::take_tool_state() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(tool_state_, std::nullopt);
+}
+
+std::vector<fs::path> Session::tool_files() const {
+    const std::lock_guard lock(mutex_);
+    return tool_files_;
+}
+
+std::pair<std::string, double> Session::progress() const {
+    const std::lock_guard lock(mutex_);
+    return {stage_, fraction_};
+}
+
+std::optional<Shown> Session::take_shown() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(shown_, std::nullopt);
+}
+
+std::vector<ConsoleLine> Session::take_lines() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(lines_, {});
+}
+
+std::optional<std::vector<lua::ScriptParameter>> Session::take_parameters() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(parameters_, std::nullopt);
+}
+
+std::optional<Completion> Session::take_completion() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(completion_, std::nullopt);
+}
+
+std::vector<fs::path> Session::files() const {
+    const std::lock_guard lock(mutex_);
+    return files_;
+}
+
+bool Session::finish(double seconds) {
+    if (!busy()) return true;
+    cli::Interrupt::press();
+    return worker_.wait_idle(seconds);
+}
+
+// ---- The worker's thread
+
+void Session::run(const std::vector<std::string>& words) {
+    program_.forget_interrupt();
+    plays_ = shows_hand_ = false;
+    if (!is_script(words.front()) || is_recording(words.front())) {
+        ran_.clear();
+        kept_.clear();
+    }
+    if (is_recording(words.front())) {
+        open_recording(words.front());
+    } else if (is_script(words.front())) {
+        run_script(words);
+    } else {
+        load_files(words);
+    }
+    wake_();
+}
+
+// A state of its own, whose prints and pictures come here.
+void Session::open_script(const lua::ScriptArguments& arguments) {
+    bench_.reset();
+    script_.reset();
+    script_ = std::make_unique<cli::Script>(program_, arguments);
+    bench_ = std::make_unique<ToolBench>(*script_);
+    lua_State* L = script_->lua();
+    lua_pushlightuserdata(L, this);
+    lua_pushcclosure(L, print, 1);
+    lua_setglobal(L, "print");
+    lua_pushcfunction(L, guard_exit);
+    if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+    lua::set_picture_listener(L, &listener_);
+    pictures_ = 0;
+}
+
+// A script that runs again finds what was selected and the tool as they were; one that fails leaves
+// the scene before it to the tools.
+void Session::run_script(const std::vector<std::string>& words) {
+    if (bench_ && ran_ == words[0]) kept_ = bench_->kept().value_or(kept_);
+    if (ran_ != words[0]) kept_.clear();
+    auto script = std::exchange(script_, nullptr);
+    auto bench = std::exchange(bench_, nullptr);
+    open_script({words[0], {words.begin() + 1, words.end()}});
+    lua_State* L = script_->lua();
+    const cli::ScriptResult result = script_->run_file(words[0]);
+    publish_parameters();
+    find_files();
+    if (!succeeds(result)) {
+        lua_settop(L, 0);
+        if (!bench || !bench->has_scene() || ran_ != words[0]) return;
+        bench_ = std::move(bench);
+        script_ = std::move(script);
+        return;
+    }
+    ran_ = words[0];
+    const bool returns = show_values();
+    succeeds(bench_->take_values(1, lua_gettop(L)));
+    // What its command line said is not in a recording.
+    settle_scene(words.size() == 1 ? words : std::vector<std::string>());
+    if (!returns && pictures_ == 0) {
+        tell(LineKind::warning, words[0] +
+                                    " shows nothing: let it draw with lissom.render, or return "
+                                    "what is to be seen: a mesh, strands, a scene, or a table of "
+                                    "them");
+    }
+    lua_settop(L, 0);
+}
+
+// Shows what is on the stack; false where that is nothing to be seen.
+bool Session::show_values() {
+    lua_State* L = script_->lua();
+    try {
+        Picture picture = lua::picture_of_values(L, 1, lua_gettop(L));
+        if (lua::is_empty(picture)) return false;
+        show(frozen(std::move(picture)));
+    } catch (const Error& error) {
+        tell(LineKind::error, error.message());
+    } catch (const std::bad_alloc&) {
+        tell(LineKind::error, "there is no memory to show this");
+    }
+    return true;
+}
+
+void Session::load_files(const std::vector<std::string>& paths) {
+    {
+        const std::lock_guard lock(mutex_);
+        files_.assign(paths.begin(), paths.end());
+    }
+    // What was there stays where the files cannot be read.
+    auto script = std::exchange(script_, nullptr);
+    auto bench = std::exchange(bench_, nullptr);
+    open_script({});
+    if (succeeds(bench_->open(paths, options_.load))) return settle_scene(paths);
+    bench_ = std::move(bench);
+    script_ = std::move(script);
+}
+
+// ---- Recordings
+
+// What was there stays where the recording cannot be opened.
+void Session::open_recording(const std::string& path) {
+    {
+        const std::lock_guard lock(mutex_);
+        files_ = {path};
+    }
+    auto script = std::exchange(script_, nullptr);
+    auto bench = std::exchange(bench_, nullptr);
+    open_script({});
+    Playback playback{path, {}};
+    std::vector<std::string> files;
+    if (!succeeds(bench_->open_recording(path, files, playback.times))) {
+        bench_ = std::move(bench);
+        script_ = std::move(script);
+        return;
+    }
+    settle_scene(files, false);
+    event_count_ = playback.times.size();
+    events_played_ = 0;
+    plays_ = shows_hand_ = event_count_ > 0;
+    const std::lock_guard lock(mutex_);
+    playback_ = std::move(playback);
+}
+
+void Session::play(std::size_t event) {
+    if (!plays_ || event >= event_count_) return;
+    PlayedEvent done;
+    cli::ScriptResult result = bench_->play(event, done);
+    if (!done.difference.empty()) tell(LineKind::error, done.difference);
+    if (done.tool) keep_tool(*done.tool);
+    if (result.status != cli::kSuccess) {
+        if (!plays_.exchange(false)) result.message = "a step was stopped and taken back";
+        result.message = "event " + std::to_string(event + 1) + " of " +
+                         std::to_string(event_count_) + ", " + bench_->event_kind(event) + ": " +
+                         result.message;
+        succeeds(result);
+        return let_go();
+    }
+    events_played_ = event + 1;
+    if (event + 1 < event_count_) return;
+    plays_ = false;
+    let_go();
+    if (!bench_->play_differs()) {
+        tell(LineKind::result, "played " + std::to_string(event_count_) +
+                                   " events, which come to the scene that was recorded");
+    }
+}
+
+// A recording that ends early leaves no button down.
+void Session::let_go() {
+    if (!bench_ || !bench_->has_scene() || !bench_->is_held()) return;
+    ToolInput cancel;
+    cancel.kind = ToolInput::Kind::cancel;
+    succeeds(bench_->take(cancel));
+}
+
+// What a recording calls a file: by its place beside or below the recording, else by its whole
+// path.
+std::string Session::told_path(const std::string& path) const {
+    if (options_.record.empty()) return path;
+    std::error_code error;
+    const auto folder_of = [&](const fs::path& file) {
+        return fs::weakly_canonical(fs::absolute(file, error).parent_path(), error);
+    };
+    const fs::path from = folder_of(options_.record);
+    const fs::path whole = folder_of(path) / fs::path(path).filename();
+    const fs::path below = whole.lexically_relative(from);
+    const bool is_below = !below.empty() && *below.begin() != "..";
+    return (is_below ? below : whole).generic_string();
+}
+
+// ---- Tools
+
+// Tells what went wrong; false then.
+bool Session::succeeds(const cli::ScriptResult& result) {
+    if (result.status == cli::kSuccess) return true;
+    tell(LineKind::error, result.message);
+    // Somebody may go on pressing Escape.
+    constexpr int kMostTimes = 20;
+    for (int i = 0; bench_ && i < kMostTimes; ++i) {
+        program_.forget_interrupt();
+        if (bench_->recover()) break;
+    }
+    return false;
+}
+
+// A scene is there that was not before: it is seen and recorded as `open`, and the tool works on
+// it unless a recording brings its own.
+void Session::settle_scene(const std::vector<std::string>& open, bool takes_tool) {
+    ++scene_number_;
+    if (bench_->has_scene()) {
+        bench_->publish_scene();
+        succeeds(bench_->take(look_));
+        // A recording begins with what the script has made.
+        const bool records = !options_.record.empty() || !options_.journal.empty();
+        if (!kept_.empty()) succeeds(bench_->restore(std::exchange(kept_, ""), !records));
+        std::vector<std::string> told;
+        for (const std::string& path : open) told.push_back(told_path(path));
+        const auto record = [&](const char* method, const std::vector<std::string>& files) {
+            succeeds(bench_->record(method, files, options_.load));
+        };
+        if (!options_.record.empty()) record("record", told);
+        if (!options_.journal.empty()) record("keep_journal", open);
+        if (!options_.tool.empty() && takes_tool) settle_tool(options_.tool);
+        if (pictures_ == 0) return show_scene(true);
+    }
+    ToolState state = bench_->state();
+    state.scene = scene_number_;
+    const std::lock_guard lock(mutex_);
+    tool_state_ = std::move(state);
+}
+
+bool Session::settle_tool(const std::string& word) {
+    if (!bench_ || !bench_->has_scene()) {
+        tell(LineKind::warning,
+             "tools work on a scene: open meshes, or let the script return a scene or meshes");
+        return false;
+    }
+    const bool done = succeeds(bench_->use(word, word.ends_with(".lua") ? told_path(word) : word));
+    const std::vector<fs::path> files = bench_->tool_files(word);
+    const std::lock_guard lock(mutex_);
+    tool_files_ = files;
+    return done;
+}
+
+// A recording has taken it in hand.
+void Session::keep_tool(const std::string& word) {
+    options_.tool = word;
+    const std::vector<fs::path> files = bench_->tool_files(word);
+    const std::lock_guard lock(mutex_);
+    tool_files_ = files;
+}
+
+void Session::take_inputs() {
+    std::unique_lock lock(mutex_);
+    const std::vector<ToolInput> inputs = std::exchange(inputs_, {});
+    lock.unlock();
+    program_.forget_interrupt();
+    bool only_hovers = true;
+    for (const ToolInput& input : inputs) {
+        if (input.kind == ToolInput::Kind::look) look_ = input;
+        if (!bench_ || !bench_->has_scene()) continue;
+        only_hovers = only_hovers && input.kind == ToolInput::Kind::move && !bench_->is_held();
+        if (input.kind == ToolInput::Kind::play) {
+            play(input.event);
+        } else if (input.kind == ToolInput::Kind::stop) {
+            let_go();
+        } else {
+            succeeds(bench_->take(input));
+        }
+    }
+    show_scene(!only_hovers);
+}
+
+// Shows the scene with what the tool draws; where that is as before only if `always`.
+void Session::show_scene(bool always) {
+    if (!bench_ || !bench_->has_scene()) return;
+    succeeds(bench_->draw());
+    try {
+        ToolState state = bench_->state();
+        state.scene = scene_number_;
+        state.camera = bench_->looked();
+        if (state.camera) look_.camera = *state.camera;
+        if (shows_hand_) state.hand = bench_->hand();
+        // The last event shows it as well.
+        shows_hand_ = plays_;
+        const bool same = state == last_state_ && !state.camera;
+        if (same && !always) return;
+        Picture picture = bench_->picture();
+        std::vector<std::string> names = bench_->names_of(picture);
+        show(frozen(std::move(picture)), std::move(names));
+        last_state_ = state;
+        const std::lock_guard lock(mutex_);
+        // One that the window has not seen yet.
+        if (tool_state_ && !state.camera) state.camera = tool_state_->camera;
+        tool_state_ = std::move(state);
+    } catch (const Error& error) {
+        tell(LineKind::error, error.message());
+    } catch (const std::bad_alloc&) {
+        tell(LineKind::error, "there is no memory to show this");
+    }
+    if (always) save_records();
+    wake_();
+}
+
+void Session::save_records() {
+    save_record("recording", options_.record, recorded_);
+    save_record("journal_text", options_.journal, told_);
+}
+
+// Writes what the host's method `what` tells, where that is not what was saved.
+void Session::save_record(const char* what, const std::string& path, std::string& saved) {
+    if (path.empty() || bench_->is_held()) return;
+    const std::optional<std::string> text = bench_->text_of(what);
+    if (!text || *text == saved) return;
+    if (write_whole(path, *text)) {
+        saved = *text;
+        record_fails_ = false;
+        return;
+    }
+    // It is tried again at the next change.
+    if (!std::exchange(record_fails_, true)) {
+        tell(LineKind::error, "what is recorded cannot be written to " + path);
+    }
+}
+
+// The state of the script, else one of its own, with the variable `lissom`.
+lua_State* Session::console_state() {
+    program_.forget_interrupt();
+    if (!script_) open_script({});
+    lua_State* L = script_->lua();
+    lua_settop(L, 0);
+    lua_pushcfunction(L, provide_library);
+    if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+    return L;
+}
+
+void Session::find_completions(const std::string& text) {
+    Completion completion{text, cli::completions(console_state(), text)};
+    lua_settop(script_->lua(), 0);
+    {
+        const std::lock_guard lock(mutex_);
+        completion_ = std::move(completion);
+    }
+    wake_();
+}
+
+void Session::evaluate_line(const std::string& line) {
+    lua_State* L = console_state();
+    const std::string expression = "return " + line;
+    const std::string statement = cli::with_session_variables(line);
+    const auto load = [&](const std::string& text) {
+        return luaL_loadbufferx(L, text.data(), text.size(), "=console", "t") == LUA_OK;
+    };
+    bool loaded = load(expression);
+    if (!loaded) {
+        lua_settop(L, 0);
+        loaded = load(statement);
+    }
+    if (!loaded) {
+        tell(LineKind::error, lua_tostring(L, -1));
+    } else {
+        const cli::ScriptResult result = script_->call_function();
+        if (result.status != cli::kSuccess) {
+            tell(LineKind::error, result.message);
+        } else {
+            for (int i = 1; i <= lua_gettop(L); ++i) tell(LineKind::result, cli::display(L, i));
+            if (bench_->changed_outside()) {
+                tell(LineKind::warning,
+                     "the recording does not hold what the console does: it cannot be repeated");
+            }
+            const bool holds = bench_->holds(1, lua_gettop(L));
+            if (holds || !show_values()) show_scene(true);
+        }
+    }
+    lua_settop(L, 0);
+    wake_();
+}
+
+void Session::show(Picture picture, std::vector<std::string> names) {
+    Shown next;
+    next.names = std::move(names);
+    try {
+        next.snapshot = snapshot_of(picture);
+        next.bounds = bounds_of(next.snapshot);
+    } catch (const Error& error) {
+        return tell(LineKind::error, error.message());
+    }
+    next.picture = std::make_shared<const Picture>(std::move(picture));
+    {
+        const std::lock_guard lock(mutex_);
+        next.number = ++number_;
+        shown_ = std::move(next);
+    }
+    wake_();
+}
+
+void Session::tell(LineKind kind, const std::string& text) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (lines_.size() < kMostLines) lines_.push_back({kind, text});
+    }
+    wake_();
+}
+
+void Session::publish_parameters() {
+    const auto& declared = script_->state().parameters;
+    const std::lock_guard lock(mutex_);
+    if (declared) parameters_ = declared->list;
+}
+
+void Session::find_files() {
+    std::vector<fs::path> files;
+    lua_State* L = script_->lua();
+    lua_pushlightuserdata(L, &files);
+    lua_pushcclosure(L, list_module_files, 1);
+    if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+    const std::lock_guard lock(mutex_);
+    files.emplace_back(words_.front());
+    files_ = std::move(files);
+}
+
+// print, with the session as upvalue 1.
+int Session::print(lua_State* L) {
+    auto* session = static_cast<Session*>(lua_touserdata(L, lua_upvalueindex(1)));
+    const int count = lua_gettop(L);
+    for (int i = 1; i <= count; ++i) luaL_tolstring(L, i, nullptr);
+    lua::Failure failure;
+    failure.guard([&] {
+        std::string text;
+        for (int i = 1; i <= count; ++i) {
+            text += (i > 1 ? "\t" : "");
+            text += lua_tostring(L, count + i);
+        }
+        session->tell(LineKind::message, text);
+    });
+    return 0;
+}
+
+}  // namespace lissom::window

@@ -1,0 +1,210 @@
+/// Session: what a window looks at, a script or files, worked on by a thread of its own. The window
+/// reads what is finished and never waits.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings/cli/repl/completion.h"
+#include "bindings/cli/script.h"
+#include "bindings/lua/core/script_parameters.h"
+#include "kernel/io/mesh_file.h"
+#include "viewer/picture.h"
+#include "viewer/window/session/tool_bench.h"
+#include "viewer/window/session/worker.h"
+
+namespace lissom::window {
+
+enum class LineKind { message, result, input, warning, error };
+
+/// A line of the console.
+struct ConsoleLine {
+    LineKind kind = LineKind::message;
+    std::string text;
+};
+
+/// Something finished to look at.
+struct Shown {
+    std::shared_ptr<const Picture> picture;
+    /// Of the meshes, where they have any.
+    std::vector<std::string> names;
+    Snapshot snapshot;
+    Box bounds;
+    /// Grows with every one.
+    std::uint64_t number = 0;
+};
+
+/// How a line of the console may go on.
+struct Completion {
+    /// The line up to the cursor, as it was asked for.
+    std::string text;
+    cli::Completions found;
+};
+
+/// A recording that is ready to be played.
+struct Playback {
+    std::string path;
+    /// Seconds of its events, in their order.
+    std::vector<double> times;
+};
+
+struct SessionOptions {
+    /// The tool that is in hand from the first: a file, or the name of one that ships.
+    std::string tool = {};
+    /// Where what is done with tools is recorded; empty for nowhere.
+    std::string record = {};
+    /// Where the calls that tools make are kept as a script; empty for nowhere.
+    std::string journal = {};
+    /// How mesh files are read.
+    LoadOptions load = {};
+};
+
+class Session {
+  public:
+    /// `wake` is called on the session's thread when there is something new.
+    Session(cli::Program& program, std::function<void()> wake, SessionOptions options = {});
+    /// Stops what runs; waits a second for it at most.
+    ~Session();
+
+    // ---- For the window's thread. All of it returns at once.
+
+    /// Opens mesh files, runs a script with the words that follow it on its command line, or opens
+    /// the scene of a recording, whose events are then to be posted.
+    /// What was open before stays in sight until there is something to show.
+    void open(const std::vector<std::string>& words);
+    /// Runs the script again, or reads the files again, with `words` as the command line of the
+    /// script. What runs is given up.
+    void run_again(const std::vector<std::string>& words);
+    /// Evaluates a line of Lua in the state of the script; values that can be seen are shown.
+    void evaluate(const std::string& line);
+    /// Finds out how `text`, a line of the console up to the cursor, may go on.
+    void complete(const std::string& text);
+    /// Stops what runs.
+    void cancel();
+    /// Takes a tool in hand: a file, the name of one that ships, or none where `word` is empty.
+    void use_tool(const std::string& word);
+    /// Reads the tool in hand again, whose parameters and state stay; the old one stays where the
+    /// new one fails.
+    void read_tool_again();
+    /// A hand has done this.
+    void post(ToolInput input);
+    /// Shows or hides an object of the scene.
+    void show_object(const std::string& name, bool visible);
+    /// Writes the scene to a file, and tells that it did; silently where it is a recovery.
+    void save_scene(const std::string& path, bool is_recovery = false);
+    /// A parameter of the tool has this value.
+    void set_tool_parameter(const std::string& name, const lua::ParameterValue& value);
+
+    // ---- Playing
+
+    /// The recording that was opened since the last call.
+    std::optional<Playback> take_playback();
+    /// Whether events of it are taken: until the last, a failure or `stop_playing`.
+    bool is_playing() const { return plays_; }
+    /// Number of events that are done.
+    std::size_t events_played() const { return events_played_; }
+    /// Stops what runs, drops the events that wait, and lets go of what the recording holds.
+    void stop_playing();
+
+    bool busy() const { return worker_.busy(); }
+    /// What the running operation does, and the fraction done.
+    std::pair<std::string, double> progress() const;
+    /// What was finished since the last call.
+    std::optional<Shown> take_shown();
+    /// Lines of the console since the last call.
+    std::vector<ConsoleLine> take_lines();
+    /// What was asked for last, where it was found since the last call.
+    std::optional<Completion> take_completion();
+    /// The parameters that the script has declared, since the last call.
+    std::optional<std::vector<lua::ScriptParameter>> take_parameters();
+    /// What the panel says of the scene and the tool, since the last call.
+    std::optional<ToolState> take_tool_state();
+    /// What was read for what is shown: the script, what it requires, or the files.
+    std::vector<std::filesystem::path> files() const;
+    /// What was read for the tool in hand.
+    std::vector<std::filesystem::path> tool_files() const;
+
+    /// Stops what runs and waits `seconds` for it; false where it goes on: the process must then
+    /// end without ending this object.
+    bool finish(double seconds);
+
+  private:
+    void run(const std::vector<std::string>& words);
+    void open_script(const lua::ScriptArguments& arguments);
+    void run_script(const std::vector<std::string>& words);
+    bool show_values();
+    void load_files(const std::vector<std::string>& paths);
+    void open_recording(const std::string& path);
+    void play(std::size_t event);
+    void let_go();
+    std::string told_path(const std::string& path) const;
+    void settle_scene(const std::vector<std::string>& open, bool takes_tool = true);
+    bool settle_tool(const std::string& word);
+    void keep_tool(const std::string& word);
+    void take_inputs();
+    bool succeeds(const cli::ScriptResult& result);
+    void show_scene(bool always);
+    void save_records();
+    void save_record(const char* what, const std::string& path, std::string& saved);
+    void evaluate_line(const std::string& line);
+    lua_State* console_state();
+    void find_completions(const std::string& text);
+    void show(Picture picture, std::vector<std::string> names = {});
+    void tell(LineKind kind, const std::string& text);
+    void publish_parameters();
+    void find_files();
+    static int print(lua_State* L);
+
+    cli::Program& program_;
+    std::function<void()> wake_;
+
+    // Shared, under the mutex.
+    mutable std::mutex mutex_;
+    std::vector<std::string> words_;
+    std::optional<Shown> shown_;
+    std::vector<ConsoleLine> lines_;
+    std::optional<std::vector<lua::ScriptParameter>> parameters_;
+    std::vector<std::filesystem::path> files_, tool_files_;
+    std::vector<ToolInput> inputs_;
+    std::optional<ToolState> tool_state_;
+    std::optional<Completion> completion_;
+    std::optional<Playback> playback_;
+    std::string stage_;
+    double fraction_ = 0.0;
+    std::uint64_t number_ = 0;
+
+    std::atomic<bool> plays_{false};
+    std::atomic<std::size_t> events_played_{0};
+
+    // The worker's own.
+    SessionOptions options_;
+    std::size_t event_count_ = 0;
+    bool shows_hand_ = false;
+    std::function<void(const Picture&)> listener_;
+    std::unique_ptr<cli::Script> script_;
+    std::unique_ptr<ToolBench> bench_;
+    ToolInput look_;
+    std::string recorded_, told_;
+    // The script whose scene there is, and what stays of it when it runs again.
+    std::string ran_, kept_;
+    std::uint64_t scene_number_ = 0;
+    bool record_fails_ = false;
+    ToolState last_state_;
+    std::size_t pictures_ = 0;
+    Worker worker_;
+};
+
+/// Whether a word of the command line names a script.
+bool is_script(const std::string& word);
+/// Whether it names a script that does nothing but repeat what was recorded.
+bool is_recording(const std::string& word);
+
+}  // namespace lissom::window

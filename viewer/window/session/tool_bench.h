@@ -1,0 +1,207 @@
+/// ToolBench: a scene of a script and the tool in hand, in the script's Lua state. It lives on the
+/// thread of the script.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings/cli/script.h"
+#include "bindings/lua/core/script_parameters.h"
+#include "kernel/io/mesh_file.h"
+#include "viewer/picture.h"
+#include "viewer/window/session/tool_input.h"
+
+namespace lissom::window {
+
+/// Text at a point of the world.
+struct ToolLabel {
+    Vec3 at = Vec3::Zero();
+    std::string text;
+    Color color;
+
+    bool operator==(const ToolLabel&) const = default;
+};
+
+/// A line in the picture, in pixels from its top left corner.
+struct ToolOutline {
+    std::vector<Vec2> pixels;
+    bool closed = false;
+    Color color;
+    double width = 1.5;
+    /// 0 for nothing to 1.
+    double opacity = 1.0;
+
+    bool operator==(const ToolOutline&) const = default;
+};
+
+/// A surface between two lines of the world, as many points each, that is seen through.
+struct ToolSurface {
+    std::vector<Vec3> from, to;
+    Color color;
+    double opacity = 0.25;
+
+    bool operator==(const ToolSurface&) const = default;
+};
+
+/// What a tool shows that is no part of the scene.
+struct ToolMarks {
+    std::vector<ToolLabel> labels;
+    std::vector<ToolOutline> outlines;
+    std::vector<ToolSurface> surfaces;
+
+    bool operator==(const ToolMarks&) const = default;
+};
+
+/// An object of the scene.
+struct ToolObject {
+    std::string name;
+    /// With the number of faces of a mesh.
+    std::string label;
+    bool visible = true;
+
+    bool operator==(const ToolObject&) const = default;
+};
+
+/// The hand of a recording that is played: what it saw, and where it is.
+struct PlayedHand {
+    Camera camera;
+    gl::Extent size;
+    /// In pixels of a picture of that size.
+    Vec2 at = Vec2::Zero();
+    bool is_down = false;
+};
+
+/// What the panel says of the scene and the tool.
+struct ToolState {
+    bool has_scene = false;
+    /// Another number: another scene.
+    std::uint64_t scene = 0;
+    /// Where the tool has set it since the last state: what the scene is to be seen by.
+    std::optional<Camera> camera;
+    /// What can be shown by itself, in the order of the scene.
+    std::vector<ToolObject> objects;
+    /// Name of the tool in hand; empty for none.
+    std::string tool;
+    /// What the tool asks, or its help.
+    std::string prompt;
+    std::vector<lua::ScriptParameter> parameters;
+    /// Names of the steps, oldest first; the first `place` can be undone.
+    std::vector<std::string> steps;
+    std::size_t place = 0;
+    /// In the world, part of the picture.
+    Overlay overlay;
+    ToolMarks marks;
+    /// While a recording is played.
+    std::optional<PlayedHand> hand;
+
+    /// Whether the same is seen; parameters are not looked at.
+    bool operator==(const ToolState& other) const;
+};
+
+/// What an event of a recording has brought.
+struct PlayedEvent {
+    /// Where the scene differs from what was recorded, and did not before.
+    std::string difference;
+    /// The tool that is in hand from now on, as `ToolBench::use` takes it.
+    std::optional<std::string> tool;
+};
+
+class ToolBench {
+  public:
+    /// `script` must outlive it, and has opened lissom.
+    explicit ToolBench(cli::Script& script) : script_(script) {}
+
+    // ---- Scenes. Each function answers how it went; after a failure all is as before.
+
+    /// Opens files as one scene: meshes, read with `options`, or one .lissom file.
+    cli::ScriptResult open(const std::vector<std::string>& paths, const LoadOptions& options);
+    /// Makes a scene of what is between two stack indices: a scene that is there, or objects that a
+    /// scene can hold. Without any there is no scene afterwards.
+    cli::ScriptResult take_values(int first, int last);
+    bool has_scene() const { return has_scene_; }
+    /// Writes the scene to a file; `left_out` says what had no place there.
+    cli::ScriptResult save(const std::string& path, std::string& left_out);
+    /// Sets the global variable `scene`, for lines of a console.
+    void publish_scene();
+
+    // ---- Tools
+
+    /// Takes a tool in hand: a file, the name of one that ships, or none where `word` is empty; a
+    /// recording calls it `told`.
+    cli::ScriptResult use(const std::string& word, const std::string& told);
+    /// What `word`, the tool in hand, was read from.
+    std::vector<std::filesystem::path> tool_files(const std::string& word);
+    /// Whether a button is down that the tool knows of.
+    bool is_held() const;
+    /// A hand has done this.
+    cli::ScriptResult take(const ToolInput& input);
+    /// Shows or hides an object of the scene.
+    cli::ScriptResult show(const std::string& name, bool visible);
+    cli::ScriptResult set(const std::string& name, const lua::ParameterValue& value);
+    /// After a call that was stopped from outside.
+    bool recover();
+    /// Whether one of the values between two stack indices is an object of the scene, or that.
+    bool holds(int first, int last);
+    /// Something else than a tool may have changed the scene: true where a recording lacks that.
+    bool changed_outside();
+
+    /// What is selected, and the tool's parameters and state, as a text for `restore` in another
+    /// state of Lua; nothing where there is no scene.
+    std::optional<std::string> kept();
+    /// Takes that back before a tool is taken in hand; what was selected only where it `selects`.
+    cli::ScriptResult restore(const std::string& kept, bool selects);
+
+    /// Begins a recording ("record") or a journal ("keep_journal"); `open` are the files of the
+    /// scene, where nothing else led to it, and how they were read.
+    cli::ScriptResult record(const char* method, const std::vector<std::string>& open,
+                             const LoadOptions& options);
+    /// Their text up to now ("recording", "journal_text"); nothing where none is made.
+    std::optional<std::string> text_of(const char* method);
+
+    // ---- Playing
+
+    /// Opens the scene of a recording; `files` are those it was made of, `times` the seconds of its
+    /// events. Errors as those of lissom.replay before the first event.
+    cli::ScriptResult open_recording(const std::string& path, std::vector<std::string>& files,
+                                     std::vector<double>& times);
+    /// Does the event at `place` of the open recording.
+    cli::ScriptResult play(std::size_t place, PlayedEvent& done);
+    /// Whether a difference was found.
+    bool play_differs() const { return play_differs_; }
+    /// What the event at `place` is.
+    std::string event_kind(std::size_t place);
+    /// The hand as the last event left it.
+    PlayedHand hand() const;
+
+    // ---- What there is to see
+
+    /// Tells by the tool what it shows; then `picture` and `state` can be asked.
+    cli::ScriptResult draw();
+    /// Errors: those of drawing_of.
+    Picture picture();
+    /// A name for each mesh of the picture.
+    std::vector<std::string> names_of(const Picture& picture);
+    ToolState state();
+    /// The camera that the tool has set since the last call.
+    std::optional<Camera> looked();
+
+  private:
+    cli::ScriptResult call(const char* method, int count);
+    void push_host() const;
+    void push_tool() const;
+    void paint_regions(Picture& picture);
+    void revive_scene();
+
+    cli::Script& script_;
+    bool has_scene_ = false, play_differs_ = false;
+    /// What a script may have closed, and must not.
+    std::shared_ptr<void> scene_;
+};
+
+/// Names of the tools that ship, in their order.
+std::vector<std::string> shipped_tools();
+
+}  // namespace lissom::window

@@ -1,0 +1,51 @@
+#include "viewer/window/session/tool_input.h"
+
+#include <cctype>
+#include <utility>
+
+namespace lissom::window {
+
+void push_input(std::vector<ToolInput>& inputs, ToolInput input) {
+    const bool piles_up = input.kind == ToolInput::Kind::move ||
+                          input.kind == ToolInput::Kind::look ||
+                          input.kind == ToolInput::Kind::wheel;
+    const bool replaces = piles_up && !inputs.empty() && inputs.back().kind == input.kind &&
+                          inputs.back().modifiers == input.modifiers;
+    if (replaces) {
+        if (input.kind == ToolInput::Kind::wheel) input.lines += inputs.back().lines;
+        inputs.back() = std::move(input);
+    } else {
+        inputs.push_back(std::move(input));
+    }
+}
+
+std::string tool_key(const Input& input) {
+    switch (input.key) {
+        case Key::enter:
+            return "enter";
+        case Key::tab:
+            return "tab";
+        case Key::backspace:
+            return "backspace";
+        case Key::del:
+            return "delete";
+        case Key::space:
+            return "space";
+        case Key::left:
+            return "left";
+        case Key::right:
+            return "right";
+        case Key::up:
+            return "up";
+        case Key::down:
+            return "down";
+        default:
+            break;
+    }
+    const bool types =
+        input.kind == Input::Kind::text && input.character > 32 && input.character < 127;
+    if (!types) return "";
+    return std::string(1, static_cast<char>(std::tolower(static_cast<int>(input.character))));
+}
+
+}  // namespace lissom::window
