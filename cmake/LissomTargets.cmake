@@ -81,12 +81,29 @@ function(lissom_unity target)
     endif()
 endfunction()
 
+# lissom_headers: with LISSOM_PCH, compiles Eigen and what most sources include of the standard library once; the
+# libraries take them from there. Not the sources that lissom_hot_loops names, which are compiled always alike.
+function(lissom_headers)
+    file(WRITE ${PROJECT_BINARY_DIR}/headers.cpp "")
+    add_library(lissom_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers.cpp)
+    lissom_target_defaults(lissom_headers)
+    target_link_libraries(lissom_headers PRIVATE Eigen3::Eigen)
+    target_precompile_headers(
+        lissom_headers PRIVATE <Eigen/Geometry> <Eigen/LU> <algorithm> <array> <atomic> <charconv> <chrono> <cmath>
+        <cstdint> <cstring> <deque> <filesystem> <functional> <limits> <map> <memory> <mutex> <numeric> <optional>
+        <set> <span> <sstream> <string> <string_view> <thread> <tuple> <unordered_map> <unordered_set> <utility>
+        <variant> <vector>)
+endfunction()
+
 # lissom_library(NAME FILES...): a static library lissom_NAME with the alias lissom::NAME.
 function(lissom_library name)
     add_library(lissom_${name} STATIC ${ARGN})
     add_library(lissom::${name} ALIAS lissom_${name})
     lissom_target_defaults(lissom_${name})
     lissom_unity(lissom_${name})
+    if(LISSOM_PCH)
+        target_precompile_headers(lissom_${name} REUSE_FROM lissom_headers)
+    endif()
 endfunction()
 
 # lissom_hot_loops(TARGET FILES...): for libraries whose time goes into loops over numbers; the build that is soonest
@@ -102,6 +119,7 @@ function(lissom_hot_loops target)
     endif()
     if(ARGN)
         set_property(SOURCE ${ARGN} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
+        set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
         set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS $<${release}:-O3>)
     endif()
 endfunction()

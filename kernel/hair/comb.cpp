@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/rotation.h"
 #include "kernel/hair/curve/curve.h"
 #include "kernel/hair/curve/curve_foot.h"
 
@@ -33,8 +34,7 @@ double hold_at(double distance, double reach) {
 }
 
 Vec3 turned_towards(const Vec3& v, const Vec3& direction, double share) {
-    const auto whole = Eigen::Quaterniond::FromTwoVectors(v, direction);
-    return Eigen::Quaterniond::Identity().slerp(share, whole) * v;
+    return Eigen::Quaterniond::Identity().slerp(share, least_rotation(v, direction)) * v;
 }
 
 // ---- How a style changes

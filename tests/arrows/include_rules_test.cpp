@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,16 @@ std::vector<std::pair<std::string, std::string>> source_files() {
     return files;
 }
 
+/// Sources and headers in each folder of what is built, without those of its subfolders.
+std::map<std::string, int> files_of_rooms() {
+    std::map<std::string, int> result;
+    for (const auto& file : source_files()) {
+        const std::string room = fs::path(file.first).parent_path().generic_string();
+        if (!room.starts_with("tests") && !room.starts_with("examples")) ++result[room];
+    }
+    return result;
+}
+
 std::size_t count(const char* path, const std::string& source) {
     return include_violations(path, source).size();
 }
@@ -57,6 +68,17 @@ TEST_CASE("every header included in quotes exists below the root") {
     for (const auto& file : source_files())
         for (const std::string& header : quoted_includes(file.second))
             CHECK_MESSAGE(fs::exists(root() / header), file.first << " includes " << header);
+}
+
+TEST_CASE("no room has more than thirty files, and the README names each") {
+    std::ifstream stream(root() / "README.md", std::ios::binary);
+    const std::string readme(std::istreambuf_iterator<char>(stream), {});
+    const auto rooms = files_of_rooms();
+    CHECK(rooms.size() > 40);
+    for (const auto& [room, files] : rooms) {
+        CHECK_MESSAGE(files <= 30, room << " has " << files << " files");
+        CHECK_MESSAGE(readme.find("](" + room + ")") != std::string::npos, room << " has no line");
+    }
 }
 
 TEST_CASE("an arrow that runs back is found") {

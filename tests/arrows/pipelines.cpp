@@ -43,11 +43,13 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-// A cell of a table without the marks of Markdown: links become their text.
+// A cell of a table without the marks of Markdown: links become their text; what stands in
+// brackets, names of files, is left out.
 std::string plain(std::string_view cell) {
     std::string result;
     for (std::size_t i = 0; i < cell.size(); ++i) {
-        if (cell[i] == ']' && i + 1 < cell.size() && cell[i + 1] == '(') {
+        const bool link = cell.substr(i).starts_with("](");
+        if (link || cell.substr(i).starts_with(" (")) {
             i = cell.find(')', i);
         } else if (cell[i] != '[' && cell[i] != '`') {
             result += cell[i];

@@ -27,7 +27,7 @@ TEST_CASE("the picture of the pipelines is that of the rules and the README") {
 TEST_CASE("the picture has every room that the README has of the pipelines, with its words") {
     const std::string readme =
         "| [kernel/hair/curve](kernel/hair/curve) | curves & `hints` |\n"
-        "| [kernel/merge/sew](kernel/merge/sew) | the seam |\n";
+        "| [kernel/merge/sew](kernel/merge/sew) | the seam (`sew.cpp`) |\n";
     const std::string picture = pipelines_picture(readme);
     for (const char* text : {">curve<", ">curves &amp; hints<", ">sew<", ">the seam<"}) {
         CHECK(picture.find(text) != std::string::npos);
