@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "kernel/merge/paste/free_loop.h"
-#include "kernel/merge/paste/loop_search.h"
 #include "kernel/merge/paste/paste.h"
-#include "kernel/merge/paste/paste_energy.h"
-#include "kernel/merge/paste/paste_map.h"
-#include "kernel/merge/paste/paste_regions.h"
+#include "kernel/merge/paste/placement/paste_map.h"
+#include "kernel/merge/paste/region/paste_regions.h"
+#include "kernel/merge/paste/search/free_loop.h"
+#include "kernel/merge/paste/search/loop_search.h"
+#include "kernel/merge/paste/search/paste_energy.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/fill/minimum_area.h"

@@ -4,7 +4,7 @@
 
 #include "bindings/lua/core/library.h"
 #include "bindings/lua/merge/paste_object.h"
-#include "kernel/merge/paste/erase_feature.h"
+#include "kernel/merge/paste/erase/erase_feature.h"
 
 namespace lissom::lua {
 namespace {

@@ -8,14 +8,15 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
-#include "kernel/merge/paste/free_loop.h"
-#include "kernel/merge/paste/loop_search.h"
-#include "kernel/merge/paste/moving_part.h"
+#include "kernel/merge/paste/part/moving_part.h"
+#include "kernel/merge/paste/part/paste_part.h"
 #include "kernel/merge/paste/paste.h"
-#include "kernel/merge/paste/paste_energy.h"
-#include "kernel/merge/paste/paste_part.h"
-#include "kernel/merge/paste/paste_regions.h"
+#include "kernel/merge/paste/paste_options.h"
 #include "kernel/merge/paste/paste_state.h"
+#include "kernel/merge/paste/region/paste_regions.h"
+#include "kernel/merge/paste/search/free_loop.h"
+#include "kernel/merge/paste/search/loop_search.h"
+#include "kernel/merge/paste/search/paste_energy.h"
 
 namespace lissom {
 

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "kernel/core/memory_error.h"
-#include "kernel/merge/paste/cleared_target.h"
+#include "kernel/merge/paste/erase/cleared_target.h"
 #include "kernel/merge/paste/part_trial.h"
 #include "kernel/merge/paste/paste_state.h"
-#include "kernel/merge/paste/plane_line.h"
+#include "kernel/merge/paste/placement/plane_line.h"
 
 namespace lissom {
 namespace {

@@ -60,4 +60,14 @@ struct PasteSearch {
     Index closest_rounds = 0;
 };
 
+/// How much the part was distorted; see PasteReport.
+struct PasteDistortion {
+    /// 95th percentile over faces of the ratio of the singular values of the face's map.
+    double anisotropy = 1.0;
+    /// Mean by area of (s1 / s - 1)^2 + (s2 / s - 1)^2, s1 and s2 the singular values and s the
+    /// scale of the part.
+    double energy = 0.0;
+    Index faces = 0;
+};
+
 }  // namespace lissom

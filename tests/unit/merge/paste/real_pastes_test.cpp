@@ -5,14 +5,14 @@
 #include <set>
 
 #include "kernel/io/mesh_file.h"
-#include "kernel/merge/paste/free_loop.h"
-#include "kernel/merge/paste/loop_search.h"
 #include "kernel/merge/paste/paste.h"
-#include "kernel/merge/paste/paste_energy.h"
-#include "kernel/merge/paste/paste_map.h"
-#include "kernel/merge/paste/paste_regions.h"
-#include "tests/unit/merge/paste/loop_force.h"
+#include "kernel/merge/paste/placement/paste_map.h"
+#include "kernel/merge/paste/region/paste_regions.h"
+#include "kernel/merge/paste/search/free_loop.h"
+#include "kernel/merge/paste/search/loop_search.h"
+#include "kernel/merge/paste/search/paste_energy.h"
 #include "tests/unit/merge/paste/real_pastes.h"
+#include "tests/unit/merge/paste/search/loop_force.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

@@ -4,10 +4,10 @@
 #include <limits>
 #include <string>
 
-#include "kernel/merge/paste/free_loop.h"
 #include "kernel/merge/paste/paste.h"
-#include "kernel/merge/paste/paste_map.h"
-#include "kernel/merge/paste/plane_line.h"
+#include "kernel/merge/paste/placement/paste_map.h"
+#include "kernel/merge/paste/placement/plane_line.h"
+#include "kernel/merge/paste/search/free_loop.h"
 #include "kernel/mesh/measure/measures.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"

@@ -1,9 +1,9 @@
-#include "kernel/merge/paste/opened_target.h"
+#include "kernel/merge/paste/part/opened_target.h"
 
 #include <utility>
 
 #include "kernel/core/error.h"
-#include "kernel/merge/paste/plane_line.h"
+#include "kernel/merge/paste/placement/plane_line.h"
 #include "kernel/mesh/cut/cut.h"
 
 namespace lissom {

@@ -8,8 +8,8 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
-#include "kernel/merge/paste/paste_regions.h"
-#include "kernel/merge/paste/winding_graph.h"
+#include "kernel/merge/paste/region/paste_regions.h"
+#include "kernel/merge/paste/search/winding_graph.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/loop_search.h"
+#include "kernel/merge/paste/search/loop_search.h"
 
 #include <algorithm>
 #include <functional>
@@ -7,7 +7,7 @@
 #include <queue>
 #include <tuple>
 
-#include "kernel/merge/paste/face_set.h"
+#include "kernel/merge/paste/region/face_set.h"
 
 namespace lissom {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/erase_feature.h"
+#include "kernel/merge/paste/erase/erase_feature.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 #include "kernel/core/error.h"
 #include "kernel/merge/loop/face_angles.h"
-#include "kernel/merge/paste/face_set.h"
-#include "kernel/merge/paste/loop_search.h"
-#include "kernel/merge/paste/paste_part.h"
-#include "kernel/merge/paste/paste_regions.h"
-#include "kernel/merge/paste/patch_values.h"
+#include "kernel/merge/paste/erase/patch_values.h"
+#include "kernel/merge/paste/part/paste_part.h"
+#include "kernel/merge/paste/region/face_set.h"
+#include "kernel/merge/paste/region/paste_regions.h"
+#include "kernel/merge/paste/search/loop_search.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/query/distances.h"

@@ -11,7 +11,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/paste/paste_options.h"
-#include "kernel/merge/paste/paste_regions.h"
+#include "kernel/merge/paste/region/paste_regions.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/parameterize/parameterize.h"

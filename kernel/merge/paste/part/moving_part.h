@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <span>
@@ -13,7 +14,7 @@
 #include "kernel/core/index.h"
 #include "kernel/deform/boundary/boundary_deformer.h"
 #include "kernel/deform/stats.h"
-#include "kernel/merge/paste/paste_part.h"
+#include "kernel/merge/paste/part/paste_part.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

@@ -1,12 +1,12 @@
-#include "kernel/merge/paste/free_loop.h"
+#include "kernel/merge/paste/search/free_loop.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "kernel/merge/paste/plane_line.h"
-#include "kernel/merge/paste/winding_graph.h"
+#include "kernel/merge/paste/placement/plane_line.h"
+#include "kernel/merge/paste/search/winding_graph.h"
 
 namespace lissom {
 namespace {

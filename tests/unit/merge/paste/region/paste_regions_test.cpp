@@ -1,11 +1,11 @@
 // The regions of a paste: cleaned, or refused with what to change.
-#include "kernel/merge/paste/paste_regions.h"
+#include "kernel/merge/paste/region/paste_regions.h"
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "kernel/merge/paste/face_set.h"
+#include "kernel/merge/paste/region/face_set.h"
 #include "kernel/mesh/edit/extract.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"

@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/paste_regions.h"
+#include "kernel/merge/paste/region/paste_regions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/merge/loop/face_angles.h"
-#include "kernel/merge/paste/face_set.h"
+#include "kernel/merge/paste/region/face_set.h"
 #include "kernel/mesh/query/distances.h"
 
 namespace lissom {

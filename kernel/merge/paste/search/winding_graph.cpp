@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/winding_graph.h"
+#include "kernel/merge/paste/search/winding_graph.h"
 
 #include <algorithm>
 #include <cmath>

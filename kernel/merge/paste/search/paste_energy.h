@@ -10,10 +10,10 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
-#include "kernel/merge/paste/loop_search.h"
-#include "kernel/merge/paste/paste_map.h"
 #include "kernel/merge/paste/paste_options.h"
-#include "kernel/merge/paste/paste_regions.h"
+#include "kernel/merge/paste/placement/paste_map.h"
+#include "kernel/merge/paste/region/paste_regions.h"
+#include "kernel/merge/paste/search/loop_search.h"
 
 namespace lissom {
 

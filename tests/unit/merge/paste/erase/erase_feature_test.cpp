@@ -1,5 +1,5 @@
 // Features that are removed from generated shapes.
-#include "kernel/merge/paste/erase_feature.h"
+#include "kernel/merge/paste/erase/erase_feature.h"
 
 #include <cmath>
 

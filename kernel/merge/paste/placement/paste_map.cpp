@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/paste_map.h"
+#include "kernel/merge/paste/placement/paste_map.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "kernel/core/error.h"
-#include "kernel/merge/paste/face_set.h"
+#include "kernel/merge/paste/region/face_set.h"
 #include "kernel/mesh/fill/minimum_area.h"
 #include "kernel/mesh/measure/measures.h"
 

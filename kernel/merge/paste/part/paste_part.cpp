@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/paste_part.h"
+#include "kernel/merge/paste/part/paste_part.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -10,8 +10,8 @@
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/loop/loop.h"
-#include "kernel/merge/paste/face_set.h"
-#include "kernel/merge/paste/plane_line.h"
+#include "kernel/merge/paste/placement/plane_line.h"
+#include "kernel/merge/paste/region/face_set.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/edit/extract.h"

@@ -7,7 +7,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
-#include "kernel/merge/paste/paste_map.h"
+#include "kernel/merge/paste/placement/paste_map.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
 

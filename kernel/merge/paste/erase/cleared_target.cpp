@@ -1,9 +1,9 @@
-#include "kernel/merge/paste/cleared_target.h"
+#include "kernel/merge/paste/erase/cleared_target.h"
 
 #include <utility>
 #include <vector>
 
-#include "kernel/merge/paste/erase_feature.h"
+#include "kernel/merge/paste/erase/erase_feature.h"
 #include "kernel/merge/provenance.h"
 
 namespace lissom {

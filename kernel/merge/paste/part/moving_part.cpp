@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/moving_part.h"
+#include "kernel/merge/paste/part/moving_part.h"
 
 #include <algorithm>
 #include <utility>

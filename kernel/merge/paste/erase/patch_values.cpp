@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/patch_values.h"
+#include "kernel/merge/paste/erase/patch_values.h"
 
 #include <algorithm>
 #include <cmath>

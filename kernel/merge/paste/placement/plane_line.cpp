@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/plane_line.h"
+#include "kernel/merge/paste/placement/plane_line.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/paste_energy.h"
+#include "kernel/merge/paste/search/paste_energy.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

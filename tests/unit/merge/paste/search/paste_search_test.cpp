@@ -5,11 +5,11 @@
 #include <random>
 #include <set>
 
-#include "kernel/merge/paste/loop_search.h"
-#include "kernel/merge/paste/paste_regions.h"
-#include "kernel/merge/paste/winding_graph.h"
-#include "tests/unit/merge/paste/loop_force.h"
+#include "kernel/merge/paste/region/paste_regions.h"
+#include "kernel/merge/paste/search/loop_search.h"
+#include "kernel/merge/paste/search/winding_graph.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
+#include "tests/unit/merge/paste/search/loop_force.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
