@@ -7,7 +7,7 @@
 
 #include "kernel/core/memory_error.h"
 #include "kernel/deform/deformer_state.h"
-#include "kernel/deform/frame_steps.h"
+#include "kernel/deform/frame/frame_steps.h"
 
 namespace lissom {
 namespace {

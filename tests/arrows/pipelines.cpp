@@ -13,7 +13,7 @@ namespace {
 using Lines = std::vector<std::string>;
 
 // Pixels.
-constexpr int kWidth = 1190, kEdge = 20, kGap = 22, kLine = 16;
+constexpr int kWidth = 1350, kEdge = 20, kGap = 22, kLine = 16;
 constexpr int kBoxWidth = 138, kBoxHeight = 92, kTitle = 30, kLaneHeight = kTitle + kBoxHeight + 14;
 constexpr int kLaneLeft = 46;
 // Letters of a caption that a box has room for in a line.
@@ -144,7 +144,8 @@ void draw_lane(Drawing& drawing, const Lane& lane, int y, std::string_view readm
     bool first = true;
     for (const std::string_view room : rooms_of(lane.module)) {
         const std::string caption = caption_of(readme, room);
-        if (caption.empty()) continue;  // a single file
+        const bool within = room.find('/', lane.module.size() + 1) != std::string_view::npos;
+        if (caption.empty() || within) continue;  // a single file; a room of a room
         if (!first) drawing.arrow({x - kGap, y + kTitle + 14, x - 1, y + kTitle + 14});
         first = false;
         const std::string name = room == lane.module ? last_part(room) + "/" : last_part(room);

@@ -23,7 +23,7 @@
 #include "tests/bench/limits.h"
 #include "tests/bench/report.h"
 #ifdef LISSOM_BENCH_CGAL
-#include "tests/bench/cgal_deform.h"
+#include "tests/bench/peers/cgal_deform.h"
 #endif
 
 namespace lissom::bench {

@@ -27,7 +27,7 @@
 #include "tests/unit/merge/paste/paste_shapes.h"
 
 #ifdef LISSOM_BENCH_CGAL
-#include "tests/bench/cgal_parameterize.h"
+#include "tests/bench/peers/cgal_parameterize.h"
 #endif
 
 namespace lissom::bench {

@@ -1,4 +1,4 @@
-#include "tests/bench/io_rivals.h"
+#include "tests/bench/peers/io_rivals.h"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>

@@ -2,7 +2,7 @@
 // they have.
 #include <array>
 
-#include "kernel/deform/frame_steps.h"
+#include "kernel/deform/frame/frame_steps.h"
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/deform/system/frame_blocks.h"
 

@@ -1,4 +1,4 @@
-#include "tests/bench/cgal_deform.h"
+#include "tests/bench/peers/cgal_deform.h"
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kernel/deform/frame_steps.h"
+#include "kernel/deform/frame/frame_steps.h"
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/deform/rotation/winding.h"
 #include "kernel/deform/system/frame_blocks.h"

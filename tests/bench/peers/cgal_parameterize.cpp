@@ -1,4 +1,4 @@
-#include "tests/bench/cgal_parameterize.h"
+#include "tests/bench/peers/cgal_parameterize.h"
 
 // Without these CGAL solves by conjugate gradients of its own, several times slower.
 #define CGAL_EIGEN3_ENABLED 1

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "kernel/deform/frame_steps.h"
+#include "kernel/deform/frame/frame_steps.h"
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/deform/rotation/turn_loops.h"
 #include "kernel/deform/rotation/winding.h"

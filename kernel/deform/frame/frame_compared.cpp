@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "kernel/deform/frame_steps.h"
+#include "kernel/deform/frame/frame_steps.h"
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/deform/rotation/winding.h"
 

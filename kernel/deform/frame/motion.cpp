@@ -1,4 +1,4 @@
-#include "kernel/deform/motion.h"
+#include "kernel/deform/frame/motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "kernel/deform/frame_steps.h"
+#include "kernel/deform/frame/frame_steps.h"
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/deform/system/frame_blocks.h"
 

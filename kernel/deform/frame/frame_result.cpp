@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kernel/deform/frame_steps.h"
+#include "kernel/deform/frame/frame_steps.h"
 #include "kernel/deform/rotation/polar.h"
 
 namespace lissom {
