@@ -268,14 +268,14 @@ class LaneGrower {
             const Eigen::Vector3f off = get(at_, k) + share[k] * get(next.way, k) - gate.center;
             if (off.squaredNorm() > gate.square_radius) continue;
             tie_[k] = index_of(number);
-            plane_[k] = gate.plane;
+            tails_.plane[k] = gate.plane;
             const float angle = static_cast<float>(kPi) * cut_[k], far = std::sqrt(tail_[k]);
-            right_[k] = far * std::cos(angle);
-            above_[k] = far * std::sin(angle);
+            tails_.right[k] = far * std::cos(angle);
+            tails_.above[k] = far * std::sin(angle);
             if (!tie.measures) continue;
-            tail_length_[k] = tie.tail_length * (1.0f - tie.ragged * std::sqrt(tail_[k]));
+            tails_.length[k] = tie.tail_length * (1.0f - tie.ragged * std::sqrt(tail_[k]));
             length_[k] = grown_[k] + share[k] * next.length[k] +
-                         std::max(tail_length_[k] - gate.behind, 0.0f);
+                         std::max(tails_.length[k] - gate.behind, 0.0f);
         }
     }
 
@@ -294,12 +294,12 @@ class LaneGrower {
     // Draws a strand towards its own place in the cross section of a tail, unless that leads into
     // the head.
     void settle(const TieRule& tie, Segments& next, const Reading& here, int k) {
-        if (at(plane_[k]) >= tie.planes.size()) return;
-        const TailPlane& plane = tie.planes[at(plane_[k])];
+        if (at(tails_.plane[k]) >= tie.planes.size()) return;
+        const TailPlane& plane = tie.planes[at(tails_.plane[k])];
         if (!(plane.side.squaredNorm() > 0.0f)) return;
         const Eigen::Vector3f to = get(to_, k), from = to - plane.center;
         const Eigen::Vector3f off = from - from.dot(plane.direction) * plane.direction;
-        const Eigen::Vector3f place = right_[k] * plane.side + above_[k] * plane.up;
+        const Eigen::Vector3f place = tails_.right[k] * plane.side + tails_.above[k] * plane.up;
         const float share = std::min(1.0f, kSettling * next.length[k]) *
                             std::min(1.0f, plane.behind / kSettlingBegin);
         const Eigen::Vector3f by = share * (place - off);
@@ -313,15 +313,15 @@ class LaneGrower {
     }
 
     void pass_planes(const TieRule& tie, const Segments& next, int k) {
-        for (std::size_t i = plane_[k]; i < tie.planes.size(); ++i) {
+        for (std::size_t i = tails_.plane[k]; i < tie.planes.size(); ++i) {
             const TailPlane& plane = tie.planes[i];
-            if (plane.behind >= tail_length_[k]) return;
+            if (plane.behind >= tails_.length[k]) return;
             const float after = plane.direction.dot(get(to_, k) - plane.center);
             if (after < 0.0f) return;
             const float before = plane.direction.dot(get(at_, k) - plane.center);
             const float share = before < 0.0f ? before / (before - after) : 0.0f;
-            length_[k] = grown_[k] + share * next.length[k] + (tail_length_[k] - plane.behind);
-            plane_[k] = index_of(i) + 1;
+            length_[k] = grown_[k] + share * next.length[k] + (tails_.length[k] - plane.behind);
+            tails_.plane[k] = index_of(i) + 1;
         }
     }
 
@@ -526,8 +526,11 @@ class LaneGrower {
     Ints growing_{}, segments_{}, pushes_{}, tie_{};
     // Of strands in a tail: how long they become along its spine, the next of its planes, and their
     // places across it, in its radius.
-    Floats tail_length_{}, right_{}, above_{};
-    Ints plane_{};
+    struct Tails {
+        Floats length{}, right{}, above{};
+        Ints plane{};
+    };
+    Tails tails_;
     // Of the next points: their cells, places in them, and whether they are in the grid.
     Ints cell_{}, inside_{};
     Floats3 place_{};

@@ -77,9 +77,9 @@ void SeamSheet::take_faces() {
         }
         add_empty(1);
         enter(index_of(t), triangle);
-        rest_face_.push_back(parts.face[t]);
-        rest_corners_.push_back(parts.corners[t]);
-        rest_vertices_.push_back(parts.triangles[t]);
+        first_.face.push_back(parts.face[t]);
+        first_.corners.push_back(parts.corners[t]);
+        first_.vertices.push_back(parts.triangles[t]);
     }
     fixed_.assign(x_.size(), 0);
     find_outer_edges();
@@ -115,7 +115,8 @@ void SeamSheet::separate_diagonals() {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index a = triangles_[f][k], c = triangles_[f][(k + 1) % 3];
             Quad quad;
-            if (!find_quad(a, c, quad) || rest_face_[quad.left] != rest_face_[quad.right]) continue;
+            if (!find_quad(a, c, quad) || first_.face[quad.left] != first_.face[quad.right])
+                continue;
             const auto joined = mesh_.topology().neighbors(mesh_vertex_[a]);
             if (std::find(joined.begin(), joined.end(), mesh_vertex_[c]) == joined.end()) continue;
             if (is_joined(quad.b, quad.d)) continue;
@@ -129,16 +130,16 @@ void SeamSheet::separate_diagonals() {
 void SeamSheet::keep_at_first(const Quad& quad) {
     std::array<std::pair<Index, Index>, 6> corners;
     for (std::size_t k = 0; k < 3; ++k) {
-        corners[k] = {rest_vertices_[quad.left][k], rest_corners_[quad.left][k]};
-        corners[3 + k] = {rest_vertices_[quad.right][k], rest_corners_[quad.right][k]};
+        corners[k] = {first_.vertices[quad.left][k], first_.corners[quad.left][k]};
+        corners[3 + k] = {first_.vertices[quad.right][k], first_.corners[quad.right][k]};
     }
     for (const Index f : {quad.left, quad.right}) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = mesh_vertex_[triangles_[f][k]];
             const auto at = std::find_if(corners.begin(), corners.end(),
                                          [&](const auto& corner) { return corner.first == v; });
-            rest_vertices_[f][k] = v;
-            rest_corners_[f][k] = at->second;
+            first_.vertices[f][k] = v;
+            first_.corners[f][k] = at->second;
         }
     }
 }
@@ -186,15 +187,15 @@ bool SeamSheet::same_values(Index p, Index q) const {
 
 // Whether labels or attributes of corners differ across the edge between two first triangles.
 bool SeamSheet::is_chart_border(Index left, Index right, Index a, Index c) const {
-    if (rest_face_[left] == rest_face_[right]) return false;
+    if (first_.face[left] == first_.face[right]) return false;
     for (const auto& [kind, labels] : mesh_.attributes().labels()) {
-        if (labels.of_face[rest_face_[left]] != labels.of_face[rest_face_[right]]) return true;
+        if (labels.of_face[first_.face[left]] != labels.of_face[first_.face[right]]) return true;
     }
     for (const Index v : {a, c}) {
         const auto corner = [&](Index f) {
             std::size_t k = 0;
             while (triangles_[f][k] != v) ++k;
-            return rest_corners_[f][k];
+            return first_.corners[f][k];
         };
         if (!same_values(corner(left), corner(right))) return true;
     }
@@ -219,23 +220,23 @@ void SeamSheet::mark_features(double sharp) {
 void SeamSheet::make_rest(const Context& context) {
     FaceList list;
     for (const Triangle& t : triangles_) {
-        const auto first = count_of(rest_points_);
-        for (const Index v : t) rest_points_.push_back(x_[v]);
+        const auto first = count_of(first_.points);
+        for (const Index v : t) first_.points.push_back(x_[v]);
         list.add({first, first + 1, first + 2});
     }
-    rest_.emplace(Mesh(rest_points_, std::move(list)), context);
-    for (std::size_t t = 0; t + 2 < rest_points_.size() && aside_.isZero(0.0); t += 3) {
-        const Vec3 u = rest_points_[t + 1] - rest_points_[t],
-                   w = rest_points_[t + 2] - rest_points_[t];
+    first_.tree.emplace(Mesh(first_.points, std::move(list)), context);
+    for (std::size_t t = 0; t + 2 < first_.points.size() && first_.aside.isZero(0.0); t += 3) {
+        const Vec3 u = first_.points[t + 1] - first_.points[t],
+                   w = first_.points[t + 2] - first_.points[t];
         const Vec3 n = u.cross(w);
         if (n.norm() > kFlatShape * u.squaredNorm()) {
-            aside_ = kAside * (0.37 * u + 0.61 * w + 0.53 * u.norm() * n.normalized());
+            first_.aside = kAside * (0.37 * u + 0.61 * w + 0.53 * u.norm() * n.normalized());
         }
     }
 }
 
 SurfacePoint SeamSheet::nearest_at_first(const Vec3& p) const {
-    return rest_->nearest(p + aside_);
+    return first_.tree->nearest(p + first_.aside);
 }
 
 void SeamSheet::add_vertex_lists() {
@@ -441,22 +442,22 @@ std::vector<Triangle> SeamSheet::triangles() const {
 std::vector<ElementMap::Source> SeamSheet::vertex_sources(Index v) const {
     const SurfacePoint point = nearest_at_first(x_[v]);
     const std::size_t at = point.face;
-    const Vec3 weights = weights_near(rest_points_[3 * at], rest_points_[3 * at + 1],
-                                      rest_points_[3 * at + 2], point.position);
-    return weighted_sources(rest_vertices_[at], weights);
+    const Vec3 weights = weights_near(first_.points[3 * at], first_.points[3 * at + 1],
+                                      first_.points[3 * at + 2], point.position);
+    return weighted_sources(first_.vertices[at], weights);
 }
 
 Index SeamSheet::face_source(const Triangle& t) const {
-    return rest_face_[nearest_at_first((x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0).face];
+    return first_.face[nearest_at_first((x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0).face];
 }
 
 // Read a little towards the middle of the triangle, so that it is its own chart's where two meet.
 std::vector<ElementMap::Source> SeamSheet::corner_sources(const Triangle& t, std::size_t k) const {
     const Vec3 middle = (x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0, &x = x_[t[k]];
     const std::size_t at = nearest_at_first(x + kTowards * (middle - x)).face;
-    const Vec3 weights =
-        weights_near(rest_points_[3 * at], rest_points_[3 * at + 1], rest_points_[3 * at + 2], x);
-    return weighted_sources(rest_corners_[at], weights);
+    const Vec3 weights = weights_near(first_.points[3 * at], first_.points[3 * at + 1],
+                                      first_.points[3 * at + 2], x);
+    return weighted_sources(first_.corners[at], weights);
 }
 
 }  // namespace lissom

@@ -171,13 +171,16 @@ class SeamSheet {
     // Of border edges, along the normal of the face beyond.
     std::unordered_map<std::uint64_t, Vec3> beyond_;
     // The triangles at first: their faces, corners and vertices of the mesh.
-    std::vector<Index> rest_face_;
-    std::vector<Triangle> rest_corners_, rest_vertices_;
-    std::vector<Vec3> rest_points_;
-    std::optional<SpatialTree> rest_;
-    // Added to points whose nearest triangle is asked for: it turns with the mesh and lies in no
-    // plane of symmetry, so that of two equally near triangles rounding does not choose.
-    Vec3 aside_ = Vec3::Zero();
+    struct First {
+        std::vector<Index> face;
+        std::vector<Triangle> corners, vertices;
+        std::vector<Vec3> points;
+        std::optional<SpatialTree> tree;
+        // Added to points whose nearest triangle is asked for: it turns with the mesh and lies in
+        // no plane of symmetry, so that of two equally near triangles rounding does not choose.
+        Vec3 aside = Vec3::Zero();
+    };
+    First first_;
     Size size_at_;
     std::vector<double> size_;
 };
