@@ -131,8 +131,8 @@ Session::Session(cli::Program& program, std::function<void()> wake, SessionOptio
     };
     program_.progress_listener = [this](std::string_view label, double fraction) {
         const std::lock_guard lock(mutex_);
-        stage_ = label;
-        fraction_ = fraction;
+        news_.stage = label;
+        news_.fraction = fraction;
     };
     listener_ = [this](const Picture& picture) {
         ++pictures_;
@@ -155,8 +155,8 @@ Session::~Session() {
 void Session::open(const std::vector<std::string>& words) {
     {
         const std::lock_guard lock(mutex_);
-        words_ = words;
-        parameters_ = std::vector<lua::ScriptParameter>();
+        news_.words = words;
+        news_.parameters = std::vector<lua::ScriptParameter>();
     }
     cancel();
     worker_.post_only([this, words] { run(words); });
@@ -165,16 +165,16 @@ void Session::open(const std::vector<std::string>& words) {
 void Session::run_again(const std::vector<std::string>& words) {
     {
         const std::lock_guard lock(mutex_);
-        if (words_.empty()) return;
-        if (is_script(words_.front())) {
-            words_.resize(1);
-            words_.insert(words_.end(), words.begin(), words.end());
+        if (news_.words.empty()) return;
+        if (is_script(news_.words.front())) {
+            news_.words.resize(1);
+            news_.words.insert(news_.words.end(), words.begin(), words.end());
         }
     }
     cancel();
     worker_.post_only([this] {
         std::unique_lock lock(mutex_);
-        const std::vector<std::string> now = words_;
+        const std::vector<std::string> now = news_.words;
         lock.unlock();
         run(now);
     });
@@ -211,8 +211,8 @@ void Session::read_tool_again() {
 
 void Session::post(ToolInput input) {
     const std::lock_guard lock(mutex_);
-    const bool waits = !inputs_.empty();
-    push_input(inputs_, std::move(input));
+    const bool waits = !news_.inputs.empty();
+    push_input(news_.inputs, std::move(input));
     if (!waits) worker_.post([this] { take_inputs(); });
 }
 
@@ -247,7 +247,7 @@ void Session::set_tool_parameter(const std::string& name, const lua::ParameterVa
 
 std::optional<Playback> Session::take_playback() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(playback_, std::nullopt);
+    return std::exchange(news_.playback, std::nullopt);
 }
 
 void Session::stop_playing() {
@@ -260,42 +260,42 @@ void Session::stop_playing() {
 
 std::optional<ToolState> Session::take_tool_state() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(tool_state_, std::nullopt);
+    return std::exchange(news_.tool_state, std::nullopt);
 }
 
 std::vector<fs::path> Session::tool_files() const {
     const std::lock_guard lock(mutex_);
-    return tool_files_;
+    return news_.tool_files;
 }
 
 std::pair<std::string, double> Session::progress() const {
     const std::lock_guard lock(mutex_);
-    return {stage_, fraction_};
+    return {news_.stage, news_.fraction};
 }
 
 std::optional<Shown> Session::take_shown() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(shown_, std::nullopt);
+    return std::exchange(news_.shown, std::nullopt);
 }
 
 std::vector<ConsoleLine> Session::take_lines() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(lines_, {});
+    return std::exchange(news_.lines, {});
 }
 
 std::optional<std::vector<lua::ScriptParameter>> Session::take_parameters() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(parameters_, std::nullopt);
+    return std::exchange(news_.parameters, std::nullopt);
 }
 
 std::optional<Completion> Session::take_completion() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(completion_, std::nullopt);
+    return std::exchange(news_.completion, std::nullopt);
 }
 
 std::vector<fs::path> Session::files() const {
     const std::lock_guard lock(mutex_);
-    return files_;
+    return news_.files;
 }
 
 bool Session::finish(double seconds) {
@@ -390,7 +390,7 @@ bool Session::show_values() {
 void Session::load_files(const std::vector<std::string>& paths) {
     {
         const std::lock_guard lock(mutex_);
-        files_.assign(paths.begin(), paths.end());
+        news_.files.assign(paths.begin(), paths.end());
     }
     // What was there stays where the files cannot be read.
     auto script = std::exchange(script_, nullptr);
@@ -407,7 +407,7 @@ void Session::load_files(const std::vector<std::string>& paths) {
 void Session::open_recording(const std::string& path) {
     {
         const std::lock_guard lock(mutex_);
-        files_ = {path};
+        news_.files = {path};
     }
     auto script = std::exchange(script_, nullptr);
     auto bench = std::exchange(bench_, nullptr);
@@ -424,7 +424,7 @@ void Session::open_recording(const std::string& path) {
     events_played_ = 0;
     plays_ = shows_hand_ = event_count_ > 0;
     const std::lock_guard lock(mutex_);
-    playback_ = std::move(playback);
+    news_.playback = std::move(playback);
 }
 
 void Session::play(std::size_t event) {
@@ -512,7 +512,7 @@ void Session::settle_scene(const std::vector<std::string>& open, bool takes_tool
     ToolState state = bench_->state();
     state.scene = scene_number_;
     const std::lock_guard lock(mutex_);
-    tool_state_ = std::move(state);
+    news_.tool_state = std::move(state);
 }
 
 bool Session::settle_tool(const std::string& word) {
@@ -524,7 +524,7 @@ bool Session::settle_tool(const std::string& word) {
     const bool done = succeeds(bench_->use(word, word.ends_with(".lua") ? told_path(word) : word));
     const std::vector<fs::path> files = bench_->tool_files(word);
     const std::lock_guard lock(mutex_);
-    tool_files_ = files;
+    news_.tool_files = files;
     return done;
 }
 
@@ -533,12 +533,12 @@ void Session::keep_tool(const std::string& word) {
     options_.tool = word;
     const std::vector<fs::path> files = bench_->tool_files(word);
     const std::lock_guard lock(mutex_);
-    tool_files_ = files;
+    news_.tool_files = files;
 }
 
 void Session::take_inputs() {
     std::unique_lock lock(mutex_);
-    const std::vector<ToolInput> inputs = std::exchange(inputs_, {});
+    const std::vector<ToolInput> inputs = std::exchange(news_.inputs, {});
     lock.unlock();
     program_.forget_interrupt();
     bool only_hovers = true;
@@ -577,8 +577,8 @@ void Session::show_scene(bool always) {
         last_state_ = state;
         const std::lock_guard lock(mutex_);
         // One that the window has not seen yet.
-        if (tool_state_ && !state.camera) state.camera = tool_state_->camera;
-        tool_state_ = std::move(state);
+        if (news_.tool_state && !state.camera) state.camera = news_.tool_state->camera;
+        news_.tool_state = std::move(state);
     } catch (const Error& error) {
         tell(LineKind::error, error.message());
     } catch (const std::bad_alloc&) {
@@ -625,7 +625,7 @@ void Session::find_completions(const std::string& text) {
     lua_settop(script_->lua(), 0);
     {
         const std::lock_guard lock(mutex_);
-        completion_ = std::move(completion);
+        news_.completion = std::move(completion);
     }
     wake_();
 }
@@ -674,8 +674,8 @@ void Session::show(Picture picture, std::vector<std::string> names) {
     next.picture = std::make_shared<const Picture>(std::move(picture));
     {
         const std::lock_guard lock(mutex_);
-        next.number = ++number_;
-        shown_ = std::move(next);
+        next.number = ++news_.number;
+        news_.shown = std::move(next);
     }
     wake_();
 }
@@ -683,7 +683,7 @@ void Session::show(Picture picture, std::vector<std::string> names) {
 void Session::tell(LineKind kind, const std::string& text) {
     {
         const std::lock_guard lock(mutex_);
-        if (lines_.size() < kMostLines) lines_.push_back({kind, text});
+        if (news_.lines.size() < kMostLines) news_.lines.push_back({kind, text});
     }
     wake_();
 }
@@ -691,7 +691,7 @@ void Session::tell(LineKind kind, const std::string& text) {
 void Session::publish_parameters() {
     const auto& declared = script_->state().parameters;
     const std::lock_guard lock(mutex_);
-    if (declared) parameters_ = declared->list;
+    if (declared) news_.parameters = declared->list;
 }
 
 void Session::find_files() {
@@ -701,8 +701,8 @@ void Session::find_files() {
     lua_pushcclosure(L, list_module_files, 1);
     if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
     const std::lock_guard lock(mutex_);
-    files.emplace_back(words_.front());
-    files_ = std::move(files);
+    files.emplace_back(news_.words.front());
+    news_.files = std::move(files);
 }
 
 // print, with the session as upvalue 1.

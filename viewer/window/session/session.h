@@ -166,20 +166,23 @@ class Session {
     cli::Program& program_;
     std::function<void()> wake_;
 
-    // Shared, under the mutex.
+    // Shared, under the mutex: what was asked for, and what is there to be taken.
+    struct News {
+        std::vector<std::string> words;
+        std::optional<Shown> shown;
+        std::vector<ConsoleLine> lines;
+        std::optional<std::vector<lua::ScriptParameter>> parameters;
+        std::vector<std::filesystem::path> files, tool_files;
+        std::vector<ToolInput> inputs;
+        std::optional<ToolState> tool_state;
+        std::optional<Completion> completion;
+        std::optional<Playback> playback;
+        std::string stage;
+        double fraction = 0.0;
+        std::uint64_t number = 0;
+    };
     mutable std::mutex mutex_;
-    std::vector<std::string> words_;
-    std::optional<Shown> shown_;
-    std::vector<ConsoleLine> lines_;
-    std::optional<std::vector<lua::ScriptParameter>> parameters_;
-    std::vector<std::filesystem::path> files_, tool_files_;
-    std::vector<ToolInput> inputs_;
-    std::optional<ToolState> tool_state_;
-    std::optional<Completion> completion_;
-    std::optional<Playback> playback_;
-    std::string stage_;
-    double fraction_ = 0.0;
-    std::uint64_t number_ = 0;
+    News news_;
 
     std::atomic<bool> plays_{false};
     std::atomic<std::size_t> events_played_{0};
