@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
+#include <utility>
 
 #include "kernel/core/error.h"
 #include "viewer/draw/image/overlay.h"
@@ -17,6 +19,8 @@ void require_faces(const std::vector<DrawnMesh>& meshes) {
     }
 }
 
+// Points of meshes that a window frames in a moment, at most twice as many.
+constexpr std::size_t kFramedPoints = 20000;
 // Points that tell where strands are: of so many at most, evenly chosen.
 constexpr Index kFramedStrands = 5000;
 
@@ -188,16 +192,63 @@ std::optional<Legend> legend_of(const Picture& picture) {
     return Legend{range_of(picture, of_values), picture.legend_label, picture.legend_parts};
 }
 
-Camera camera_of(const Picture& picture, const Snapshot& snapshot, double aspect) {
-    return camera_for(picture, snapshot, aspect);
+Camera quick_camera_of(const Picture& picture, const Snapshot& snapshot, double aspect) {
+    if (picture.camera) return *picture.camera;
+    std::size_t count = 0, place = 0;
+    for (const DrawnMesh& drawn : snapshot.meshes) count += drawn.mesh->positions().size();
+    const std::size_t stride = count / kFramedPoints + 1;
+    std::vector<Vec3> points;
+    for_each_point(snapshot, [&](const Vec3& p) {
+        if (place++ % stride == 0) points.push_back(p);
+    });
+    for (const DrawnStrands& drawn : snapshot.strands) add_framed(drawn, points);
+    FramingOptions framing = picture.framing;
+    framing.aspect = aspect;
+    return frame_points(picture.view, points, framing);
 }
 
-Picture frozen(Picture picture) {
-    for (DrawnMesh& drawn : picture.meshes) drawn.mesh = std::make_shared<const Mesh>(*drawn.mesh);
+namespace {
+
+bool same_attributes(const AttributeSet& a, const AttributeSet& b) {
+    const auto same = [](const Attribute& x, const Attribute& y) {
+        // Bits, so that NaN is itself.
+        return x.name == y.name && x.domain == y.domain && x.width == y.width &&
+               x.values.size() == y.values.size() &&
+               std::memcmp(x.values.data(), y.values.data(), x.values.size() * sizeof(double)) == 0;
+    };
+    const auto& p = a.all();
+    const auto& q = b.all();
+    return std::equal(p.begin(), p.end(), q.begin(), q.end(), same);
+}
+
+}  // namespace
+
+Picture FrozenMeshes::freeze(Picture picture) {
+    for (DrawnMesh& drawn : picture.meshes) freeze(drawn);
+    kept_ = std::exchange(next_, {});
     for (PictureStrands& strands : picture.strands) {
         strands.drawn.strands = std::make_shared<const Strands>(*strands.drawn.strands);
     }
     return picture;
+}
+
+void FrozenMeshes::freeze(DrawnMesh& drawn) {
+    const std::shared_ptr<const Mesh> source = drawn.mesh;
+    const auto holds = [&](const Kept& kept) {
+        return kept.source.lock() == source && kept.copy->revision() == source->revision() &&
+               kept.copy->shared_topology() == source->shared_topology() &&
+               same_attributes(kept.copy->attributes(), source->attributes());
+    };
+    const auto found = std::find_if(kept_.begin(), kept_.end(), holds);
+    drawn.mesh = found == kept_.end() ? std::make_shared<const Mesh>(*source) : found->copy;
+    if (regions_of(drawn) != source->regions()) {
+        drawn.regions = std::make_shared<const NamedRegions>(source->regions());
+    }
+    next_.push_back({source, drawn.mesh});
+}
+
+Picture frozen(Picture picture) {
+    return FrozenMeshes().freeze(std::move(picture));
 }
 
 Image draw_picture(Renderer& renderer, const Picture& picture, const Context& context) {

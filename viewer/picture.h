@@ -2,6 +2,7 @@
 /// legend where values are drawn.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,11 +66,29 @@ Snapshot snapshot_of(const Picture& picture);
 /// Errors: invalid_argument where the range is empty.
 std::optional<Legend> legend_of(const Picture& picture);
 
-/// The camera of `picture`, or the standard view that frames all of its snapshot in a picture whose
-/// width is `aspect` times its height. Errors: as frame_points.
-Camera camera_of(const Picture& picture, const Snapshot& snapshot, double aspect);
+/// The camera of `picture`, or the standard view that frames its snapshot, of very many points an
+/// even sample, in a picture whose width is `aspect` times its height. Errors: as frame_points.
+Camera quick_camera_of(const Picture& picture, const Snapshot& snapshot, double aspect);
 
-/// `picture` with copies of its meshes and strands: it stays as it is whatever becomes of those.
+/// Copies of meshes for pictures that stay as they are whatever becomes of those. What did not
+/// change is not copied again: a mesh with other regions only is the copy that was made before.
+class FrozenMeshes {
+  public:
+    /// `picture` with copies of its meshes and strands.
+    Picture freeze(Picture picture);
+
+  private:
+    struct Kept {
+        std::weak_ptr<const Mesh> source;
+        std::shared_ptr<const Mesh> copy;
+    };
+    void freeze(DrawnMesh& drawn);
+
+    // Of the last picture, and of the one that is made.
+    std::vector<Kept> kept_, next_;
+};
+
+/// The same without what was copied before.
 Picture frozen(Picture picture);
 
 /// Draws `picture`. Errors: those of Renderer::render and frame_points; mesh_empty for a mesh

@@ -120,7 +120,7 @@ class Stage {
     explicit Stage(Index vertices)
         : mesh_(triangles_of(vertices)), scope_(*platform()), screen_(new Screen) {
         show(mesh_);
-        camera_ = camera_of(picture_, snapshot_of(picture_), 1.0 * kWidth / kHeight);
+        camera_ = quick_camera_of(picture_, snapshot_of(picture_), 1.0 * kWidth / kHeight);
         frame([] {});
     }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The real window is never away for longer than 50 ms, whatever scripts, tools and the kernel do: loops that never end,
-# in a script and in a drag, and a kernel call that takes long.
+# in a script and in a drag, a kernel call that takes long, and meshes of many faces that come and change.
 # Usage: blocked_test.sh PROGRAM [FOLDER FOR SCREENSHOTS]; LISSOM_CALL_SECONDS is how long the kernel call takes.
 set -euo pipefail
 
@@ -77,6 +77,30 @@ turn_for "${LISSOM_CALL_SECONDS:-4}"
 wait_for "line smoothed"
 wait_for "at rest"
 grep "^line smoothed" told
+close_view 0
+check_work
+
+# --- A mesh of many faces is made ready beside the window and sent in pieces: it comes, its colours change, it moves
+cat >large.lua <<'LUA'
+local lissom = require "lissom"
+local scene = lissom.scene{}
+scene:add("cactus", lissom.shapes.cactus{ vertices = 150000 })
+return scene
+LUA
+open_view large.lua --tool select
+turn_for 2
+wait_for "tool select"
+wait_for "at rest"
+drag 700 300 3 3
+wait_for "history 1 of 1"
+wait_for "at rest"
+shot large
+type_line 'scene:get("cactus"):transform{ scale = 1.1 }'
+wait_for "history 2 of 2"
+wait_for "at rest"
+type_line 'scene:remove("cactus")'
+wait_for "history 3 of 3"
+wait_for "at rest"
 close_view 0
 check_work
 

@@ -47,6 +47,19 @@ wait_for "at rest"
 shot resized
 close_view 0
 
+# --- While the console has the keys a picture is taken and the window is closed as ever
+open_view box.obj
+wait_for "at rest"
+type_text 'print(1'
+xdotool key F12
+wait_for "picture lissom-3.png"
+xdotool key ctrl+q
+for _ in $(seq 100); do
+    kill -0 "$view" 2>/dev/null || break
+    sleep 0.1
+done
+kill -0 "$view" 2>/dev/null && fail "it does not close while the console has the keys"
+
 # --- A script: its parameter, an error, its next version, the console, a loop without an end
 cat >script.lua <<'LUA'
 local lissom = require "lissom"
@@ -196,7 +209,10 @@ if [ -n "${LISSOM_DROP_FILE:-}" ]; then
     sleep 2
     "$LISSOM_DROP_FILE" "$window" broken.ply
     wait_for "error "
-    drag 700 320 5 2
+    # The hand comes back from where the file was, and presses before that is seen.
+    xdotool mousemove --window "$window" 100 500
+    sleep 0.5
+    xdotool mousemove --window "$window" 700 320 mousedown 1 mousemove_relative 40 10 mouseup 1
     wait_for "history 2 of 2"
     sleep 2
     wait_for "at rest"
@@ -247,11 +263,27 @@ kill -9 "$view"
 wait "$view" 2>/dev/null || true
 open_view ball.obj
 wait_for "line A window was ended"
+wait_for "at rest"
 left=$(sed -n 's/.*lissom view \(.*lissom\) opens what.*/\1/p' told)
+journal=$(sed -n 's/.*lissom run \(.*lua\) does it again.*/\1/p' told)
+grep -q "smooth" "$journal" || fail "the journal of a killed window does not tell what was done"
+(cd / && "$program" run "$journal") || fail "the journal of a killed window does not come to its scene"
+shot offered
+# The button below the first row.
+xdotool mousemove --window "$window" 40 78 click 1
+wait_for "shown "
+wait_for "at rest"
+shot recovered
 close_view 0
+[ -e "$left" ] || fail "a scene that was left is gone without being asked"
 open_view "$left"
 wait_for "shown "
+wait_for "at rest"
+xdotool mousemove --window "$window" 105 78 click 1
+sleep 0.5
 close_view 0
+[ ! -e "$left" ] || fail "a scene that is not wanted stays"
+[ ! -e "$journal" ] || fail "its journal stays"
 
 # --- What cannot be read is told, and the window stays
 open_view broken.ply

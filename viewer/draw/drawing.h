@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "kernel/hair/strands/strands.h"
@@ -66,6 +69,8 @@ struct MeshStyle {
     std::vector<double> values = {};
 };
 
+using NamedRegions = std::map<std::string, Region, std::less<>>;
+
 /// A mesh in the picture, which must not change while it is shared.
 struct DrawnMesh {
     std::shared_ptr<const Mesh> mesh;
@@ -75,7 +80,15 @@ struct DrawnMesh {
     /// The same from snapshot to snapshot of a scene, so that what did not change stays on the
     /// graphics card. Several with one number are told apart by their order.
     std::uint64_t object = 0;
+    /// Regions by name in place of the mesh's own, where only these have changed since it was
+    /// copied; null: the mesh's.
+    std::shared_ptr<const NamedRegions> regions = nullptr;
 };
+
+/// The named regions of a mesh in the picture.
+inline const NamedRegions& regions_of(const DrawnMesh& drawn) {
+    return drawn.regions ? *drawn.regions : drawn.mesh->regions();
+}
 
 /// Strands in the picture, which must not change while they are shared. They hide lines and points,
 /// also those before them.

@@ -23,7 +23,7 @@ std::vector<LegendPart> color_regions(std::vector<DrawnMesh>& meshes,
     };
     std::map<std::string, Color, std::less<>> colors;
     for (const DrawnMesh& drawn : meshes) {
-        for (const auto& [name, region] : drawn.mesh->regions()) {
+        for (const auto& [name, region] : regions_of(drawn)) {
             if (is_wanted(name)) colors.emplace(name, Color{});
         }
     }
@@ -34,7 +34,7 @@ std::vector<LegendPart> color_regions(std::vector<DrawnMesh>& meshes,
     }
     for (DrawnMesh& drawn : meshes) {
         std::vector<DrawnRegion>& parts = drawn.style.parts;
-        for (const auto& [name, region] : drawn.mesh->regions()) {
+        for (const auto& [name, region] : regions_of(drawn)) {
             const auto found = colors.find(name);
             if (found != colors.end()) parts.push_back({region, found->second});
         }

@@ -65,6 +65,18 @@ void read_fields(const gl::Buffer& buffer, std::initializer_list<Field> fields,
     for (const Field& field : fields) read_field(field, stride);
 }
 
+// Bytes of the entries at the corners of a surface, a piece for each buffer.
+template <typename Entry>
+std::vector<std::span<const std::byte>> pieces_of(const std::vector<Entry>& entries) {
+    constexpr std::size_t kMost = 3 * kTrianglesOfBuffer;
+    std::vector<std::span<const std::byte>> pieces;
+    for (std::size_t begin = 0; begin < entries.size(); begin += kMost) {
+        const std::size_t count = std::min(kMost, entries.size() - begin);
+        pieces.push_back(std::as_bytes(std::span(entries).subspan(begin, count)));
+    }
+    return pieces;
+}
+
 // Makes what a snapshot needs of what the scene before it has.
 class Upload {
   public:
@@ -90,12 +102,28 @@ class Upload {
         ++total_.calls;
         return result;
     }
+    // Those at the corners of a surface; `sent` where they were sent before.
+    template <typename Entry>
+    std::shared_ptr<const SurfaceBuffers> buffers(
+        const std::vector<Entry>& entries, std::size_t Uploads::*kind,
+        const std::shared_ptr<const SurfaceBuffers>& sent = nullptr) {
+        const auto pieces = pieces_of(entries);
+        for (const auto& bytes : pieces) total_.*kind += bytes.size();
+        if (sent) return sent;
+        SurfaceBuffers made;
+        for (const auto& bytes : pieces) made.push_back(gl::make_vertex_buffer(bytes));
+        total_.calls += static_cast<int>(pieces.size());
+        return std::make_shared<const SurfaceBuffers>(std::move(made));
+    }
     template <typename Entry>
     GpuMarks::Array instances(const std::vector<Entry>& entries,
                               std::initializer_list<Field> fields);
     void fill(GpuSurface& surface, const GpuSurface* before, bool same_range);
     void fill_colors(GpuSurface& surface);
-    const PreparedSurface* prepared_vertices(const GpuSurface& surface) const;
+    void fill_quickly(GpuSurface& surface, const GpuSurface& before);
+    std::shared_ptr<const GpuMarks> marks_of(const GpuSurface& surface);
+    const PreparedSurface* prepared_vertices(const GpuSurface& surface,
+                                             const NormalGroups* groups) const;
     const PreparedSurface* prepared_colors(const GpuSurface& surface) const;
     void fill_vertices(GpuSurface& surface, const GpuSurface* before);
 
@@ -157,11 +185,12 @@ bool moves_fast(const DrawnMesh& drawn, const GpuSurface* before) {
            before->triangles.mirrored == (drawn.transform.linear.determinant() < 0.0);
 }
 
-// Those that were prepared for it; null where there are none.
-const PreparedSurface* Upload::prepared_vertices(const GpuSurface& surface) const {
+// Those that were prepared for it, fast ones with `groups`; null where there are none.
+const PreparedSurface* Upload::prepared_vertices(const GpuSurface& surface,
+                                                 const NormalGroups* groups) const {
     for (const PreparedSurface& one : prepared_) {
-        const bool fits =
-            one.needs.vertices && one.needs.origin == origin_ && one.revision == surface.revision;
+        const bool fits = one.needs.vertices && one.needs.groups.get() == groups &&
+                          one.needs.origin == origin_ && one.revision == surface.revision;
         if (fits && same_vertices(one.needs.drawn, surface.drawn)) return &one;
     }
     return nullptr;
@@ -180,32 +209,40 @@ const PreparedSurface* Upload::prepared_colors(const GpuSurface& surface) const 
 }
 
 void Upload::fill_colors(GpuSurface& surface) {
-    const auto send = [&](const std::vector<SurfaceColor>& colors) {
-        surface.colors = std::make_shared<const gl::Buffer>(buffer(colors, &Uploads::colors));
-    };
-    if (const PreparedSurface* ready = prepared_colors(surface)) return send(ready->colors);
-    send(surface_colors(*surface.drawn.mesh, surface.drawn.style, range_, surface.triangles,
-                        context_));
+    if (const PreparedSurface* ready = prepared_colors(surface)) {
+        surface.colors = buffers(ready->colors, &Uploads::colors, ready->sent_colors);
+        return;
+    }
+    const auto colors = surface_colors(*surface.drawn.mesh, surface.drawn.style, range_,
+                                       surface.triangles, context_);
+    surface.colors = buffers(colors, &Uploads::colors);
+}
+
+// Of a mesh that moved, whose faces `before` has with their groups.
+void Upload::fill_quickly(GpuSurface& surface, const GpuSurface& before) {
+    surface.triangles = before.triangles;
+    surface.groups = before.groups;
+    surface.is_quick = true;
+    if (const PreparedSurface* ready = prepared_vertices(surface, before.groups.get())) {
+        surface.vertices = buffers(ready->quick, &Uploads::vertices, ready->sent_vertices);
+        return;
+    }
+    const Affine to_picture = translation(-origin_) * surface.drawn.transform;
+    quick_surface_vertices(*surface.drawn.mesh, to_picture, surface.triangles, *surface.groups,
+                           *quick_);
+    surface.vertices = buffers(*quick_, &Uploads::vertices);
 }
 
 // Of a mesh that moved, `before` is the one with the same faces; may be null.
 void Upload::fill_vertices(GpuSurface& surface, const GpuSurface* before) {
-    const auto& [mesh, style, transform, object] = surface.drawn;
+    const auto& [mesh, style, transform, object, regions] = surface.drawn;
     const Affine to_picture = translation(-origin_) * transform;
     const bool keeps = quick_ && moves_fast(surface.drawn, before);
-    if (keeps && before->groups) {
-        surface.triangles = before->triangles;
-        surface.groups = before->groups;
-        quick_surface_vertices(*mesh, to_picture, surface.triangles, *surface.groups, *quick_);
-        surface.vertices = std::make_shared<const gl::Buffer>(buffer(*quick_, &Uploads::vertices));
-        surface.is_quick = true;
-        return;
-    }
-    if (const PreparedSurface* ready = prepared_vertices(surface)) {
+    if (keeps && before->groups) return fill_quickly(surface, *before);
+    if (const PreparedSurface* ready = prepared_vertices(surface, nullptr)) {
         surface.triangles = ready->triangles;
         surface.groups = ready->groups;
-        surface.vertices =
-            std::make_shared<const gl::Buffer>(buffer(ready->vertices, &Uploads::vertices));
+        surface.vertices = buffers(ready->vertices, &Uploads::vertices, ready->sent_vertices);
         return;
     }
     const std::vector<Vec3> positions = picture_positions(*mesh, to_picture);
@@ -213,27 +250,27 @@ void Upload::fill_vertices(GpuSurface& surface, const GpuSurface* before) {
                               : surface_triangles(*mesh, positions, to_picture,
                                                   before ? &before->triangles : nullptr);
     const auto vertices = surface_vertices(*mesh, style, positions, surface.triangles, context_);
-    surface.vertices = std::make_shared<const gl::Buffer>(buffer(vertices, &Uploads::vertices));
+    surface.vertices = buffers(vertices, &Uploads::vertices);
     if (!keeps) return;
     surface.groups = std::make_shared<const NormalGroups>(
         normal_groups(surface.triangles, vertices, style.shading));
 }
 
-void read_vertices(const GpuSurface& surface) {
+void read_vertices(const GpuSurface& surface, const gl::Buffer& buffer) {
     if (surface.is_quick) {
-        return read_fields(*surface.vertices,
+        return read_fields(buffer,
                            {{0, 3, GL_FLOAT, offsetof(QuickVertex, position)},
                             {1, 4, GL_INT_2_10_10_10_REV, offsetof(QuickVertex, normal)}},
                            sizeof(QuickVertex));
     }
-    read_fields(*surface.vertices,
+    read_fields(buffer,
                 {{0, 3, GL_FLOAT, offsetof(SurfaceVertex, position)},
                  {1, 3, GL_FLOAT, offsetof(SurfaceVertex, normal)}},
                 sizeof(SurfaceVertex));
 }
 
 void Upload::fill(GpuSurface& surface, const GpuSurface* before, bool same_range) {
-    const auto& [mesh, style, transform, object] = surface.drawn;
+    const auto& [mesh, style, transform, object, regions] = surface.drawn;
     const MemoryCharge charge = context_.charge(
         3 * (sizeof(SurfaceVertex) + sizeof(SurfaceColor)) * mesh->topology().corner_count(),
         "the geometry of the picture");
@@ -252,16 +289,29 @@ void Upload::fill(GpuSurface& surface, const GpuSurface* before, bool same_range
     } else {
         fill_colors(surface);
     }
-    surface.marks = keep.marks ? before->marks : marks(build_marks(surface.drawn));
-    surface.layout = gl::make_vertex_array();
-    glBindVertexArray(surface.layout.id());
-    read_vertices(surface);
-    read_fields(*surface.colors,
-                {{2, 4, GL_UNSIGNED_BYTE, offsetof(SurfaceColor, color)},
-                 {3, 1, GL_FLOAT, offsetof(SurfaceColor, value)},
-                 {4, 1, GL_UNSIGNED_INT, offsetof(SurfaceColor, flags)}},
-                sizeof(SurfaceColor));
+    surface.marks = keep.marks ? before->marks : marks_of(surface);
+    for (std::size_t i = 0; i < surface.vertices->size(); ++i) {
+        surface.layouts.push_back(gl::make_vertex_array());
+        glBindVertexArray(surface.layouts.back().id());
+        read_vertices(surface, surface.vertices->at(i));
+        read_fields(surface.colors->at(i),
+                    {{2, 4, GL_UNSIGNED_BYTE, offsetof(SurfaceColor, color)},
+                     {3, 1, GL_FLOAT, offsetof(SurfaceColor, value)},
+                     {4, 1, GL_UNSIGNED_INT, offsetof(SurfaceColor, flags)}},
+                    sizeof(SurfaceColor));
+    }
     gl::check_errors("the geometry of the picture");
+}
+
+std::shared_ptr<const GpuMarks> Upload::marks_of(const GpuSurface& surface) {
+    for (const PreparedSurface& one : prepared_) {
+        const bool fits = one.needs.marks && one.revision == surface.revision;
+        if (fits && one.needs.drawn.mesh == surface.drawn.mesh &&
+            same_marks(one.needs.drawn, surface.drawn)) {
+            return marks(one.marks);
+        }
+    }
+    return marks(build_marks(surface.drawn));
 }
 
 template <typename Entry>
@@ -383,21 +433,29 @@ void GpuMarks::Array::draw() const {
 }
 
 void GpuSurface::draw() const {
-    glBindVertexArray(layout.id());
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * triangles.faces->triangles.size()));
+    const std::size_t all = triangles.faces->triangles.size();
+    for (std::size_t i = 0; i < layouts.size(); ++i) {
+        const std::size_t count = std::min(kTrianglesOfBuffer, all - i * kTrianglesOfBuffer);
+        glBindVertexArray(layouts[i].id());
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * count));
+    }
 }
 
 PreparedSurface prepare(SurfaceNeeds needs, const Context& context) {
-    const auto& [mesh, style, transform, object] = needs.drawn;
+    const auto& [mesh, style, transform, object, regions] = needs.drawn;
     const Affine to_picture = translation(-needs.origin) * transform;
     const SurfaceTriangles* known = needs.known.faces ? &needs.known : nullptr;
     PreparedSurface result;
     result.revision = mesh->revision();
     const std::vector<Vec3> positions = picture_positions(*mesh, to_picture);
     // Those that are on the card already stay as they are.
-    result.triangles =
-        known && !needs.vertices ? *known : surface_triangles(*mesh, positions, to_picture, known);
-    if (needs.vertices) {
+    result.triangles = known && (!needs.vertices || needs.groups)
+                           ? *known
+                           : surface_triangles(*mesh, positions, to_picture, known);
+    if (needs.groups) {
+        result.groups = needs.groups;
+        quick_surface_vertices(*mesh, to_picture, *known, *needs.groups, result.quick);
+    } else if (needs.vertices) {
         result.vertices = surface_vertices(*mesh, style, positions, result.triangles, context);
         result.groups = std::make_shared<const NormalGroups>(
             normal_groups(result.triangles, result.vertices, style.shading));
@@ -405,8 +463,41 @@ PreparedSurface prepare(SurfaceNeeds needs, const Context& context) {
     if (needs.colors) {
         result.colors = surface_colors(*mesh, style, needs.range, result.triangles, context);
     }
+    if (needs.marks) result.marks = build_marks(needs.drawn);
     result.needs = std::move(needs);
     return result;
+}
+
+PieceSender::PieceSender(std::vector<PreparedSurface> surfaces) : surfaces_(std::move(surfaces)) {
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+        const PreparedSurface& one = surfaces_[i];
+        const auto add = [&](const auto& entries,
+                             std::shared_ptr<const SurfaceBuffers> PreparedSurface::*to) {
+            if (!entries.empty()) parts_.push_back({pieces_of(entries), to, i});
+        };
+        add(one.vertices, &PreparedSurface::sent_vertices);
+        add(one.quick, &PreparedSurface::sent_vertices);
+        add(one.colors, &PreparedSurface::sent_colors);
+    }
+}
+
+bool PieceSender::send() {
+    if (part_ == parts_.size()) return false;
+    const Part& part = parts_[part_];
+    made_.push_back(gl::make_vertex_buffer(part.pieces[made_.size()]));
+    gl::check_errors("the geometry of the picture");
+    if (made_.size() < part.pieces.size()) return true;
+    surfaces_[part.surface].*part.to =
+        std::make_shared<const SurfaceBuffers>(std::exchange(made_, {}));
+    ++part_;
+    return true;
+}
+
+std::vector<PreparedSurface> PieceSender::give_away() {
+    parts_.clear();
+    part_ = 0;
+    for (PreparedSurface& one : surfaces_) one.sent_vertices = one.sent_colors = nullptr;
+    return std::exchange(surfaces_, {});
 }
 
 bool GpuScene::keeps_origin(const Placement& placement) const {
@@ -433,11 +524,13 @@ std::vector<SurfaceNeeds> GpuScene::needs(const Snapshot& snapshot) const {
         next.revision = drawn.mesh->revision();
         const KeptParts keep =
             before ? kept(*before, next, shown_.snapshot.range == snapshot.range) : KeptParts{};
-        const bool is_quick = before && before->groups && moves_fast(drawn, before);
-        SurfaceNeeds needed{drawn,         !keep.vertices && !is_quick, !keep.colors, {}, origin,
-                            snapshot.range};
+        SurfaceNeeds needed{drawn, !keep.vertices, !keep.colors, !keep.marks};
+        needed.origin = origin;
+        needed.range = snapshot.range;
         if (before) needed.known = before->triangles;
-        if (needed.vertices || needed.colors) result.push_back(std::move(needed));
+        if (needed.vertices && before && moves_fast(drawn, before)) needed.groups = before->groups;
+        const bool needs_anything = needed.vertices || needed.colors || needed.marks;
+        if (needs_anything) result.push_back(std::move(needed));
     }
     return result;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -42,18 +43,24 @@ struct GpuMarks {
     bool on_top = false;
 };
 
+/// What a surface has at its corners, on the card: in each buffer as many triangles as are sent in
+/// a moment, for a driver takes long to make a large one.
+using SurfaceBuffers = std::vector<gl::Buffer>;
+inline constexpr std::size_t kTrianglesOfBuffer = 16384;
+
 /// Triangles of one mesh, and its marks. Never changes; what stays is shared with the next one.
 struct GpuSurface {
     DrawnMesh drawn;
     /// Of the mesh, when it was uploaded.
     std::uint64_t revision = 0;
     SurfaceTriangles triangles;
-    std::shared_ptr<const gl::Buffer> vertices, colors;
+    std::shared_ptr<const SurfaceBuffers> vertices, colors;
     /// Whether the entries of `vertices` are QuickVertex, else SurfaceVertex.
     bool is_quick = false;
     /// Made when vertices first move.
     std::shared_ptr<const NormalGroups> groups;
-    gl::VertexArray layout;
+    /// One for each buffer.
+    std::vector<gl::VertexArray> layouts;
     std::shared_ptr<const GpuMarks> marks;
 
     void draw() const;
@@ -73,12 +80,14 @@ struct Placement {
 /// What an update has to find out of a mesh; what it can take over is not.
 struct SurfaceNeeds {
     DrawnMesh drawn;
-    bool vertices = false, colors = false;
+    bool vertices = false, colors = false, marks = false;
     /// Triangles of the same faces that are known; null where none are.
     SurfaceTriangles known = {};
     /// The point that is at zero on the card, and the scale of values.
     Vec3 origin = Vec3::Zero();
     ValueRange range = {};
+    /// Of vertices that moved and are made fast; null where they are made exactly.
+    std::shared_ptr<const NormalGroups> groups = nullptr;
 };
 
 /// That, found out by any thread: needs no context.
@@ -87,13 +96,43 @@ struct PreparedSurface {
     std::uint64_t revision = 0;
     SurfaceTriangles triangles = {};
     std::vector<SurfaceVertex> vertices = {};
+    /// In place of them where they are made fast.
+    std::vector<QuickVertex> quick = {};
     std::vector<SurfaceColor> colors = {};
+    Overlay marks = {};
     /// Of the vertices, so that the mesh can move fast from then on.
     std::shared_ptr<const NormalGroups> groups = nullptr;
+    /// What a PieceSender has sent of that.
+    std::shared_ptr<const SurfaceBuffers> sent_vertices = nullptr, sent_colors = nullptr;
 };
 
 /// Errors: those of surface_colors; cancelled.
 PreparedSurface prepare(SurfaceNeeds needs, const Context& context = {});
+
+/// Sends what was prepared to the graphics card buffer by buffer: a window looks for events between
+/// them.
+class PieceSender {
+  public:
+    explicit PieceSender(std::vector<PreparedSurface> surfaces);
+
+    /// Makes the next buffer; false where there was none left. Errors: memory_limit.
+    bool send();
+    const std::vector<PreparedSurface>& surfaces() const { return surfaces_; }
+    /// Gives them away to any thread, without what was sent, which belongs to the context.
+    std::vector<PreparedSurface> give_away();
+
+  private:
+    // What is sent of one surface, a buffer each.
+    struct Part {
+        std::vector<std::span<const std::byte>> pieces;
+        std::shared_ptr<const SurfaceBuffers> PreparedSurface::*to;
+        std::size_t surface;
+    };
+    std::vector<PreparedSurface> surfaces_;
+    std::vector<Part> parts_;
+    std::size_t part_ = 0;
+    SurfaceBuffers made_;
+};
 
 /// How the vertices of a mesh that moved are made: as those of a picture, or fast, see
 /// quick_vertices.h; polygons then keep their diagonals.
@@ -114,7 +153,7 @@ class GpuScene {
     Uploads update_with(std::span<const PreparedSurface> prepared, const Snapshot& snapshot,
                         const Context& context, MovedVertices moved);
     /// What `update` has to find out for the meshes of `snapshot`, where vertices that moved are
-    /// made fast. Only those that need anything.
+    /// made fast. Only of those that need anything.
     std::vector<SurfaceNeeds> needs(const Snapshot& snapshot) const;
 
     const Snapshot& snapshot() const { return shown_.snapshot; }

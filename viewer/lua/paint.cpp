@@ -20,7 +20,7 @@ void paint_named(Picture& picture, std::string_view name, const Paint& paint) {
             paint(drawn.style, *region);
             found = true;
         }
-        for (const auto& [key, value] : drawn.mesh->regions()) names.push_back(key);
+        for (const auto& [key, value] : regions_of(drawn)) names.push_back(key);
     }
     if (!found) lua::refuse_absent("region", name, names);
 }
@@ -87,7 +87,7 @@ void require_region(const Picture& picture, std::string_view name) {
     std::vector<std::string_view> names;
     for (const DrawnMesh& drawn : picture.meshes) {
         if (drawn.mesh->find_region(name)) return;
-        for (const auto& [key, value] : drawn.mesh->regions()) names.push_back(key);
+        for (const auto& [key, value] : regions_of(drawn)) names.push_back(key);
     }
     lua::refuse_absent("region", name, names);
 }

@@ -44,8 +44,11 @@ constexpr double kSlowFrame = 0.05;
 constexpr double kCopyEvery = 1.0;
 // Frames in which the driver makes its programs ready: they are not measured.
 constexpr int kFirstFrames = 3;
-// Meshes with more corners are made ready for the graphics card beside the window.
-constexpr Index kManyCorners = 60000;
+// Meshes with more corners are made ready for the graphics card beside the window. Vertices that
+// move fast cost a part of others.
+constexpr Index kManyCorners = 60000, kQuickPart = 8;
+// Seconds of one turn in which pieces of what is ready are sent.
+constexpr double kSendAim = 0.01;
 // Of a line of the wheel.
 constexpr double kZoomStep = 1.15;
 
@@ -90,6 +93,16 @@ std::string new_picture_path() {
         std::string path = "lissom-" + std::to_string(number) + ".png";
         if (!std::filesystem::exists(path, error)) return path;
     }
+}
+
+// Corners that there is work for.
+Index work_for(const std::vector<SurfaceNeeds>& needs) {
+    Index work = 0;
+    for (const SurfaceNeeds& one : needs) {
+        const Index corners = one.drawn.mesh->topology().corner_count();
+        work += one.groups && !one.colors ? corners / kQuickPart : corners;
+    }
+    return work;
 }
 
 std::string mesh_label(const DrawnMesh& drawn, const std::string& name) {
@@ -142,12 +155,14 @@ class ViewApp {
     void take_tool_state(ToolState state);
     bool has_tool() const { return !content_.tool.tool.empty(); }
     void press_key(const Input& input);
+    bool press_anywhere(const Input& input);
     void copy_scene();
     std::string scene_path() const;
     void save();
     void keep_unsaved();
     void keep_replaced();
     void offer_recovery();
+    void answer_left(const PanelAnswers& answers);
     void take_results();
     void show(Shown shown);
     void update_legend();
@@ -169,6 +184,13 @@ class ViewApp {
     }
     void draw_scene();
     void send_scene();
+    void send_pieces();
+    void give_up(const Error& error);
+    void forget_preparing() {
+        preparing_.reset();
+        sender_.reset();
+        pieces_left_ = false;
+    }
     struct Sent;
     void send(const Sent& sent, std::span<const PreparedSurface> prepared);
     void make_again();
@@ -265,6 +287,8 @@ class ViewApp {
     };
     std::optional<Sent> preparing_;
     std::optional<SurfaceMaker::Result> prepared_;
+    std::optional<PieceSender> sender_;
+    bool pieces_left_ = false;
     std::uint64_t preparations_ = 0;
     std::shared_ptr<const Picture> uploaded_;
     DisplaySettings uploaded_settings_;
@@ -316,6 +340,7 @@ int ViewApp::run() {
         watch_files();
         run_with_parameters();
         copy_scene();
+        send_pieces();
         if (frames_owed_ > 0 || panel_.owes_frame() || session_.busy()) frame();
         fill_hair();
         ask_for_sharp();
@@ -342,14 +367,25 @@ void ViewApp::copy_scene() {
     if (tool_drags_ || session_.busy()) return;
     copied_change_ = scene_change_;
     last_copy_ = Clock::now();
-    session_.save_scene(recovery_.file().string(), true);
+    session_.copy_scene(recovery_.file().string(), recovery_.journal().string());
 }
 
-// A free name here: the scene of armadillo.obj is armadillo.lissom.
+void ViewApp::answer_left(const PanelAnswers& answers) {
+    if (content_.left.empty() || !(answers.open_left || answers.forget_left)) return;
+    const std::filesystem::path left = content_.left.front();
+    if (answers.open_left) return open({left.string()});
+    Recovery::remove(left);
+    content_.left.erase(content_.left.begin());
+    frames_owed_ = 2;
+}
+
+// A free name here: the scene of armadillo.obj is armadillo.lissom; that of a copy, which may go at
+// any time, is recovered.lissom.
 std::string ViewApp::scene_path() const {
     const std::filesystem::path first = options_.words.empty() ? "scene" : options_.words.front();
-    if (first.extension() == ".lissom") return first.string();
-    const std::string stem = first.stem().string();
+    const bool is_copy = first.parent_path() == state_folder();
+    if (first.extension() == ".lissom" && !is_copy) return first.string();
+    const std::string stem = is_copy ? "recovered" : first.stem().string();
     std::error_code error;
     for (int number = 1;; ++number) {
         std::string path = stem + (number > 1 ? "-" + std::to_string(number) : "") + ".lissom";
@@ -385,9 +421,14 @@ void ViewApp::keep_replaced() {
 
 // At the start: what a killed window has left.
 void ViewApp::offer_recovery() {
-    for (const std::filesystem::path& left : Recovery::left_in(state_folder())) {
+    content_.left = Recovery::left_in(state_folder());
+    for (const std::filesystem::path& left : content_.left) {
         std::string text = "A window was ended without being closed. lissom view " + left.string() +
-                           " opens what it showed; delete the file when it is not wanted.";
+                           " opens what it showed";
+        const std::filesystem::path journal = Recovery::journal_of(left);
+        if (!journal.empty()) {
+            text += "; lissom run " + journal.string() + " does it again without a window";
+        }
         tell("line " + text);
         content_.lines.push_back({LineKind::warning, std::move(text)});
     }
@@ -395,7 +436,7 @@ void ViewApp::offer_recovery() {
 
 double ViewApp::wait_time() const {
     if (frames_owed_ > 0 || panel_.owes_frame()) return 0.0;
-    if (screen_->filling()) return 0.0;
+    if (screen_->filling() || pieces_left_) return 0.0;
     if (session_.busy()) return 0.1;
     if (player_ && !player_->is_paused()) return std::min(player_->wait(), 0.1);
     const bool sharpens = sharp_ != change_ && settings_.sharp;
@@ -414,27 +455,40 @@ void ViewApp::take_inputs() {
 }
 
 void ViewApp::take(const Input& input) {
+    if (press_anywhere(input)) return;
     if (player_) return take_while_playing(input);
     const bool is_key = input.kind == Input::Kind::key_down || input.kind == Input::Kind::key_up ||
                         input.kind == Input::Kind::text;
     if (input.kind == Input::Kind::drop) return open(input.files);
     // A drag that began in the picture stays there; the panel sees every move and every release.
     const bool for_panel =
-        is_key ? panel_.wants_keys() : panel_.wants_mouse() && !dragged_ && !tool_drags_;
+        is_key ? panel_.wants_keys()
+               : panel_.wants_mouse(input.at, window_.size()) && !dragged_ && !tool_drags_;
     const bool is_position = input.kind == Input::Kind::move || input.kind == Input::Kind::release;
     if (for_panel || is_position || is_key || input.kind == Input::Kind::press) panel_.feed(input);
     const Canvas canvas = panel_.canvas(window_.size());
-    const bool inside = input.at.x() >= canvas.x && input.at.y() < canvas.y + canvas.height;
     if (is_key) {
         const bool stops = input.key == Key::escape && input.kind == Input::Kind::key_down;
         if (stops && session_.busy()) return session_.cancel();
         if (!for_panel && has_tool()) press_tool_key(input);
         if (!for_panel && input.kind == Input::Kind::key_down) press_key(input);
-    } else if ((inside && !for_panel) || dragged_ || tool_drags_) {
+    } else if (!for_panel) {
         Input own = input;
         own.at -= Vec2(canvas.x, canvas.y);
         if (!give_to_tool(own)) navigate(own);
     }
+}
+
+// Keys that mean the same wherever the keyboard is, in the console too.
+bool ViewApp::press_anywhere(const Input& input) {
+    if (input.kind != Input::Kind::key_down) return false;
+    const bool is_control = input.key == Key::character && input.modifiers.ctrl;
+    const bool ends = is_control && input.character == U'Q';
+    const bool saves = is_control && input.character == U'S' && !player_;
+    closes_ = closes_ || ends;
+    if (saves) save();
+    if (input.key == Key::f12) wants_picture_ = true;
+    return ends || saves || input.key == Key::f12;
 }
 
 // ---- Playing. The hand waits meanwhile, but for the keys that have to do with it.
@@ -448,8 +502,6 @@ void ViewApp::take_while_playing(const Input& input) {
     if (input.kind == Kind::text && input.character == U'-') player_->change_speed(0.5);
     if (input.kind != Kind::key_down) return;
     if (input.key == Key::space) player_->pause_or_go_on();
-    if (input.key == Key::f12) wants_picture_ = true;
-    if (input.modifiers.ctrl && input.character == U'Q') closes_ = true;
     if (input.key != Key::escape) return;
     content_.lines.push_back({LineKind::message, "stopped after event " +
                                                      std::to_string(session_.events_played()) +
@@ -648,13 +700,10 @@ void ViewApp::press_key(const Input& input) {
         input.modifiers.shift ? frame_all() : frame_selection();
     };
     if (input.key == Key::home) frame_what_shift_says();
-    if (input.key == Key::f12) wants_picture_ = true;
     if (input.key == Key::f5) answer({.run_again = true});
     if (input.key != Key::character || input.modifiers.alt) return;
     if (input.modifiers.ctrl) {
-        closes_ = closes_ || input.character == U'Q';
         const bool redoes = input.character == U'Y' || input.modifiers.shift;
-        if (input.character == U'S') save();
         if (input.character == U'Z' || input.character == U'Y') {
             answer_tool({.undo = !redoes, .redo = redoes});
         }
@@ -736,7 +785,7 @@ void ViewApp::show(Shown shown) {
         const Picture& picture = *shown_->picture;
         set_camera(picture.camera && !picture.camera->is_ortho()
                        ? *picture.camera
-                       : camera_of(picture, shown_->snapshot, now.size.aspect()));
+                       : quick_camera_of(picture, shown_->snapshot, now.size.aspect()));
         camera_is_placed_ = true;
     }
     moved();
@@ -787,6 +836,7 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.complete) session_.complete(*answers.complete);
     if (answers.place) open_editor(*answers.place);
     answer_presets(answers);
+    answer_left(answers);
 }
 
 // Without parameters in sight there is nothing to keep; a broken file is told when it is met.
@@ -843,6 +893,7 @@ void ViewApp::update_legend() {
 
 // The driver has lost all that was drawn: it is sent to a new window.
 void ViewApp::make_again() {
+    forget_preparing();
     screen_.reset();
     panel_.leave_context();
     try {
@@ -854,7 +905,6 @@ void ViewApp::make_again() {
     panel_.enter_context();
     screen_.emplace();
     uploaded_.reset();
-    preparing_.reset();
     hair_maker_.forget();
     drawn_canvas_ = {};
     moved();
@@ -870,22 +920,49 @@ void ViewApp::send(const Sent& sent, std::span<const PreparedSurface> prepared) 
     uploaded_settings_ = sent.settings;
 }
 
-// What takes long is made beside the window, which shows what was there before meanwhile; of many
-// that follow each other some are seen.
+// Some pieces of what is ready.
+void ViewApp::send_pieces() {
+    if (!pieces_left_) return;
+    const auto start = Clock::now();
+    try {
+        while (pieces_left_ && seconds_since(start) < kSendAim) pieces_left_ = sender_->send();
+    } catch (const Error& error) {
+        give_up(error);
+    }
+    if (!pieces_left_) moved();
+}
+
+// What cannot be drawn is told, and nothing is seen.
+void ViewApp::give_up(const Error& error) {
+    content_.lines.push_back({LineKind::error, error.message()});
+    tell("error " + error.message());
+    forget_preparing();
+    shown_.reset();
+}
+
+// What takes long is made beside the window and sent in pieces; the window shows what was there
+// before meanwhile. Of many that follow each other some are seen.
 void ViewApp::send_scene() {
+    auto ready = std::exchange(prepared_, std::nullopt);
+    if (preparing_ && ready && ready->number == preparations_) {
+        if (!ready->error.empty()) {
+            preparing_.reset();
+            throw Error(ErrorCode::internal, ready->error);
+        }
+        sender_.emplace(std::move(ready->surfaces));
+        pieces_left_ = true;
+    }
     if (preparing_) {
-        const auto ready = std::exchange(prepared_, std::nullopt);
-        if (!ready || ready->number != preparations_) return;
+        if (!sender_ || pieces_left_) return;
         const Sent sent = *std::exchange(preparing_, std::nullopt);
-        if (!ready->error.empty()) throw Error(ErrorCode::internal, ready->error);
-        send(sent, ready->surfaces);
+        send(sent, sender_->surfaces());
+        surface_maker_.end(sender_->give_away());
+        sender_.reset();
         if (is_sent()) return;
     }
     Sent next{quick_snapshot(*shown_->picture, settings_), shown_->picture, settings_};
     std::vector<SurfaceNeeds> needs = screen_->needs(next.snapshot);
-    Index corners = 0;
-    for (const SurfaceNeeds& one : needs) corners += one.drawn.mesh->topology().corner_count();
-    if (corners <= kManyCorners) return send(next, {});
+    if (work_for(needs) <= kManyCorners) return send(next, {});
     preparing_ = std::move(next);
     surface_maker_.make(std::move(needs), ++preparations_);
 }
@@ -895,7 +972,7 @@ void ViewApp::draw_scene() {
     const bool resized = !(canvas == drawn_canvas_);
     const bool other_settings = !(uploaded_settings_ == settings_);
     if (is_sent()) {
-        preparing_.reset();
+        forget_preparing();
     } else {
         send_scene();
     }
@@ -923,8 +1000,7 @@ void ViewApp::frame() {
     try {
         draw_scene();
     } catch (const Error& error) {
-        content_.lines.push_back({LineKind::error, error.message()});
-        shown_.reset();
+        give_up(error);
     }
     content_.is_ortho = camera_.is_ortho();
     content_.camera = camera_;

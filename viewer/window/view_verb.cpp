@@ -1,18 +1,16 @@
 #include "viewer/window/view_verb.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bindings/cli/load_flags.h"
 #include "kernel/core/index.h"
 #include "viewer/window/session/session.h"
 #include "viewer/window/view_app.h"
+#include "viewer/window/view_words.h"
 
 namespace lissom::cli {
 namespace {
@@ -24,47 +22,10 @@ std::string check_size(const std::string& text) {
     return good ? "" : "a size is written as 1280x800";
 }
 
-constexpr std::array<std::string_view, 3> kToolOptions{"--tool", "--record", "--journal"};
-
-// Options that may be given the name of a script.
-bool takes_value(std::string_view word) {
-    return std::find(kToolOptions.begin(), kToolOptions.end(), word) != kToolOptions.end();
-}
-
-// Whether it is one of these with its value, as in --tool=select.
-bool has_value(std::string_view word) {
-    const std::size_t end = word.find('=');
-    return end != std::string_view::npos && takes_value(word.substr(0, end));
-}
-
-// What stands before or behind a script.
-struct ViewWords {
-    std::vector<std::string> own, scripts;
-};
-
-// Words behind a script are the script's, but for what takes a tool in hand; behind "--" those,
-// too.
-ViewWords split_words(const std::vector<std::string>& words) {
-    ViewWords result;
-    bool behind = false, all = false;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        const std::string& word = words[i];
-        if (behind && !all && word == "--") {
-            all = true;
-            continue;
-        }
-        const bool is_value = i > 0 && !all && takes_value(words[i - 1]);
-        const bool of_tools = !all && (is_value || takes_value(word) || has_value(word));
-        (behind && !of_tools ? result.scripts : result.own).push_back(word);
-        behind = behind || (!is_value && window::is_script(word) && !window::is_recording(word));
-    }
-    return result;
-}
-
 }  // namespace
 
 int view(Program& program, const std::vector<std::string>& words) {
-    const ViewWords split = split_words(words);
+    const window::ViewWords split = window::split_words(words);
     window::ViewOptions options;
     options.words = split.scripts;
     CLI::App app(

@@ -372,6 +372,28 @@ function Journal:end_step(name, changed)
     self.group = {}
 end
 
+-- A line of a console that was done between steps: told with those before it, which it may need, once one
+-- changes the scene.
+function Journal:hear_console(line, changed, failed)
+    if failed then
+        line = "pcall(function() " .. line .. " end)"
+    elseif not load(line, "=console", "t") then
+        line = "do local _ = " .. line .. " end"
+    end
+    table.insert(self.console, line)
+    if not changed then return end
+    table.insert(self.lines, "-- From the console.")
+    for _, one in ipairs(self.console) do table.insert(self.lines, one) end
+    self.console = {}
+end
+
+-- What a script that runs again finds selected.
+function Journal:hear_selected(name, ids)
+    local mesh = "scene:get(" .. quoted(name) .. ")"
+    local region = string.format("%s:region{ vertices = %s }", mesh, ranges(ids))
+    table.insert(self.lines, string.format('%s:set_region("selected", %s)', mesh, region))
+end
+
 local ids_text = [[
 -- The numbers that "1-3 7" stands for.
 local function ids(text)
@@ -382,13 +404,19 @@ local function ids(text)
     return list
 end]]
 
-local function opening_lines(open, load)
+-- `is_made`: what a script returns is no scene, and was put into one.
+local function opening_lines(open, load, is_made)
     if not open then return { "local scene = ...      -- the scene that this was done to" } end
     if #open == 1 and is_scene_path(open[1]) then
         return { string.format("local scene = assert(lissom.load_scene(%q))", open[1]) }
     end
     if #open == 1 and open[1]:match("%.lua$") then
-        return { string.format("local scene = assert(dofile(%q))", open[1]) }
+        local folder = open[1]:match("^(.*)[/\\]")
+        local opened = is_made and "lissom.replay{ version = 1, open = { %q }, events = {} }" or "dofile(%q)"
+        local lines = { string.format("local scene = assert(" .. opened .. ")", open[1]) }
+        local path = folder and string.format("package.path = %q .. package.path", folder .. "/?.lua;")
+        if path then table.insert(lines, 1, path) end
+        return lines
     end
     local lines, scene = { "local scene = lissom.scene{}" }, lissom.scene{}
     for _, path in ipairs(open) do
@@ -403,7 +431,7 @@ end
 --- Begins a journal, as record begins a recording.
 function Host:keep_journal(open, load)
     self:ready()
-    self.journal = setmetatable({ host = self, lines = {} }, Journal)
+    self.journal = setmetatable({ host = self, lines = {}, console = {} }, Journal)
     self.journal.open = open and #open > 0 and open or nil
     self.journal.load = load and next(load) and load or nil
     self.journal:begin_step()
@@ -416,7 +444,8 @@ function Host:journal_text()
     local text = { "-- What was done with tools, as calls.", 'local lissom = require "lissom"', "" }
     local body = table.concat(self.journal.lines, "\n")
     if body:find('ids"', 1, true) then table.insert(text, ids_text .. "\n") end
-    for _, line in ipairs(opening_lines(self.journal.open, self.journal.load)) do table.insert(text, line) end
+    local opening = opening_lines(self.journal.open, self.journal.load, self.is_made)
+    for _, line in ipairs(opening) do table.insert(text, line) end
     if body ~= "" then table.insert(text, body) end
     table.insert(text, string.format("assert(scene:hash() == %q)", self.scene:hash()))
     table.insert(text, "return scene\n")

@@ -31,8 +31,15 @@ function Host:forget_unfinished()
     if #log > 0 and log[#log][1] ~= "look" and log[#log][1] ~= "tool" then self:forget_failed(false) end
 end
 
--- Something else than the tools has changed the scene: that is not in the recording, which says so.
-function Host:changed_outside()
+-- A line of a console follows.
+function Host:begin_outside()
+    if self.journal then self.journal.hash = self.scene:hash() end
+end
+
+-- It was done, or has failed: what it changes is in the journal, but not in the recording, which says so.
+function Host:changed_outside(line, failed)
+    local journal = self.journal
+    if journal then journal:hear_console(line, self.scene:hash() ~= journal.hash, failed) end
     if not self.log or self.scene:hash() == self.known_hash then return false end
     self:note{ "outside" }
     self:mark(true)
@@ -158,7 +165,7 @@ end
 -- The host of the first scene among the values, or of a scene of what else there is; nil for nothing. What
 -- made the scene is not for a hand to undo.
 local function host_of(...)
-    local scene
+    local scene, is_made
     for i = 1, select("#", ...) do
         local value = select(i, ...)
         if not scene and type_of(value) == "lissom.Scene" then scene = value end
@@ -167,9 +174,12 @@ local function host_of(...)
         scene = lissom.scene{}
         for i = 1, select("#", ...) do add_values(scene, (select(i, ...)), "object", {}, 0) end
         if #scene == 0 then return nil end
+        is_made = true
     end
     scene:clear_history()
-    return new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
+    local host = new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
+    host.is_made = is_made
+    return host
 end
 
 local function run_script(path)

@@ -128,9 +128,11 @@ local function restore(host, text, selects)
         local one = before.selected[name]
         if one and one.count == mesh:vertex_count() then
             mesh:set_region("selected", mesh:region{ vertices = one.vertices })
+            if host.journal then host.journal:hear_selected(name, one.vertices) end
         end
     end)
     host.scene:clear_history()
+    if host.journal then table.insert(host.journal.lines, "scene:clear_history()") end
 end
 
 local function method(host, name, ...) return host[name](host, ...) end

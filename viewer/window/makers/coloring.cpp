@@ -17,7 +17,7 @@ using By = Coloring::By;
 
 bool has_regions(const Picture& picture) {
     return std::any_of(picture.meshes.begin(), picture.meshes.end(),
-                       [](const DrawnMesh& drawn) { return !drawn.mesh->regions().empty(); });
+                       [](const DrawnMesh& drawn) { return !regions_of(drawn).empty(); });
 }
 
 // Names of the attributes that can be drawn.

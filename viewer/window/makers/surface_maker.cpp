@@ -40,6 +40,12 @@ void SurfaceMaker::make(std::vector<SurfaceNeeds> needs, std::uint64_t number) {
     });
 }
 
+void SurfaceMaker::end(std::vector<PreparedSurface> surfaces) {
+    worker_.post([ended = std::make_shared<std::vector<PreparedSurface>>(std::move(surfaces))] {
+        ended->clear();
+    });
+}
+
 void SurfaceMaker::finish(Result result) {
     {
         const std::lock_guard lock(mutex_);

@@ -25,6 +25,8 @@ class SurfaceMaker {
     /// Makes what `needs` says. The last that is asked for is made; what is under way then is made
     /// as well, so that something is seen while many follow each other.
     void make(std::vector<SurfaceNeeds> needs, std::uint64_t number);
+    /// Ends what is not needed any more: to give much memory back takes long, too.
+    void end(std::vector<PreparedSurface> surfaces);
     bool busy() const { return worker_.busy(); }
 
     struct Result {

@@ -183,6 +183,18 @@ void draw_played(const PlayedPart& part) {
                        part.name.c_str());
 }
 
+void draw_left(const std::vector<std::filesystem::path>& left, PanelAnswers& answers) {
+    if (left.empty()) return;
+    ImGui::TextWrapped(left.size() > 1
+                           ? "Windows were ended without being closed: the last one's scene"
+                           : "A window was ended without being closed: its scene");
+    if (ImGui::Button("open it")) answers.open_left = true;
+    ImGui::SameLine();
+    if (ImGui::Button("forget it")) answers.forget_left = true;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", left.front().string().c_str());
+    ImGui::Separator();
+}
+
 void draw_colors(const PanelContent& content, PanelAnswers& answers) {
     if (content.colorings.size() < 2) return;
     ImGui::AlignTextToFramePadding();
@@ -229,6 +241,8 @@ struct Panel::State {
     std::size_t lines_drawn = 0;
     // Frames after one that took input: lists open in the second.
     int frames_owed = 0;
+    // Something of the panel lies over the picture, or is dragged there.
+    bool is_over_picture = false;
 
     Canvas canvas_of(gl::Extent window) const {
         const int left = static_cast<int>(kWidth * scale);
@@ -295,8 +309,12 @@ bool Panel::owes_frame() const {
     return !state_->inputs.empty() || state_->frames_owed > 0;
 }
 
-bool Panel::wants_mouse() const {
-    return ImGui::GetIO().WantCaptureMouse;
+// Only lists that lie over the picture, and a slider that is dragged, are asked about where the
+// mouse was in the last frame.
+bool Panel::wants_mouse(const Vec2& at, gl::Extent window) const {
+    const Canvas canvas = state_->canvas_of(window);
+    const bool inside = at.x() >= canvas.x && at.y() < canvas.y + canvas.height;
+    return !inside || (state_->is_over_picture && ImGui::GetIO().WantCaptureMouse);
 }
 
 bool Panel::wants_keys() const {
@@ -445,6 +463,7 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
     }
     ImGui::Separator();
     ImGui::BeginDisabled(content.playing.has_value());
+    draw_left(content.left, answers);
     if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
         view_section(content, settings, answers);
     }
@@ -653,6 +672,9 @@ PanelAnswers Panel::draw(PanelContent& content, DisplaySettings& settings, gl::E
     state_->console(content, answers, window);
     const Canvas canvas = state_->canvas_of(window);
     draw_marks(content.tool, content.camera, content.picture_size, canvas);
+    state_->is_over_picture =
+        !state_->candidates.empty() || ImGui::IsAnyMouseDown() ||
+        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     return answers;

@@ -2,6 +2,7 @@
 /// the console. Drawn by Dear ImGui into the window of the current context.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,8 @@ struct PanelContent {
     /// How the line of the console may go on; the panel takes it.
     std::optional<Completion> completion;
     std::optional<PlayedPart> playing;
+    /// Scenes of windows that were killed, the newest first.
+    std::vector<std::filesystem::path> left;
     bool busy = false;
     std::string stage;
     double fraction = 0.0;
@@ -61,6 +64,8 @@ struct PanelContent {
 struct PanelAnswers {
     bool frame_all = false, toggle_ortho = false, screenshot = false, save = false,
          run_again = false, cancel = false, compare_with_this = false;
+    /// What to do with the newest scene that was left.
+    bool open_left = false, forget_left = false;
     std::optional<StandardView> view = std::nullopt;
     std::optional<Coloring> coloring = std::nullopt;
     /// A parameter has another value.
@@ -95,8 +100,9 @@ class Panel {
     /// Whether input is left that one frame more must take: a press and a release are never taken
     /// at once.
     bool owes_frame() const;
-    /// Whether the mouse, or what is typed, belongs to the panel.
-    bool wants_mouse() const;
+    /// Whether the mouse at a pixel of the window, or what is typed, belongs to the panel: by what
+    /// was drawn last, wherever the mouse was then.
+    bool wants_mouse(const Vec2& at, gl::Extent window) const;
     bool wants_keys() const;
 
     /// What the panel leaves free of a window.

@@ -28,13 +28,17 @@ long owner_of(const fs::path& path) {
     return error == std::errc() && read == end ? number : 0;
 }
 
+// The journal of a copy.
+fs::path beside(fs::path copy) {
+    return copy.replace_extension(".lua");
+}
+
 }  // namespace
 
 Recovery::Recovery(fs::path folder) : folder_(std::move(folder)) {}
 
 Recovery::~Recovery() {
-    std::error_code error;
-    fs::remove(file(), error);
+    remove(file());
 }
 
 fs::path Recovery::file() const {
@@ -44,11 +48,29 @@ fs::path Recovery::file() const {
            (std::string(kPrefix) + std::to_string(cli::process_number()) + std::string(kSuffix));
 }
 
+fs::path Recovery::journal() const {
+    return beside(file());
+}
+
 fs::path Recovery::keep() const {
     const fs::path kept = folder_ / kUnsaved;
     std::error_code error;
     fs::rename(file(), kept, error);
-    return error ? fs::path() : kept;
+    if (error) return {};
+    fs::remove(beside(kept), error);
+    fs::rename(journal(), beside(kept), error);
+    return kept;
+}
+
+fs::path Recovery::journal_of(const fs::path& copy) {
+    std::error_code error;
+    return fs::exists(beside(copy), error) ? beside(copy) : fs::path();
+}
+
+void Recovery::remove(const fs::path& copy) {
+    std::error_code error;
+    fs::remove(copy, error);
+    fs::remove(beside(copy), error);
 }
 
 std::vector<fs::path> Recovery::left_in(const fs::path& folder) {

@@ -1,4 +1,5 @@
-/// Recovery: a copy of the scene on disk that outlives the program, for the case that it is killed.
+/// Recovery: a copy of the scene on disk that outlives the program, for the case that it is killed,
+/// and beside it a journal: the calls that made the scene, as a script.
 #pragma once
 
 #include <filesystem>
@@ -17,12 +18,18 @@ class Recovery {
 
     /// Where the copy belongs, for whoever writes it; its folder is there afterwards, if it can be.
     std::filesystem::path file() const;
-    /// Keeps the copy, where there is one, as the one that was not saved last, and answers its
-    /// path; empty where there is none.
+    /// Where the journal belongs.
+    std::filesystem::path journal() const;
+    /// Keeps both, where there is a copy, as what was not saved last, and answers the path of the
+    /// copy; empty where there is none.
     std::filesystem::path keep() const;
 
     /// Copies that processes left which run no more, the newest first.
     static std::vector<std::filesystem::path> left_in(const std::filesystem::path& folder);
+    /// The journal that was left with a copy; empty where there is none.
+    static std::filesystem::path journal_of(const std::filesystem::path& copy);
+    /// Takes away what was left, with its journal.
+    static void remove(const std::filesystem::path& copy);
 
   private:
     std::filesystem::path folder_;

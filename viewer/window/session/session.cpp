@@ -136,7 +136,7 @@ Session::Session(cli::Program& program, std::function<void()> wake, SessionOptio
     };
     listener_ = [this](const Picture& picture) {
         ++pictures_;
-        show(frozen(picture));
+        show(frozen_.freeze(picture));
     };
 }
 
@@ -216,12 +216,25 @@ void Session::post(ToolInput input) {
     if (!waits) worker_.post([this] { take_inputs(); });
 }
 
-void Session::save_scene(const std::string& path, bool is_recovery) {
-    worker_.post([this, path, is_recovery] {
+void Session::copy_scene(const std::string& path, const std::string& journal) {
+    worker_.post([this, path, journal] {
         if (!bench_ || !bench_->has_scene() || bench_->is_held()) return;
         program_.forget_interrupt();
         std::string left_out;
-        if (!succeeds(bench_->save(path, left_out)) || is_recovery) return;
+        if (!succeeds(bench_->save(path, left_out)) || !options_.journal.empty()) return;
+        const std::optional<std::string> text = bench_->text_of("journal_text");
+        if (text && !write_whole(journal, *text)) {
+            tell(LineKind::error, "the journal cannot be written to " + journal);
+        }
+    });
+}
+
+void Session::save_scene(const std::string& path) {
+    worker_.post([this, path] {
+        if (!bench_ || !bench_->has_scene() || bench_->is_held()) return;
+        program_.forget_interrupt();
+        std::string left_out;
+        if (!succeeds(bench_->save(path, left_out))) return;
         tell(LineKind::result, "saved " + path);
         if (!left_out.empty()) tell(LineKind::warning, left_out);
     });
@@ -378,7 +391,7 @@ bool Session::show_values() {
     try {
         Picture picture = lua::picture_of_values(L, 1, lua_gettop(L));
         if (lua::is_empty(picture)) return false;
-        show(frozen(std::move(picture)));
+        show(frozen_.freeze(std::move(picture)));
     } catch (const Error& error) {
         tell(LineKind::error, error.message());
     } catch (const std::bad_alloc&) {
@@ -480,13 +493,30 @@ std::string Session::told_path(const std::string& path) const {
 bool Session::succeeds(const cli::ScriptResult& result) {
     if (result.status == cli::kSuccess) return true;
     tell(LineKind::error, result.message);
+    recover();
+    return false;
+}
+
+void Session::recover() {
     // Somebody may go on pressing Escape.
     constexpr int kMostTimes = 20;
     for (int i = 0; bench_ && i < kMostTimes; ++i) {
         program_.forget_interrupt();
         if (bench_->recover()) break;
     }
-    return false;
+}
+
+// A journal that was not asked for lies elsewhere: it calls files by their whole paths.
+void Session::begin_records(const std::vector<std::string>& open) {
+    std::vector<std::string> told, whole;
+    std::error_code error;
+    for (const std::string& path : open) {
+        told.push_back(told_path(path));
+        whole.push_back(fs::absolute(path, error).generic_string());
+    }
+    if (!options_.record.empty()) succeeds(bench_->record("record", told, options_.load));
+    succeeds(
+        bench_->record("keep_journal", options_.journal.empty() ? whole : open, options_.load));
 }
 
 // A scene is there that was not before: it is seen and recorded as `open`, and the tool works on
@@ -496,16 +526,10 @@ void Session::settle_scene(const std::vector<std::string>& open, bool takes_tool
     if (bench_->has_scene()) {
         bench_->publish_scene();
         succeeds(bench_->take(look_));
+        begin_records(open);
         // A recording begins with what the script has made.
-        const bool records = !options_.record.empty() || !options_.journal.empty();
-        if (!kept_.empty()) succeeds(bench_->restore(std::exchange(kept_, ""), !records));
-        std::vector<std::string> told;
-        for (const std::string& path : open) told.push_back(told_path(path));
-        const auto record = [&](const char* method, const std::vector<std::string>& files) {
-            succeeds(bench_->record(method, files, options_.load));
-        };
-        if (!options_.record.empty()) record("record", told);
-        if (!options_.journal.empty()) record("keep_journal", open);
+        const bool selects = options_.record.empty();
+        if (!kept_.empty()) succeeds(bench_->restore(std::exchange(kept_, ""), selects));
         if (!options_.tool.empty() && takes_tool) settle_tool(options_.tool);
         if (pictures_ == 0) return show_scene(true);
     }
@@ -557,10 +581,19 @@ void Session::take_inputs() {
     show_scene(!only_hovers);
 }
 
+// What the tool shows; an error that comes again with every event is told once.
+void Session::draw_marks() {
+    const cli::ScriptResult drawn = bench_->draw();
+    const bool fails = drawn.status != cli::kSuccess;
+    if (fails && drawn.message == draw_error_) return recover();
+    succeeds(drawn);
+    draw_error_ = fails ? drawn.message : "";
+}
+
 // Shows the scene with what the tool draws; where that is as before only if `always`.
 void Session::show_scene(bool always) {
     if (!bench_ || !bench_->has_scene()) return;
-    succeeds(bench_->draw());
+    draw_marks();
     try {
         ToolState state = bench_->state();
         state.scene = scene_number_;
@@ -573,7 +606,7 @@ void Session::show_scene(bool always) {
         if (same && !always) return;
         Picture picture = bench_->picture();
         std::vector<std::string> names = bench_->names_of(picture);
-        show(frozen(std::move(picture)), std::move(names));
+        show(frozen_.freeze(std::move(picture)), std::move(names));
         last_state_ = state;
         const std::lock_guard lock(mutex_);
         // One that the window has not seen yet.
@@ -645,15 +678,19 @@ void Session::evaluate_line(const std::string& line) {
     if (!loaded) {
         tell(LineKind::error, lua_tostring(L, -1));
     } else {
+        bench_->begin_outside();
         const cli::ScriptResult result = script_->call_function();
-        if (result.status != cli::kSuccess) {
+        const bool failed = result.status != cli::kSuccess;
+        program_.forget_interrupt();
+        if (bench_->changed_outside(statement, failed)) {
+            tell(LineKind::warning,
+                 "the recording does not hold what the console does: it cannot be repeated");
+        }
+        if (failed) {
             tell(LineKind::error, result.message);
+            show_scene(true);
         } else {
             for (int i = 1; i <= lua_gettop(L); ++i) tell(LineKind::result, cli::display(L, i));
-            if (bench_->changed_outside()) {
-                tell(LineKind::warning,
-                     "the recording does not hold what the console does: it cannot be repeated");
-            }
             const bool holds = bench_->holds(1, lua_gettop(L));
             if (holds || !show_values()) show_scene(true);
         }

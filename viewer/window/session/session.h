@@ -61,7 +61,7 @@ struct SessionOptions {
     std::string tool = {};
     /// Where what is done with tools is recorded; empty for nowhere.
     std::string record = {};
-    /// Where the calls that tools make are kept as a script; empty for nowhere.
+    /// Where the calls that tools make are kept as a script; empty for nowhere but `copy_scene`.
     std::string journal = {};
     /// How mesh files are read.
     LoadOptions load = {};
@@ -98,8 +98,10 @@ class Session {
     void post(ToolInput input);
     /// Shows or hides an object of the scene.
     void show_object(const std::string& name, bool visible);
-    /// Writes the scene to a file, and tells that it did; silently where it is a recovery.
-    void save_scene(const std::string& path, bool is_recovery = false);
+    /// Writes the scene to a file, and tells that it did.
+    void save_scene(const std::string& path);
+    /// Writes the scene and, where no other was asked for, its journal to files, silently.
+    void copy_scene(const std::string& path, const std::string& journal);
     /// A parameter of the tool has this value.
     void set_tool_parameter(const std::string& name, const lua::ParameterValue& value);
 
@@ -146,11 +148,14 @@ class Session {
     void play(std::size_t event);
     void let_go();
     std::string told_path(const std::string& path) const;
+    void begin_records(const std::vector<std::string>& open);
     void settle_scene(const std::vector<std::string>& open, bool takes_tool = true);
     bool settle_tool(const std::string& word);
     void keep_tool(const std::string& word);
     void take_inputs();
     bool succeeds(const cli::ScriptResult& result);
+    void recover();
+    void draw_marks();
     void show_scene(bool always);
     void save_records();
     void save_record(const char* what, const std::string& path, std::string& saved);
@@ -195,12 +200,13 @@ class Session {
     std::unique_ptr<cli::Script> script_;
     std::unique_ptr<ToolBench> bench_;
     ToolInput look_;
-    std::string recorded_, told_;
+    std::string recorded_, told_, draw_error_;
     // The script whose scene there is, and what stays of it when it runs again.
     std::string ran_, kept_;
     std::uint64_t scene_number_ = 0;
     bool record_fails_ = false;
     ToolState last_state_;
+    FrozenMeshes frozen_;
     std::size_t pictures_ = 0;
     Worker worker_;
 };

@@ -480,13 +480,25 @@ bool ToolBench::holds(int first, int last) {
     return held;
 }
 
-bool ToolBench::changed_outside() {
+void ToolBench::begin_outside() {
+    if (!has_scene_) return;
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_host();
+    lua_pushliteral(L, "begin_outside");
+    call("method", 2);
+    lua_settop(L, top);
+}
+
+bool ToolBench::changed_outside(const std::string& line, bool failed) {
     if (!has_scene_) return false;
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push_host();
     lua_pushliteral(L, "changed_outside");
-    const bool done = call("method", 2).status == cli::kSuccess;
+    lua_pushlstring(L, line.data(), line.size());
+    lua_pushboolean(L, failed ? 1 : 0);
+    const bool done = call("method", 4).status == cli::kSuccess;
     const bool changed = done && lua_toboolean(L, -1) != 0;
     lua_settop(L, top);
     return changed;

@@ -145,8 +145,11 @@ class ToolBench {
     bool recover();
     /// Whether one of the values between two stack indices is an object of the scene, or that.
     bool holds(int first, int last);
-    /// Something else than a tool may have changed the scene: true where a recording lacks that.
-    bool changed_outside();
+    /// A line of a console follows.
+    void begin_outside();
+    /// That `line`, a statement or an expression, was done, or `failed`: the journal tells it where
+    /// it has changed the scene. True where a recording lacks that.
+    bool changed_outside(const std::string& line, bool failed);
 
     /// What is selected, and the tool's parameters and state, as a text for `restore` in another
     /// state of Lua; nothing where there is no scene.

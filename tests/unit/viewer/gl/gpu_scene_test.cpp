@@ -228,10 +228,11 @@ TEST_CASE("a scene: what was prepared elsewhere is sent as it is, and moves fast
     CHECK(all.vertices == corners(ball) * sizeof(SurfaceVertex));
     CHECK(stage.draw() == plain.draw());
     CHECK(show({.meshes = {drawn}}).first == 0);
-    // It moves: nothing is to be prepared, and what is sent is that of a mesh that moves.
+    // It moves: what is prepared and sent is that of a mesh that moves.
     drawn.mesh = shared(stretched(ball, 1.2));
+    CHECK(stage.scene.needs({.meshes = {drawn}}).front().groups != nullptr);
     const auto [moved, positions] = show({.meshes = {drawn}});
-    CHECK(moved == 0);
+    CHECK(moved == 1);
     CHECK(positions.bytes() == corners(ball) * sizeof(QuickVertex));
     CHECK(mean_difference(stage.draw(), stage.draw_fresh({.meshes = {drawn}})) < 0.5);
     // Colours alone, then another shading and another mesh.
@@ -246,6 +247,48 @@ TEST_CASE("a scene: what was prepared elsewhere is sent as it is, and moves fast
     drawn.mesh = shared(make_torus());
     CHECK(show({.meshes = {drawn}}).first == 1);
     CHECK(mean_difference(stage.draw(), stage.draw_fresh({.meshes = {drawn}})) < 0.02);
+}
+
+TEST_CASE("a scene: what is sent in pieces is what is sent at once, and no piece is large") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    Stage stage(*platform), at_once(*platform);
+    const Mesh ball = make_cactus({.vertices = 20000});
+    DrawnMesh drawn{shared(ball)};
+    drawn.style.boundaries = drawn.style.vertex_normals = true;
+    DrawnMesh torus{shared(make_torus())};
+    torus.object = 1;
+    for (const double factor : {1.0, 1.3, 0.8}) {
+        drawn.mesh = shared(stretched(ball, factor));
+        const Snapshot snapshot{.meshes = {drawn, torus}};
+        std::vector<PreparedSurface> prepared;
+        std::size_t bytes = 0;
+        for (const SurfaceNeeds& one : stage.scene.needs(snapshot)) {
+            prepared.push_back(prepare(one));
+            bytes += std::as_bytes(std::span(prepared.back().vertices)).size() +
+                     std::as_bytes(std::span(prepared.back().quick)).size() +
+                     std::as_bytes(std::span(prepared.back().colors)).size();
+        }
+        const Uploads all = at_once.scene.update_with(prepared, snapshot, {}, MovedVertices::quick);
+        CHECK(all.vertices + all.colors == bytes);
+        PieceSender sender(std::move(prepared));
+        while (true) {
+            const CountedCalls counted;
+            if (!sender.send()) break;
+            CHECK(counted.calls == 1);
+            CHECK(counted.bytes <= 3 * kTrianglesOfBuffer * sizeof(SurfaceVertex));
+        }
+        const CountedCalls counted;
+        const Uploads sent =
+            stage.scene.update_with(sender.surfaces(), snapshot, {}, MovedVertices::quick);
+        CHECK(sent.vertices + sent.colors == bytes);
+        // Marks alone.
+        CHECK(counted.bytes == sent.marks);
+        // Elsewhere from now on: what is on the card stays.
+        std::thread([surfaces = sender.give_away()]() mutable { surfaces.clear(); }).join();
+        CHECK_FALSE(sender.send());
+        CHECK(stage.draw() == at_once.draw());
+    }
 }
 
 TEST_CASE("a scene: what was prepared for something else is not sent") {
@@ -313,14 +356,14 @@ TEST_CASE("a scene: another topology replaces everything, and what vanishes is f
     const Mesh torus = make_torus(), box = make_box();
     stage.update({.meshes = {{shared(torus)}}});
     const GpuSurface& surface = *stage.scene.surfaces().front();
-    const GLuint vertices = surface.vertices->id(), colors = surface.colors->id();
+    const GLuint vertices = surface.vertices->at(0).id(), colors = surface.colors->at(0).id();
     REQUIRE(alive(vertices));
     const Uploads uploads = stage.update({.meshes = {{shared(box)}}});
     CHECK(uploads.vertices == corners(box) * sizeof(SurfaceVertex));
     CHECK(uploads.colors == corners(box) * sizeof(SurfaceColor));
     CHECK_FALSE(alive(vertices));
     CHECK_FALSE(alive(colors));
-    const GLuint last = stage.scene.surfaces().front()->vertices->id();
+    const GLuint last = stage.scene.surfaces().front()->vertices->at(0).id();
     CHECK(stage.update({}).bytes() == 0);
     CHECK_FALSE(alive(last));
     CHECK(test::covered(stage.draw()) == 0.0);
@@ -332,8 +375,8 @@ TEST_CASE("a scene: what stays shared is freed with the last that uses it") {
     Stage stage(*platform);
     const auto torus = shared(make_torus());
     stage.update({.meshes = {{torus}}});
-    const GLuint vertices = stage.scene.surfaces().front()->vertices->id();
-    const GLuint colors = stage.scene.surfaces().front()->colors->id();
+    const GLuint vertices = stage.scene.surfaces().front()->vertices->at(0).id();
+    const GLuint colors = stage.scene.surfaces().front()->colors->at(0).id();
     DrawnMesh red{torus};
     red.style.color = {1, 0, 0};
     stage.update({.meshes = {red}});

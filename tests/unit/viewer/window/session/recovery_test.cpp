@@ -17,6 +17,7 @@ TEST_CASE("recovery: the copy of a program that ended well goes, that of a kille
     {
         const Recovery own(place);
         std::ofstream(own.file()) << "scene";
+        std::ofstream(own.journal()) << "calls";
         CHECK(std::filesystem::exists(own.file()));
         CHECK(Recovery::left_in(place).empty());
     }
@@ -27,6 +28,13 @@ TEST_CASE("recovery: the copy of a program that ended well goes, that of a kille
     folder.write("state/notes.txt", "another file");
     REQUIRE(Recovery::left_in(place).size() == 1);
     CHECK(Recovery::left_in(place).front() == left);
+    CHECK(Recovery::journal_of(left).empty());
+    const std::string journal = folder.write("state/recovery-999999999.lua", "calls");
+    CHECK(Recovery::journal_of(left) == journal);
+    CHECK(Recovery::left_in(place).size() == 1);
+    Recovery::remove(left);
+    CHECK_FALSE(std::filesystem::exists(left));
+    CHECK_FALSE(std::filesystem::exists(journal));
     CHECK(cli::process_runs(cli::process_number()));
 }
 
@@ -38,7 +46,13 @@ TEST_CASE("recovery: what was not saved is kept where the window is closed") {
         const Recovery own(place);
         CHECK(own.keep().empty());
         std::ofstream(own.file()) << "scene";
+        std::ofstream(own.journal()) << "calls";
         kept = own.keep();
+        CHECK(std::filesystem::exists(Recovery::journal_of(kept)));
+        // The next one has no journal: that of the last does not stay beside it.
+        std::ofstream(own.file()) << "another scene";
+        CHECK(own.keep() == kept);
+        CHECK(Recovery::journal_of(kept).empty());
     }
     CHECK(std::filesystem::exists(kept));
     CHECK(Recovery::left_in(place).empty());

@@ -225,6 +225,47 @@ TEST_CASE("session: Escape in a drag, and an error in a tool, leave the scene as
     CHECK(host.shown() != before);
 }
 
+TEST_CASE("session: a tool that fails while it draws is told once, and other tools work") {
+    ToolHost host;
+    host.open(host.folder.write("bad.lua",
+                                "local lissom = require 'lissom'\nreturn lissom.tool{ name "
+                                "= 'bad', draw = function()\n    nothing.here()\nend }"));
+    const std::vector<Vec3> before = host.shown();
+    for (int i = 0; i < 5; ++i) {
+        host.session.post(key("a"));
+        host.wait();
+    }
+    std::size_t told = 0;
+    for (const ConsoleLine& line : host.lines) {
+        told += line.text.find("bad.lua:3:") != std::string::npos ? 1 : 0;
+    }
+    CHECK(told == 1);
+    CHECK(host.shown() == before);
+    host.session.use_tool(host.folder.write("pull.lua", kPull));
+    host.wait();
+    host.drag(1);
+    CHECK(host.shown() != before);
+    CHECK(host.state().steps.size() == 1);
+}
+
+TEST_CASE("session: a tool that removes what it drags is told, and other tools work") {
+    ToolHost host;
+    host.open(host.folder.write(
+        "bad.lua",
+        "local lissom = require 'lissom'\nreturn lissom.tool{ name = 'bad', drag = function(self, "
+        "ev)\n    local hit = ev:hit()\n    ev.scene:remove(ev.scene:names()[1])\n    "
+        "hit.mesh:set_position(1, 0, 0, 0)\n    error('it is gone')\nend }"));
+    const std::vector<Vec3> before = host.shown();
+    host.drag(3);
+    CHECK(host.says(LineKind::error, "bad.lua:6: it is gone"));
+    CHECK(host.shown() == before);
+    CHECK(host.state().steps.empty());
+    host.session.use_tool(host.folder.write("pull.lua", kPull));
+    host.wait();
+    host.drag(1);
+    CHECK(host.shown() != before);
+}
+
 TEST_CASE("session: a tool that asks goes on asking after an error") {
     ToolHost host;
     host.open(host.folder.write("ask.lua", R"(local lissom = require "lissom"
@@ -578,6 +619,92 @@ TEST_CASE("session: a journal is a script of calls that comes to the same scene"
     host.wait();
     CHECK(host.lines.empty());
     CHECK(host.shown() == after);
+}
+
+TEST_CASE("session: the copy of a scene comes with its journal, which nobody has asked for") {
+    const test::ProgramFolder outside;
+    const std::string copy = outside.path("copy.lissom"), journal = outside.path("copy.lua");
+    const std::string module = outside.write("shape.lua", "return { across = 6, along = 6 }");
+    const std::string script =
+        outside.write("scene.lua", "package.path = '" + outside.path("?.lua") +
+                                       ";' .. package.path\nlocal lissom = require "
+                                       "'lissom'\nreturn { ball = lissom.shapes.sphere{}, bar = "
+                                       "lissom.shapes.bar((require 'shape')) }\n");
+    ToolHost host;
+    const auto check_copy = [&](std::size_t tells) {
+        host.lines.clear();
+        host.session.copy_scene(copy, journal);
+        host.session.evaluate("scene:hash()");
+        host.wait();
+        REQUIRE(host.lines.size() == 2);
+        const std::string hash = host.lines.back().text;
+        for (const std::string& path : {copy, journal}) {
+            test::SessionHost again;
+            again.session.open({path});
+            again.session.evaluate("scene:hash()");
+            again.wait();
+            CHECK(again.lines.size() == 2);
+            CHECK(again.lines.back().text == hash);
+        }
+        const std::string text = content_of(journal);
+        CHECK(text.find("set_position") != std::string::npos);
+        std::size_t consoles = 0;
+        for (std::size_t at = 0; (at = text.find("From the console", at)) != std::string::npos;
+             ++at) {
+            ++consoles;
+        }
+        CHECK(consoles == tells);
+    };
+    // Of files: by their whole paths, wherever the journal lies.
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(4);
+    check_copy(0);
+    // What the console does is told, with what it needs; what it asks is not.
+    host.session.evaluate("#scene");
+    host.session.evaluate("local twice = 2");
+    host.session.evaluate("scene:get('ball'):transform{ scale = twice }");
+    host.session.evaluate("scene:get('ball'):transform{ scale = twice } missing()");
+    host.wait();
+    check_copy(2);
+    // Of a script that returns a table and requires others.
+    host.session.open({script});
+    host.wait();
+    ToolInput look = input(Kind::look);
+    look.camera = Camera({.eye = {0.0, 0.0, 5.0}});
+    look.size = {640, 480};
+    host.session.post(look);
+    host.session.use_tool(host.folder.path("pull.lua"));
+    host.wait();
+    host.drag(2);
+    host.session.evaluate(
+        "local b = scene:get('ball'); "
+        "b:set_region('selected', b:region{ vertices = { 3, 5 } })");
+    host.wait();
+    check_copy(1);
+    // It runs again: what stays selected is in the journal of the new scene.
+    host.session.run_again({});
+    host.wait();
+    host.drag(1);
+    check_copy(0);
+    CHECK(content_of(journal).find("selected") != std::string::npos);
+}
+
+TEST_CASE(
+    "session: a copy's journal that cannot be written is told, and one that is kept is enough") {
+    const test::ProgramFolder outside;
+    const std::string journal = outside.path("calls.lua");
+    ToolHost host({.journal = journal});
+    host.open(host.folder.write("pull.lua", kPull));
+    host.drag(1);
+    host.session.copy_scene(outside.path("copy.lissom"), outside.path("copy.lua"));
+    host.wait();
+    CHECK(outside.has("copy.lissom"));
+    CHECK_FALSE(outside.has("copy.lua"));
+    ToolHost other;
+    other.open(other.folder.write("pull.lua", kPull));
+    other.session.copy_scene(outside.path("copy.lissom"), "/no such folder/copy.lua");
+    other.wait();
+    CHECK(other.says(LineKind::error, "the journal cannot be written"));
 }
 
 TEST_CASE("session: a recording of a script's scene runs that script") {
