@@ -121,6 +121,14 @@ test.group("fill", function()
         expect.near(tube:volume(), lissom.shapes.cylinder():volume(), 1e-9)
     end)
 
+    test("a denser patch has more vertices and bends more evenly", function()
+        local plain, dense = lissom.shapes.cylinder{ caps = false }, lissom.shapes.cylinder{ caps = false }
+        local _, few = plain:fill(plain:boundaries()[1])
+        local _, many = dense:fill(dense:boundaries()[1], { density = 3 })
+        expect.truthy(many.vertex_count > 4 * few.vertex_count)
+        expect.error(function() dense:fill(dense:boundaries()[1], { density = 0 }) end, "density")
+    end)
+
     test("is never greater than with the least angle", function()
         local areas = {}
         for _, method in ipairs{ "area", "angle" } do

@@ -10,7 +10,7 @@ namespace lissom::lua {
 namespace {
 
 void push_erase_report(const Call& call, const EraseReport& report) {
-    lua_createtable(call.lua(), 0, 11);
+    lua_createtable(call.lua(), 0, 15);
     call.set_field("loop_size", call.push(report.loop_size));
     call.set_field("loop_cost", call.push(report.loop_cost));
     call.set_field("ring", call.push(report.ring));
@@ -21,6 +21,10 @@ void push_erase_report(const Call& call, const EraseReport& report) {
     const bool curved = report.continuity == FairContinuity::curvature;
     call.set_field("continuity", call.push(curved ? "curvature" : "tangents"));
     call.set_field("greatest_dihedral", call.push(report.greatest_dihedral / kDegree));
+    call.set_field("greatest_around", call.push(report.greatest_around / kDegree));
+    call.set_field("density", call.push(report.density));
+    call.set_field("ok", call.push(report.ok));
+    call.set_field("verdict", call.push(report.verdict));
 }
 
 // The vertices of the patch, those of its rim included.
@@ -219,6 +223,15 @@ std::vector<Record> erase_records() {
               {"string", "continuity", "What the patch continues: curvature or tangents."},
               {"number", "greatest_dihedral",
                "The greatest angle between neighbouring faces of which one is in the patch."},
+              {"number", "greatest_around",
+               "The same of the surface within three rings around the patch."},
+              {"number", "density",
+               "How dense the patch is, over the surface around it: 1, or up to 4 where it would "
+               "have been too coarse to bend from a steep rim."},
+              {"boolean", "ok",
+               "The patch turns by at most 30 degrees from face to face, or no more than the "
+               "surface around it."},
+              {"string", "verdict", "The same in one line: what holds, or what does not."},
               {"boolean", "limit_reached", "The patch has `maximum_vertices`."}}}};
 }
 

@@ -72,6 +72,7 @@ int fill_boundary(Call& call) {
     FillOptions options;
     options.method = call.choice<FillMethod>("method");
     options.refine = call.boolean("refine");
+    options.density = call.number("density");
     options.fair = call.boolean("fair");
     options.continuity = call.choice<FairContinuity>("continuity");
     options.maximum_vertices = call.integer("maximum_vertices");
@@ -317,6 +318,11 @@ assert(#path == 11))"},
                              .defaults("angle"),
                          boolean("refine", "Makes the patch as dense as the mesh around it.")
                              .defaults(fill_defaults.refine),
+                         number("density",
+                                "How dense, over the mesh around it; more than 1 lets a patch bend "
+                                "whose rim has few vertices.")
+                             .above(0)
+                             .defaults(fill_defaults.density),
                          boolean("fair", "Bends the patch to continue the surface smoothly.")
                              .defaults(fill_defaults.fair),
                          choice("continuity", {"tangents", "curvature"},

@@ -74,6 +74,9 @@ FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options,
     if (options.maximum_vertices < 0) {
         throw Error(ErrorCode::invalid_argument, "maximum_vertices must be 0 or more");
     }
+    if (!(options.density > 0.0) || !std::isfinite(options.density)) {
+        throw Error(ErrorCode::invalid_argument, "the density of a patch must be above 0");
+    }
     Progress progress(context, "fill");
     FillReport report;
     report.loop_size = count_of(outline);
@@ -89,7 +92,8 @@ FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options,
     }
     progress.step(0.3);
     if (options.refine) {
-        report.limit_reached = !patch.refine(outline, options.maximum_vertices, context);
+        report.limit_reached =
+            !patch.refine(outline, options.density, options.maximum_vertices, context);
     }
     report.vertex_count = patch.new_vertex_count();
     report.face_count = count_of(patch.triangles());

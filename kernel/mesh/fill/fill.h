@@ -23,6 +23,9 @@ struct FillOptions {
     FillMethod method = FillMethod::angle;
     /// Inserts vertices until the patch is as dense as the mesh around the hole.
     bool refine = true;
+    /// How dense it becomes, over the mesh around the hole; above 0. More than 1 lets a patch bend
+    /// whose rim has few vertices.
+    double density = 1.0;
     /// Moves the inserted vertices so that the patch continues the surface smoothly (a bi-Laplacian
     /// system over them); without it they stay in the flat pieces of the coarse patch.
     bool fair = true;
@@ -56,7 +59,7 @@ struct FillReport {
 /// attributes of new vertices are blended from the loop; corner and face attributes of new faces
 /// are NaN and their labels none.
 /// Errors: topology_mismatch; invalid_argument where `boundary` is not an open boundary of the
-/// mesh; memory_limit; cancelled. The mesh is then unchanged.
+/// mesh, or options are out of range; memory_limit; cancelled. The mesh is then unchanged.
 FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options = {},
                 const Context& context = {});
 

@@ -82,9 +82,9 @@ double HolePatch::mean_edge_length(Index v) const {
     return sum / ring.size();
 }
 
-bool HolePatch::refine(std::span<const Index> loop, Index maximum_vertices,
+bool HolePatch::refine(std::span<const Index> loop, double density, Index maximum_vertices,
                        const Context& context) {
-    for (const Index v : loop) spacing(v) = mean_edge_length(v);
+    for (const Index v : loop) spacing(v) = mean_edge_length(v) / density;
     for (Index v = mesh_.vertex_count(); v < mesh_.vertex_count() + new_vertex_count(); ++v) {
         spacing(v) = 0.0;
         for (const auto& [source, weight] : sources(v - mesh_.vertex_count())) {

@@ -42,9 +42,11 @@ class HolePatch {
     bool has_edge(Index a, Index b) const;
     Vec3 normal(Index triangle) const;
 
-    /// Splits triangles at their centers and flips edges until the patch is as dense as the mesh
-    /// around `loop` (Liepa 2003, section 4). Returns false where it stopped at `maximum_vertices`.
-    bool refine(std::span<const Index> loop, Index maximum_vertices, const Context& context);
+    /// Splits triangles at their centers and flips edges until the patch is `density` times as
+    /// dense as the mesh around `loop` (Liepa 2003, section 4). Returns false where it stopped at
+    /// `maximum_vertices`.
+    bool refine(std::span<const Index> loop, double density, Index maximum_vertices,
+                const Context& context);
 
   private:
     bool split_large_triangles(Index maximum_vertices);

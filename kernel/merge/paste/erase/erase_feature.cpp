@@ -8,6 +8,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/merge/loop/face_angles.h"
+#include "kernel/merge/paste/erase/domed_patch.h"
 #include "kernel/merge/paste/erase/patch_values.h"
 #include "kernel/merge/paste/part/paste_part.h"
 #include "kernel/merge/paste/region/face_set.h"
@@ -27,6 +28,10 @@ constexpr int kNarrowings = 5;
 constexpr Index kFewestRings = 2;
 // A patch that turns less than this is even, whatever another one does.
 constexpr double kEvenTurn = 15.0 * kDegree;
+// A patch that turns more than this, and than the surface around it, shows; it is made this many
+// times as dense then.
+constexpr double kSteepPatch = 30.0 * kDegree;
+constexpr double kDensities[] = {1.0, 2.0, 4.0};
 // Curvature is continued where it varies, around the cut, by less than this part of its mean.
 constexpr double kEvenCurvature = 0.05;
 constexpr Index kRimRings = 3;
@@ -202,26 +207,92 @@ bool has_even_rim(const Mesh& rest, const Path& hole) {
     return std::sqrt(squares / static_cast<double>(values.size())) <= kEvenCurvature * mean;
 }
 
+// The hole closed one way, and how much the patch turns.
+struct Closed {
+    Mesh mesh;
+    FillReport patch;
+    FairContinuity continuity;
+    double density, turn;
+};
+
+Closed closed_by(const Mesh& rest, const Path& hole, const FillOptions& how,
+                 const Context& context) {
+    Closed closed{rest, {}, how.continuity, how.density, 0.0};
+    closed.patch = fill(closed.mesh, hole, how, context);
+    closed.turn = greatest_turn(closed.mesh, closed.patch.first_face);
+    return closed;
+}
+
+Closed closed_by_dome(const Mesh& rest, const Path& hole, FillOptions how, const Context& context) {
+    how.fair = false;
+    Closed closed{rest, {}, FairContinuity::tangents, how.density, 0.0};
+    closed.patch = fill(closed.mesh, hole, how, context);
+    dome(closed.mesh, closed.patch, hole);
+    closed.turn = greatest_turn(closed.mesh, closed.patch.first_face);
+    return closed;
+}
+
+// Tangents are continued first, which never does harm: by a patch as dense as the surface around
+// it, or by denser ones and caps where that bends too little from a steep rim.
+Closed closed_bending(const Mesh& rest, const Path& hole, FillOptions how, double allowed,
+                      const Context& context) {
+    Closed best = closed_by(rest, hole, how, context);
+    const auto consider = [&](Closed other) {
+        if (other.turn < best.turn) best = std::move(other);
+    };
+    for (const double density : kDensities) {
+        if (best.turn <= allowed) break;
+        how.density = density;
+        consider(closed_by(rest, hole, how, context));
+        consider(closed_by_dome(rest, hole, how, context));
+    }
+    return best;
+}
+
+double turn_around(const Mesh& rest, const Path& hole) {
+    const Region rim(rest.shared_topology(), hole.vertices());
+    GreatestAngle angle;
+    for (const Index f : rim.grown(kRimRings).faces()) {
+        const std::span<const Index> face = rest.topology().face(f);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            add_edge_dihedral(rest, face[k], face[(k + 1) % face.size()], angle);
+        }
+    }
+    return angle.value();
+}
+
+void judge(EraseReport& report, double allowed) {
+    const auto degrees = [](double angle) {
+        return std::to_string(static_cast<int>(std::lround(angle / kDegree))) + " degrees";
+    };
+    const std::string turns = degrees(report.greatest_dihedral);
+    report.ok = report.greatest_dihedral <= allowed;
+    report.verdict =
+        report.ok ? "good: the patch turns by at most " + turns + " from face to face"
+                  : "not good: the patch turns by " + turns +
+                        " from face to face, and the surface around it by " +
+                        degrees(report.greatest_around) +
+                        " at most; mark a region whose rim is less steep, or subdivide the mesh";
+}
+
 Mesh closed_rest(const MeshPart& rest, const Path& hole, const EraseOptions& options,
                  EraseReport& report, const Context& context) {
     FillOptions how;
     how.maximum_vertices = options.maximum_vertices;
-    Mesh filled = rest.mesh;
-    report.patch = fill(filled, hole, how, context);
-    report.continuity = FairContinuity::tangents;
-    report.greatest_dihedral = greatest_turn(filled, report.patch.first_face);
-    if (options.continuity == FairContinuity::tangents || !has_even_rim(rest.mesh, hole)) {
-        return filled;
+    report.greatest_around = turn_around(rest.mesh, hole);
+    const double allowed = std::max(kSteepPatch, report.greatest_around);
+    Closed best = closed_bending(rest.mesh, hole, how, allowed, context);
+    if (options.continuity == FairContinuity::curvature && has_even_rim(rest.mesh, hole)) {
+        how.continuity = FairContinuity::curvature;
+        Closed round = closed_by(rest.mesh, hole, how, context);
+        if (round.turn <= std::max(kEvenTurn, best.turn)) best = std::move(round);
     }
-    how.continuity = FairContinuity::curvature;
-    Mesh round = rest.mesh;
-    const FillReport patch = fill(round, hole, how, context);
-    const double turn = greatest_turn(round, patch.first_face);
-    if (turn > std::max(kEvenTurn, report.greatest_dihedral)) return filled;
-    report.patch = patch;
-    report.continuity = FairContinuity::curvature;
-    report.greatest_dihedral = turn;
-    return round;
+    report.patch = best.patch;
+    report.continuity = best.continuity;
+    report.density = best.density;
+    report.greatest_dihedral = best.turn;
+    judge(report, allowed);
+    return std::move(best.mesh);
 }
 
 MeshMap with_patch(const MeshPart& rest, const Topology& old, const Mesh& filled) {

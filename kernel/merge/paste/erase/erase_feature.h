@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include <string>
+
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
@@ -43,6 +45,15 @@ struct EraseReport {
     /// of which one is in the patch, in radians.
     FairContinuity continuity = FairContinuity::curvature;
     double greatest_dihedral = 0.0;
+    /// The same of the faces around the patch, within three rings of it.
+    double greatest_around = 0.0;
+    /// How dense the patch is, over the surface around it: more than 1 where it would have been too
+    /// coarse to bend as it must.
+    double density = 1.0;
+    /// Whether the patch turns no more than 30 degrees from face to face, or than the surface
+    /// around it; and in words what holds or what does not.
+    bool ok = false;
+    std::string verdict;
     /// The patch; its ids are those of the result.
     FillReport patch;
 };
@@ -57,7 +68,8 @@ struct ErasedFeature {
 };
 
 /// Removes what `region` marks: cuts along the least-cost loop around it, which runs where the
-/// surface is even, and closes the hole by a patch as dense as its surroundings. The region may
+/// surface is even, and closes the hole by a patch as dense as its surroundings, or up to four
+/// times as dense where that lets it bend more evenly from a steep rim. The region may
 /// have any genus, several parts and open boundaries; the place is a disk afterwards. Everything
 /// outside the loop keeps its order and its values to the bit. On the patch, labels and attributes
 /// of faces are those of the nearest faces around; values of vertices and corners are continued

@@ -78,6 +78,48 @@ TEST_CASE("erase: a patch continues the curvature around it where that is even")
           FairContinuity::tangents);
 }
 
+TEST_CASE("erase: on a coarse column the patch is a dome, and says how much it turns") {
+    const Mesh column = make_cylinder({.radius = 1.0, .height = 6.0, .segments = 14, .rings = 8});
+    const Region top = select_plane(column, {0, 1, 0}, {0, 1, 0});
+    const ErasedFeature erased = erase_feature(column, top);
+    double rim = 0.0, highest = 0.0;
+    for (Index v = 0; v < erased.report.patch.first_vertex; ++v) {
+        rim = std::max(rim, erased.mesh.position(v).y());
+    }
+    for (Index v = erased.report.patch.first_vertex; v < erased.mesh.vertex_count(); ++v) {
+        const Vec3& p = erased.mesh.position(v);
+        highest = std::max(highest, p.y());
+        CHECK(std::hypot(p.x(), p.z()) < 1.0);
+    }
+    CHECK(highest - rim > 0.7);
+    CHECK(highest - rim < 1.1);
+    // A lid would turn by 90 degrees; a ball as coarse as the column by 26.
+    CHECK(erased.report.greatest_dihedral < 35.0 * kDegree);
+    CHECK(erased.report.greatest_around == doctest::Approx(2.0 * kPi / 14.0));
+    CHECK(erased.report.ok == (erased.report.greatest_dihedral <= 30.0 * kDegree));
+    CHECK(erased.report.density > 1.0);
+    CHECK(erased.mesh.topology().is_closed());
+}
+
+TEST_CASE("erase: a patch that stays steep is told") {
+    // Without new vertices it is a lid.
+    const Mesh column = make_cylinder({.radius = 1.0, .height = 6.0, .segments = 32, .rings = 24});
+    EraseOptions lid;
+    lid.maximum_vertices = 0;
+    const EraseReport flat =
+        erase_feature(column, select_plane(column, {0, 1, 0}, {0, 1, 0}), lid).report;
+    CHECK(!flat.ok);
+    CHECK(flat.greatest_dihedral > 70.0 * kDegree);
+    CHECK(flat.verdict.starts_with("not good: the patch turns by "));
+    CHECK(erase_feature(column, select_plane(column, {0, 1, 0}, {0, 1, 0})).report.ok);
+    // Where the surface is even all is well.
+    const Mesh ball = horned_ball();
+    const EraseReport round = erase_feature(ball, around_horn(ball, 0.75)).report;
+    CHECK(round.ok);
+    CHECK(round.density == 1.0);
+    CHECK(round.verdict.starts_with("good: the patch turns by at most "));
+}
+
 TEST_CASE("erase: what lies outside the cut stays to the bit, with all its values") {
     Mesh ball = horned_ball();
     add_values(ball);
