@@ -330,6 +330,10 @@
 ---@field added_faces integer Faces of the patch.
 ---@field continuity string What the patch continues: curvature or tangents.
 ---@field greatest_dihedral number The greatest angle between neighbouring faces of which one is in the patch.
+---@field greatest_around number The same of the surface within three rings around the patch.
+---@field density number How dense the patch is, over the surface around it: 1, or up to 4 where it would have been too coarse to bend from a steep rim.
+---@field ok boolean The patch turns by at most 30 degrees from face to face, or no more than the surface around it.
+---@field verdict string The same in one line: what holds, or what does not.
 ---@field limit_reached boolean The patch has `maximum_vertices`.
 
 ---A place that was left out.
@@ -1001,6 +1005,7 @@ function Mesh:path(options) end
 ---@class lissom.Mesh.FillOptions
 ---@field method? "angle"|"area" Begins with the triangles whose greatest angle to one another and to the mesh is least, or with those of the least area, a lid. Default: "angle".
 ---@field refine? boolean Makes the patch as dense as the mesh around it. Default: true.
+---@field density? number How dense, over the mesh around it; more than 1 lets a patch bend whose rim has few vertices. Default: 1.
 ---@field fair? boolean Bends the patch to continue the surface smoothly. Default: true.
 ---@field continuity? "tangents"|"curvature" What of the surface a faired patch continues. With curvature a large patch in a round surface is round. Default: "tangents".
 ---@field maximum_vertices? integer Vertices that refinement may insert. Default: 200000.
