@@ -60,6 +60,9 @@ end
 print(string.format("to the letter: %.2f degrees, %d of %d vertices without a counterpart",
     bends(literal, literal_report), literal_report.transition[1].source.unmapped,
     literal_report.transition[1].source.vertices))
+local function across(one) return one.seam.after.greatest_dihedral end
+print(string.format("greatest angle across the seam: %.1f degrees without, %.1f with a transition, "
+    .. "%.1f to the letter", across(plain_report), across(report), across(literal_report)))
 figures.claim(#literal:boundaries() == #plain:boundaries() and literal:genus() == plain:genus(),
     "the thesis's seam is closed")
 figures.claim(#literal_report.target < #report.target, "the thesis's regions overlap")

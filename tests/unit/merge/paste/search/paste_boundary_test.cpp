@@ -139,3 +139,25 @@ TEST_CASE("paste: what is refused names elements, and changes nothing") {
     CHECK(refused(region, top, {.at = {0, 2, 0}, .toward = Vec3(0, 0, 0)}).code() ==
           ErrorCode::invalid_argument);
 }
+
+TEST_CASE(
+    "paste: a region whose map turns faces over whatever is done is refused, and they are named") {
+    // Each ring of a needle is a few times smaller in the plane than the one before, until it is
+    // lost to rounding.
+    const Mesh horn = horned_ball();
+    const Mesh needle =
+        make_cylinder({.radius = 1.0, .height = 900.0, .segments = 3, .rings = 300});
+    const Region onto = select_plane(needle, {0, -445, 0}, {0, 1, 0});
+    const std::uint64_t before[] = {hash(horn), hash(needle)};
+    const Error error = error_of([&] {
+        Paste(horn, needle, around_horn(horn), std::nullopt, onto,
+              {.at = {0, 450, 0}, .scale = 0.1});
+    });
+    CAPTURE(error.what());
+    CHECK(error.code() == ErrorCode::boundary_conflict);
+    CHECK(std::string(error.what()).find("turns over") != std::string::npos);
+    CHECK(error.elements().kind == ElementKind::face);
+    CHECK(!error.elements().ids.empty());
+    CHECK(hash(horn) == before[0]);
+    CHECK(hash(needle) == before[1]);
+}
