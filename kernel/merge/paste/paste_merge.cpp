@@ -47,9 +47,7 @@ Sewn sewn_with(const PasteSides& sides, const PasteMergeOptions& options, bool c
     how.smooth = options.smooth;
     how.collar = collar;
     const LoopPair pairs[] = {sides.pair};
-    Sewn sewn = sew(sides.opened.mesh, sides.source.moved.mesh, pairs, how, context);
-    require_sound(sewn, sides.opened.mesh, sides.source.moved.mesh, pairs);
-    return sewn;
+    return sew(sides.opened.mesh, sides.source.moved.mesh, pairs, how, context);
 }
 
 Sewn sewn_well(const PasteSides& sides, const PasteMergeOptions& options, const Context& context) {

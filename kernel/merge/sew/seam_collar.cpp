@@ -215,6 +215,10 @@ class Remade {
     const MeshMap& step() {
         if (step_) return *step_;
         step_.emplace();
+        step_->vertices.reserve(count_of(vertex_from_));
+        step_->faces.reserve(count_of(face_from_));
+        step_->corners.reserve(
+            std::max(old_.mesh.topology().corner_count(), 3 * count_of(face_from_)));
         for (const Origin& from : vertex_from_) {
             if (from.sheet) {
                 step_->vertices.add_blend(from.sheet->vertex_sources(from.element));

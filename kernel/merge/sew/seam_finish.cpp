@@ -58,6 +58,11 @@ class Assembly {
 
   private:
     void add_vertices(const SeamFaces& patch) {
+        const Topology& topology = work_.both.topology();
+        positions.reserve(at(topology.vertex_count()));
+        map.vertices.reserve(topology.vertex_count());
+        map.faces.reserve(topology.face_count());
+        map.corners.reserve(topology.corner_count());
         for (Index v = 0; v < work_.both.vertex_count(); ++v) {
             if (number_[v] == kNoIndex) continue;
             positions.push_back(work_.both.position(v));
