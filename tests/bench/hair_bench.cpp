@@ -207,7 +207,14 @@ void run_setup(Report& report, const Setup& setup, const Head& head, StrandGrowe
         static_cast<double>(strands.size()) * (2 * sizeof(Index) + sizeof(Eigen::Vector3f));
     report.add({setup.name + ": memory a point, without that of strands",
                 (static_cast<double>(strands.memory_bytes()) - per_strand) / strands.point_count(),
-                "bytes", 12.5});
+                "bytes",
+                12.5,
+                Better::less,
+                {},
+                0.0,
+                0.0,
+                "the list of points, 12 bytes each, doubles where hair outgrows it, and keeps its "
+                "room for the next frame"});
 }
 
 void run_roots(Report& report, const Head& head, const Context& context) {

@@ -147,16 +147,22 @@ case " $* " in
 *" -n "*) if [ -e "$2/viewer/lissom" ] && [ ! -e "$SANDBOX/changed" ]; then echo "ninja: no work to do."; fi ;;
 *)
     mkdir -p "$2/viewer"
-    printf '#!/bin/bash\necho "built in ${0%%/viewer/*}"\n' >"$2/viewer/lissom"
-    chmod +x "$2/viewer/lissom"
+    printf '#!/bin/bash\necho "${0##*/} built in ${0%%/viewer/*}"\n' >"$2/viewer/$3"
+    chmod +x "$2/viewer/$3"
     ;;
 esac
 STUB
 built_in() { grep -q "built in $project/build/$1\$" "$sandbox/output"; }
 rm -rf "$project/build"
 mkdir "$project/build"
+root=$project dev demo
+expect "a first demo is of the quick preset" built_in quick
+expect "and waits for no window" grep -q '^lissom_headless built' "$sandbox/output"
 root=$project dev lissom
 expect "the first program is that of the quick preset" built_in quick
+expect "and has its window" grep -q '^lissom built' "$sandbox/output"
+root=$project dev demo
+expect "which a demo takes where it is there" grep -q '^lissom built' "$sandbox/output"
 root=$project dev lissom
 expect "and stays so" built_in quick
 touch "$sandbox/changed"
