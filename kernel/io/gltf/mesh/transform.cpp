@@ -2,13 +2,18 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
+
+#include "kernel/solve/dual/least_norm.h"
 
 namespace lissom {
 namespace {
 
 using Direction = Eigen::Map<Vec3>;
+
+Mat3 pseudo_inverse(const Mat3& a) {
+    return least_norm_solution(a, Mat3::Identity());
+}
 
 // NaN where it has no length; what is unit up to the rounding of a float stays as it is.
 void normalize(Direction direction) {
@@ -52,11 +57,10 @@ NodeTransform::NodeTransform(const Affine& transform, const Mat3& normals, doubl
 
 NodeTransform NodeTransform::inverse() const {
     if (is_identity()) return *this;
-    const Eigen::CompleteOrthogonalDecomposition<Mat3> linear(transform_.linear), normals(normals_);
     Affine back;
-    back.linear = linear.pseudoInverse();
+    back.linear = pseudo_inverse(transform_.linear);
     back.translation = -(back.linear * transform_.translation);
-    return {back, normals.pseudoInverse(), 1.0 / scale_};
+    return {back, pseudo_inverse(normals_), 1.0 / scale_};
 }
 
 NodeTransform NodeTransform::moved(const Vec3& offset) const {
