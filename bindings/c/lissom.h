@@ -53,6 +53,11 @@
 #ifndef LISSOM_API
 #define LISSOM_API
 #endif
+/// Stands before functions that may still change or go in the next minor version, without a new
+/// LISSOM_ABI_VERSION. Define it as an attribute that warns to find where you use one.
+#ifndef LISSOM_EXPERIMENTAL
+#define LISSOM_EXPERIMENTAL
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -734,20 +739,23 @@ LISSOM_API lissom_placement lissom_default_placement(void);
 /// Prepares the paste of the feature in `region` of `source` onto `target`. `feature` and `onto`
 /// may be zero: what lies deep in the region, and a disk around the placement. Errors:
 /// TOPOLOGY_MISMATCH, REGION_EMPTY, BOUNDARY_CONFLICT, NOT_A_DISK naming elements; CANCELLED.
-LISSOM_API lissom_status lissom_paste_create(lissom_context* context, lissom_mesh source,
-                                             lissom_mesh target, lissom_region region,
-                                             lissom_region feature, lissom_region onto,
-                                             const lissom_placement* placement,
-                                             lissom_paste* paste);
+LISSOM_EXPERIMENTAL LISSOM_API lissom_status
+lissom_paste_create(lissom_context* context, lissom_mesh source, lissom_mesh target,
+                    lissom_region region, lissom_region feature, lissom_region onto,
+                    const lissom_placement* placement, lissom_paste* paste);
 /// Seeks the loop that merges with the least distortion.
-LISSOM_API lissom_status lissom_paste_optimize(lissom_context* context, lissom_paste paste,
-                                               int32_t iterations);
+LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_optimize(lissom_context* context,
+                                                                   lissom_paste paste,
+                                                                   int32_t iterations);
 /// Places the part anew; after an error the last good placement stays.
-LISSOM_API lissom_status lissom_paste_move(lissom_context* context, lissom_paste paste,
-                                           const lissom_placement* placement);
+LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_move(lissom_context* context,
+                                                               lissom_paste paste,
+                                                               const lissom_placement* placement);
 /// Makes the target with the feature. `report` may be NULL.
-LISSOM_API lissom_status lissom_paste_merge(lissom_context* context, lissom_paste paste,
-                                            lissom_mesh* mesh, lissom_merge_report* report);
+LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_merge(lissom_context* context,
+                                                                lissom_paste paste,
+                                                                lissom_mesh* mesh,
+                                                                lissom_merge_report* report);
 
 // ---- Hair (thesis, chapter 4). Points are in the space of the head's mesh, as are strands;
 // lengths of hair are in metres of an average head, so that they fit any head.
