@@ -11,6 +11,10 @@ ignore = { "581" }
 for _, tests in ipairs{ "**/*_test.lua", "**/scenes/**/*.lua", "tests/scripts" } do
    files[tests] = { read_globals = { "test", "expect" } }
 end
+-- What LÖVE runs.
+for _, folder in ipairs{ "examples/love", "tests/embed/love" } do
+   files[folder] = { std = "luajit+love" }
+end
 -- Annotations for editors, made from the registration table: they declare and define nothing.
 for _, folder in ipairs{ "bindings/lua/meta", "viewer/meta" } do
    files[folder] = { ignore = { "111", "112", "113", "211", "212", "241", "631" } }

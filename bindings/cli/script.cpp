@@ -223,6 +223,11 @@ std::string Script::shipped_scripts() {
     const fs::path folder = program_file().parent_path();
     const fs::path installed = folder / ".." / "share" / "lissom" / "scripts";
     if (fs::is_directory(installed, error)) return fs::weakly_canonical(installed, error).string();
+    // A folder that is handed on with the program and its scripts in it.
+    const fs::path beside = folder / "scripts";
+    if (fs::is_regular_file(beside / "hairdo.lua", error)) {
+        return fs::weakly_canonical(beside, error).string();
+    }
     // A program where it was built serves those of the source; one that was installed, or copied
     // away, never looks at folders of another machine.
     if (is_within(folder, LISSOM_BUILD_FOLDER) && fs::is_directory(LISSOM_SCRIPTS_FOLDER, error)) {

@@ -51,6 +51,8 @@ return require("lissom").tool{
     params = hair.with_params{
         by = { type = "choice", default = "draw", choices = { "draw", "pull", "rub" } },
         stop = { type = "boolean", default = true, help = "Hair ends where the streams do that are drawn." },
+        lift = { type = "number", default = 20, min = 0, max = 60, unit = "millimetres",
+            help = "How far off the skin hair lies where it is drawn; low where it is drawn to a tie." },
         symmetric = hair.symmetric,
         surface = { type = "choice", default = "auto", choices = { "auto", "strip", "ruled" },
             help = "Of hints: strip changes how a stream looks, ruled its depth, seen from aside." },
@@ -63,7 +65,7 @@ return require("lissom").tool{
         self.advice = nil
         local under, near = hair.curve_at(ev, one, { kind = "stream", preferred = chosen(self, one) })
         self.under, self.near, self.target = under, near, under or chosen(self, one)
-        hair.begin_stroke(self, ev)
+        hair.begin_stroke(self, ev, one)
         if self.params.by ~= "draw" and not under and self.target then
             near = hair.nearest(self.target:course(), hair.camera(ev.camera, one), ev.size, ev.x, ev.y)
             self.near = near
@@ -88,11 +90,12 @@ return require("lissom").tool{
         local one = self.pixels and hair.find(ev.scene, self.params)
         if one and hair.is_click(self.pixels) then
             self.curve = self.under
+            hair.forget_begun(self, ev.scene)
         elseif one and not stream_hands.follow(self, one, ev) then
             error(self.said, 0)
         elseif one and self.drafts then
             self.state.viewpoint = hair.camera(ev.camera, one)
-            self.advice = hair.is_guess(ev, one, self.pixels)
+            hair.advise(self, ev.scene, hair.is_guess(ev, one, self.pixels))
         end
         let_go(self)
     end,
@@ -118,7 +121,8 @@ return require("lissom").tool{
         if self.support then hair_view.support(view, one, self.support) end
         if self.pixels and #self.pixels > 1 then view:outline{ pixels = self.pixels, width = 2 } end
         local resting = not self.pixels
-        hair_view.say(view, self.said or resting and (self.advice or hair_view.warning(view, one, under)))
+        local advice = resting and hair.advice(self, view.scene)
+        hair_view.say(view, self.said or advice or resting and hair_view.warning(view, one, under) or nil)
     end,
     cancel = let_go,
     deactivate = let_go,

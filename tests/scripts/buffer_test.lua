@@ -76,6 +76,30 @@ test("a mesh from the positions of another", function()
     end, "three numbers a vertex")
 end)
 
+test("floats go into memory of the host, whole or not at all", function()
+    local from, to = lissom.shapes.box():positions(), lissom.shapes.grid{ segments = 4 }:positions()
+    for i = 1, #to do to[i] = 0 end
+    expect.truthy(rawequal(from:write_floats(to:pointer(), 96), from))
+    if string.pack then
+        -- Two floats lie in the place of one double.
+        local low, high = string.unpack("<ff", string.pack("<d", to[1]))
+        expect.near({ low, high }, { from[1], from[2] }, 1e-6)
+        expect.equal(to[13], 0)
+    end
+    local before = to:table()
+    expect.error(function() from:write_floats(to:pointer(), 95) end, "8 rows need 96")
+    expect.error(function() from:write_floats(to:pointer(), 96, { stride = 8 }) end, "a row needs 12")
+    expect.error(function() from:write_floats(to:pointer(), 96, { offset = 1 }) end, "8 rows need 97")
+    expect.error(function() from:write_floats(to:pointer(), 7 * 24 + 11, { stride = 24 }) end, "180")
+    expect.error(function() from:write_floats(96, 96) end, "lightuserdata")
+    expect.near(to:table(), before, 0)
+    from:write_floats(to:pointer(), 7 * 24 + 12, { stride = 24 })
+    if string.pack then
+        local x, y, z, gap = string.unpack("<ffff", string.pack("<dd", to[4], to[5]))
+        expect.near({ x, y, z, gap }, { from[4], from[5], from[6], 0 }, 1e-6)
+    end
+end)
+
 test("LuaJIT reads and writes through a pointer", function()
     local has_ffi, ffi = pcall(require, "ffi")
     if not has_ffi then return end

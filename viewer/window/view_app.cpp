@@ -416,7 +416,7 @@ void ViewApp::keep_replaced() {
     if (kept.empty()) return;
     std::string text = "the scene before was not saved; lissom view " + kept.string() + " opens it";
     tell("line " + text);
-    content_.lines.push_back({LineKind::warning, std::move(text)});
+    add_line(content_.lines, {LineKind::warning, std::move(text)});
 }
 
 // At the start: what a killed window has left.
@@ -430,7 +430,7 @@ void ViewApp::offer_recovery() {
             text += "; lissom run " + journal.string() + " does it again without a window";
         }
         tell("line " + text);
-        content_.lines.push_back({LineKind::warning, std::move(text)});
+        add_line(content_.lines, {LineKind::warning, std::move(text)});
     }
 }
 
@@ -726,7 +726,7 @@ void ViewApp::press_key(const Input& input) {
 void ViewApp::take_results() {
     for (ConsoleLine& line : session_.take_lines()) {
         tell((line.kind == LineKind::error ? "error " : "line ") + line.text);
-        content_.lines.push_back(std::move(line));
+        add_line(content_.lines, std::move(line));
         frames_owed_ = 2;
     }
     for (const std::string& failure : programs_.failures()) {

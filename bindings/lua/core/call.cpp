@@ -102,6 +102,10 @@ Affine Call::affine(const char* path) const {
     return {rows.leftCols<3>(), rows.col(3)};
 }
 
+void* Call::address(const char* path) const {
+    return const_cast<void*>(value(path).data);
+}
+
 std::span<const Index> Call::ids(const char* path) const {
     const Value& v = value(path);
     return {static_cast<const Index*>(v.data), v.size};
@@ -214,6 +218,14 @@ std::filesystem::path Call::file(std::string_view text, FileUse use) const {
     std::filesystem::path path = file_path(text);
     if (state_->host.check_file) state_->host.check_file(path, use);
     return path;
+}
+
+void Call::require_addresses() const {
+    if (state_->host.addresses) return;
+    throw Error(
+        ErrorCode::unsupported,
+        "the host of this script gives no addresses of memory and takes none; read numbers by "
+        "their place, or as a table");
 }
 
 int Call::fail() {

@@ -93,6 +93,7 @@ class Call {
     Vec3 vector(const char* path) const;
     Mat3 matrix3(const char* path) const;
     Affine affine(const char* path) const;
+    void* address(const char* path) const;
     /// 0-based ids, or the integers of a list.
     std::span<const Index> ids(const char* path) const;
     IdLists id_lists(const char* path) const;
@@ -163,6 +164,8 @@ class Call {
 
     /// The path of a script's UTF-8 text, where the host lets it use that file.
     std::filesystem::path file(std::string_view text, FileUse use) const;
+    /// Throws unsupported where the host lets scripts have no addresses.
+    void require_addresses() const;
 
     /// Runs `work` and keeps what it throws as the call's failure; false then. `work` calls no Lua.
     template <typename Work>

@@ -125,6 +125,10 @@ Parameter affine(std::string name, std::string help) {
 Parameter matrix3(std::string name, std::string help) {
     return make(std::move(name), Kind::matrix3, std::move(help));
 }
+
+Parameter address(std::string name, std::string help) {
+    return make(std::move(name), Kind::address, std::move(help));
+}
 Parameter ids(std::string name, std::string help) {
     return make(std::move(name), Kind::ids, std::move(help));
 }

@@ -33,6 +33,8 @@ enum class Kind {
     affine,
     /// Rows of a 3 x 3 matrix.
     matrix3,
+    /// Memory of the host, as light userdata; read as void*.
+    address,
     /// A list of ids; read 0-based.
     ids,
     /// A list of lists of ids; read 0-based.
@@ -132,6 +134,7 @@ Parameter factors(std::string name, std::string help);
 Parameter axis(std::string name, std::string help);
 Parameter affine(std::string name, std::string help);
 Parameter matrix3(std::string name, std::string help);
+Parameter address(std::string name, std::string help);
 Parameter ids(std::string name, std::string help);
 Parameter id_lists(std::string name, std::string help);
 Parameter points(std::string name, std::string help);

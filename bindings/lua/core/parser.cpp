@@ -155,6 +155,8 @@ std::string expectation(const Parameter& p) {
             return "4 rows of 4 numbers, the last 0, 0, 0, 1";
         case Kind::matrix3:
             return "3 rows of 3 numbers";
+        case Kind::address:
+            return "lightuserdata";
         case Kind::ids:
             return "list of ids";
         case Kind::id_lists:
@@ -433,6 +435,10 @@ void Parser::read(const Parameter& p, int index, Value& value, const Place& plac
             return read_id_lists(p, index, value, place);
         case Kind::object:
             value.data = read_object(p, index, place);
+            return;
+        case Kind::address:
+            if (lua_type(L_, index) != LUA_TLIGHTUSERDATA) mismatch(p, index, place);
+            value.data = lua_touserdata(L_, index);
             return;
         case Kind::function:
             if (lua_type(L_, index) != LUA_TFUNCTION) mismatch(p, index, place);

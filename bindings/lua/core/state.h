@@ -39,6 +39,8 @@ struct HostOptions {
     /// Asked about each path that a script gives, before the file is opened: throws Error where the
     /// script may not use it. Null allows all. Called on the thread of the state.
     std::function<void(const std::filesystem::path& path, FileUse use)> check_file = {};
+    /// Scripts may ask for addresses of the kernel's memory, and have it write to those they name.
+    bool addresses = true;
 };
 
 struct ParameterSet;

@@ -1,6 +1,7 @@
 #include "bindings/lua/mesh/buffer.h"
 
 #include <cmath>
+#include <cstring>
 
 #include "bindings/lua/core/library.h"
 
@@ -55,6 +56,8 @@ std::vector<Vec3> BufferObject::as_points() {
 namespace {
 
 constexpr int kMost = 16;
+constexpr double kMostBytes = 9007199254740992.0;
+constexpr int kMostStride = 65536;
 
 // The numbers, or an empty span after which the call has failed.
 bool find_numbers(Call& call, std::span<double>& numbers, bool edit) {
@@ -178,9 +181,57 @@ int set_row(Call& call) {
 int pointer(Call& call) {
     std::span<double> numbers;
     const bool edit = call.self<BufferObject>()->writable();
+    if (!call.attempt_quick([&] { call.require_addresses(); })) return call.fail();
     if (!find_numbers(call, numbers, edit)) return call.fail();
     lua_pushlightuserdata(call.lua(), numbers.data());
     return 1;
+}
+
+// Where rows of floats lie in memory of the host, in bytes.
+struct FloatRows {
+    std::size_t count, width, offset, step;
+
+    std::size_t row() const { return width * sizeof(float); }
+    std::size_t end() const { return count == 0 ? 0 : offset + (count - 1) * step + row(); }
+};
+
+// Throws invalid_argument where rows overlap, or do not fit into so many bytes.
+void require_room(const FloatRows& rows, std::size_t size) {
+    if (rows.step < rows.row()) {
+        throw Error(ErrorCode::invalid_argument, "stride is " + std::to_string(rows.step) +
+                                                     " bytes; a row needs " +
+                                                     std::to_string(rows.row()));
+    }
+    if (rows.end() <= size) return;
+    throw Error(ErrorCode::invalid_argument, "there are " + std::to_string(size) + " bytes; " +
+                                                 std::to_string(rows.count) + " rows need " +
+                                                 std::to_string(rows.end()));
+}
+
+void write_rows(std::span<const double> numbers, const FloatRows& rows, std::byte* memory) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto value = static_cast<float>(numbers[i]);
+        const std::size_t place =
+            rows.offset + i / rows.width * rows.step + i % rows.width * sizeof(float);
+        std::memcpy(memory + place, &value, sizeof value);
+    }
+}
+
+int write_floats(Call& call) {
+    auto* memory = static_cast<std::byte*>(call.address("address"));
+    const auto size = static_cast<std::size_t>(call.number("size"));
+    FloatRows rows{0, static_cast<std::size_t>(call.self<BufferObject>()->width),
+                   static_cast<std::size_t>(call.integer("offset")), 0};
+    rows.step = call.has("stride") ? static_cast<std::size_t>(call.integer("stride")) : rows.row();
+    std::span<double> numbers;
+    if (!find_numbers(call, numbers, false)) return call.fail();
+    const bool done = call.attempt_quick([&] {
+        call.require_addresses();
+        rows.count = numbers.size() / rows.width;
+        require_room(rows, size);
+        write_rows(numbers, rows, memory);
+    });
+    return done ? call.push_argument() : call.fail();
 }
 
 int changed(Call& call) {
@@ -375,8 +426,29 @@ Type buffer_type() {
              "The address of the numbers, doubles in rows, for LuaJIT's ffi. It is valid until "
              "the mesh's topology or attributes change. Call `changed` after writing.",
          .results = {{"lightuserdata", "address", "Address of the first number."}},
-         .errors = {ErrorCode::topology_mismatch},
+         .errors = {ErrorCode::topology_mismatch, ErrorCode::unsupported},
          .example = "local address = lissom.shapes.box():positions():pointer()"},
+        {.name = "write_floats",
+         .body = write_floats,
+         .summary = "Writes all numbers into memory of the host as floats of 32 bits, row after "
+                    "row, as graphics cards take them: of a mapped buffer, or LÖVE's "
+                    "`data:getPointer()` and `data:getSize()`. Nothing is written after an error.",
+         .arguments =
+             {address("address", "Where the first row goes."),
+              number("size", "Bytes that may be written from there on.").between(0, kMostBytes)},
+         .options =
+             {integer("offset", "Bytes from the address to the first row.").defaults(0).at_least(0),
+              integer("stride",
+                      "Bytes from one row to the next, where something else stands between "
+                      "them; without it they follow each other.")
+                  .optional()
+                  .between(1, kMostStride)},
+         .results = {{"lissom.Buffer", "buffer", "The buffer."}},
+         .errors = {ErrorCode::invalid_argument, ErrorCode::topology_mismatch,
+                    ErrorCode::unsupported},
+         .example =
+             R"(local from, to = lissom.shapes.box():positions(), lissom.shapes.box():positions()
+from:write_floats(to:pointer(), 8 * #to))"},
         {.name = "changed",
          .body = changed,
          .summary = "Tells the mesh that numbers were written through `pointer`, and checks them.",

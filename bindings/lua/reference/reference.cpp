@@ -444,6 +444,8 @@ std::string annotation_type(const Parameter& p) {
         case Kind::affine:
         case Kind::matrix3:
             return "number[][]";
+        case Kind::address:
+            return "lightuserdata";
         case Kind::ids:
         case Kind::integers:
             return "integer[]";

@@ -245,6 +245,7 @@ Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
         new Parts{std::move(limits), std::move(options), std::move(print), std::move(rights)});
     Parts& parts = *parts_;
     parts.options.context.memory_limit = parts.limits.memory_bytes;
+    parts.options.addresses = false;
     parts.options.check_file = [&parts](const std::filesystem::path& path, FileUse use) {
         parts.rights.check(path, use);
     };

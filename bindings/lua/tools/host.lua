@@ -383,6 +383,9 @@ end
 -- Sees the scene by a camera of these numbers, to which the same numbers in a recording lead again.
 function Host:look_by(numbers)
     self:ready()
+    -- Pixels of a gesture are those of the picture that it began in.
+    local size = checked_size(numbers.size)
+    if self.held and (size[1] ~= self.size[1] or size[2] ~= self.size[2]) then self:cancel() end
     self:take_numbers(numbers)
     self:note{ "look", self.numbers }
     return self

@@ -82,7 +82,8 @@ local function follow(self, ev, one, share)
         put_back(self)
         hair.grow(ev.scene, one, share)
     end
-    self.said = hair.message(said)
+    said = hair.message(said)
+    self.said = done and said or hair.refusal(said, self.target or #hair.curves(one) == 0)
     return done
 end
 
@@ -106,7 +107,7 @@ function calls.press(self, ev)
     self.twin = twin_of(self, one, self.target)
     self.twin_before = self.twin and self.own.remember(self.twin)
     self.held = self.target and curve_handles.pick(ev, one, self.own.handles(one, self.target))
-    hair.begin_stroke(self, ev)
+    hair.begin_stroke(self, ev, one)
 end
 
 function calls.drag(self, ev)
@@ -129,6 +130,7 @@ function calls.release(self, ev)
     elseif hair.is_click(self.pixels) then
         local other = hair.curve_at(ev, one, { kind = self.own.kind, preferred = self.target })
         if other then choose(self, other) end
+        hair.forget_begun(self, ev.scene)
     elseif not follow(self, ev, one) then
         error(self.said, 0)
     end
@@ -137,6 +139,7 @@ function calls.release(self, ev)
     if self.own.advise and self.curve and not self.advice then
         self.advice = self.own.advise(one, self.curve, ev.scene:get(one.name .. " hair"))
     end
+    hair.advise(self, ev.scene, self.advice)
     forget(self)
 end
 
@@ -179,7 +182,8 @@ function calls.draw(self, view)
         view:outline{ pixels = self.pixels, color = own.color, width = 2 }
     end
     local resting = not self.pixels and not handle
-    hair_view.say(view, self.said or resting and (self.advice or hair_view.warning(view, one, under)))
+    local advice = resting and hair.advice(self, view.scene)
+    hair_view.say(view, self.said or advice or resting and hair_view.warning(view, one, under) or nil)
 end
 
 calls.cancel, calls.deactivate = forget, forget

@@ -62,14 +62,18 @@ local function begin(scene)
             .. ": add one, as scene:add('style', lissom.hairstyle(head))", 0)
     end
     local style = assert(lissom.hairstyle(one.mesh, { scalp = scalp, volume = room }))
-    scene:add(meshes.unused_name(scene, one.name .. " style"), style, { transform = one.place })
+    local name = meshes.unused_name(scene, one.name .. " style")
+    scene:add(name, style, { transform = one.place })
+    return name
 end
 
---- The same; where there is none a style is begun on the head that is to be seen. An error says what to do
--- where there is no head either.
+--- The same; where there is none a style is begun on the head that is to be seen, and `begun` is its name. An
+-- error says what to do where there is no head either.
 function hair.need(scene, params)
-    if not hair.find(scene) then begin(scene) end
-    return hair.find(scene, params)
+    local name = not hair.find(scene) and begin(scene) or nil
+    local one = hair.find(scene, params)
+    one.begun = name
+    return one
 end
 
 --- A camera that sees the head's own space as `camera` sees the world.
@@ -242,8 +246,20 @@ end
 local fine, step = 0.5, 2       -- pixels from the last one from which an event counts, and from which it acts
 
 --- Begins a stroke of a tool: its `pixels`, and how often Alt was pressed in it, its `turn`.
-function hair.begin_stroke(tool, ev)
+function hair.begin_stroke(tool, ev, one)
     tool.pixels, tool.turn, tool.alt, tool.last = { { ev.x, ev.y } }, 0, ev.alt, nil
+    tool.begun = one.begun
+end
+
+--- After a click, which draws nothing: a style that was begun for it goes again.
+function hair.forget_begun(tool, scene)
+    if tool.begun and scene:get(tool.begun) then scene:remove(tool.begun) end
+end
+
+--- What a refused stroke is told, with what else it may have been meant for.
+function hair.refusal(message, is_change)
+    if is_change or not message:find("starts beside the surface", 1, true) then return message end
+    return message .. ", or click a curve first to change that"
 end
 
 local function is_near(ev, pixel, pixels)
@@ -270,6 +286,17 @@ function hair.is_click(pixels)
     return true
 end
 
+--- Keeps what a tool advises after the step that now ends.
+function hair.advise(tool, scene, text)
+    tool.advice = text
+    tool.advised = text and scene:history().place + 1 or nil
+end
+
+--- The advice, until another step is done or this one undone; nil then.
+function hair.advice(tool, scene)
+    return tool.advice and scene:history().place == tool.advised and tool.advice or nil
+end
+
 --- What tools say where nothing tells how deep a stroke is.
 hair.guessed = "off the head its depth is a guess: click it, turn the view by 90 degrees, draw it again"
 
@@ -287,7 +314,8 @@ end
 --- What an error says, without its place in a script.
 function hair.message(text) return (tostring(text):gsub("^[^\n]-:%d+: ", "")) end
 
-local seen_only = { field = true, surface = true, stop = true, reach = true, by = true, symmetric = true }
+local seen_only = { field = true, surface = true, stop = true, reach = true, by = true, symmetric = true,
+    lift = true }
 
 --- Whether a parameter changes what is shown, or what the next stroke does, but no hair.
 function hair.is_seen_only(parameter) return seen_only[parameter] == true end

@@ -54,7 +54,7 @@ function hands.draw(self, one, ev, camera)
         curves.apply(self.target, name, camera:stroke(given).points)
         put(self, one, self.target:points())
     else
-        given.on = one.scalp
+        given.on, given.lift = one.scalp, self.params.lift / 1000
         local into = add_streams(self, one, camera:stroke(given).points, camera, ev.size)
         if into then name = "stream into the tie" end
     end
@@ -98,7 +98,8 @@ function stream_hands.follow(self, one, ev, share)
         put_back(self, one)
         hair.grow(ev.scene, one, share)
     end
-    self.said = hair.message(said)
+    said = hair.message(said)
+    self.said = done and said or hair.refusal(said, self.target or #hair.curves(one) == 0)
     return done
 end
 

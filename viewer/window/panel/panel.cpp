@@ -617,7 +617,9 @@ void Panel::State::console_line(const ConsoleLine& one, const std::optional<Sour
                                 PanelAnswers& answers) const {
     ImGui::PushStyleColor(ImGuiCol_Text, color_of(one.kind, is_dark));
     ImGui::PushTextWrapPos(0.0f);
-    const std::string shown = (one.kind == LineKind::input ? "> " : "") + one.text;
+    const std::string times =
+        one.times > 1 ? "  (" + std::to_string(one.times) + " times)" : std::string();
+    const std::string shown = (one.kind == LineKind::input ? "> " : "") + one.text + times;
     ImGui::TextUnformatted(shown.c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();

@@ -117,6 +117,16 @@ ImU32 faint(const Color& color, double opacity) {
            (static_cast<ImU32>(255.0 * std::clamp(opacity, 0.0, 1.0)) << IM_COL32_A_SHIFT);
 }
 
+// Where a text of this extent begins so that all of it is in the picture, beside the place that it
+// belongs to.
+ImVec2 inside(const ImVec2& at, const ImVec2& extent, const ImVec2& corner, const ImVec2& end) {
+    constexpr float kGap = 4.0f;
+    const auto moved = [&](float from, float length, float low, float high) {
+        return std::max(low + kGap, std::min(from, high - kGap - length));
+    };
+    return ImVec2(moved(at.x, extent.x, corner.x, end.x), moved(at.y, extent.y, corner.y, end.y));
+}
+
 // Quads are drawn without soft borders, which would show between them.
 void draw_surface(const ToolSurface& surface, const Camera& camera, const PictureSize& size,
                   const ImVec2& corner, ImDrawList& list) {
@@ -170,8 +180,8 @@ void draw_marks(const ToolState& state, const Camera& camera, const PictureSize&
     for (const ToolLabel& label : state.marks.labels) {
         const Vec3 at = camera.project(label.at, size);
         if (!(at.z() > 0.0) || !at.allFinite()) continue;
-        const ImVec2 p = place(at.x() + 8.0, at.y() - 8.0);
         const ImVec2 extent = ImGui::CalcTextSize(label.text.c_str());
+        const ImVec2 p = inside(place(at.x() + 8.0, at.y() - 8.0), extent, corner, end);
         list->AddRectFilled(ImVec2(p.x - 4.0f, p.y - 2.0f),
                             ImVec2(p.x + extent.x + 4.0f, p.y + extent.y + 2.0f),
                             IM_COL32(24, 26, 30, 200), 3.0f);

@@ -63,6 +63,14 @@ Modifiers modifiers_of(int bits) {
             (bits & GLFW_MOD_ALT) != 0};
 }
 
+// With the key of a modifier X tells what was held before it.
+Modifiers modifiers_after(int code, bool is_down, Modifiers held) {
+    if (code == GLFW_KEY_LEFT_SHIFT || code == GLFW_KEY_RIGHT_SHIFT) held.shift = is_down;
+    if (code == GLFW_KEY_LEFT_CONTROL || code == GLFW_KEY_RIGHT_CONTROL) held.ctrl = is_down;
+    if (code == GLFW_KEY_LEFT_ALT || code == GLFW_KEY_RIGHT_ALT) held.alt = is_down;
+    return held;
+}
+
 // How a context is asked for.
 struct ContextKind {
     int api, robustness;
@@ -182,9 +190,14 @@ void GlfwWindow::State::listen() {
     });
     glfwSetKeyCallback(window, [](GLFWwindow* from, int code, int, int action, int bits) {
         State& state = of(from);
-        state.modifiers = modifiers_of(bits);
+        const Modifiers before = state.modifiers;
+        state.modifiers = modifiers_after(code, action != GLFW_RELEASE, modifiers_of(bits));
         const Key key = key_of(code);
-        if (key == Key::none) return;
+        if (key == Key::none) {
+            // Tools act on a modifier at once, also while the cursor rests.
+            if (state.modifiers != before) state.inputs.push(state.input(Input::Kind::move));
+            return;
+        }
         Input made =
             state.input(action == GLFW_RELEASE ? Input::Kind::key_up : Input::Kind::key_down);
         made.key = key;

@@ -1,6 +1,7 @@
 #include "viewer/window/session/session.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <utility>
 
@@ -100,7 +101,24 @@ bool write_whole(const std::string& path, const std::string& text) {
     return !error;
 }
 
+std::string without_digits(std::string text) {
+    std::erase_if(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+    return text;
+}
+
 }  // namespace
+
+void add_line(std::vector<ConsoleLine>& lines, ConsoleLine line) {
+    const bool repeats = !lines.empty() && line.kind == LineKind::warning &&
+                         lines.back().kind == line.kind &&
+                         without_digits(lines.back().text) == without_digits(line.text);
+    if (repeats) {
+        line.times += lines.back().times;
+        lines.back() = std::move(line);
+    } else {
+        lines.push_back(std::move(line));
+    }
+}
 
 bool is_script(const std::string& word) {
     return fs::path(word).extension() == ".lua";

@@ -29,7 +29,13 @@ enum class LineKind { message, result, input, warning, error };
 struct ConsoleLine {
     LineKind kind = LineKind::message;
     std::string text;
+    /// How often it was told, one after the other.
+    int times = 1;
 };
+
+/// Adds a line behind the others. A warning that differs from the last line in its numbers alone
+/// takes its place and counts it, as a hand that goes on makes many of them.
+void add_line(std::vector<ConsoleLine>& lines, ConsoleLine line);
 
 /// Something finished to look at.
 struct Shown {

@@ -145,6 +145,21 @@ TEST_CASE("session: a new run gives up the old one, and the last of many is done
     CHECK(runs < 50);
 }
 
+TEST_CASE("session: warnings that differ in their numbers alone are one line") {
+    std::vector<ConsoleLine> lines;
+    add_line(lines, {LineKind::warning, "12 of 500 strands left the volume"});
+    add_line(lines, {LineKind::warning, "251 of 500 strands left the volume"});
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].text == "251 of 500 strands left the volume");
+    CHECK(lines[0].times == 2);
+    add_line(lines, {LineKind::warning, "a tail left the volume"});
+    add_line(lines, {LineKind::message, "1"});
+    add_line(lines, {LineKind::message, "2"});
+    add_line(lines, {LineKind::warning, "7 of 500 strands left the volume"});
+    CHECK(lines.size() == 5);
+    CHECK(lines.back().times == 1);
+}
+
 TEST_CASE("session: the console has the library, and keeps its variables") {
     Host host;
     host.session.evaluate("local t = lissom.shapes.torus{}");
