@@ -211,6 +211,9 @@ test("drawn from behind its depth is a guess, and it says so; from the side it i
     h:drag(route, nil, 6)
     expect.truthy(h.tool.advice:find("guess"))
     expect.truthy(h.host:draw().labels[1].text:find("90 degrees"))
+    h.host:undo()
+    expect.equal(#h.host:draw().labels, 0)
+    h.host:redo()
     local function off()
         local worst, points = 0, tails()[1]:points()
         for i = 1, 8 do worst = math.max(worst, hair.distance(points, true_point(i / 8))) end

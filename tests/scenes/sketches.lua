@@ -221,7 +221,7 @@ test("long hair, half of it up: ten streams and more, partings on both sides, a 
     a:use("ponytail", { strands = 100, symmetric = false })
     tail(a, { { 180, 26, 8 }, { 180, 27, 30 }, to(0, 55, -140), to(0, 10, -158), to(0, -60, -166),
         to(0, -150, -170) }, { 180, 10 }, { 90, 5 }, 0.02)
-    a:use("stream", { symmetric = true, stop = false })
+    a:use("stream", { symmetric = true, stop = false, lift = 6 })
     low({ { 20, 54, 5 }, { 66, 58, 7 }, { 122, 48, 8 }, { 170, 33, 14 } }, { 80, 45 })
     low({ { 30, 70, 6 }, { 120, 68, 8 }, { 172, 40, 10 }, { 178, 30, 14 } }, { 120, 50 })
     low({ { 75, 44, 6 }, { 130, 44, 8 }, { 168, 30, 14 } }, { 120, 30 })

@@ -303,6 +303,54 @@ test("on a head alone the first stroke begins a hairstyle, in its own step", fun
     expect.equal(h.scene:hash(), before)
 end)
 
+test("a click on a head alone begins no hairstyle", function()
+    head = lissom.shapes.head{ vertices = 6000 }
+    local bounds = head:bounds()
+    h = hand.new("stream", { person = head }, { target = bounds.center, ortho = 1.6 * bounds.diagonal,
+        eye = { bounds.center[1], bounds.center[2], bounds.center[3] + 4 * bounds.diagonal } })
+    local before = h.scene:hash()
+    h.host:click{ x = 640, y = 400 }
+    expect.equal(h.scene:hash(), before)
+    expect.equal(h.scene:names(), { "person" })
+end)
+
+test("lift says how far off the skin a stream is drawn", function()
+    local function height()
+        local heights = {}
+        for _, point in ipairs(drawn():course()) do
+            table.insert(heights, head:nearest(point[1], point[2], point[3]).distance)
+        end
+        table.sort(heights)
+        return heights[(#heights + 1) // 2] / style:scalp():scale()
+    end
+    local default = height()
+    begin()
+    h.host:set{ lift = 4 }
+    local low = height()
+    expect.truthy(low < default - 0.003, low .. " of " .. default)
+end)
+
+test("a stroke across a stream that was not chosen is told that it may be", function()
+    drawn()
+    h.host:click{ x = 5, y = 5 }
+    expect.error(function() draw{ { 5, 5 }, { 50, 90 }, { 80, 120 } } end, "or click a curve first")
+end)
+
+test("a picture that changes its size lets go of the stroke", function()
+    local before = h.scene:hash()
+    local x, y = h.camera:project((style:at{ azimuth = 20, elevation = 62 }), { 1280, 960 })
+    h.host:press{ x = x, y = y }
+    h.host:move{ x = x + 60, y = y + 40 }
+    h.host:move{ x = x + 90, y = y + 100 }
+    h.host:look(h.camera, { 1000, 700 })
+    expect.equal(h.scene:hash(), before)
+    h.host:release{ x = x + 90, y = y + 100 }
+    expect.equal(h:steps(), 0)
+    h.host:look(h.camera, { 1280, 960 })
+    drawn()
+    expect.equal(h:steps(), 1)
+end)
+
 test("a stream that ends at a tie goes into it, as does its mirror image; hair goes on there", function()
     begin(90)
     local tie, out = style:at{ azimuth = 115, elevation = 20, lift = 0.018 }

@@ -1273,7 +1273,24 @@ function Buffer:set(row, values) end
 
 ---The address of the numbers, doubles in rows, for LuaJIT's ffi. It is valid until the mesh's topology or attributes change. Call `changed` after writing.
 ---@return lightuserdata address # Address of the first number.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
 function Buffer:pointer() end
+
+---@class lissom.Buffer.Write_floatsOptions
+---@field offset? integer Bytes from the address to the first row. Default: 0.
+---@field stride? integer Bytes from one row to the next, where something else stands between them; without it they follow each other.
+
+---Writes all numbers into memory of the host as floats of 32 bits, row after row, as graphics cards take them: of a mapped buffer, or LÖVE's `data:getPointer()` and `data:getSize()`. Nothing is written after an error.
+---@param address lightuserdata Where the first row goes.
+---@param size number Bytes that may be written from there on.
+---@param options? lissom.Buffer.Write_floatsOptions
+---@return lissom.Buffer buffer # The buffer.
+---@return string? message # What is wrong, where the first result is nil.
+---@return string? code # Its code.
+---@return lissom.Elements? elements # The elements concerned.
+function Buffer:write_floats(address, size, options) end
 
 ---Tells the mesh that numbers were written through `pointer`, and checks them.
 ---@return lissom.Buffer buffer # The buffer.
