@@ -26,10 +26,19 @@ std::string joined_by(const std::vector<std::string>& texts, const char* separat
     return all;
 }
 
+double steepest_rim(const MergeReport& report) {
+    return std::max(report.source_rim.greatest_near, report.target_rim.greatest_near);
+}
+
+// A steep seam is good where the surface was as steep beside it, which is told.
+std::string beside_text(const MergeReport& report) {
+    if (report.seam.after.greatest_dihedral <= kSteep) return "";
+    return "as beside the boundaries before (" + angle_text(steepest_rim(report)) + "), ";
+}
+
 void judge_angles(const MergeReport& report, std::vector<std::string>& faults) {
     const SeamQuality& seam = report.seam.after;
-    const double steepest =
-        std::max(report.source_rim.greatest_near, report.target_rim.greatest_near);
+    const double steepest = steepest_rim(report);
     if (seam.greatest_dihedral > std::max(kSteep, steepest)) {
         faults.push_back("the surface turns by " + angle_text(seam.greatest_dihedral) +
                          " across the seam, and by " + angle_text(steepest) +
@@ -68,7 +77,8 @@ Verdict verdict_of(const MergeReport& report, bool sought) {
     judge_places(report, faults);
     if (!faults.empty()) return {false, "not good: " + joined_by(faults, "; ")};
     return {true, "good: the surface turns by at most " +
-                      angle_text(report.seam.after.greatest_dihedral) + " across the seam, and " +
+                      angle_text(report.seam.after.greatest_dihedral) + " across the seam, " +
+                      beside_text(report) + "and " +
                       (sought ? "no faces run through one another that did not before"
                               : "faces that run through one another were not looked for")};
 }

@@ -20,12 +20,11 @@ namespace {
 
 // The disk of a place is this many times as wide as the ring on it, where there is room; ways along
 // edges are up to 1.4 times as long as the surface is wide.
-constexpr double kPlaceRoom = 1.5, kSmallerDisk = 0.85;
+constexpr double kPlaceRoom = 1.5, kLeastRoom = 0.66, kSmallerDisk = 0.85;
 // Edges of the target that a disk is wider than that: the collar of a seam takes up to two where
 // the part is much denser, the faces beside it must stay as they are, those that reach beyond the
 // disk are not in it, and edges grow longer on the way.
 constexpr double kSeamRoom = 5.0;
-constexpr int kSmallerDisks = 5;
 
 // A mesh while it is put together: for each vertex the one of the mesh before that it is, where
 // others may be the same, and for each face the place it belongs to.
@@ -69,13 +68,14 @@ double longest_edge_at(const Mesh& mesh, Index face) {
     return longest;
 }
 
-// The largest disk of faces without parts around a face; empty where there is none.
-std::vector<Index> free_disk(const Piece& current, Index start, double radius,
+// The largest disk of faces without parts around a face, within `radius` and no narrower than
+// `least`; empty where there is none.
+std::vector<Index> free_disk(const Piece& current, Index start, double radius, double least,
                              const Context& context) {
     const Topology& topology = current.mesh.topology();
     const std::vector<double> distance =
         edge_distances(current.mesh, topology.face(start), radius, context);
-    for (int step = 0; step <= kSmallerDisks; ++step, radius *= kSmallerDisk) {
+    for (; radius >= least; radius *= kSmallerDisk) {
         std::vector<Index> faces =
             reachable_faces(current.mesh, current.place, distance, start, radius);
         FaceSet set(topology, faces);
@@ -307,9 +307,11 @@ class Scatterer {
                        " is there already");
             return {};
         }
-        const double radius = kPlaceRoom * feature_.reach(placement.scale) +
-                              kSeamRoom * longest_edge_at(current_.mesh, point.face);
-        std::vector<Index> faces = free_disk(current_, point.face, radius, context);
+        const double reach = feature_.reach(placement.scale);
+        const double radius =
+            kPlaceRoom * reach + kSeamRoom * longest_edge_at(current_.mesh, point.face);
+        std::vector<Index> faces =
+            free_disk(current_, point.face, radius, kLeastRoom * reach, context);
         if (faces.empty()) {
             refuse(i, ErrorCode::not_a_disk, "the surface around it is no disk between parts");
         }
