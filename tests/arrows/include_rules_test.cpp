@@ -83,7 +83,9 @@ TEST_CASE("no room has more than thirty files, and the README names each") {
     const std::string readme(std::istreambuf_iterator<char>(stream), {});
     const auto rooms = files_of_rooms();
     CHECK(rooms.size() > 90);
-    for (const auto& [room, files] : rooms) {
+    for (const auto& counted : rooms) {
+        const auto& room = counted.first;
+        const auto files = counted.second;
         CHECK_MESSAGE(files <= 30, room << " has " << files << " files");
         if (is_room(room))
             CHECK_MESSAGE(readme.find("](" + room + ")") != std::string::npos,

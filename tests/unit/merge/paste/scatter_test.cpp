@@ -61,10 +61,11 @@ TEST_CASE("scatter: parts of all sizes fit, on targets of all densities") {
     for (Vec3& p : horn.edit_positions()) {
         if (p.y() > 0.0) p.y() += 0.8 * std::exp(-12.0 * (p.x() * p.x() + p.z() * p.z()));
     }
-    for (const auto& [kind, segments] :
+    for (const auto& target_kind :
          {std::pair(SphereKind::triangles, 24), std::pair(SphereKind::triangles, 80),
           std::pair(SphereKind::quads, 16), std::pair(SphereKind::quads, 24),
           std::pair(SphereKind::quads, 60)}) {
+        const auto [kind, segments] = target_kind;
         const Mesh target = make_sphere({3.0, segments, kind});
         for (double scale = 0.25; scale <= 0.85; scale += 0.05) {
             const double angle = 7.0 * scale;
@@ -73,7 +74,7 @@ TEST_CASE("scatter: parts of all sizes fit, on targets of all densities") {
                 {.at = {0, 3, 0}, .scale = scale},
                 {.at = 3.0 * Vec3(std::cos(angle), -1.2, std::sin(angle)).normalized(),
                  .scale = scale}};
-            CAPTURE(segments);
+            CAPTURE(target_kind.second);
             CAPTURE(scale);
             const ScatterResult result =
                 scatter(horn, target, around_horn(horn, 0.95), std::nullopt, places);
