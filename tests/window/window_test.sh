@@ -285,6 +285,31 @@ close_view 0
 [ ! -e "$left" ] || fail "a scene that is not wanted stays"
 [ ! -e "$journal" ] || fail "its journal stays"
 
+# --- Alt counts at once, again and again, also while the cursor rests in the middle of a drag
+cat >alt.lua <<'LUA'
+local function hear(self, ev)
+    if ev.alt ~= (self.alt or false) then
+        self.alt = ev.alt
+        print(ev.alt and "alt is down" or "alt is up")
+    end
+end
+return require("lissom").tool{ name = "alt", help = "Tells of Alt.", press = hear, drag = hear, release = hear }
+LUA
+open_view ball.obj --tool alt.lua
+wait_for "at rest"
+xdotool mousemove --window "$window" 700 400
+sleep 0.1
+xdotool mousedown 1
+xdotool mousemove_relative -- 20 10
+for _ in 1 2; do
+    xdotool keydown alt
+    wait_for "line alt is down"
+    xdotool keyup alt
+    wait_for "line alt is up"
+done
+xdotool mouseup 1
+close_view 0
+
 # --- What cannot be read is told, and the window stays
 open_view broken.ply
 wait_for "error "
