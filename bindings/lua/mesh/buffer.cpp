@@ -229,6 +229,7 @@ int write_floats(Call& call) {
         call.require_addresses();
         rows.count = numbers.size() / rows.width;
         require_room(rows, size);
+        if (!memory) throw Error(ErrorCode::invalid_argument, "the address is null");
         write_rows(numbers, rows, memory);
     });
     return done ? call.push_argument() : call.fail();
