@@ -1,11 +1,10 @@
 #include "kernel/io/gltf/animation.h"
 
-#include <tiny_gltf.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "kernel/io/gltf/file/json.h"
+#include "kernel/io/gltf/file/tiny_gltf.h"
 #include "kernel/io/gltf/mesh/surface.h"
 #include "kernel/io/gltf/nodes.h"
 #include "kernel/io/stream/scalar.h"

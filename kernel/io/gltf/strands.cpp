@@ -1,7 +1,5 @@
 #include "kernel/io/gltf/strands.h"
 
-#include <tiny_gltf.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -10,6 +8,7 @@
 #include "kernel/io/gltf/file/binary.h"
 #include "kernel/io/gltf/file/container.h"
 #include "kernel/io/gltf/file/json.h"
+#include "kernel/io/gltf/file/tiny_gltf.h"
 #include "kernel/io/gltf/file/uri.h"
 #include "kernel/io/stream/byte_source.h"
 

@@ -1,12 +1,11 @@
 #include "kernel/io/gltf/file/binary.h"
 
-#include <tiny_gltf.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
 
 #include "kernel/io/gltf/file/container.h"
+#include "kernel/io/gltf/file/tiny_gltf.h"
 #include "kernel/io/stream/scalar.h"
 
 namespace lissom {

@@ -5,15 +5,14 @@
 /// the rest is an error. The rest is kept as JSON, of which nothing is lost when it is saved again.
 #pragma once
 
-#include <tiny_gltf.h>
 #include <cstddef>
-#include <string_view>
-
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/core/context.h"
 #include "kernel/io/gltf/file/json.h"
+#include "kernel/io/gltf/file/tiny_gltf.h"
 #include "kernel/io/gltf/file/uri.h"
 #include "kernel/io/record/mesh_data.h"
 #include "kernel/mesh/report.h"

@@ -1,14 +1,13 @@
 /// Blocks of vertices that primitives of a mesh share; private to kernel/io and not installed.
 #pragma once
 
-#include <tiny_gltf.h>
 #include <cstddef>
-
 #include <map>
 #include <string>
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/io/gltf/file/tiny_gltf.h"
 
 namespace lissom {
 

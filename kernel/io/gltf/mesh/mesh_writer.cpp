@@ -1,13 +1,12 @@
 #include "kernel/io/gltf/mesh/mesh_writer.h"
 
-#include <tiny_gltf.h>
-
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include "kernel/io/gltf/file/extras.h"
+#include "kernel/io/gltf/file/tiny_gltf.h"
 #include "kernel/io/gltf/mesh/fans.h"
 #include "kernel/io/gltf/mesh/values.h"
 

@@ -1,11 +1,10 @@
 #include "kernel/io/gltf/mesh/primitives.h"
 
-#include <tiny_gltf.h>
-
 #include <map>
 #include <set>
 #include <utility>
 
+#include "kernel/io/gltf/file/tiny_gltf.h"
 #include "kernel/io/stream/read_error.h"
 
 namespace lissom {
