@@ -1,41 +1,76 @@
-# What `cmake --install` lays down: the kernel's headers and static libraries with a CMake package, and
-# the program with its Lua scripts where they were built.
-include(GNUInstallDirs)
+# What `cmake --install` lays down, in four parts (--component): `library`, the shared library of the C ABI;
+# `development`, headers, static libraries, the CMake package and pkg-config files; `program` with its Lua scripts; and
+# `lua`, the modules for Lua 5.4 and LuaJIT.
 include(CMakePackageConfigHelpers)
 
 set(LISSOM_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lissom)
+set(LISSOM_COMPONENTS "")
 
-# lissom_kernel links lissom::core, lissom::solve, ...: export each module under that name.
+# lissom_export(COMPONENT TARGETS...): static libraries that find_package(lissom COMPONENTS COMPONENT) gives, under
+# the names that they have in this project.
+macro(lissom_export component)
+    list(APPEND LISSOM_COMPONENTS ${component})
+    foreach(target ${ARGN})
+        string(REPLACE lissom_ "" name ${target})
+        set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+    endforeach()
+    install(TARGETS ${ARGN} EXPORT lissom-${component}-targets
+            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+    install(EXPORT lissom-${component}-targets NAMESPACE lissom:: DESTINATION ${LISSOM_PACKAGE_DIR}
+            COMPONENT development)
+endmacro()
+
 get_target_property(modules lissom_kernel INTERFACE_LINK_LIBRARIES)
-string(REPLACE "lissom::" "" modules "${modules}")
-set(LISSOM_KERNEL_TARGETS lissom_kernel)
-set_target_properties(lissom_kernel PROPERTIES EXPORT_NAME kernel)
-foreach(module ${modules})
-    list(APPEND LISSOM_KERNEL_TARGETS lissom_${module})
-    set_target_properties(lissom_${module} PROPERTIES EXPORT_NAME ${module})
-endforeach()
-
-install(TARGETS ${LISSOM_KERNEL_TARGETS} EXPORT lissom-targets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT lissom-targets NAMESPACE lissom:: DESTINATION ${LISSOM_PACKAGE_DIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernel DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom
-        FILES_MATCHING PATTERN "*.h"
-        REGEX "${LISSOM_PRIVATE_HEADERS}" EXCLUDE)
-
-# The evaluator of saved bases needs nothing else of the package.
-install(FILES ${PROJECT_SOURCE_DIR}/bindings/engine/lissom_basis.h
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom/bindings/engine)
-
-# The C ABI: its header, and the shared library, which needs nothing of the above.
-if(TARGET lissom_shared)
-    set_target_properties(lissom_shared PROPERTIES EXPORT_NAME shared)
-    target_include_directories(lissom_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lissom>)
-    install(TARGETS lissom_shared EXPORT lissom-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-    install(FILES ${PROJECT_SOURCE_DIR}/bindings/c/lissom.h ${PROJECT_SOURCE_DIR}/bindings/c/lissom.hpp
-            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lissom/bindings/c)
-    configure_file(${PROJECT_SOURCE_DIR}/cmake/lissom.pc.in ${PROJECT_BINARY_DIR}/lissom.pc @ONLY)
-    install(FILES ${PROJECT_BINARY_DIR}/lissom.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+string(REPLACE "lissom::" "lissom_" modules "${modules}")
+lissom_export(kernel lissom_kernel ${modules})
+if(TARGET lissom_lua)
+    lissom_export(lua lissom_lua lissom_sandbox)
 endif()
+if(TARGET lissom_renderer)
+    lissom_export(viewer lissom_renderer)
+endif()
+
+# The C ABI: the shared library needs nothing of the above.
+if(TARGET lissom_shared)
+    lissom_export(c-static lissom_c)
+    list(APPEND LISSOM_COMPONENTS c)
+    set_target_properties(lissom_shared PROPERTIES EXPORT_NAME shared)
+    install(TARGETS lissom_shared EXPORT lissom-c-targets
+            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
+            RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT library
+            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+    install(EXPORT lissom-c-targets NAMESPACE lissom:: DESTINATION ${LISSOM_PACKAGE_DIR} COMPONENT development)
+endif()
+
+configure_file(${PROJECT_SOURCE_DIR}/cmake/InstallHeaders.cmake.in ${PROJECT_BINARY_DIR}/InstallHeaders.cmake @ONLY)
+install(SCRIPT ${PROJECT_BINARY_DIR}/InstallHeaders.cmake COMPONENT development)
+
+# lissom.pc is the shared library of the C ABI, lissom-kernel.pc the static ones of C++.
+file(RELATIVE_PATH LISSOM_PC_PREFIX /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+string(REGEX REPLACE "/$" "" LISSOM_PC_PREFIX ${LISSOM_PC_PREFIX})
+set(LISSOM_PC_LIBRARIES "")
+foreach(module ${modules})
+    # Who uses a library stands before it.
+    string(REPLACE lissom_ "" module ${module})
+    set(LISSOM_PC_LIBRARIES "-llissom_${module} ${LISSOM_PC_LIBRARIES}")
+endforeach()
+string(APPEND LISSOM_PC_LIBRARIES "-lOpenMeshCore")
+set(LISSOM_PC_REQUIRED eigen3)
+if(LISSOM_TBB)
+    string(APPEND LISSOM_PC_REQUIRED " tbb")
+endif()
+if(LISSOM_GPL)
+    string(APPEND LISSOM_PC_LIBRARIES " -lcholmod -lsuitesparseconfig")
+endif()
+set(pc_files lissom-kernel)
+if(TARGET lissom_shared)
+    list(APPEND pc_files lissom)
+endif()
+foreach(name ${pc_files})
+    configure_file(${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+    install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+            COMPONENT development)
+endforeach()
 
 configure_package_config_file(
     ${PROJECT_SOURCE_DIR}/cmake/lissom-config.cmake.in ${PROJECT_BINARY_DIR}/lissom-config.cmake
@@ -44,39 +79,42 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/lissom-config-version.cma
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/lissom-config.cmake
               ${PROJECT_BINARY_DIR}/lissom-config-version.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake DESTINATION ${LISSOM_PACKAGE_DIR})
+              ${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake
+        DESTINATION ${LISSOM_PACKAGE_DIR} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
-        DESTINATION ${CMAKE_INSTALL_DOCDIR})
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 
 # Where lua5.4 and luajit look below the prefix: LuaJIT keeps the version of the language it speaks.
 # Optional, as one who builds the program alone has neither.
-if(TARGET lissom_lua54_module)
-    install(TARGETS lissom_lua54_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lua/5.4
-            OPTIONAL)
-endif()
-if(TARGET lissom_luajit_module)
-    install(TARGETS lissom_luajit_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lua/5.1
-            OPTIONAL)
-endif()
+foreach(module "lissom_lua54_module|5.4" "lissom_luajit_module|5.1")
+    string(REPLACE "|" ";" module ${module})
+    list(GET module 0 target)
+    list(GET module 1 version)
+    if(TARGET ${target})
+        install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lua/${version} COMPONENT lua
+                OPTIONAL)
+    endif()
+endforeach()
 if(TARGET lissom)
-    install(TARGETS lissom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    install(TARGETS lissom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
     # The Lua library, which the program finds beside itself.
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom COMPONENT program
             FILES_MATCHING PATTERN "*.lua")
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom COMPONENT program
             FILES_MATCHING PATTERN "*.lua" PATTERN "engine/*.c" PATTERN "engine/*.vert"
                            PATTERN "golden/*.png")
     # Annotations of the Lua functions for editors, a setting that finds them, and the reference.
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/lua/meta ${PROJECT_SOURCE_DIR}/viewer/meta
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom)
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom COMPONENT program)
     install(CODE "
         set(annotations \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/lissom/meta\")
         configure_file(\"${PROJECT_SOURCE_DIR}/cmake/luarc.json.in\"
-                       \"${PROJECT_BINARY_DIR}/luarc.json\" @ONLY)")
-    install(FILES ${PROJECT_BINARY_DIR}/luarc.json DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom
+                       \"${PROJECT_BINARY_DIR}/luarc.json\" @ONLY)" COMPONENT program)
+    install(FILES ${PROJECT_BINARY_DIR}/luarc.json DESTINATION ${CMAKE_INSTALL_DATADIR}/lissom COMPONENT program
             RENAME .luarc.json)
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/lua DESTINATION ${CMAKE_INSTALL_DOCDIR})
-    install(FILES ${PROJECT_SOURCE_DIR}/docs/testing.md ${PROJECT_SOURCE_DIR}/docs/tools.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/lua DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+    install(FILES ${PROJECT_SOURCE_DIR}/docs/testing.md ${PROJECT_SOURCE_DIR}/docs/tools.md
+            DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 endif()

@@ -1,15 +1,21 @@
 # Functions that declare this project's libraries and tests, so that every target gets the same
 # language level, include root and warnings.
 
-# Headers that show libraries or processors which users of the package need not have: not installed.
-set(LISSOM_PRIVATE_HEADERS "/io/gltf|/scene/file/|/growth_lanes\\.h$|/lane_grower\\.h$")
+# lissom_user_includes(TARGET): who links TARGET may include <lissom/...>. This project's own code does not: it names
+# headers by their place, private ones too.
+function(lissom_user_includes target)
+    set(foreign $<NOT:$<BOOL:$<TARGET_PROPERTY:LISSOM_OWN>>>)
+    target_include_directories(${target}
+                               INTERFACE $<BUILD_INTERFACE:$<${foreign}:${PROJECT_BINARY_DIR}/include>>)
+endfunction()
 
 # lissom_target_defaults(TARGET): what every target of this project is compiled with.
 function(lissom_target_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_20)
-    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON LISSOM_OWN ON)
     target_include_directories(
-        ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/lissom>)
+        ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    lissom_user_includes(${target})
     if(MSVC)
         target_compile_options(${target} PRIVATE /W4)
     else()

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "bindings/c/lissom.h"
+#include <lissom/lissom.h>
 
 static int fail(lissom_context* context) {
     const lissom_error* error = lissom_last_error(context);

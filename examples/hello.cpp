@@ -5,9 +5,9 @@
 //     target_link_libraries(hello PRIVATE lissom::kernel)
 #include <iostream>
 
-#include "kernel/deform/deformer.h"
-#include "kernel/io/mesh_file.h"
-#include "kernel/mesh/shapes/shapes.h"
+#include <lissom/deform/deformer.h>
+#include <lissom/io/mesh_file.h>
+#include <lissom/mesh/shapes/shapes.h>
 
 using namespace lissom;
 

@@ -2,7 +2,7 @@
  * library.
  *
  *     lissom run examples/engine/bake.lua                   # writes out/cactus.basis
- *     cc -std=c99 -I. examples/engine/evaluate.c -lm -o evaluate
+ *     cc -std=c99 examples/engine/evaluate.c $(pkg-config --cflags lissom) -lm -o evaluate
  *     ./evaluate out/cactus.basis tip 40 moved.xyz
  *
  * The arguments are the basis, the name of a handle, the degrees by which it turns about its own
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bindings/engine/lissom_basis.h"
+#include <lissom/lissom_basis.h>
 
 static void* read_file(const char* path, size_t* size) {
     FILE* const file = fopen(path, "rb");

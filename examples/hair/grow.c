@@ -4,7 +4,7 @@
  */
 #include <stdio.h>
 
-#include "bindings/c/lissom.h"
+#include <lissom/lissom.h>
 
 static int fail(lissom_context* context) {
     const lissom_error* error = lissom_last_error(context);

@@ -1,11 +1,10 @@
-# CHECK is `together`: all public headers of SOURCE in one file, in the order of their names and the other
-# way round; or `alone`: each in a file of its own.
+# CHECK is `together`: HEADERS, the public ones of the kernel below SOURCE, in one file, in the order of their names and
+# the other way round; or `alone`: each in a file of its own.
 if(CHECK STREQUAL "alone" AND NOT DEFINED ENV{LISSOM_TRIALS})
     message("skipped: each header alone takes a quarter of an hour; set LISSOM_TRIALS")
     return()
 endif()
-file(GLOB_RECURSE headers RELATIVE ${SOURCE} ${SOURCE}/kernel/*.h)
-list(FILTER headers EXCLUDE REGEX "${PRIVATE}")
+set(headers ${HEADERS})
 list(SORT headers)
 
 function(compile name)

@@ -1,8 +1,8 @@
 // Uses one module alone: solves a system of two unknowns.
+#include <lissom/solve/sparse/sparse_system.h>
+
 #include <cmath>
 #include <vector>
-
-#include "kernel/solve/sparse/sparse_system.h"
 
 int main() {
     const auto matrix = lissom::symmetric_from_triplets(2, {{0, 0, 2.0}, {1, 0, 1.0}, {1, 1, 2.0}});

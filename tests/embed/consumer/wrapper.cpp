@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "bindings/c/lissom.hpp"
+#include <lissom/lissom.hpp>
 
 using namespace lissom::api;
 

@@ -1,0 +1,359 @@
+// A small engine that has the library in it, and keeps what is an engine's: threads, log, files,
+// frames. It loads a script as a tool, lets the library work as jobs between its frames, drags
+// handles through the basis in a vertex shader, and draws strands.
+//
+//     engine examples/engine                         # a window: drag the cactus by its tip or arm;
+//     Escape ends engine examples/engine --picture engine.png    # without a window, a drag of 60
+//     frames
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+
+#include "drawing.h"
+#include "host.h"
+#include "screen.h"
+
+namespace engine {
+namespace {
+
+namespace api = lissom::api;
+
+// ---- Loading
+
+std::string read_disk(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw std::runtime_error(path + " cannot be read");
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void fill(Files& files, const std::string& folder) {
+    for (const char* name : {"scene.lua", "basis.vert"})
+        files.add(name, read_disk(folder + "/" + name));
+    files.add("ground.obj", "v -0.6 0 -0.6\nv -0.6 0 0.6\nv 0.6 0 0.6\nv 0.6 0 -0.6\nf 1 2 3 4\n");
+}
+
+// The objects that a script returned, in order: {"object": ID, ...}.
+std::vector<std::uint64_t> objects_in(const lissom_bytes& json) {
+    static constexpr char kKey[] = "\"object\":";
+    std::vector<std::uint64_t> ids;
+    for (const char* at = static_cast<const char*>(json.data); (at = std::strstr(at, kKey));) {
+        ids.push_back(std::strtoull(at += sizeof kKey - 1, nullptr, 10));
+    }
+    return ids;
+}
+
+std::vector<std::uint64_t> run_tool(const api::Context& context, const Files& files) {
+    const std::string& text = *files.find("scene.lua");
+    lissom_script script{};
+    lissom_bytes json{};
+    api::check(context.get(),
+               lissom_script_load(context.get(), text.data(), text.size(), "scene.lua", &script));
+    api::check(context.get(), lissom_script_set(context.get(), script, "vertices", "8000"));
+    api::check(context.get(), lissom_script_run(context.get(), script, nullptr, &json));
+    const std::vector<std::uint64_t> objects = objects_in(json);
+    api::check(context.get(), lissom_script_release(context.get(), script));
+    if (objects.size() != 4)
+        throw std::runtime_error("the script returns other things than the engine draws");
+    return objects;
+}
+
+// ---- Views: turned about y, seen from a little above, scaled, moved on the screen.
+
+constexpr double kTilt = 0.25;
+
+Matrix view(double turn, double scale, double right, double up,
+            const double (&middle)[3] = {0, 0, 0}) {
+    const double c = std::cos(turn), s = std::sin(turn), wide = double(kHeight) / kWidth;
+    const double up_down = std::cos(kTilt), over = std::sin(kTilt);
+    const double rows[3][4] = {
+        {wide * scale * c, 0, wide * scale * s, right},
+        {over * scale * s, up_down * scale, -over * scale * c, up},
+        {0.3 * up_down * scale * s, -0.3 * over * scale, -0.3 * up_down * scale * c, 0}};
+    Matrix matrix{};
+    matrix[15] = 1.0f;
+    for (std::size_t i = 0; i < 3; ++i) {
+        double moved = rows[i][3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            matrix[4 * k + i] = static_cast<float>(rows[i][k]);
+            moved += rows[i][k] * middle[k];
+        }
+        matrix[12 + i] = static_cast<float>(moved);
+    }
+    return matrix;
+}
+
+// ---- A surface that handles move
+
+class Puppet {
+  public:
+    Puppet(const api::Context& context, std::uint64_t mesh, std::uint64_t deformer)
+        : context_(context), mesh_(context.get(), {mesh}), deformer_{deformer} {
+        api::check(context.get(),
+                   lissom_deformer_begin_prepare(context.get(), deformer_, &preparing_));
+    }
+    ~Puppet() { lissom_deformer_release(context_.get(), deformer_); }
+
+    // Once the job is done the basis goes to the graphics card: from then on the library is not
+    // called.
+    void take_up(const std::string& vertex_shader) {
+        lissom_job_state state = LISSOM_JOB_RUNNING;
+        if (surface_) return;
+        api::check(context_.get(), lissom_job_poll(context_.get(), preparing_, &state));
+        if (state != LISSOM_JOB_DONE) return;
+        api::check(context_.get(), lissom_job_finish(context_.get(), preparing_, nullptr));
+        lissom_bytes bytes{};
+        api::check(context_.get(), lissom_deformer_encode_basis(context_.get(), deformer_, &bytes));
+        memory_.resize((bytes.size + 3) / 4);
+        std::memcpy(memory_.data(), bytes.data, bytes.size);
+        if (lissom_basis_open(&basis_, memory_.data(), bytes.size) != LISSOM_BASIS_OK)
+            throw std::runtime_error("the basis is damaged");
+        transforms_.resize(12 * std::size_t{basis_.handle_count});
+        for (std::uint32_t h = 0; h < basis_.handle_count; ++h) place(h, lissom_identity());
+        surface_.emplace(mesh_, vertex_shader, &basis_);
+    }
+    bool is_ready() const { return surface_.has_value(); }
+    const lissom_basis& basis() const { return basis_; }
+
+    void place(std::uint32_t handle, const lissom_transform& map) {
+        lissom_basis_local(&basis_, map.m, &transforms_[12 * std::size_t{handle}]);
+    }
+    void draw(const Matrix& to_clip, const Color& color) const {
+        if (surface_) surface_->draw(to_clip, color, transforms_.data());
+    }
+
+    // Greatest difference between what the basis gives and what the library's preview does, in
+    // sizes of the surface.
+    double difference(std::uint32_t handle, const lissom_transform& map) {
+        lissom_context* const context = context_.get();
+        api::check(context,
+                   lissom_deformer_set_transform(context, deformer_, std::int32_t(handle), &map));
+        api::check(context, lissom_deformer_solve(context, deformer_, LISSOM_PREVIEW));
+        const std::size_t rows = basis_.vertex_count;
+        std::vector<float> own(3 * rows), library(3 * rows);
+        lissom_basis_evaluate(&basis_, transforms_.data(), 0, basis_.vertex_count, own.data(),
+                              3 * sizeof(float));
+        const lissom_output out = api::output(library.data(), rows);
+        api::check(context, lissom_deformer_read_positions(context, deformer_, &out));
+        double greatest = 0.0;
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            const double moved = own[i] + basis_.origin[i % 3] - library[i];
+            greatest = std::max(greatest, std::abs(moved) / double(basis_.size));
+        }
+        return greatest;
+    }
+
+  private:
+    const api::Context& context_;
+    api::Mesh mesh_;
+    lissom_deformer deformer_;
+    lissom_job preparing_{};
+    std::vector<float> memory_, transforms_;
+    lissom_basis basis_{};
+    std::optional<Surface> surface_;
+};
+
+// ---- Hair that grows as a job
+
+class Head {
+  public:
+    Head(const api::Context& context, std::uint64_t mesh, std::uint64_t style)
+        : context_(context),
+          style_{style},
+          mesh_(context.get(), {mesh}),
+          surface_(mesh_, kStanding) {
+        lissom_grow_options options = lissom_default_grow_options();
+        options.count = 6000;
+        options.length = 0.25;
+        api::check(context.get(),
+                   lissom_hairstyle_begin_grow(context.get(), style_, &options, &growing_));
+    }
+    ~Head() { lissom_hairstyle_release(context_.get(), style_); }
+
+    void take_up() {
+        lissom_job_state state = LISSOM_JOB_RUNNING;
+        if (hair_) return;
+        api::check(context_.get(), lissom_job_poll(context_.get(), growing_, &state));
+        if (state != LISSOM_JOB_DONE) return;
+        std::uint64_t id = 0;
+        api::check(context_.get(), lissom_job_finish(context_.get(), growing_, &id));
+        hair_.emplace(api::Strands(context_.get(), {id}));
+    }
+    bool is_ready() const { return hair_.has_value(); }
+    void draw(const Matrix& to_clip) const {
+        surface_.draw(to_clip, {0.85f, 0.82f, 0.78f});
+        if (hair_) hair_->draw(to_clip, {0.42f, 0.26f, 0.14f});
+    }
+
+    static constexpr const char* kStanding = R"(
+layout(location = 0) in vec3 rest;
+uniform mat4 to_clip;
+out vec3 surface_position;
+void main() {
+    surface_position = rest;
+    gl_Position = to_clip * vec4(rest, 1.0);
+})";
+
+  private:
+    const api::Context& context_;
+    lissom_hairstyle style_;
+    lissom_job growing_{};
+    api::Mesh mesh_;
+    Surface surface_;
+    std::optional<Hair> hair_;
+};
+
+// ---- Frames
+
+// A drag by a hand: the handle nearest to where it pressed goes where it goes.
+class Drag {
+  public:
+    lissom_transform map = lissom_identity();
+    std::optional<std::uint32_t> handle;
+
+    void follow(const Hand& hand, const lissom_basis& basis, const Matrix& to_clip) {
+        if (!hand.is_down) handle.reset();
+        if (!hand.is_down) return;
+        if (!handle) grip(hand, basis, to_clip);
+        map.m[3] = (hand.x - pressed_.x) / double(to_clip[0]);
+        map.m[7] = (hand.y - pressed_.y) / double(to_clip[5]);
+    }
+
+  private:
+    void grip(const Hand& hand, const lissom_basis& basis, const Matrix& to_clip) {
+        double nearest = 1e9;
+        for (std::uint32_t h = 0; h < basis.handle_count; ++h) {
+            const float* center = basis.handles[h].center;
+            const double x =
+                double(to_clip[0] * center[0] + to_clip[8] * center[2] + to_clip[12]) - hand.x;
+            const double y = double(to_clip[1] * center[0] + to_clip[5] * center[1] +
+                                    to_clip[9] * center[2] + to_clip[13]) -
+                             hand.y;
+            if (x * x + y * y >= nearest) continue;
+            nearest = x * x + y * y;
+            handle = h;
+        }
+        pressed_ = hand;
+        map = lissom_identity();
+    }
+
+    Hand pressed_;
+};
+
+// Where the tip is in a picture without a hand: turned by `angle` about the middle of the trunk.
+lissom_transform turned(double angle, double height) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    lissom_transform map = lissom_identity();
+    map.m[0] = c, map.m[1] = -s, map.m[3] = s * height;
+    map.m[4] = s, map.m[5] = c, map.m[7] = height - c * height;
+    return map;
+}
+
+struct World {
+    World(const api::Context& context, const Files& files,
+          const std::vector<std::uint64_t>& objects)
+        : vertex_shader(*files.find("basis.vert")),
+          cactus(context, objects[0], objects[1]),
+          head(context, objects[2], objects[3]),
+          ground(context.load_mesh("ground.obj"), Head::kStanding) {}
+
+    // The part of the frame for the library: what has become ready is taken up.
+    void take_up() {
+        cactus.take_up(vertex_shader);
+        head.take_up();
+    }
+    bool is_ready() const { return cactus.is_ready() && head.is_ready(); }
+    Matrix cactus_view() const {
+        const double* origin = cactus.basis().origin;
+        return view(0.4, 0.75, -0.45, -0.75, {origin[0], origin[1], origin[2]});
+    }
+    void draw() const {
+        clear_picture();
+        ground.draw(view(0.4, 0.75, -0.45, -0.75), {0.55f, 0.5f, 0.42f});
+        if (cactus.is_ready()) cactus.draw(cactus_view(), {0.35f, 0.6f, 0.3f});
+        head.draw(view(0.5, 3.2, 0.45, 0.15));
+    }
+
+    std::string vertex_shader;
+    Puppet cactus;
+    Head head;
+    Surface ground;
+};
+
+void play(World& world, Screen& screen) {
+    Drag drag;
+    for (Hand hand; !hand.has_closed; hand = screen.hand()) {
+        world.take_up();
+        if (world.cactus.is_ready()) drag.follow(hand, world.cactus.basis(), world.cactus_view());
+        if (drag.handle) world.cactus.place(*drag.handle, drag.map);
+        world.draw();
+        screen.show();
+    }
+}
+
+// Sixty frames of a drag once all is there; whether the last one is what the library says.
+bool draw_picture(World& world, Screen& screen, const std::string& path) {
+    int waited = 0;
+    for (; !world.is_ready(); ++waited) {
+        world.take_up();
+        world.draw();
+        screen.show();
+    }
+    const std::uint32_t tip = 1;  // the second handle that scene.lua adds
+    if (tip >= world.cactus.basis().handle_count) throw std::runtime_error("the cactus has no tip");
+    lissom_transform map = lissom_identity();
+    for (int frame = 1; frame <= 60; ++frame) {
+        map = turned(-0.8 * frame / 60.0, 0.9);
+        world.cactus.place(tip, map);
+        world.draw();
+        screen.show();
+    }
+    const double difference = world.cactus.difference(tip, map);
+    std::printf(
+        "%d frames while the library worked, 60 of a drag; difference from the library %.1e\n",
+        waited, difference);
+    return save_picture(path) && difference < 1e-5;
+}
+
+int run(const std::string& folder, const std::string& picture) {
+    const std::unique_ptr<Screen> screen = picture.empty() ? open_window() : open_memory();
+    if (!screen) {
+        std::puts("no OpenGL 3.3 here");
+        return 77;
+    }
+    Host host;
+    fill(host.files, folder);
+    bool good = true;
+    {
+        const api::Context context(options_for(host));
+        World world(context, host.files, run_tool(context, host.files));
+        if (picture.empty()) {
+            play(world, *screen);
+        } else {
+            good = draw_picture(world, *screen, picture);
+        }
+    }
+    for (const std::string& line : host.log) std::printf("log: %s\n", line.c_str());
+    std::printf("%zu tasks of the job system\n", host.jobs.count());
+    return good ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace engine
+
+int main(int count, char** arguments) {
+    if (count != 2 && !(count == 4 && std::strcmp(arguments[2], "--picture") == 0)) {
+        std::fputs("usage: engine FOLDER [--picture FILE.png]\n", stderr);
+        return 2;
+    }
+    try {
+        return engine::run(arguments[1], count == 4 ? arguments[3] : "");
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+}
