@@ -1,10 +1,12 @@
--- The tool script of the engine in this folder: what it declares as parameters the engine can set, and what it
--- returns the engine draws. A cactus with three handles, a head, and a hairstyle that the engine grows as a job.
+-- The tool script of the engine in this folder: what it declares as parameters the engine can set, and what
+-- it returns the engine draws. A cactus with three handles, a head, and a hairstyle that the engine grows as
+-- a job.
 local lissom = require "lissom"
 
 local params = lissom.params{
     vertices = { type = "integer", default = 6000, min = 2000, max = 200000, help = "of the cactus" },
-    lift = { type = "number", default = 0.02, min = 0.005, max = 0.1, unit = "m", help = "of the hair over the head" },
+    lift = { type = "number", default = 0.02, min = 0.005, max = 0.1, unit = "m",
+        help = "of the hair over the head" },
 }
 
 local cactus = lissom.shapes.cactus{ vertices = params.vertices }
@@ -20,6 +22,7 @@ for _, side in ipairs{ -1, 1 } do
         (style:at{ azimuth = 90 * side, elevation = -20, lift = params.lift }),
     } }
 end
-style:dividing{ points = { style:at{ azimuth = 0, elevation = 40 }, (style:at{ azimuth = 0, elevation = 80 }) } }
+style:dividing{ points = { style:at{ azimuth = 0, elevation = 40 },
+    (style:at{ azimuth = 0, elevation = 80 }) } }
 
 return cactus, edit, head, style
