@@ -188,15 +188,26 @@ class SurfaceSelection {
           options_(options),
           context_(context),
           visibility_(scene, view, options.back_faces),
+          known_(object < count_of(options.known) ? options.known[at(object)] : nullptr),
           selected_(at(by_vertex() ? surface_.topology().vertex_count()
                                    : surface_.topology().face_count()),
-                    false) {}
+                    false) {
+        if (!known_) return;
+        require(by_vertex(), "known vertices are left out where vertices are selected, not faces");
+        require(known_->topology() == surface_.shared_topology(),
+                "known vertices belong to another mesh, or to an older version of this one",
+                ErrorCode::topology_mismatch);
+        for (const Index v : known_->vertices()) selected_[at(v)] = true;
+    }
 
     void add(const Shape& shape) {
         context_.checkpoint();
         collect(shape);
         keep_visible();
-        for (const Witness& witness : witnesses_) selected_[at(witness.element)] = true;
+        for (const Witness& witness : witnesses_) {
+            if (!selected_[at(witness.element)]) found_.push_back(witness.element);
+            selected_[at(witness.element)] = true;
+        }
     }
 
     Selected result() const;
@@ -216,8 +227,11 @@ class SurfaceSelection {
     const SelectOptions& options_;
     const Context& context_;
     Visibility visibility_;
+    const Region* known_;
     std::vector<char> selected_;
     std::vector<Witness> witnesses_;
+    // In the order in which they were found.
+    std::vector<Index> found_;
 };
 
 void SurfaceSelection::collect(const Shape& shape) {
@@ -299,10 +313,8 @@ void SurfaceSelection::keep_visible() {
 }
 
 Selected SurfaceSelection::result() const {
-    std::vector<Index> elements, vertices;
-    for (std::size_t i = 0; i < selected_.size(); ++i) {
-        if (selected_[i]) elements.push_back(index_of(i));
-    }
+    std::vector<Index> elements = found_, vertices;
+    std::sort(elements.begin(), elements.end());
     if (by_vertex()) return {object_, Region(surface_.shared_topology(), std::move(elements)), {}};
     for (const Index f : elements) {
         const auto corners = surface_.topology().face(f);

@@ -28,6 +28,9 @@ struct SelectOptions {
     /// Whether faces count that are seen from behind. If not, they are as if they were not there:
     /// neither selected, nor their vertices, nor hiding anything.
     bool back_faces = true;
+    /// Vertices that are known already and not looked at, so that a long stroke costs only what is
+    /// new under it: a region for each object of the scene, or null.
+    std::span<const Region* const> known = {};
 };
 
 /// What is selected of one surface.
@@ -41,7 +44,8 @@ struct Selected {
 
 /// What is seen inside a shape, of every surface of the scene in their order. Pixels may lie
 /// outside the picture. What is partly behind the camera is selected by what is in front. Errors:
-/// not_finite; invalid_argument for a negative radius or a picture without size; cancelled.
+/// not_finite; invalid_argument for a negative radius, a picture without size, or known vertices
+/// where faces are selected; topology_mismatch for those of another surface; cancelled.
 ///
 /// The rectangle with two opposite corners `a` and `b`.
 std::vector<Selected> select_rectangle(const PickScene& scene, const View& view, const Vec2& a,

@@ -62,8 +62,7 @@ ways.component = {
 }
 
 local function paint(stroke, ev, params)
-    stroke.painted = stroke.painted or {}
-    return joined(stroke.painted, stroke.brush:paint(ev, params.radius, { through = params.through }))
+    return stroke.brush:cover(ev, params.radius, { through = params.through })
 end
 ways.brush = { press = paint, drag = paint }
 

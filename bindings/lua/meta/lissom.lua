@@ -2767,6 +2767,7 @@ function Camera:pick_all(options) end
 ---@field what? "vertices"|"faces" Vertices that are seen inside; or faces of which the centroid of a triangle is, and under a brush also those that it touches. Default: "vertices".
 ---@field through? boolean Also what surfaces hide. Default: false.
 ---@field back_faces? boolean Faces that are seen from behind count; if not, neither they nor their vertices are selected, and they hide nothing. Default: true.
+---@field known? lissom.Region[] Vertices that were found before, which are left out: a long stroke then costs only what is new under it.
 
 ---What is seen in a rectangle, inside a lasso or under a brush. Pixels may lie outside the picture.
 ---@param options? lissom.Camera.SelectOptions

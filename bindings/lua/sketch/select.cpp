@@ -1,5 +1,6 @@
 // lissom.Camera: what is seen in a part of a picture.
 #include <array>
+#include <memory>
 #include <utility>
 
 #include "bindings/lua/core/library.h"
@@ -33,6 +34,24 @@ std::vector<Selected> selected(const Call& call, const PickTargets& targets, con
                         call.context());
 }
 
+// The known regions of the surfaces, in their order; several of one mesh are joined in `joined`.
+std::vector<const Region*> known_regions(const Call& call, const PickTargets& targets,
+                                         std::vector<std::unique_ptr<Region>>& joined) {
+    std::vector<const Region*> known(targets.scene().objects().size(), nullptr);
+    const std::size_t count = call.has("known") ? call.object_count("known") : 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto region = call.object_at<RegionObject>("known", k);
+        for (Index i = 0; i < count_of(known); ++i) {
+            if (targets.mesh(i) != region->mesh) continue;
+            const Region& added = region->current();
+            const Region*& here = known[at(i)];
+            joined.push_back(std::make_unique<Region>(here ? here->united(added) : added));
+            here = joined.back().get();
+        }
+    }
+    return known;
+}
+
 bool push_selected(Call& call, const PickTargets& targets, Selected& one) {
     lua_createtable(call.lua(), 0, 4);
     targets.push_fields(call, one.object);
@@ -56,13 +75,19 @@ int select_in_picture(Call& call) {
         call.reject("rectangle", "two opposite corners {{x, y}, {x, y}} expected");
     }
     const PictureSize size = SizeRequest::picture(call);
-    const SelectOptions options{.kind = call.choice<SelectKind>("what"),
-                                .through = call.boolean("through"),
-                                .back_faces = call.boolean("back_faces")};
+    SelectOptions options{.kind = call.choice<SelectKind>("what"),
+                          .through = call.boolean("through"),
+                          .back_faces = call.boolean("back_faces")};
+    if (call.has("known") && options.kind == SelectKind::faces) {
+        call.reject("known", "known vertices are left out where vertices are selected, not faces");
+    }
     auto& targets = call.hold<PickTargets>();
     auto& found = call.hold<std::vector<Selected>>();
     const bool done = call.attempt([&] {
         targets.read(call);
+        std::vector<std::unique_ptr<Region>> joined;
+        const std::vector<const Region*> known = known_regions(call, targets, joined);
+        options.known = known;
         found = selected(call, targets, {camera->camera, size}, options);
     });
     if (!done) return call.fail();
@@ -97,7 +122,11 @@ Function select_method_of_camera() {
         boolean("back_faces",
                 "Faces that are seen from behind count; if not, neither they nor their vertices "
                 "are selected, and they hide nothing.")
-            .defaults(true)};
+            .defaults(true),
+        objects("known", "lissom.Region",
+                "Vertices that were found before, which are left out: a long stroke then costs "
+                "only what is new under it.")
+            .optional()};
     fields.insert(fields.end(), more.begin(), more.end());
     return {.name = "select",
             .body = select_in_picture,
@@ -106,11 +135,14 @@ Function select_method_of_camera() {
                 "lie outside the picture.",
             .options = std::move(fields),
             .results = {{"lissom.Selected[]", "selected", "One for each surface, in order."}},
-            .errors = {ErrorCode::invalid_argument, ErrorCode::memory_limit, ErrorCode::cancelled},
+            .errors = {ErrorCode::invalid_argument, ErrorCode::topology_mismatch,
+                       ErrorCode::memory_limit, ErrorCode::cancelled},
             .example = R"(local box = lissom.shapes.box()
 local camera = lissom.camera{ eye = { 0, 0, 5 } }
 local found = camera:select{ mesh = box, rectangle = { { 0, 0 }, { 1280, 480 } } }
-assert(#found[1].region == 2)               -- the upper front edge; what is behind it is hidden)"};
+assert(#found[1].region == 2)               -- the upper front edge; what is behind it is hidden
+local all = { mesh = box, rectangle = { { 0, 0 }, { 1280, 960 } }, known = { found[1].region } }
+assert(#camera:select(all)[1].region == 2)  -- the lower front edge)"};
 }
 
 }  // namespace lissom::lua

@@ -114,6 +114,51 @@ TEST_CASE("rectangles, lassos and brushes select the vertices that brute force d
     }
 }
 
+TEST_CASE("what is known is left out, and nothing else: a stroke in pieces is the whole stroke") {
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        CAPTURE(seed);
+        const PickWorld world = test::random_world(seed, Vec3::Zero());
+        test::Random random(seed);
+        const auto stroke = random_points(random, 6, world.view);
+        const auto brushed = [&](std::span<const Vec2> points, const SelectOptions& options) {
+            return select_brush(world.scene, world.view, {.stroke = points, .radius = 40.0},
+                                options);
+        };
+        const std::vector<Selected> whole = brushed(stroke, {});
+        std::vector<Region> found;
+        for (const Selected& one : whole) found.push_back(Region::none(one.vertices.topology()));
+        for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
+            SelectOptions options;
+            std::vector<const Region*> known(world.scene.objects().size(), nullptr);
+            for (std::size_t k = 0; k < whole.size(); ++k) known[at(whole[k].object)] = &found[k];
+            options.known = known;
+            const auto piece = brushed(std::span(stroke).subspan(i, 2), options);
+            for (std::size_t k = 0; k < whole.size(); ++k) {
+                CHECK(piece[k].vertices.intersected(found[k]).empty());
+                found[k] = found[k].united(piece[k].vertices);
+            }
+        }
+        for (std::size_t k = 0; k < whole.size(); ++k) CHECK(found[k] == whole[k].vertices);
+    }
+}
+
+TEST_CASE("known vertices of another mesh, or where faces are selected, are an error") {
+    const View view{Camera({.eye = Vec3(3, 2, 5)}), {200, 200}};
+    const Mesh other = make_box();
+    const Region region = Region::all(other.shared_topology());
+    const std::vector<const Region*> known{&region};
+    const std::vector<Vec2> dab{{100.0, 100.0}};
+    const auto code = [&](SelectKind kind) {
+        return test::error_of([&] {
+                   (void)select_box(view, {.kind = kind, .known = known},
+                                    {.stroke = dab, .radius = 5.0});
+               })
+            .code();
+    };
+    CHECK(code(SelectKind::vertices) == ErrorCode::topology_mismatch);
+    CHECK(code(SelectKind::faces) == ErrorCode::invalid_argument);
+}
+
 TEST_CASE("a brush selects the faces that it touches, also those larger than it") {
     const View view{Camera({.eye = Vec3(3, 2, 5)}), {200, 200}};
     const Vec2 on_front = view.project(Vec3(0.1, 0.1, 0.5)).head<2>();
