@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/draw/image/colormap.h"
@@ -54,9 +56,26 @@ Image read_pixels(const gl::Framebuffer& from) {
     return image;
 }
 
+const gl::Program& SurfacePrograms::get(const SurfaceParts& parts) const {
+    const std::array<std::pair<bool, const char*>, 4> all{
+        {{parts.occlusion, shaders::kHasOcclusion},
+         {parts.hair, shaders::kHasHair},
+         {parts.wire, shaders::kHasWire},
+         {parts.values, shaders::kHasValues}}};
+    std::size_t place = 0;
+    std::string fragment;
+    for (const auto& [has_it, definition] : all) {
+        place = 2 * place + (has_it ? 1 : 0);
+        if (has_it) fragment += definition;
+    }
+    std::optional<gl::Program>& program = programs_[place];
+    if (program) return *program;
+    fragment += shaders::kSurfaceFragment;
+    return program.emplace("surface", shaders::kCommon, shaders::kSurfaceVertex, fragment.c_str());
+}
+
 SceneTools::SceneTools()
-    : surface("surface", shaders::kCommon, shaders::kSurfaceVertex, shaders::kSurfaceFragment),
-      line("line", shaders::kCommon, shaders::kLineVertex, shaders::kLineFragment),
+    : line("line", shaders::kCommon, shaders::kLineVertex, shaders::kLineFragment),
       point("point", shaders::kCommon, shaders::kPointVertex, shaders::kPointFragment),
       output("output", shaders::kCommon, shaders::kCoverVertex, shaders::kOutputFragment),
       strand_output("strand output", shaders::kCommon, shaders::kCoverVertex,
@@ -64,11 +83,15 @@ SceneTools::SceneTools()
       colormap(make_colormap()),
       no_vertices(gl::make_vertex_array()) {}
 
+const Occlusion& SceneTools::occlusion() const {
+    return occlusion_ ? *occlusion_ : occlusion_.emplace();
+}
+
 DrawTarget::DrawTarget(gl::Extent extent, const RenderOptions& options) {
     const gl::Extent fine{extent.width * options.supersample, extent.height * options.supersample};
-    const int count = options.samples > 1 ? options.samples : 0;
-    samples = gl::Framebuffer::multisampled(fine, GL_RGBA16F, count);
-    picture = gl::Framebuffer::texture(fine, GL_RGBA16F, false);
+    const bool several = options.samples > 1;
+    if (several) samples = gl::Framebuffer::multisampled(fine, GL_RGBA16F, options.samples);
+    picture = gl::Framebuffer::texture(fine, GL_RGBA16F, !several);
     output = gl::Framebuffer::texture(extent, GL_RGBA8, false);
 }
 
@@ -79,8 +102,7 @@ SceneDrawer::SceneDrawer(const SceneTools& tools, const GpuScene& scene, const G
       hair_(hair),
       view_(view),
       options_(options),
-      computed_(compute_occlusion()),
-      openness_(options.occlusion > 0.0 ? computed_ : tools.occlusion.none()) {}
+      openness_(compute_occlusion()) {}
 
 gl::Framebuffer SceneDrawer::compute_occlusion() const {
     if (options_.occlusion <= 0.0) return {};
@@ -88,8 +110,8 @@ gl::Framebuffer SceneDrawer::compute_occlusion() const {
     const double scale = std::min(1.0, kOcclusionSize / longest);
     const gl::Extent extent{static_cast<int>(std::ceil(scale * options_.width)),
                             static_cast<int>(std::ceil(scale * options_.height))};
-    return tools_.occlusion.compute(scene_, view_.parameters,
-                                    {extent, view_.occlusion_radius, options_.occlusion});
+    return tools_.occlusion().compute(scene_, view_.parameters,
+                                      {extent, view_.occlusion_radius, options_.occlusion});
 }
 
 Image SceneDrawer::picture(Progress& progress) const {
@@ -117,7 +139,7 @@ void SceneDrawer::draw(const Tile& tile, const DrawTarget& target) const {
 }
 
 void SceneDrawer::draw_samples(const Tile& tile, const DrawTarget& target) const {
-    target.samples.bind();
+    target.drawn().bind();
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
@@ -135,7 +157,7 @@ void SceneDrawer::finish_with_strands(const DrawTarget& target) const {
 }
 
 void SceneDrawer::finish(const DrawTarget& target, const gl::Program& output) const {
-    target.samples.resolve_to(target.picture);
+    if (target.has_samples()) target.samples.resolve_to(target.picture);
     draw_output(target, output);
     gl::check_errors("drawing the picture");
 }
@@ -144,32 +166,25 @@ Mat4 SceneDrawer::projection(const Tile& tile) const {
     return tile_matrix(tile, options_.width, options_.height) * view_.parameters.projection;
 }
 
+SurfaceParts SceneDrawer::parts() const {
+    SurfaceParts parts{.occlusion = options_.occlusion > 0.0, .hair = hair_.step > 0.0};
+    for (const auto& surface : scene_.surfaces()) {
+        parts.wire = parts.wire || surface->drawn.style.wire;
+        parts.values = parts.values || !surface->drawn.style.values.empty();
+    }
+    return parts;
+}
+
 void SceneDrawer::draw_surfaces(const Tile& tile) const {
-    const gl::Program& program = tools_.surface;
-    const Vec2 texels(openness_.extent().width, openness_.extent().height);
-    const Vec2 per_pixel = texels.cwiseQuotient(Vec2(options_.width, options_.height));
+    const SurfaceParts has = parts();
+    const gl::Program& program = tools_.surface.get(has);
     program.use();
     program.set("u_view", view_.parameters.view);
     program.set("u_projection", projection(tile));
     program.set("u_perspective", view_.parameters.perspective ? 1.0f : 0.0f);
-    program.set_texture("u_colormap", 0, tools_.colormap.id());
-    program.set_texture("u_openness_depth", 1, openness_.color());
-    program.set("u_openness_scale", Vec2(per_pixel / options_.supersample));
-    program.set("u_openness_offset", Vec2(per_pixel.cwiseProduct(Vec2(tile.x, tile.y))));
-    program.set_volume("u_hair", 2, hair_.volume->id());
-    program.set_volume("u_hair_moments", 3, (hair_.moments ? hair_.moments : hair_.volume)->id());
-    program.set("u_hair_kind", static_cast<int>(hair_.kind));
-    Mat4 turn = Mat4::Identity();
-    turn.topLeftCorner<3, 3>() = hair_.turn;
-    program.set("u_hair_turn", turn);
-    const Mat3& turned = hair_.turn;
-    program.set("u_hair_key", Vec3(turned * kKeyLight.direction.cast<double>().normalized()));
-    program.set("u_hair_up", Vec3(turned.col(1)));
-    program.set("u_hair_slope", ambient_slope());
-    program.set("u_hair_scale", hair_.scale);
-    program.set("u_hair_offset", hair_.offset);
-    program.set("u_hair_step", static_cast<float>(hair_.step));
-    program.set("u_scalp_color", hair_.scalp_color);
+    if (has.values) program.set_texture("u_colormap", 0, tools_.colormap.id());
+    if (has.occlusion) use_occlusion(program, tile);
+    if (has.hair) use_hair(program);
     for (const auto& surface : scene_.surfaces()) {
         const MeshStyle& style = surface->drawn.style;
         const double wire_width = style.wire ? style.wire_width : 0.0;
@@ -177,6 +192,31 @@ void SceneDrawer::draw_surfaces(const Tile& tile) const {
         program.set("u_wire_color", linear(style.wire_color));
         draw_through(program, *surface);
     }
+}
+
+void SceneDrawer::use_occlusion(const gl::Program& program, const Tile& tile) const {
+    const Vec2 texels(openness_.extent().width, openness_.extent().height);
+    const Vec2 per_pixel = texels.cwiseQuotient(Vec2(options_.width, options_.height));
+    program.set_texture("u_openness_depth", 1, openness_.color());
+    program.set("u_openness_scale", Vec2(per_pixel / options_.supersample));
+    program.set("u_openness_offset", Vec2(per_pixel.cwiseProduct(Vec2(tile.x, tile.y))));
+}
+
+void SceneDrawer::use_hair(const gl::Program& program) const {
+    const Mat3& turned = hair_.turn;
+    Mat4 turn = Mat4::Identity();
+    turn.topLeftCorner<3, 3>() = turned;
+    program.set_volume("u_hair", 2, hair_.volume->id());
+    program.set_volume("u_hair_moments", 3, (hair_.moments ? hair_.moments : hair_.volume)->id());
+    program.set("u_hair_kind", static_cast<int>(hair_.kind));
+    program.set("u_hair_turn", turn);
+    program.set("u_hair_key", Vec3(turned * kKeyLight.direction.cast<double>().normalized()));
+    program.set("u_hair_up", Vec3(turned.col(1)));
+    program.set("u_hair_slope", ambient_slope());
+    program.set("u_hair_scale", hair_.scale);
+    program.set("u_hair_offset", hair_.offset);
+    program.set("u_hair_step", static_cast<float>(hair_.step));
+    program.set("u_scalp_color", hair_.scalp_color);
 }
 
 // Of a surface that is seen through, only a share of the samples or pixels is drawn, always the

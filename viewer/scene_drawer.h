@@ -1,6 +1,9 @@
 /// Draws a scene that is on the graphics card into a picture. All of it needs a current context.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "viewer/draw/image/image.h"
 #include "viewer/draw/projection.h"
 #include "viewer/draw/render_options.h"
@@ -11,21 +14,44 @@
 
 namespace lissom {
 
+/// What surfaces are drawn with.
+struct SurfaceParts {
+    bool occlusion = false, hair = false, wire = false, values = false;
+};
+
+/// The programs that draw surfaces, each made when it is first asked for: drivers take long.
+class SurfacePrograms {
+  public:
+    const gl::Program& get(const SurfaceParts& parts) const;
+
+  private:
+    mutable std::array<std::optional<gl::Program>, 16> programs_;
+};
+
 /// What is made once for all pictures.
 struct SceneTools {
-    Occlusion occlusion;
-    gl::Program surface, line, point, output, strand_output;
+    SurfacePrograms surface;
+    gl::Program line, point, output, strand_output;
     /// The colour scale in linear values, one row.
     gl::Texture colormap;
     gl::VertexArray no_vertices;
 
     SceneTools();
+    /// Made when it is first asked for.
+    const Occlusion& occlusion() const;
+
+  private:
+    mutable std::optional<Occlusion> occlusion_;
 };
 
 /// Framebuffers that a part of a picture passes through; the finished pixels are in `output`, rows
 /// from the top.
 struct DrawTarget {
+    /// `samples` where there are several of them, else all is drawn into `picture`.
     gl::Framebuffer samples, picture, output;
+
+    bool has_samples() const { return samples.extent().width > 0; }
+    const gl::Framebuffer& drawn() const { return has_samples() ? samples : picture; }
 
     /// `extent` in pixels of the picture. Errors: memory_limit.
     DrawTarget(gl::Extent extent, const RenderOptions& options);
@@ -43,7 +69,7 @@ class SceneDrawer {
 
     /// A part of the picture, whose size is that of `target`.
     void draw(const Tile& tile, const DrawTarget& target) const;
-    /// The same in two steps, between which strands are drawn into `target.samples`, which is bound
+    /// The same in two steps, between which strands are drawn into `target.drawn()`, which is bound
     /// meanwhile. Without supersampling.
     void draw_samples(const Tile& tile, const DrawTarget& target) const;
     void finish_with_strands(const DrawTarget& target) const;
@@ -56,6 +82,9 @@ class SceneDrawer {
     // Empty where there is none.
     gl::Framebuffer compute_occlusion() const;
     void draw_surfaces(const Tile& tile) const;
+    SurfaceParts parts() const;
+    void use_occlusion(const gl::Program& program, const Tile& tile) const;
+    void use_hair(const gl::Program& program) const;
     void draw_through(const gl::Program& program, const GpuSurface& surface) const;
     void draw_marks(const Tile& tile) const;
     void use_for_marks(const gl::Program& program, const Tile& tile) const;
@@ -67,8 +96,7 @@ class SceneDrawer {
     const GpuHairShade& hair_;
     const SceneView& view_;
     const RenderOptions& options_;
-    gl::Framebuffer computed_;
-    const gl::Framebuffer& openness_;
+    gl::Framebuffer openness_;
 };
 
 /// The picture of a scene with all that it has, strands too. Errors: those of view_strands;

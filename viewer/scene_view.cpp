@@ -53,7 +53,7 @@ ViewParameters parameters_of(const GpuScene& scene, const Camera& given, double 
 
 SceneView see(const GpuScene& scene, const Camera& camera, double aspect) {
     SceneView view{parameters_of(scene, camera, aspect), 0.0};
-    const Placement& placement = scene.placement();
+    const ScenePlacement& placement = scene.placement();
     const double depth = camera.forward().dot(placement.center - camera.eye());
     const double seen = 2.0 * camera.half_height(std::max(depth, view.parameters.near));
     view.occlusion_radius = std::min(kOcclusionOfSize * placement.size, kOcclusionOfView * seen);

@@ -359,14 +359,14 @@ std::shared_ptr<const GpuMarks> Upload::marks(const Overlay& overlay) {
 }
 
 // The box around strands, in their metres; that of `before` where it shows the same.
-Box strand_box(const Strands* strands, const Placement& before) {
+Box strand_box(const Strands* strands, const ScenePlacement& before) {
     const auto known = before.strand_boxes.find(strands);
     return known == before.strand_boxes.end() ? bounds(*strands) : known->second;
 }
 
 // The corners of boxes around the strands: they hold all of their points that are finite.
-void add_strands(const std::vector<DrawnStrands>& strands, const Placement& before,
-                 Placement& result) {
+void add_strands(const std::vector<DrawnStrands>& strands, const ScenePlacement& before,
+                 ScenePlacement& result) {
     for (const DrawnStrands& drawn : strands) {
         const Box box = strand_box(drawn.strands.get(), before);
         result.strand_boxes.emplace(drawn.strands.get(), box);
@@ -379,8 +379,8 @@ void add_strands(const std::vector<DrawnStrands>& strands, const Placement& befo
 }
 
 // `before` is that of the snapshot before, which is still held.
-Placement place(const Snapshot& snapshot, const Placement& before) {
-    Placement result;
+ScenePlacement place(const Snapshot& snapshot, const ScenePlacement& before) {
+    ScenePlacement result;
     add_strands(snapshot.strands, before, result);
     const auto for_all = [&](const auto& visit) {
         for_each_point(snapshot, visit);
@@ -500,18 +500,18 @@ std::vector<PreparedSurface> PieceSender::give_away() {
     return std::exchange(surfaces_, {});
 }
 
-bool GpuScene::keeps_origin(const Placement& placement) const {
+bool GpuScene::keeps_origin(const ScenePlacement& placement) const {
     const bool anything = !shown_.surfaces.empty() || !shown_.overlays.empty();
     const double apart = (placement.center - shown_.origin).norm();
     return anything && apart <= kOriginReach * placement.size;
 }
 
-Vec3 GpuScene::next_origin(const Placement& placement) const {
+Vec3 GpuScene::next_origin(const ScenePlacement& placement) const {
     return keeps_origin(placement) ? shown_.origin : placement.center;
 }
 
 std::vector<SurfaceNeeds> GpuScene::needs(const Snapshot& snapshot) const {
-    const Placement placement = place(snapshot, shown_.placement);
+    const ScenePlacement placement = place(snapshot, shown_.placement);
     const Vec3 origin = next_origin(placement);
     Known known(keeps_origin(placement) ? shown_.surfaces : decltype(shown_.surfaces){});
     std::vector<SurfaceNeeds> result;

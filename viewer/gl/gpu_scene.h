@@ -67,7 +67,7 @@ struct GpuSurface {
 };
 
 /// Where the points of a snapshot are and how far they reach.
-struct Placement {
+struct ScenePlacement {
     Vec3 center = Vec3::Zero();
     /// RMS distance to the center.
     double size = 0.0;
@@ -157,7 +157,7 @@ class GpuScene {
     std::vector<SurfaceNeeds> needs(const Snapshot& snapshot) const;
 
     const Snapshot& snapshot() const { return shown_.snapshot; }
-    const Placement& placement() const { return shown_.placement; }
+    const ScenePlacement& placement() const { return shown_.placement; }
     /// The point of the world that is at zero on the card. Stays while what is drawn is about it.
     const Vec3& origin() const { return shown_.origin; }
     const std::vector<std::shared_ptr<const GpuSurface>>& surfaces() const {
@@ -172,14 +172,14 @@ class GpuScene {
   private:
     struct Shown {
         Snapshot snapshot;
-        Placement placement;
+        ScenePlacement placement;
         Vec3 origin = Vec3::Zero();
         std::vector<std::shared_ptr<const GpuSurface>> surfaces;
         /// One for each overlay of the snapshot.
         std::vector<std::shared_ptr<const GpuMarks>> overlays;
     };
-    Vec3 next_origin(const Placement& placement) const;
-    bool keeps_origin(const Placement& placement) const;
+    Vec3 next_origin(const ScenePlacement& placement) const;
+    bool keeps_origin(const ScenePlacement& placement) const;
 
     Shown shown_;
     // Of quick updates, so that none allocates.

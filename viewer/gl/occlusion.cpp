@@ -9,27 +9,13 @@ namespace {
 constexpr GLenum kOpennessFormat = GL_RG32F;
 constexpr GLenum kGeometryFormat = GL_RGBA32F;
 
-void clear(float openness, float depth) {
-    glClearColor(openness, depth, 0.0f, 0.0f);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-}
-
-// One texel that is open to all sides.
-gl::Framebuffer make_open() {
-    gl::Framebuffer openness = gl::Framebuffer::texture({1, 1}, kOpennessFormat, false);
-    openness.bind();
-    clear(1.0f, 0.0f);
-    return openness;
-}
-
 }  // namespace
 
 Occlusion::Occlusion()
     : geometry_("geometry", shaders::kCommon, shaders::kGeometryVertex, shaders::kGeometryFragment),
       occlusion_("occlusion", shaders::kCommon, shaders::kCoverVertex, shaders::kOcclusionFragment),
       blur_("blur", shaders::kCommon, shaders::kCoverVertex, shaders::kOcclusionBlurFragment),
-      no_vertices_(gl::make_vertex_array()),
-      none_(make_open()) {}
+      no_vertices_(gl::make_vertex_array()) {}
 
 gl::Framebuffer Occlusion::compute(const GpuScene& scene, const ViewParameters& view,
                                    const OcclusionOptions& options) const {
@@ -61,7 +47,8 @@ gl::Framebuffer Occlusion::draw_geometry(const GpuScene& scene, const ViewParame
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
-    clear(0.0f, 0.0f);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     geometry_.use();
     geometry_.set("u_view", view.view);
     geometry_.set("u_projection", view.projection);

@@ -23,8 +23,6 @@ class Occlusion {
     /// background.
     gl::Framebuffer compute(const GpuScene& scene, const ViewParameters& view,
                             const OcclusionOptions& options) const;
-    /// The same where nothing darkens: one texel.
-    const gl::Framebuffer& none() const { return none_; }
 
   private:
     gl::Framebuffer draw_geometry(const GpuScene& scene, const ViewParameters& view,
@@ -34,7 +32,6 @@ class Occlusion {
 
     gl::Program geometry_, occlusion_, blur_;
     gl::VertexArray no_vertices_;
-    gl::Framebuffer none_;
 };
 
 }  // namespace lissom

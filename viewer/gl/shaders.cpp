@@ -172,6 +172,13 @@ void main() {
 }
 )";
 
+// Software drivers do what is behind a condition for every pixel: what a picture does not have is
+// left out of its program.
+const char* const kHasOcclusion = "#define HAS_OCCLUSION\n";
+const char* const kHasHair = "#define HAS_HAIR\n";
+const char* const kHasWire = "#define HAS_WIRE\n";
+const char* const kHasValues = "#define HAS_VALUES\n";
+
 const char* const kSurfaceFragment = R"(
 in vec3 v_position;
 in vec3 v_normal;
@@ -193,7 +200,7 @@ uniform int u_hair_kind;               // 0: that; of HairLight 1: its moments, 
 uniform mat4 u_hair_turn;              // from view space to its axes
 uniform vec3 u_hair_scale;             // from there to its coordinates
 uniform vec3 u_hair_offset;
-uniform float u_hair_step;             // view units between its texels; 0 without strands
+uniform float u_hair_step;             // view units between its texels
 uniform vec3 u_hair_key;               // along its axes: towards the main light, and up
 uniform vec3 u_hair_up;
 uniform float u_hair_slope;            // of light from all around
@@ -213,6 +220,9 @@ const vec3 kBackTint = vec3(0.50, 0.36, 0.30);
 
 // Of the surface around this fragment, from the four nearest texels at its depth.
 float openness(float depth) {
+#ifndef HAS_OCCLUSION
+    return 1.0;
+#endif
     vec2 at = gl_FragCoord.xy * u_openness_scale + u_openness_offset - 0.5;
     ivec2 corner = ivec2(floor(at));
     ivec2 last = textureSize(u_openness_depth, 0) - 1;
@@ -257,7 +267,9 @@ vec2 hair_light(vec3 at) {
 
 // The same, and how much hair grows. Far outside the volume there is no hair.
 vec3 hair_at(vec3 position, vec3 normal) {
-    if (u_hair_step == 0.0) return vec3(1.0, 1.0, 0.0);
+#ifndef HAS_HAIR
+    return vec3(1.0, 1.0, 0.0);
+#endif
     vec3 above = in_hair(position + 0.75 * u_hair_step * normal);
     vec3 outside = max(max(-above, above - 1.0), vec3(0.0)) / (u_hair_scale * u_hair_step);
     float fade = clamp(1.0 - length(outside) / 12.0, 0.0, 1.0);
@@ -314,13 +326,19 @@ void main() {
     vec3 normal = dot(v_normal, v_normal) > 0.0 ? v_normal : flat_normal;
     normal = normalize(gl_FrontFacing ? normal : -normal);
     vec3 to_viewer = u_perspective > 0.5 ? normalize(-v_position) : vec3(0.0, 0.0, 1.0);
-    bool has_value = (v_flags & 8u) != 0u;
-    vec3 color = has_value ? texture(u_colormap, vec2(v_value, 0.5)).rgb : v_color;
+    bool has_value = false;
+    vec3 color = v_color;
+#ifdef HAS_VALUES
+    has_value = (v_flags & 8u) != 0u;
+    if (has_value) color = texture(u_colormap, vec2(v_value, 0.5)).rgb;
+#endif
     if (!gl_FrontFacing) color *= kBackTint;
     vec3 hair = hair_at(v_position, normal);
     color = mix(color, u_scalp_color, hair.z);
     color = lit(color, normal, to_viewer, openness(-v_position.z), has_value ? 0.5 : 0.0, hair);
+#ifdef HAS_WIRE
     if (u_wire_width > 0.0) color = mix(color, u_wire_color, 0.8 * edge_cover());
+#endif
     if (u_dithered == 1 && u_opacity <= order_of(ivec2(gl_FragCoord.xy))) discard;
     o_color = vec4(min(color, vec3(1.0)), u_dithered == 1 ? 1.0 : u_opacity);
 }

@@ -22,6 +22,12 @@ extern const char* const kOcclusionBlurFragment;
 /// Surfaces, lit, with their edges.
 extern const char* const kSurfaceVertex;
 extern const char* const kSurfaceFragment;
+/// Stand before that where the picture has occlusion, strands that shade surfaces, edges, colours
+/// that stand for numbers.
+extern const char* const kHasOcclusion;
+extern const char* const kHasHair;
+extern const char* const kHasWire;
+extern const char* const kHasValues;
 
 /// Lines of constant width: one instance a segment, a strip of four vertices.
 extern const char* const kLineVertex;

@@ -26,7 +26,7 @@ uniform vec3 u_key_world;          // along the axes of the grid
 uniform vec3 u_rim_world;
 uniform vec3 u_up_world;
 uniform float u_slope;
-out vec3 v_color;
+centroid out vec3 v_color;
 
 const vec3 kFillDirection = normalize(vec3(0.80, 0.05, 0.55));
 const vec3 kRimDirection = normalize(vec3(0.45, 0.45, -0.55));
@@ -124,13 +124,14 @@ void main() {
 }
 )";
 
-// A little more than 1 in alpha tells the output where strands are.
+// A little more than 1 in alpha tells the output where strands are. Ribbons are much thinner than
+// pixels: beside them, in the middle of a pixel that they hardly touch, a colour would be anything.
 const char* const kStrandFragment = R"(
-in vec3 v_color;
+centroid in vec3 v_color;
 out vec4 o_color;
 
 void main() {
-    o_color = vec4(v_color, 1.0 + 1.0 / 64.0);
+    o_color = vec4(clamp(v_color, 0.0, 4.0), 1.0 + 1.0 / 64.0);
 }
 )";
 
