@@ -59,6 +59,7 @@ const std::vector<Rule>& rules() {
          {"Eigen", "Lua", "OpenGL", "CLI11", "JSON", "printing", "platform"}},
         {"viewer/window/screen/glfw_window.cpp", {"kernel", "viewer"}, {"OpenGL", "GLFW"}},
         {"viewer/window/screen/glfw_functions.cpp", {}, {"GLFW", "platform"}},
+        {"viewer/window/panel/drawn_lists.cpp", {"viewer"}, {"ImGui"}},
         {"viewer/window/panel/panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
         {"viewer/window/panel/tool_panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
         {"viewer/window/panel/parameter_widgets.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
@@ -106,7 +107,7 @@ const std::vector<Names>& room_orders() {
          "bindings/cli", "bindings/cli/test"},
         {"viewer/draw/image", "viewer/draw", "viewer/strands", "viewer/gl", "viewer", "viewer/lua",
          "viewer/window/screen", "viewer/window/session", "viewer/window/makers",
-         "viewer/window/panel", "viewer/window", "viewer/main"},
+         "viewer/window/panel", "viewer/window/app", "viewer/window", "viewer/main"},
     };
     return orders;
 }

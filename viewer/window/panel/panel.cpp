@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "kernel/core/error.h"
 #include "viewer/window/panel/parameter_widgets.h"
 #include "viewer/window/panel/prompt_completion.h"
 
@@ -221,9 +222,11 @@ void draw_colors(const PanelContent& content, PanelAnswers& answers) {
 }  // namespace
 
 struct Panel::State {
-    explicit State(double pixels) : scale(pixels) {}
+    explicit State(PanelHost given) : host(std::move(given)), scale(host.scale) {}
 
+    PanelHost host;
     double scale;
+    DrawnLists lists;
     std::deque<Input> inputs;
     bool is_dark = true;
     std::string line;
@@ -268,19 +271,24 @@ struct Panel::State {
     void continue_line(ImGuiInputTextCallbackData& data, PanelContent& content);
 };
 
-Panel::Panel(GlfwWindow& window) : state_(std::make_unique<State>(window.scale())) {
+Panel::Panel(PanelHost host) : state_(std::make_unique<State>(std::move(host))) {
     const double scale = state_->scale;
+    require(!ImGui::GetCurrentContext(), "there is a panel already");
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key;
-    io.ClipboardUserData = &window;
+    io.ClipboardUserData = &state_->host;
     io.SetClipboardTextFn = [](void* from, const char* text) {
-        static_cast<GlfwWindow*>(from)->set_clipboard(text);
+        const auto& set = static_cast<PanelHost*>(from)->set_clipboard;
+        if (set) set(text);
     };
     // ImGui reads the text before it asks again.
-    io.GetClipboardTextFn = [](void* from) { return static_cast<GlfwWindow*>(from)->clipboard(); };
+    io.GetClipboardTextFn = [](void* from) {
+        const auto& get = static_cast<PanelHost*>(from)->clipboard;
+        return get ? get() : "";
+    };
     load_font(scale);
     set_sizes(scale);
     set_colors(true);
@@ -455,7 +463,11 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
             if (ImGui::Button("save")) answers.save = true;
         }
         ImGui::SameLine();
-        ImGui::TextDisabled("%.0f ms", content.milliseconds);
+        if (content.draws_picture) {
+            ImGui::TextDisabled("drawing");
+        } else {
+            ImGui::TextDisabled("%.0f ms", content.milliseconds);
+        }
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", content.driver.c_str());
         ImGui::SameLine();
         ImGui::TextDisabled("?");
@@ -659,7 +671,7 @@ Canvas Panel::canvas(gl::Extent window) const {
     return state_->canvas_of(window);
 }
 
-PanelAnswers Panel::draw(PanelContent& content, DisplaySettings& settings, gl::Extent window,
+PanelAnswers Panel::make(PanelContent& content, DisplaySettings& settings, gl::Extent window,
                          double seconds) {
     PanelAnswers answers;
     if (state_->is_dark != settings.dark) set_colors(settings.dark);
@@ -673,13 +685,27 @@ PanelAnswers Panel::draw(PanelContent& content, DisplaySettings& settings, gl::E
     state_->side(content, settings, answers, window);
     state_->console(content, answers, window);
     const Canvas canvas = state_->canvas_of(window);
-    draw_marks(content.tool, content.camera, content.picture_size, canvas);
+    draw_marks(content.tool, {content.camera, content.picture_size, canvas, state_->scale});
     state_->is_over_picture =
         !state_->candidates.empty() || ImGui::IsAnyMouseDown() ||
         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     ImGui::Render();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    state_->lists.see(*ImGui::GetDrawData(), canvas);
     return answers;
+}
+
+const DrawnLists& Panel::lists() const {
+    return state_->lists;
+}
+
+void Panel::draw(PanelPart part) const {
+    ImDrawData data = *ImGui::GetDrawData();
+    std::vector<ImDrawList*> over = state_->lists.over();
+    if (part == PanelPart::over_picture) {
+        data.CmdLists = over.data();
+        data.CmdListsCount = count_of(over);
+    }
+    ImGui_ImplOpenGL3_RenderDrawData(&data);
 }
 
 }  // namespace lissom::window

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,11 +13,11 @@
 #include "kernel/sketch/camera.h"
 #include "viewer/gl/gl_objects.h"
 #include "viewer/window/makers/coloring.h"
+#include "viewer/window/panel/drawn_lists.h"
 #include "viewer/window/panel/tool_panel.h"
+#include "viewer/window/screen/canvas.h"
 #include "viewer/window/screen/display.h"
-#include "viewer/window/screen/glfw_window.h"
 #include "viewer/window/screen/input.h"
-#include "viewer/window/screen/screen.h"
 #include "viewer/window/session/session.h"
 #include "viewer/window/session/source_place.h"
 
@@ -55,6 +56,8 @@ struct PanelContent {
     /// What may give the meshes their colours, and what does.
     std::vector<Coloring> colorings;
     Coloring coloring;
+    /// A picture for a file is waited for.
+    bool draws_picture = false;
     /// Of the last frame, without waiting.
     double milliseconds = 0.0;
     std::string driver;
@@ -82,10 +85,23 @@ struct PanelAnswers {
     std::optional<SourcePlace> place = std::nullopt;
 };
 
+/// What a panel needs of the desktop.
+struct PanelHost {
+    /// Pixels in a unit of length.
+    double scale = 1.0;
+    std::function<void(const std::string&)> set_clipboard = {};
+    /// Stays until the clipboard changes.
+    std::function<const char*()> clipboard = {};
+};
+
+/// Which parts of a window are drawn.
+enum class PanelPart { all, over_picture };
+
 class Panel {
   public:
-    /// A panel in `window`, whose context is current, also when the panel ends.
-    explicit Panel(GlfwWindow& window);
+    /// A panel in the window of the current context, which is also current when the panel ends.
+    /// Errors: one at a time in a process (invalid_argument).
+    explicit Panel(PanelHost host);
     ~Panel();
     Panel(const Panel&) = delete;
     Panel& operator=(const Panel&) = delete;
@@ -108,10 +124,14 @@ class Panel {
     /// What the panel leaves free of a window.
     Canvas canvas(gl::Extent window) const;
 
-    /// Draws a frame over what is in the window. Changes `settings` and the values of
-    /// `content.parameters` where a person does.
-    PanelAnswers draw(PanelContent& content, DisplaySettings& settings, gl::Extent window,
+    /// Makes the next frame. Changes `settings` and the values of `content.parameters` where a
+    /// person does.
+    PanelAnswers make(PanelContent& content, DisplaySettings& settings, gl::Extent window,
                       double seconds);
+    /// How that differs from the frame before.
+    const DrawnLists& lists() const;
+    /// Draws it over what is in the framebuffer that is bound.
+    void draw(PanelPart part) const;
 
   private:
     struct State;

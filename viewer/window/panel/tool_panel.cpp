@@ -150,8 +150,8 @@ void draw_surface(const ToolSurface& surface, const Camera& camera, const Pictur
     list.Flags = flags;
 }
 
-void draw_marks(const ToolState& state, const Camera& camera, const PictureSize& size,
-                const Canvas& canvas) {
+void draw_marks(const ToolState& state, const MarkedPicture& picture) {
+    const auto& [camera, size, canvas, scale] = picture;
     ImDrawList* list = ImGui::GetBackgroundDrawList();
     const ImVec2 corner(static_cast<float>(canvas.x), static_cast<float>(canvas.y));
     const ImVec2 end(corner.x + static_cast<float>(size.width),
@@ -159,7 +159,7 @@ void draw_marks(const ToolState& state, const Camera& camera, const PictureSize&
     const auto place = [&](double x, double y) {
         return ImVec2(corner.x + static_cast<float>(x), corner.y + static_cast<float>(y));
     };
-    PictureFit fit;
+    PictureFit fit({size.width / scale, size.height / scale}, size);
     if (state.hand) {
         fit = PictureFit({1.0 * state.hand->size.width, 1.0 * state.hand->size.height}, size);
     }
@@ -175,7 +175,7 @@ void draw_marks(const ToolState& state, const Camera& camera, const PictureSize&
         }
         list->AddPolyline(points.data(), count_of(points), faint(outline.color, outline.opacity),
                           outline.closed ? ImDrawFlags_Closed : ImDrawFlags_None,
-                          static_cast<float>(outline.width));
+                          static_cast<float>(scale * outline.width));
     }
     for (const ToolLabel& label : state.marks.labels) {
         const Vec3 at = camera.project(label.at, size);

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "viewer/window/screen/screen.h"
+#include "viewer/window/screen/canvas.h"
 #include "viewer/window/session/tool_bench.h"
 
 namespace lissom::window {
@@ -31,8 +31,16 @@ ToolAnswers draw_scene_objects(const ToolState& state);
 ToolAnswers draw_tools(const std::vector<std::string>& names, ToolState& state);
 /// The steps, those that were undone greyed.
 ToolAnswers draw_history(const ToolState& state);
-/// Text and lines of a tool over the part `canvas` of the window, which `camera` sees.
-void draw_marks(const ToolState& state, const Camera& camera, const PictureSize& size,
-                const Canvas& canvas);
+/// Where a tool draws.
+struct MarkedPicture {
+    Camera camera;
+    /// In pixels, and where that is in the window.
+    PictureSize size;
+    Canvas canvas;
+    /// Pixels in one of a tool's.
+    double scale = 1.0;
+};
+/// Text and lines of a tool over a picture.
+void draw_marks(const ToolState& state, const MarkedPicture& picture);
 
 }  // namespace lissom::window

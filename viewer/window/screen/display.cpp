@@ -20,6 +20,13 @@ void apply(const DisplaySettings& settings, MeshStyle& style) {
     if (settings.see_through) style.opacity = std::min(style.opacity, kSeenThrough);
     if (settings.vertex_normals) style.vertex_normals = true;
     if (settings.face_normals) style.face_normals = true;
+    style.wire_width *= settings.scale;
+    style.line_width *= settings.scale;
+}
+
+void widen(Overlay& marks, double scale) {
+    for (DrawnLine& line : marks.lines) line.width *= scale;
+    for (DrawnPoint& point : marks.points) point.radius *= scale;
 }
 
 // Those of a picture that are shown, in one space.
@@ -30,6 +37,8 @@ Picture visible(const Picture& picture, const DisplaySettings& settings) {
     result.strands.clear();
     result.columns = 0;
     result.captions.clear();
+    widen(result.marks, settings.scale);
+    widen(result.tool_marks, settings.scale);
     for (std::size_t i = 0; i < placed.meshes.size(); ++i) {
         if (is_hidden(settings, i)) continue;
         result.meshes.push_back(placed.meshes[i]);

@@ -26,6 +26,8 @@ class FrameTimes {
     void add_turn(double all, const Turn& own);
     /// Something was done by a hand at `time`, or shortly after.
     void add_event(Time time);
+    /// What was done until now has changed nothing that is seen.
+    void end_event() { waiting_.reset(); }
     /// What has changed was drawn and shown at `time`.
     void add_frame(Time time);
 

@@ -100,6 +100,8 @@ LISSOM_GLFW(GLFWscrollfun, glfwSetScrollCallback, (GLFWwindow * window, GLFWscro
             (window, callback))
 LISSOM_GLFW(GLFWwindowfocusfun, glfwSetWindowFocusCallback,
             (GLFWwindow * window, GLFWwindowfocusfun callback), (window, callback))
+LISSOM_GLFW(GLFWwindowrefreshfun, glfwSetWindowRefreshCallback,
+            (GLFWwindow * window, GLFWwindowrefreshfun callback), (window, callback))
 LISSOM_GLFW(void, glfwSetWindowPos, (GLFWwindow * window, int xpos, int ypos), (window, xpos, ypos))
 LISSOM_GLFW(void, glfwSetWindowSize, (GLFWwindow * window, int width, int height),
             (window, width, height))

@@ -1,5 +1,6 @@
 #include "viewer/window/screen/glfw_window.h"
 
+#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 // After epoxy.
 #include <GLFW/glfw3.h>
@@ -126,11 +127,8 @@ struct GlfwWindow::State {
     std::string title;
     bool can_be_lost = false;
     std::function<void(const std::string&)> driver_listener;
-    InputQueue inputs;
-    Modifiers modifiers;
-    // Where the cursor was when the last input came, in units of the screen: when that is read, it
-    // may have moved on.
-    Vec2 cursor = Vec2::Zero();
+    bool keeps_picture = false, is_exposed = false;
+    InputMaker inputs{[this] { return scale(); }};
 
     ~State() {
         if (window) glfwDestroyWindow(window);
@@ -140,24 +138,18 @@ struct GlfwWindow::State {
         return *static_cast<State*>(glfwGetWindowUserPointer(window));
     }
 
-    // Cursor positions are in units of the screen, pictures in pixels.
-    Vec2 pixels(const Vec2& at) const {
-        int width = 0, height = 0, pixel_width = 0, pixel_height = 0;
-        glfwGetWindowSize(window, &width, &height);
-        glfwGetFramebufferSize(window, &pixel_width, &pixel_height);
-        return {at.x() * pixel_width / std::max(width, 1),
-                at.y() * pixel_height / std::max(height, 1)};
-    }
-
-    Input input(Input::Kind kind) const {
-        Input made;
-        made.kind = kind;
-        made.at = pixels(cursor);
-        made.modifiers = modifiers;
-        return made;
+    PixelScale scale() const {
+        PixelScale found;
+        glfwGetWindowSize(window, &found.window.width, &found.window.height);
+        glfwGetFramebufferSize(window, &found.framebuffer.width, &found.framebuffer.height);
+        float x = 1.0f, y = 1.0f;
+        glfwGetWindowContentScale(window, &x, &y);
+        found.content = x;
+        return found;
     }
 
     void listen();
+    bool ask_to_keep_picture() const;
     void open(gl::Extent size);
     void listen_to_driver();
     static void EPOXY_CALLSPEC hear_driver(GLenum, GLenum type, GLuint, GLenum, GLsizei,
@@ -169,51 +161,40 @@ struct GlfwWindow::State {
 
 void GlfwWindow::State::listen() {
     glfwSetWindowUserPointer(window, this);
+    Vec2 cursor = Vec2::Zero();
     glfwGetCursorPos(window, &cursor.x(), &cursor.y());
+    inputs.begin(cursor);
     glfwSetCursorPosCallback(window, [](GLFWwindow* from, double x, double y) {
-        State& state = of(from);
-        state.cursor = {x, y};
-        state.inputs.push(state.input(Input::Kind::move));
+        of(from).inputs.move({x, y});
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* from, int button, int action, int bits) {
         if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
-        State& state = of(from);
-        state.modifiers = modifiers_of(bits);
-        Input made = state.input(action == GLFW_PRESS ? Input::Kind::press : Input::Kind::release);
-        made.button = static_cast<MouseButton>(button);
-        state.inputs.push(std::move(made));
+        of(from).inputs.button(static_cast<MouseButton>(button), action == GLFW_PRESS,
+                               modifiers_of(bits));
     });
     glfwSetScrollCallback(window, [](GLFWwindow* from, double x, double y) {
-        Input made = of(from).input(Input::Kind::scroll);
-        made.scroll = {x, y};
-        of(from).inputs.push(std::move(made));
+        of(from).inputs.scroll({x, y});
     });
     glfwSetKeyCallback(window, [](GLFWwindow* from, int code, int, int action, int bits) {
-        State& state = of(from);
-        const Modifiers before = state.modifiers;
-        state.modifiers = modifiers_after(code, action != GLFW_RELEASE, modifiers_of(bits));
-        const Key key = key_of(code);
-        if (key == Key::none) {
-            // Tools act on a modifier at once, also while the cursor rests.
-            if (state.modifiers != before) state.inputs.push(state.input(Input::Kind::move));
-            return;
-        }
-        Input made =
-            state.input(action == GLFW_RELEASE ? Input::Kind::key_up : Input::Kind::key_down);
-        made.key = key;
-        if (key == Key::character) made.character = static_cast<char32_t>(code);
-        state.inputs.push(std::move(made));
+        const bool is_down = action != GLFW_RELEASE;
+        of(from).inputs.key(key_of(code), static_cast<char32_t>(code), is_down,
+                            modifiers_after(code, is_down, modifiers_of(bits)));
     });
-    glfwSetCharCallback(window, [](GLFWwindow* from, unsigned character) {
-        Input made = of(from).input(Input::Kind::text);
-        made.character = character;
-        of(from).inputs.push(std::move(made));
-    });
+    glfwSetCharCallback(
+        window, [](GLFWwindow* from, unsigned character) { of(from).inputs.text(character); });
     glfwSetDropCallback(window, [](GLFWwindow* from, int count, const char** paths) {
-        Input made = of(from).input(Input::Kind::drop);
-        made.files.assign(paths, paths + count);
-        of(from).inputs.push(std::move(made));
+        of(from).inputs.drop({paths, paths + count});
     });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* from) { of(from).is_exposed = true; });
+}
+
+// Whether the driver promises that what is shown stays there to be drawn on. Through GLX none does.
+bool GlfwWindow::State::ask_to_keep_picture() const {
+    if (glfwGetWindowAttrib(window, GLFW_CONTEXT_CREATION_API) != GLFW_EGL_CONTEXT_API) {
+        return false;
+    }
+    return eglSurfaceAttrib(eglGetCurrentDisplay(), eglGetCurrentSurface(EGL_DRAW),
+                            EGL_SWAP_BEHAVIOR, EGL_BUFFER_PRESERVED) == EGL_TRUE;
 }
 
 void GlfwWindow::State::open(gl::Extent size) {
@@ -222,6 +203,8 @@ void GlfwWindow::State::open(gl::Extent size) {
     glfwMakeContextCurrent(window);
     glfwSwapInterval(0);
     can_be_lost = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
+    keeps_picture = ask_to_keep_picture();
+    is_exposed = true;
     listen();
     listen_to_driver();
 }
@@ -273,7 +256,7 @@ void GlfwWindow::wake() {
 }
 
 InputQueue& GlfwWindow::inputs() {
-    return state_->inputs;
+    return state_->inputs.queue();
 }
 
 gl::Extent GlfwWindow::size() const {
@@ -282,10 +265,8 @@ gl::Extent GlfwWindow::size() const {
     return size;
 }
 
-double GlfwWindow::scale() const {
-    float x = 1.0f, y = 1.0f;
-    glfwGetWindowContentScale(state_->window, &x, &y);
-    return std::max(x, 1.0f);
+PixelScale GlfwWindow::scale() const {
+    return state_->scale();
 }
 
 bool GlfwWindow::close_requested() const {
@@ -306,8 +287,17 @@ const char* GlfwWindow::clipboard() const {
     return text ? text : "";
 }
 
+bool GlfwWindow::is_exposed() const {
+    return state_->is_exposed;
+}
+
+bool GlfwWindow::has_picture() const {
+    return state_->keeps_picture && !state_->is_exposed;
+}
+
 void GlfwWindow::show() {
     glfwSwapBuffers(state_->window);
+    state_->is_exposed = false;
 }
 
 }  // namespace lissom::window

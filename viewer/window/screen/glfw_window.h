@@ -7,6 +7,7 @@
 
 #include "viewer/gl/gl_objects.h"
 #include "viewer/window/screen/input.h"
+#include "viewer/window/screen/pixel_scale.h"
 
 namespace lissom::window {
 
@@ -38,13 +39,17 @@ class GlfwWindow {
 
     /// In pixels; zero while the window is an icon.
     gl::Extent size() const;
-    /// Pixels in a unit of length of the panel: 1, or 2 on a screen of high density.
-    double scale() const;
+    PixelScale scale() const;
     bool close_requested() const;
     void set_title(const std::string& title);
     void set_clipboard(const std::string& text);
     /// Stays until the clipboard changes.
     const char* clipboard() const;
+    /// Whether the desktop has lost what was shown: it has to be shown again.
+    bool is_exposed() const;
+    /// Whether what was shown last is there to be drawn on: else all of it has to be drawn before
+    /// the next `show`.
+    bool has_picture() const;
     /// Shows what was drawn.
     void show();
 

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "viewer/window/screen/pixel_scale.h"
 
 namespace lissom::window {
 
@@ -67,6 +70,36 @@ class InputQueue {
 
   private:
     std::vector<Input> inputs_;
+};
+
+/// InputMaker: what a desktop tells of a hand, as inputs. Cursors are in the desktop's units; where
+/// one is not told, the last one counts: when an input is taken, the hand may have moved on.
+class InputMaker {
+  public:
+    /// `scale` tells that of the window at the time of an input.
+    explicit InputMaker(std::function<PixelScale()> scale) : scale_(std::move(scale)) {}
+
+    /// Where the cursor is when nothing has happened yet.
+    void begin(const Vec2& cursor) { cursor_ = cursor; }
+    void move(const Vec2& cursor);
+    void button(MouseButton button, bool is_down, const Modifiers& held);
+    /// Lines to the right and up.
+    void scroll(const Vec2& lines);
+    /// `code` is the character of Key::character. Key::none is a key that only modifies: tools act
+    /// on that at once, also while the cursor rests.
+    void key(Key key, char32_t code, bool is_down, const Modifiers& held);
+    void text(char32_t character);
+    void drop(std::vector<std::string> files);
+
+    InputQueue& queue() { return queue_; }
+
+  private:
+    Input made(Input::Kind kind) const;
+
+    std::function<PixelScale()> scale_;
+    InputQueue queue_;
+    Modifiers held_;
+    Vec2 cursor_ = Vec2::Zero();
 };
 
 }  // namespace lissom::window

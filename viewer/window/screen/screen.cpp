@@ -12,7 +12,7 @@ namespace {
 
 // Seconds of a moving picture that its strands may take, and of a slice.
 constexpr double kMovingAim = 0.012;
-constexpr double kSliceAim = 0.020;
+constexpr double kSliceAim = 0.014;
 constexpr int kFillSamples = 8;
 // However slow the driver is: fewer would be strips of paper.
 constexpr Index kFewestMoving = 800;
@@ -73,6 +73,7 @@ Screen::Screen() : moving_pace_(kMovingAim), fill_pace_(kSliceAim) {
 Screen::~Screen() = default;
 
 void Screen::set_legend(const std::optional<Legend>& legend, int height, const Color& background) {
+    ++version_;
     legend_ = {};
     if (!legend) return;
     Image strip(legend_width(*legend, height), height);
@@ -162,6 +163,7 @@ void Screen::draw(const Camera& camera, const Canvas& whole, const Color& backgr
         drawer.finish_with_strands(*target_);
     }
     shown_ = &target_->output;
+    ++version_;
 }
 
 void Screen::begin_fill(const Camera& camera, const Canvas& whole, const Color& background,
@@ -182,7 +184,7 @@ bool Screen::fill() {
     }
     Filling& now = *filling_;
     if (slice->is_first()) now.drawer.draw_samples(now.tile(), now.target);
-    now.target.samples.bind();
+    now.target.drawn().bind();
     glEnable(GL_DEPTH_TEST);
     glFinish();
     const auto start = Clock::now();
@@ -197,12 +199,14 @@ bool Screen::fill() {
     filled_ = std::exchange(now.target.output,
                             gl::Framebuffer::texture(now.target.output.extent(), GL_RGBA8, false));
     shown_ = &filled_;
+    ++version_;
     return true;
 }
 
 void Screen::take(const Image& image) {
     upload(image, finished_);
     shown_ = &finished_;
+    ++version_;
 }
 
 Image Screen::picture() const {

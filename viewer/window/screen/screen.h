@@ -15,16 +15,10 @@
 #include "viewer/gl/gpu_hair.h"
 #include "viewer/gl/gpu_scene.h"
 #include "viewer/scene_drawer.h"
+#include "viewer/window/screen/canvas.h"
 #include "viewer/window/screen/fill.h"
 
 namespace lissom::window {
-
-/// A rectangle of a window, in pixels from its top left corner.
-struct Canvas {
-    int x = 0, y = 0, width = 1, height = 1;
-
-    bool operator==(const Canvas&) const = default;
-};
 
 class Screen {
   public:
@@ -70,6 +64,8 @@ class Screen {
     void take(const Image& image);
     /// Reads back what is shown, without the legend: for tests.
     Image picture() const;
+    /// Another number: `show` shows something else.
+    std::uint64_t version() const { return version_; }
     /// Copies what was drawn or taken last to `canvas` of a window of this height.
     void show(const Canvas& canvas, int window_height) const;
 
@@ -94,6 +90,7 @@ class Screen {
     gl::Framebuffer legend_;
     gl::Framebuffer filled_, finished_;
     const gl::Framebuffer* shown_ = nullptr;
+    std::uint64_t version_ = 0;
 };
 
 }  // namespace lissom::window

@@ -20,22 +20,6 @@ namespace fs = std::filesystem;
 // Lines that are kept for a window that does not take them.
 constexpr std::size_t kMostLines = 10000;
 
-Box bounds_of(const Snapshot& snapshot) {
-    Box box;
-    const auto extend = [&](const Vec3& p) {
-        if (p.allFinite()) box.extend(p);
-    };
-    for_each_point(snapshot, extend);
-    for (const DrawnStrands& drawn : snapshot.strands) {
-        const std::span<const float> points = drawn.strands->points();
-        for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
-            const Vec3 p(points[i], points[i + 1], points[i + 2]);
-            extend(drawn.transform(p / drawn.style.unit));
-        }
-    }
-    return box;
-}
-
 // os.exit, which would end the window and what it holds.
 int refuse_exit(lua_State* L) {
     return luaL_error(L, "os.exit does not end the window: return, or raise an error");
@@ -177,7 +161,7 @@ void Session::open(const std::vector<std::string>& words) {
         news_.parameters = std::vector<lua::ScriptParameter>();
     }
     cancel();
-    worker_.post_only([this, words] { run(words); });
+    post_only([this, words] { run(words); });
 }
 
 void Session::run_again(const std::vector<std::string>& words) {
@@ -190,7 +174,7 @@ void Session::run_again(const std::vector<std::string>& words) {
         }
     }
     cancel();
-    worker_.post_only([this] {
+    post_only([this] {
         std::unique_lock lock(mutex_);
         const std::vector<std::string> now = news_.words;
         lock.unlock();
@@ -200,11 +184,11 @@ void Session::run_again(const std::vector<std::string>& words) {
 
 void Session::evaluate(const std::string& line) {
     tell(LineKind::input, line);
-    worker_.post([this, line] { evaluate_line(line); });
+    post_job([this, line] { evaluate_line(line); });
 }
 
 void Session::complete(const std::string& text) {
-    worker_.post([this, text] { find_completions(text); });
+    post_job([this, text] { find_completions(text); });
 }
 
 void Session::cancel() {
@@ -212,7 +196,7 @@ void Session::cancel() {
 }
 
 void Session::use_tool(const std::string& word) {
-    worker_.post([this, word] {
+    post_job([this, word] {
         program_.forget_interrupt();
         if (settle_tool(word)) options_.tool = word;
         show_scene(true);
@@ -220,22 +204,48 @@ void Session::use_tool(const std::string& word) {
 }
 
 void Session::read_tool_again() {
-    worker_.post([this] {
+    post_job([this] {
         program_.forget_interrupt();
         settle_tool(options_.tool);
         show_scene(true);
     });
 }
 
+// Inputs keep their place among all that is asked for: those that follow another job wait for that.
 void Session::post(ToolInput input) {
     const std::lock_guard lock(mutex_);
-    const bool waits = !news_.inputs.empty();
-    push_input(news_.inputs, std::move(input));
-    if (!waits) worker_.post([this] { take_inputs(); });
+    if (!news_.takes_inputs_last || news_.inputs.empty()) {
+        news_.inputs.emplace_back();
+        news_.takes_inputs_last = true;
+        worker_.post([this] { take_inputs(); });
+    }
+    push_input(news_.inputs.back(), std::move(input));
+}
+
+void Session::post_job(Worker::Job job) {
+    const std::lock_guard lock(mutex_);
+    news_.takes_inputs_last = false;
+    worker_.post(std::move(job));
+}
+
+// What waits is dropped; but what is seen by now is seen of what comes, too.
+void Session::post_only(Worker::Job job) {
+    const std::lock_guard lock(mutex_);
+    std::vector<ToolInput> kept;
+    for (std::vector<ToolInput>& batch : std::exchange(news_.inputs, {})) {
+        for (ToolInput& input : batch) {
+            if (input.kind == ToolInput::Kind::look) kept = {std::move(input)};
+        }
+    }
+    worker_.post_only(std::move(job));
+    news_.takes_inputs_last = !kept.empty();
+    if (kept.empty()) return;
+    news_.inputs.push_back(std::move(kept));
+    worker_.post([this] { take_inputs(); });
 }
 
 void Session::copy_scene(const std::string& path, const std::string& journal) {
-    worker_.post([this, path, journal] {
+    post_job([this, path, journal] {
         if (!bench_ || !bench_->has_scene() || bench_->is_held()) return;
         program_.forget_interrupt();
         std::string left_out;
@@ -248,7 +258,7 @@ void Session::copy_scene(const std::string& path, const std::string& journal) {
 }
 
 void Session::save_scene(const std::string& path) {
-    worker_.post([this, path] {
+    post_job([this, path] {
         if (!bench_ || !bench_->has_scene() || bench_->is_held()) return;
         program_.forget_interrupt();
         std::string left_out;
@@ -259,7 +269,7 @@ void Session::save_scene(const std::string& path) {
 }
 
 void Session::show_object(const std::string& name, bool visible) {
-    worker_.post([this, name, visible] {
+    post_job([this, name, visible] {
         if (!bench_ || !bench_->has_scene()) return;
         program_.forget_interrupt();
         succeeds(bench_->show(name, visible));
@@ -268,7 +278,7 @@ void Session::show_object(const std::string& name, bool visible) {
 }
 
 void Session::set_tool_parameter(const std::string& name, const lua::ParameterValue& value) {
-    worker_.post([this, name, value] {
+    post_job([this, name, value] {
         if (!bench_ || !bench_->has_scene()) return;
         program_.forget_interrupt();
         succeeds(bench_->set(name, value));
@@ -580,14 +590,17 @@ void Session::keep_tool(const std::string& word) {
 
 void Session::take_inputs() {
     std::unique_lock lock(mutex_);
-    const std::vector<ToolInput> inputs = std::exchange(news_.inputs, {});
+    if (news_.inputs.empty()) return;
+    const std::vector<ToolInput> inputs = std::move(news_.inputs.front());
+    news_.inputs.pop_front();
     lock.unlock();
     program_.forget_interrupt();
-    bool only_hovers = true;
+    bool only_looks = true;
     for (const ToolInput& input : inputs) {
         if (input.kind == ToolInput::Kind::look) look_ = input;
         if (!bench_ || !bench_->has_scene()) continue;
-        only_hovers = only_hovers && input.kind == ToolInput::Kind::move && !bench_->is_held();
+        const bool is_hover = input.kind == ToolInput::Kind::move && !bench_->is_held();
+        only_looks = only_looks && (is_hover || input.kind == ToolInput::Kind::look);
         if (input.kind == ToolInput::Kind::play) {
             play(input.event);
         } else if (input.kind == ToolInput::Kind::stop) {
@@ -596,7 +609,7 @@ void Session::take_inputs() {
             succeeds(bench_->take(input));
         }
     }
-    show_scene(!only_hovers);
+    show_scene(!only_looks);
 }
 
 // What the tool shows; an error that comes again with every event is told once.
@@ -722,7 +735,7 @@ void Session::show(Picture picture, std::vector<std::string> names) {
     next.names = std::move(names);
     try {
         next.snapshot = snapshot_of(picture);
-        next.bounds = bounds_of(next.snapshot);
+        next.bounds = bounds_.of(next.snapshot);
     } catch (const Error& error) {
         return tell(LineKind::error, error.message());
     }

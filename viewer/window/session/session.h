@@ -18,6 +18,7 @@
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/io/mesh_file.h"
 #include "viewer/picture.h"
+#include "viewer/window/session/snapshot_bounds.h"
 #include "viewer/window/session/tool_bench.h"
 #include "viewer/window/session/worker.h"
 
@@ -158,6 +159,8 @@ class Session {
     void settle_scene(const std::vector<std::string>& open, bool takes_tool = true);
     bool settle_tool(const std::string& word);
     void keep_tool(const std::string& word);
+    void post_job(Worker::Job job);
+    void post_only(Worker::Job job);
     void take_inputs();
     bool succeeds(const cli::ScriptResult& result);
     void recover();
@@ -184,7 +187,9 @@ class Session {
         std::vector<ConsoleLine> lines;
         std::optional<std::vector<lua::ScriptParameter>> parameters;
         std::vector<std::filesystem::path> files, tool_files;
-        std::vector<ToolInput> inputs;
+        // Each is taken by a job of its own; the last of them grows while no other job follows it.
+        std::deque<std::vector<ToolInput>> inputs;
+        bool takes_inputs_last = false;
         std::optional<ToolState> tool_state;
         std::optional<Completion> completion;
         std::optional<Playback> playback;
@@ -213,6 +218,7 @@ class Session {
     bool record_fails_ = false;
     ToolState last_state_;
     FrozenMeshes frozen_;
+    SnapshotBounds bounds_;
     std::size_t pictures_ = 0;
     Worker worker_;
 };

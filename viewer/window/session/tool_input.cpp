@@ -1,9 +1,16 @@
 #include "viewer/window/session/tool_input.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <utility>
 
 namespace lissom::window {
+
+gl::Extent ToolPixels::size(const PictureSize& pixels) const {
+    return {std::max(index_of(std::lround(pixels.width / scale)), 1),
+            std::max(index_of(std::lround(pixels.height / scale)), 1)};
+}
 
 void push_input(std::vector<ToolInput>& inputs, ToolInput input) {
     const bool piles_up = input.kind == ToolInput::Kind::move ||

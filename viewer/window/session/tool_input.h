@@ -17,7 +17,7 @@ struct ToolInput {
     enum class Kind { press, move, release, wheel, key, cancel, undo, redo, look, play, stop };
 
     Kind kind = Kind::move;
-    /// Pixels from the top left corner of the picture.
+    /// From the top left corner of the picture, in a tool's pixels.
     Vec2 at = Vec2::Zero();
     MouseButton button = MouseButton::left;
     Modifiers modifiers = {};
@@ -30,6 +30,17 @@ struct ToolInput {
     gl::Extent size = {};
     /// Of play: the place of the event in the recording, from 0.
     std::size_t event = 0;
+};
+
+/// The pixels of tools: as large on every screen, so that a hand finds within a radius what it
+/// found on another screen, and a recording can be played there.
+struct ToolPixels {
+    /// Pixels of the screen in one.
+    double scale = 1.0;
+
+    Vec2 at(const Vec2& pixel) const { return pixel / scale; }
+    /// Of a picture of so many pixels.
+    gl::Extent size(const PictureSize& pixels) const;
 };
 
 /// Adds `input` behind others. A move that follows a move with the same buttons, or a look that

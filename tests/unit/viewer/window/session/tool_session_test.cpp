@@ -732,6 +732,65 @@ TEST_CASE("session: a recording of a script's scene runs that script") {
     CHECK(std::vector<Vec3>(positions.begin(), positions.end()) == after);
 }
 
+TEST_CASE("session: a hand that moves while a script runs again is heard afterwards") {
+    ToolHost host;
+    host.open(host.folder.write("pull.lua", kPull));
+    for (int i = 0; i < 20; ++i) {
+        host.session.post(input(Kind::move, 300.0 + i));
+        host.session.run_again({});
+        host.session.post(input(Kind::move, 310.0 + i));
+    }
+    host.wait();
+    host.drag(3);
+    CHECK(host.state().steps == std::vector<std::string>{"pull"});
+}
+
+TEST_CASE("session: on a real model each drag is a step of the tool that is in hand by then") {
+    const auto path = test::data_file("models/cow_3k.off");
+    if (!path) return;
+    const test::ProgramFolder outside;
+    const std::string record = outside.path("events.lua");
+    ToolHost host({.record = record});
+    const std::string model = host.folder.path("cow.off");
+    std::filesystem::copy(*path, model);
+    host.session.open({model});
+    host.wait();
+    const std::vector<Vec3> before = host.shown();
+    const Box box = host.last->bounds;
+    ToolInput look = input(Kind::look);
+    look.camera = Camera(
+        {.eye = box.center() + Vec3(0.0, 0.0, 1.2 * box.diagonal()), .target = box.center()});
+    look.size = {640, 480};
+    host.session.post(look);
+    // What is nearest is seen. Without waiting between them, as a hand does.
+    const auto nearest = std::max_element(before.begin(), before.end(),
+                                          [](auto& a, auto& b) { return a.z() < b.z(); });
+    const Vec3 at = look.camera.project(*nearest, {640.0, 480.0});
+    for (const char* tool : {"select", "smooth", "select", "smooth"}) {
+        host.session.use_tool(tool);
+        host.session.post(input(Kind::press, at.x(), at.y()));
+        for (int i = 1; i <= 8; ++i) {
+            host.session.post(input(Kind::move, at.x() + 3 * i, at.y() + i));
+        }
+        host.session.post(input(Kind::release, at.x() + 24.0, at.y() + 8.0));
+    }
+    host.wait();
+    CHECK(host.lines.empty());
+    CHECK(host.state().tool == "smooth");
+    CHECK(host.state().steps == std::vector<std::string>{"select", "smooth", "select", "smooth"});
+    const std::vector<Vec3> after = host.shown();
+    CHECK(after != before);
+    for (int i = 0; i < 4; ++i) host.session.post(input(Kind::undo));
+    host.wait();
+    CHECK(host.shown() == before);
+    for (int i = 0; i < 4; ++i) host.session.post(input(Kind::redo));
+    host.wait();
+    CHECK(host.shown() == after);
+    test::SessionHost again;
+    play_all(again, record);
+    CHECK(again.says(LineKind::result, "come to the scene that was recorded"));
+}
+
 TEST_CASE("session: a tool or a script cannot end the window") {
     test::ProgramFolder outside;
     ToolHost host;

@@ -1,0 +1,123 @@
+// What the panel draws again: nothing where nothing has changed, and what lies over the picture by
+// itself.
+#include "viewer/window/panel/panel.h"
+
+#include "tests/unit/viewer/viewer_support.h"
+#include "viewer/gl/platform.h"
+#include "viewer/scene_drawer.h"
+
+using namespace lissom;
+using namespace lissom::window;
+
+namespace {
+
+constexpr gl::Extent kWindow{700, 480};
+
+struct PanelFrames {
+    PanelFrames() {
+        content.lines = {{LineKind::message, "a line"}};
+        content.objects = {"ball"};
+        for (int i = 0; i < 4; ++i) make();
+    }
+    void make() { panel.make(content, settings, kWindow, 0.02); }
+    void feed(Input::Kind kind, const Vec2& at) {
+        Input input;
+        input.kind = kind;
+        input.at = at;
+        panel.feed(input);
+    }
+    // Until nothing differs, which takes a few frames.
+    void settle() {
+        for (int i = 0; i < 10 && differs(); ++i) continue;
+    }
+    // Of the next frame.
+    bool differs() {
+        make();
+        return panel.lists().beside_differs() || panel.lists().over_differs();
+    }
+
+    Panel panel{PanelHost{}};
+    PanelContent content;
+    DisplaySettings settings;
+};
+
+void add_outline(PanelContent& content, double to) {
+    content.tool.marks.outlines = {{{Vec2(10.0, 10.0), Vec2(to, 60.0)}, false, kWhite}};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "panel: a frame like the one before differs in nothing, also while the hand moves over "
+    "the picture") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    PanelFrames frames;
+    CHECK_FALSE(frames.differs());
+    for (int i = 0; i < 20; ++i) {
+        frames.feed(Input::Kind::move, {400.0 + i, 200.0});
+        CHECK_FALSE(frames.differs());
+    }
+}
+
+TEST_CASE("panel: what changes in it, or under the hand, is beside the picture") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    PanelFrames frames;
+    frames.content.lines.push_back({LineKind::error, "another line"});
+    frames.make();
+    CHECK(frames.panel.lists().beside_differs());
+    CHECK_FALSE(frames.panel.lists().over_differs());
+    frames.settle();
+    CHECK_FALSE(frames.differs());
+    // A button is lit.
+    frames.feed(Input::Kind::move, {40.0, 20.0});
+    CHECK(frames.differs());
+    frames.settle();
+    frames.settings.dark = false;
+    CHECK(frames.differs());
+}
+
+TEST_CASE("panel: what a tool draws lies over the picture, and can be drawn alone") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    PanelFrames frames;
+    frames.content.picture_size = {410.0, 362.0};
+    add_outline(frames.content, 100.0);
+    frames.make();
+    CHECK(frames.panel.lists().over_differs());
+    CHECK_FALSE(frames.panel.lists().beside_differs());
+    CHECK_FALSE(frames.differs());
+    add_outline(frames.content, 101.0);
+    frames.make();
+    CHECK(frames.panel.lists().over_differs());
+    CHECK_FALSE(frames.panel.lists().beside_differs());
+
+    const auto drawn = [&](PanelPart part) {
+        const gl::Framebuffer target = gl::Framebuffer::texture(kWindow, GL_RGBA8, false);
+        target.bind();
+        glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+        glClear(GL_COLOR_BUFFER_BIT);
+        frames.panel.draw(part);
+        return read_pixels(target);
+    };
+    const Image all = drawn(PanelPart::all), over = drawn(PanelPart::over_picture);
+    const Canvas canvas = frames.panel.canvas(kWindow);
+    const auto picture = [&](const Image& image) {
+        // Rows count from the bottom.
+        return test::crop(image, canvas.x, kWindow.height - canvas.height, canvas.width,
+                          canvas.height);
+    };
+    CHECK(test::difference(picture(all), picture(over)) == 0);
+    const auto bright = [](const Image& image) {
+        int count = 0;
+        for (std::size_t i = 0; i < image.rgba.size(); i += 4) count += image.rgba[i] > 20;
+        return count;
+    };
+    CHECK(bright(picture(over)) > 50);
+    CHECK(bright(over) == bright(picture(over)));
+    CHECK(bright(all) > 10 * bright(over));
+}

@@ -1,0 +1,40 @@
+/// Finishing: the finished picture that is drawn once nothing moves, for the eye and for files.
+#pragma once
+
+#include <cstdint>
+
+#include "viewer/window/app/view_state.h"
+#include "viewer/window/makers/painter.h"
+
+namespace lissom::window {
+
+class Finishing {
+  public:
+    /// Draws with so many threads; `state` must outlive it.
+    Finishing(ViewState& state, int threads);
+
+    /// A person wants it in a file, which is a new one in this folder.
+    void want_file();
+    /// Takes what was drawn.
+    void take();
+    /// Draws it where nothing moves and all strands are there.
+    void draw(bool at_rest, bool hair_is_filled);
+    /// Tells once for each rest that all is done, where nothing else is `busy`.
+    void tell_rest(bool at_rest, bool busy);
+    /// Whether it is still to come.
+    bool is_owed() const;
+    void stop() { painter_.stop(); }
+
+  private:
+    bool is_wanted(bool hair_is_filled) const;
+
+    ViewState& state_;
+    Painter painter_;
+    // Of the change that it was asked for, that it shows, and that was the last rest.
+    std::uint64_t asked_ = 0, drawn_ = 0, rested_ = 0;
+    // It is wanted in a file; it is drawn for one.
+    bool wants_file_ = false, draws_file_ = false;
+    bool was_done_ = false;
+};
+
+}  // namespace lissom::window

@@ -1,0 +1,38 @@
+/// HairFill: the strands of what is shown: made beside the window, and drawn one slice after the
+/// other once nothing moves.
+#pragma once
+
+#include <cstdint>
+
+#include "viewer/window/app/view_state.h"
+#include "viewer/window/makers/hair_maker.h"
+
+namespace lissom::window {
+
+class HairFill {
+  public:
+    /// Makes strands with so many threads; `state` must outlive it.
+    HairFill(ViewState& state, int threads);
+
+    /// `snapshot` is on the graphics card now.
+    void begin(const Snapshot& snapshot) { maker_.make(snapshot); }
+    /// All of it is gone from there.
+    void forget() { maker_.forget(); }
+    /// Takes what was made.
+    void take();
+    /// Draws a slice where nothing moves; events are to be looked for before the next.
+    void fill(bool at_rest);
+    /// Whether nothing is left to be drawn.
+    bool is_filled() const;
+
+  private:
+    void take_made();
+    void take_directed();
+
+    ViewState& state_;
+    HairMaker maker_;
+    // Of the change that light in hair was asked for, and that all strands are drawn for.
+    std::uint64_t directed_ = 0, filled_ = 0;
+};
+
+}  // namespace lissom::window

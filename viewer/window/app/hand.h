@@ -1,0 +1,37 @@
+/// Hand: what a person does over the picture: it moves the camera, or the tool in hand has it.
+#pragma once
+
+#include <optional>
+
+#include "viewer/window/app/view_state.h"
+
+namespace lissom::window {
+
+class Hand {
+  public:
+    /// `state` must outlive it.
+    explicit Hand(ViewState& state) : state_(state) {}
+
+    /// Takes what the mouse did, in pixels from the top left corner of the picture.
+    void take(const Input& input);
+    /// Takes a key that is the tool's.
+    void press_tool_key(const Input& input);
+    /// Forgets the drag that goes on.
+    void let_go();
+    /// Whether a button is down that was pressed over the picture.
+    bool drags() const { return dragged_ || tool_drags_; }
+    bool tool_drags() const { return tool_drags_; }
+
+  private:
+    void navigate(const Input& input);
+    bool give_to_tool(const Input& input);
+
+    ViewState& state_;
+    // Which button moves the camera, and where the cursor was last.
+    std::optional<MouseButton> dragged_;
+    Vec2 cursor_ = Vec2::Zero();
+    // The tool has the drag.
+    bool tool_drags_ = false;
+};
+
+}  // namespace lissom::window

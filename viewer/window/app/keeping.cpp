@@ -1,0 +1,89 @@
+#include "viewer/window/app/keeping.h"
+
+#include <iostream>
+#include <system_error>
+#include <utility>
+
+namespace lissom::window {
+namespace {
+
+// Seconds between two copies of a scene.
+constexpr double kCopyEvery = 1.0;
+
+}  // namespace
+
+void Keeping::begin(const std::string& first) {
+    first_ = first;
+    saved_path_.clear();
+}
+
+void Keeping::copy() {
+    if (change_ == copied_ || seconds_since(last_copy_) < kCopyEvery) return;
+    if (state_.session.busy()) return;
+    copied_ = change_;
+    last_copy_ = Clock::now();
+    state_.session.copy_scene(recovery_.file().string(), recovery_.journal().string());
+}
+
+std::optional<std::string> Keeping::answer(const PanelAnswers& answers) {
+    auto& all = state_.content.left;
+    if (all.empty() || !(answers.open_left || answers.forget_left)) return std::nullopt;
+    const std::filesystem::path left = all.front();
+    if (answers.open_left) return left.string();
+    Recovery::remove(left);
+    all.erase(all.begin());
+    state_.changes.owe_frames();
+    return std::nullopt;
+}
+
+// A free name here: the scene of armadillo.obj is armadillo.lissom; that of a copy, which may go at
+// any time, is recovered.lissom.
+std::string Keeping::scene_path() const {
+    const bool is_copy = first_.parent_path() == state_folder();
+    if (first_.extension() == ".lissom" && !is_copy) return first_.string();
+    const std::string stem = is_copy ? "recovered" : first_.stem().string();
+    std::error_code error;
+    for (int number = 1;; ++number) {
+        std::string path = stem + (number > 1 ? "-" + std::to_string(number) : "") + ".lissom";
+        if (!std::filesystem::exists(path, error)) return path;
+    }
+}
+
+void Keeping::save() {
+    if (saved_path_.empty()) saved_path_ = scene_path();
+    state_.session.save_scene(saved_path_);
+    saved_ = change_;
+}
+
+void Keeping::keep_unsaved() {
+    if (saved_ == change_) return;
+    const std::filesystem::path kept = recovery_.keep();
+    if (kept.empty()) return;
+    std::cerr << "lissom: the scene was not saved; lissom view " << kept.string() << " opens it"
+              << std::endl;
+}
+
+void Keeping::replace() {
+    const std::filesystem::path kept = saved_ == change_ ? "" : recovery_.keep();
+    saved_ = copied_ = ++change_;
+    if (kept.empty()) return;
+    std::string text = "the scene before was not saved; lissom view " + kept.string() + " opens it";
+    state_.tell("line " + text);
+    state_.add_line(LineKind::warning, std::move(text));
+}
+
+void Keeping::offer() {
+    state_.content.left = Recovery::left_in(state_folder());
+    for (const std::filesystem::path& left : state_.content.left) {
+        std::string text = "A window was ended without being closed. lissom view " + left.string() +
+                           " opens what it showed";
+        const std::filesystem::path journal = Recovery::journal_of(left);
+        if (!journal.empty()) {
+            text += "; lissom run " + journal.string() + " does it again without a window";
+        }
+        state_.tell("line " + text);
+        state_.add_line(LineKind::warning, std::move(text));
+    }
+}
+
+}  // namespace lissom::window

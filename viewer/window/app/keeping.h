@@ -1,0 +1,48 @@
+/// Keeping: what a person has made must not be lost: copies of the scene while it changes, saving,
+/// and what a window that was killed has left.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "viewer/window/app/view_state.h"
+#include "viewer/window/session/recovery.h"
+
+namespace lissom::window {
+
+class Keeping {
+  public:
+    /// `state` must outlive it.
+    explicit Keeping(ViewState& state) : state_(state) {}
+
+    /// Something else is open: files, or a script.
+    void begin(const std::string& first);
+    /// The scene has changed.
+    void add_change() { ++change_; }
+    /// Another scene has taken its place.
+    void replace();
+    /// Copies the scene where it has changed since it was copied last, at most once a second.
+    void copy();
+    void save();
+    /// At the start: offers what killed windows have left.
+    void offer();
+    /// At the end: keeps what was not saved, and tells it.
+    void keep_unsaved();
+    /// What was left and is to be opened now, if the panel's answers say so.
+    std::optional<std::string> answer(const PanelAnswers& answers);
+
+  private:
+    std::string scene_path() const;
+
+    ViewState& state_;
+    Recovery recovery_{state_folder()};
+    std::filesystem::path first_ = "scene";
+    // Numbers of the last change of the scene, of the one in the recovery, and of the saved one.
+    std::uint64_t change_ = 0, copied_ = 0, saved_ = 0;
+    Clock::time_point last_copy_ = Clock::now();
+    std::string saved_path_;
+};
+
+}  // namespace lissom::window

@@ -1,0 +1,40 @@
+/// Replay: plays the recording that is open. The hand waits meanwhile, but for the keys that have
+/// to do with it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "viewer/window/app/view_state.h"
+#include "viewer/window/session/player.h"
+
+namespace lissom::window {
+
+class Replay {
+  public:
+    /// Plays at `speed` times a recording's own; `state` must outlive it.
+    Replay(ViewState& state, double speed) : state_(state), speed_(speed) {}
+
+    bool plays() const { return player_.has_value(); }
+    /// Begins what the session has opened: true then, and the hand lets go.
+    bool begin();
+    /// Posts the events that are due once those before them are done, and ends after the last.
+    void play();
+    void take_key(const Input& input);
+    /// Something else is open.
+    void forget();
+    /// Seconds until there is something to do; nothing where it rests.
+    std::optional<double> wait() const;
+
+  private:
+    void end();
+
+    ViewState& state_;
+    double speed_;
+    std::optional<Player> player_;
+    // How many events were posted, and when that was.
+    std::size_t posted_ = 0;
+    Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace lissom::window

@@ -1,0 +1,46 @@
+/// ScriptSide: what a window does with files and scripts beside showing what they make: runs them
+/// again when they or their parameters change, keeps presets, opens an editor.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/window/app/view_state.h"
+#include "viewer/window/session/file_watch.h"
+#include "viewer/window/session/presets.h"
+#include "viewer/window/session/source_place.h"
+
+namespace lissom::window {
+
+class ScriptSide {
+  public:
+    /// `state` must outlive it.
+    explicit ScriptSide(ViewState& state) : state_(state) {}
+
+    /// Something else is open: files, or a script.
+    void begin(const std::string& first);
+    /// Looks whether files or parameters have changed, and runs again what they belong to.
+    void look();
+    /// What is shown was read from other files now.
+    void watch() { watch_.set(state_.session.files()); }
+    void answer(const PanelAnswers& answers);
+    /// Tells of editors that have failed.
+    void take_failures();
+    /// Whether parameters have changed that the script has not run with.
+    bool waits() const { return parameters_changed_.has_value(); }
+
+  private:
+    void list_presets();
+    void answer_presets(const PanelAnswers& answers);
+    void open_editor(const SourcePlace& place);
+    void run_again();
+
+    ViewState& state_;
+    FileWatch watch_, tool_watch_;
+    Presets presets_;
+    StartedPrograms programs_;
+    std::optional<Clock::time_point> parameters_changed_;
+};
+
+}  // namespace lissom::window

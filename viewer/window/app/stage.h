@@ -1,0 +1,63 @@
+/// Stage: brings what is shown onto the graphics card. What takes long is made ready beside the
+/// window and sent in pieces; the window shows what was there before meanwhile.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "kernel/core/error.h"
+#include "viewer/window/app/hair_fill.h"
+#include "viewer/window/app/view_state.h"
+#include "viewer/window/makers/surface_maker.h"
+
+namespace lissom::window {
+
+class Stage {
+  public:
+    /// Makes surfaces ready with so many threads; both must outlive it.
+    Stage(ViewState& state, HairFill& hair, int threads);
+
+    /// Whether what is shown is on the graphics card.
+    bool is_sent() const;
+    /// Whether what is on the graphics card was made by other settings.
+    bool has_other_settings() const { return !(sent_settings_ == state_.settings); }
+    /// Sends it, or begins to. Errors: those of GpuScene::update; internal.
+    void send();
+    /// Takes what was made ready.
+    void take();
+    /// Sends some pieces of it.
+    void send_pieces();
+    bool has_pieces() const { return pieces_left_; }
+    /// What cannot be drawn is told, and nothing is seen.
+    void give_up(const Error& error);
+    /// The graphics card has lost all.
+    void forget();
+
+  private:
+    struct Sent {
+        Snapshot snapshot;
+        std::shared_ptr<const Picture> picture;
+        DisplaySettings settings;
+    };
+    void begin_sending();
+    bool end_sending();
+    void send(const Sent& sent, std::span<const PreparedSurface> prepared);
+    void forget_preparing();
+
+    ViewState& state_;
+    HairFill& hair_;
+    SurfaceMaker maker_;
+    // What is made ready, what was, and what sends that.
+    std::optional<Sent> preparing_;
+    std::optional<SurfaceMaker::Result> prepared_;
+    std::optional<PieceSender> sender_;
+    bool pieces_left_ = false;
+    std::uint64_t preparations_ = 0;
+    // What is on the graphics card.
+    std::shared_ptr<const Picture> sent_;
+    DisplaySettings sent_settings_;
+};
+
+}  // namespace lissom::window

@@ -1,0 +1,22 @@
+/// PixelScale: the units of a desktop's window and the pixels of what is drawn in it.
+#pragma once
+
+#include "kernel/core/geometry.h"
+#include "viewer/gl/gl_objects.h"
+
+namespace lissom::window {
+
+struct PixelScale {
+    /// Of the window in the desktop's units, in which cursors are, and of what is drawn in it in
+    /// pixels.
+    gl::Extent window = {1, 1}, framebuffer = {1, 1};
+    /// How many times larger than usual the desktop wants letters to be, in pixels.
+    double content = 1.0;
+
+    /// The pixel under a cursor.
+    Vec2 pixels(const Vec2& cursor) const;
+    /// Pixels in a unit of length of the panel: 1, or 2 on a screen of high density.
+    double panel() const;
+};
+
+}  // namespace lissom::window

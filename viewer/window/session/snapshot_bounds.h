@@ -1,0 +1,32 @@
+/// SnapshotBounds: the box around what is shown. A picture that follows another has mostly the same
+/// meshes and strands, which are not looked at again.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kernel/core/geometry.h"
+#include "viewer/draw/snapshot.h"
+
+namespace lissom::window {
+
+class SnapshotBounds {
+  public:
+    /// Around all points of the next snapshot that are finite, in the world.
+    Box of(const Snapshot& snapshot);
+
+  private:
+    // Of one object where it stood in the last snapshot.
+    struct Known {
+        std::weak_ptr<const void> object;
+        Affine transform;
+        double unit = 1.0;
+        Box box;
+    };
+    template <typename Find>
+    void extend(Box& box, Known object, const Find& find);
+
+    std::vector<Known> known_, next_;
+};
+
+}  // namespace lissom::window
