@@ -177,9 +177,10 @@ ToolMarks marks_of(lua_State* L, int list) {
 
 // ---- Calls
 
-// Calls upvalue 1 with the list at upvalue 2.
+// Calls the function of tools that is named by upvalue 1 with the list at upvalue 2. To find the
+// first of them runs Lua, which may be cancelled like the call.
 int call_packed(lua_State* L) {
-    lua_pushvalue(L, lua_upvalueindex(1));
+    lua::push_tool_function(L, lua_tostring(L, lua_upvalueindex(1)));
     const int count = static_cast<int>(lua_tointeger(L, lua_upvalueindex(3)));
     for (int i = 1; i <= count; ++i) lua_rawgeti(L, lua_upvalueindex(2), i);
     lua_call(L, count, LUA_MULTRET);
@@ -267,7 +268,7 @@ cli::ScriptResult ToolBench::call(const char* method, int count) {
     lua_createtable(L, count, 0);
     lua_insert(L, -count - 1);
     for (int i = count; i >= 1; --i) lua_rawseti(L, -i - 1, i);
-    lua::push_tool_function(L, method);
+    lua_pushstring(L, method);
     lua_insert(L, -2);
     lua_pushinteger(L, count);
     lua_pushcclosure(L, call_packed, 3);
