@@ -8,7 +8,7 @@
 #include "viewer/draw/projection.h"
 #include "viewer/draw/render_options.h"
 #include "viewer/gl/gpu_scene.h"
-#include "viewer/gl/hair_shade.h"
+#include "viewer/gl/hair_shadow.h"
 #include "viewer/gl/occlusion.h"
 #include "viewer/scene_view.h"
 

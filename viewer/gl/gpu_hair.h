@@ -10,7 +10,7 @@
 
 #include "viewer/draw/view_parameters.h"
 #include "viewer/gl/gl_objects.h"
-#include "viewer/gl/hair_shade.h"
+#include "viewer/gl/hair_shadow.h"
 #include "viewer/strands/hair_light.h"
 #include "viewer/strands/packed_strands.h"
 

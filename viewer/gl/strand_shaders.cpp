@@ -1,3 +1,4 @@
+// The shaders of hair, of shaders.h.
 #include "viewer/gl/shaders.h"
 
 namespace lissom::shaders {

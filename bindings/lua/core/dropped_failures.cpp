@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "bindings/lua/core/call.h"
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 
 namespace lissom::lua {
 namespace {

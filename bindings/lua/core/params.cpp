@@ -5,7 +5,7 @@
 
 #include "bindings/lua/core/call.h"
 #include "bindings/lua/core/call_rest.h"
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/core/nearest.h"
 

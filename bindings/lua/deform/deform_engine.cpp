@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/deform/deform_object.h"
 #include "kernel/io/basis_file.h"
 #include "kernel/io/morph_baker.h"

@@ -1,5 +1,5 @@
 // lissom.deform: Handle.
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/deform/deform_object.h"
 #include "bindings/lua/deform/deform_texts.h"
 #include "bindings/lua/mesh/transform_options.h"

@@ -1,6 +1,6 @@
 // lissom.Curve: a curve of a hairstyle.
 #include "kernel/hair/curve/curve.h"
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "kernel/hair/curve/hint.h"
 

@@ -1,5 +1,5 @@
 // lissom.Curve: the tilts of a parting, from hint strokes beside it.
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
 
 namespace lissom::lua {

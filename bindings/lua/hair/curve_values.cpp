@@ -1,5 +1,5 @@
 // lissom.Curve: the options of a curve as they act.
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
 
 namespace lissom::lua {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bindings/lua/core/file_path.h"
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/hair/strands_object.h"
 #include "kernel/io/mesh_file.h"

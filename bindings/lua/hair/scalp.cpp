@@ -1,5 +1,5 @@
 // lissom.Scalp: where hair grows on a head, and its frame.
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/core/parser.h"
 #include "bindings/lua/hair/hair_object.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/strands_object.h"
 
 namespace lissom::lua {

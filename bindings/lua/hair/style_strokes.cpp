@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "kernel/hair/comb.h"
 

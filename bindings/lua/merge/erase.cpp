@@ -2,7 +2,7 @@
 #include <memory>
 #include <utility>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/merge/paste_object.h"
 #include "kernel/merge/paste/erase/erase_feature.h"
 

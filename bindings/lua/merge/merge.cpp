@@ -1,7 +1,7 @@
 // lissom.merge: Merging.
 #include <algorithm>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/merge/merge_object.h"
 
 namespace lissom::lua {

@@ -1,7 +1,7 @@
 // What a merge returns: the mesh, and a report with the provenance of its elements.
 #include <algorithm>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/merge/merge_object.h"
 
 namespace lissom::lua {

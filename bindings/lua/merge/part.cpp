@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 
 namespace lissom::lua {

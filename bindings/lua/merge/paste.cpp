@@ -1,5 +1,5 @@
 // lissom.paste: features put onto other surfaces.
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/merge/paste_object.h"
 
 namespace lissom::lua {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 
 namespace lissom::lua {
 

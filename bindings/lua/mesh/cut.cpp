@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "kernel/mesh/cut/trim.h"
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdio>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/weld_option.h"

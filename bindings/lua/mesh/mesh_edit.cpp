@@ -1,7 +1,7 @@
 // lissom.Mesh: copies and changes of the whole mesh.
 #include <array>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/transform_options.h"
 #include "kernel/mesh/edit/append.h"

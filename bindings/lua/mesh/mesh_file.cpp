@@ -1,7 +1,7 @@
 // lissom.load and mesh:save.
 #include <filesystem>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/core/up_option.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/weld_option.h"

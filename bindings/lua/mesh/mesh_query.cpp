@@ -1,5 +1,5 @@
 // lissom.Mesh: nearest points, rays and distances.
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/sources.h"

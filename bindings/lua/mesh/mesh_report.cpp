@@ -1,5 +1,5 @@
 // mesh:report(): what was found when the mesh was loaded.
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 
 namespace lissom::lua {

@@ -1,6 +1,6 @@
 // lissom.Mesh: maps into the plane, as texture coordinates.
 #include "kernel/mesh/parameterize/parameterize.h"
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/mesh/parameterize/uv_attribute.h"
 

@@ -1,5 +1,5 @@
 // lissom.Path, and the methods of a mesh that make paths and close boundaries.
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "kernel/mesh/fill/fill.h"
 #include "kernel/mesh/query/path_smooth.h"

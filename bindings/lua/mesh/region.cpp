@@ -1,7 +1,7 @@
 // lissom.Region, and the methods of a mesh that make, keep and find regions.
 #include <cmath>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "bindings/lua/mesh/sources.h"

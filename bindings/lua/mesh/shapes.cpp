@@ -1,6 +1,6 @@
 // lissom.shapes: generated meshes.
 #include "kernel/mesh/shapes/shapes.h"
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/mesh/shapes/head.h"
 

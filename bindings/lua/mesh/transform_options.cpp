@@ -1,6 +1,6 @@
 #include "bindings/lua/mesh/transform_options.h"
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 
 namespace lissom::lua {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/scene/scene_object.h"
 
 namespace lissom::lua {

@@ -1,5 +1,5 @@
 // lissom.polyline: Polyline.
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/transform_options.h"
 #include "bindings/lua/scene/polyline_object.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "kernel/core/nearest.h"
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "kernel/scene/scene_file.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/sketch/navigation.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "kernel/sketch/gizmo_drag.h"
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/sketch/pick_targets.h"
 #include "kernel/sketch/picking.h"

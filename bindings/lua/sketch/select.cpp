@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/sketch/pick_targets.h"
 #include "kernel/sketch/screen_select.h"

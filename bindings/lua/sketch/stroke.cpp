@@ -1,6 +1,6 @@
 // lissom.Camera: what a hand draws on a picture, in the world.
 #include "kernel/sketch/stroke.h"
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/mesh_object.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/sketch/camera_object.h"

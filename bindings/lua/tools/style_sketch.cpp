@@ -1,7 +1,7 @@
 // lissom.Hairstyle: drawing on a style with the tools, without a window.
 #include <string>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tools.h"

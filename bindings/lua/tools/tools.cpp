@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tool_text.h"

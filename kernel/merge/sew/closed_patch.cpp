@@ -1,3 +1,4 @@
+// ClosedPatch of seam_patch.h: its flips, and what may be done after closing.
 #include "kernel/merge/sew/seam_patch.h"
 
 #include <Eigen/Geometry>

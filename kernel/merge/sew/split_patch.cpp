@@ -1,3 +1,4 @@
+// SplitPatch of seam_patch.h: splits and collapses, before closing.
 #include "kernel/merge/sew/seam_patch.h"
 
 #include <Eigen/Geometry>

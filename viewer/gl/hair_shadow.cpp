@@ -1,4 +1,4 @@
-#include "viewer/gl/hair_shade.h"
+#include "viewer/gl/hair_shadow.h"
 
 #include <array>
 #include <cstdint>

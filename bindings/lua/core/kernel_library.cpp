@@ -1,4 +1,4 @@
-#include "bindings/lua/core/library.h"
+#include "bindings/lua/core/kernel_library.h"
 
 #include <iterator>
 #include <utility>
