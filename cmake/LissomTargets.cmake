@@ -81,6 +81,10 @@ function(lissom_unity target)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
     endif()
+    # Collecting garbage below this size, in KB, takes a tenth of the time of a large unit.
+    if(LISSOM_UNITY STREQUAL "LARGE" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=800000)
+    endif()
     # Nor does a local name hide one of another source.
     if(LISSOM_UNITY STREQUAL "LARGE" AND NOT MSVC)
         target_compile_options(${target} PRIVATE -Wno-shadow)
