@@ -32,6 +32,42 @@ static_assert(static_cast<int>(ErrorCode::unknown_format) + 1 == LISSOM_UNKNOWN_
 static_assert(static_cast<int>(ErrorCode::region_empty) + 1 == LISSOM_REGION_EMPTY);
 static_assert(static_cast<int>(ErrorCode::internal) + 1 == LISSOM_INTERNAL);
 
+// Takes what the host reads. What goes wrong on the way must not pass through the host's function.
+struct Taking {
+    const std::function<void(std::string_view)>* sink;
+    std::exception_ptr failed = nullptr;
+
+    static void take(void* argument, const void* bytes, std::size_t size) {
+        auto& own = *static_cast<Taking*>(argument);
+        if (own.failed) return;
+        try {
+            (*own.sink)({static_cast<const char*>(bytes), size});
+        } catch (...) {
+            own.failed = std::current_exception();
+        }
+    }
+};
+
+FileTable files_of(const lissom_context_options& host) {
+    FileTable files;
+    if (host.read_file) {
+        files.read = [read = host.read_file, user = host.user](
+                         std::string_view path, const std::function<void(std::string_view)>& sink) {
+            Taking taking{&sink};
+            const bool found = read(user, std::string(path).c_str(), Taking::take, &taking);
+            if (taking.failed) std::rethrow_exception(taking.failed);
+            return found;
+        };
+    }
+    if (host.write_file) {
+        files.write = [write = host.write_file, user = host.user](std::string_view path,
+                                                                  std::string_view bytes) {
+            return write(user, std::string(path).c_str(), bytes.data(), bytes.size());
+        };
+    }
+    return files;
+}
+
 ContextOptions kernel_options(const lissom_context_options& host) {
     ContextOptions options;
     options.threads = host.threads;
@@ -57,6 +93,7 @@ ContextOptions kernel_options(const lissom_context_options& host) {
             loop(user, count, call, const_cast<void*>(static_cast<const void*>(&chunk)));
         };
     }
+    options.files = files_of(host);
     return options;
 }
 
@@ -216,26 +253,12 @@ const Region& region_of(lissom_context& context, lissom_region region) {
 
 namespace {
 
-// A context of its own for a job, as operations of two threads cannot share one: it has what is
-// left of the memory.
+// A context of its own for a job, as operations of two threads cannot share one; the memory is that
+// of the host's.
 Context job_context(const lissom_context& context) {
-    lissom_context_options options = context.options;
-    const std::size_t used = context.kernel.memory()->used();
-    if (options.memory_limit > 0) {
-        options.memory_limit = options.memory_limit > used ? options.memory_limit - used : 1;
-    }
-    return Context(kernel_options(options));
-}
-
-// What the job's objects keep of its memory is the context's from now on.
-void take_memory(lissom_context& context, const Job& job) {
-    const std::size_t kept = job.context.memory()->used();
-    for (const auto& [id, kind] : job.held) {
-        auto* object = context.objects.find(id, kind);
-        if (!object || kept == 0) continue;
-        object->charge = {};
-        object->charge = context.kernel.charge(kept, "what a job made");
-    }
+    ContextOptions options = kernel_options(context.options);
+    options.memory = context.kernel.memory();
+    return Context(std::move(options));
 }
 
 void run_job(void* argument) {
@@ -320,8 +343,7 @@ const std::shared_ptr<void>& lissom_context::shared(std::uint64_t id, Kind kind)
 }
 
 std::uint64_t lissom_context::add_mesh(Mesh&& mesh) {
-    const std::size_t taken = mesh.memory_bytes();
-    return add(Kind::mesh, sharing.make_mesh(std::move(mesh)), taken);
+    return add(Kind::mesh, sharing.make_mesh(std::move(mesh)));
 }
 
 std::int32_t lissom_context::count(const std::function<std::int32_t()>& work) {
@@ -445,7 +467,6 @@ lissom_status lissom_job_finish(lissom_context* context, lissom_job job, uint64_
     context->error = found->error;
     if (context->error.status != LISSOM_OK) return context->error.status;
     return run(context, [&] {
-        take_memory(*context, *found);
         const std::uint64_t made = found->take ? found->take() : 0;
         if (result) {
             *result = made;

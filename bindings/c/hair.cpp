@@ -32,8 +32,7 @@ Hairstyle& style_of(lissom_context& context, lissom_hairstyle style) {
 void add_style(lissom_context& context, const Mesh& head, Hairstyle made, lissom_hairstyle* style) {
     auto own = std::make_shared<Hairstyle>(std::move(made));
     context.sharing.belongs(own.get(), head);
-    const std::size_t taken = own->memory_bytes();
-    style->id = context.add(Kind::hairstyle, std::move(own), taken);
+    style->id = context.add(Kind::hairstyle, std::move(own));
 }
 
 CurveId curve_id(Index curve) {
@@ -73,19 +72,11 @@ HairOptions hair_options(const Hairstyle& style, const lissom_grow_options* give
 }
 
 std::uint64_t add_strands(lissom_context& context, Strands&& strands) {
-    const std::size_t taken = strands.memory_bytes();
-    return context.add(Kind::strands, context.sharing.make_strands(std::move(strands)), taken);
+    return context.add(Kind::strands, context.sharing.make_strands(std::move(strands)));
 }
 
 Strands& strands_of(lissom_context& context, lissom_strands strands) {
     return context.content<Strands>(strands.id, Kind::strands);
-}
-
-void charge_again(lissom_context& context, lissom_strands strands) {
-    auto* object = context.objects.find(strands.id, Kind::strands);
-    const std::size_t taken = strands_of(context, strands).memory_bytes();
-    object->charge = {};
-    object->charge = context.kernel.charge(taken, "strands");
 }
 
 }  // namespace
@@ -244,7 +235,6 @@ lissom_status lissom_hairstyle_grow(lissom_context* context, lissom_hairstyle st
         const HairOptions wanted = hair_options(own, options);
         if (strands->id != 0) {
             own.grow(wanted, strands_of(*context, *strands), context->kernel);
-            charge_again(*context, *strands);
         } else {
             strands->id = add_strands(*context, own.grow(wanted, context->kernel));
         }
@@ -276,8 +266,9 @@ lissom_status lissom_strands_create(lissom_context* context, const lissom_input*
             require(point.allFinite(), "points: a coordinate is not finite", ErrorCode::not_finite);
             for (int k = 0; k < 3; ++k) coordinates.push_back(static_cast<float>(point[k]));
         }
-        strands->id = add_strands(
-            *context, Strands(std::move(coordinates), read_integers(offsets, "offsets")));
+        strands->id =
+            add_strands(*context, Strands(std::move(coordinates), read_integers(offsets, "offsets"),
+                                          context->kernel.memory()));
     });
 }
 
@@ -285,26 +276,16 @@ lissom_status lissom_strands_load(lissom_context* context, const char* path,
                                   lissom_strands* strands) {
     return run(context, [&] {
         require_given(strands, "strands");
-        const std::string name = given_text(path, "path");
-        strands->id =
-            add_strands(*context, reads_files(*context)
-                                      ? decode_strands(read_by_host(*context, name),
-                                                       extension_of(name), {}, context->kernel)
-                                      : load_strands(path_of(name), {}, context->kernel));
+        strands->id = add_strands(
+            *context, load_strands(path_of(given_text(path, "path")), {}, context->kernel));
     });
 }
 
 lissom_status lissom_strands_save(lissom_context* context, lissom_strands strands,
                                   const char* path) {
     return run(context, [&] {
-        const Strands& own = strands_of(*context, strands);
-        const std::string name = given_text(path, "path");
-        if (writes_files(*context)) {
-            write_by_host(*context, name,
-                          encode_strands(own, extension_of(name), {}, context->kernel).bytes);
-        } else {
-            save_strands(own, path_of(name), {}, context->kernel);
-        }
+        save_strands(strands_of(*context, strands), path_of(given_text(path, "path")), {},
+                     context->kernel);
     });
 }
 

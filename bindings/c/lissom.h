@@ -205,8 +205,8 @@ typedef struct lissom_context_options {
     /// Returns once that task has returned.
     void (*wait)(void* user, void* task);
     /// Reads a file: gives its bytes to the sink and returns true, or false where there is none.
-    /// With it the library opens no file for reading; files that refer to others (.gltf with .bin)
-    /// come in only as one file (.glb).
+    /// With it the library opens no file for reading: those that a file refers to (.gltf: .bin) are
+    /// asked for likewise, by their path from the folder of that file, and so are those of scripts.
     bool (*read_file)(void* user, const char* path, lissom_sink* sink, void* argument);
     /// Writes a file, whole; false where it cannot. With it the library writes no file.
     bool (*write_file)(void* user, const char* path, const void* bytes, size_t size);
@@ -868,8 +868,45 @@ LISSOM_API lissom_status lissom_strands_read_offsets(lissom_context* context,
 //
 // A context runs its scripts in one Lua state of its own, whose memory counts to the context. They
 // have Lua's libraries, but for what would end the process (os.exit) or write to its output (print
-// goes to the log), and the `lissom` of the reference, in the kernel's space. They open files by
-// themselves. They speak Lua's way: ids count from 1, angles are in degrees.
+// goes to the log), and the `lissom` of the reference, in the kernel's space. The library opens
+// files for them as for the host; Lua's own io opens any. They speak Lua's way: ids count from 1,
+// angles are in degrees.
+
+/// What scripts that nobody vouches for may use. Times and instructions are those of one run or
+/// call; 0 is no limit.
+typedef struct lissom_sandbox_options {
+    size_t struct_size;
+    /// Wall time.
+    double seconds;
+    /// Of Lua's virtual machine, counted in hundreds.
+    int64_t instructions;
+    /// Bytes that Lua, and what the library makes and does for scripts, may take together; they
+    /// count to the context too.
+    size_t memory;
+    /// Bytes that are printed and written to files, all together. A file is counted when it is
+    /// there, so that the last one may go beyond.
+    size_t output;
+    /// Folders below which files may be read and written, and where `require` looks for NAME.lua.
+    /// Without any, none may, but those of read_file and write_file, which then decide.
+    const char* const* read_folders;
+    const char* const* write_folders;
+    const char* const* module_folders;
+    int32_t read_folder_count;
+    int32_t write_folder_count;
+    int32_t module_folder_count;
+} lissom_sandbox_options;
+
+/// 10 seconds, any number of instructions, 256 MiB of memory, 64 MiB of output, no folders.
+/// [any thread]
+LISSOM_API lissom_sandbox_options lissom_default_sandbox_options(void);
+/// Runs the scripts and calls of this context in a sandbox from now on: with Lua's language,
+/// strings, tables, numbers and coroutines, and the library, but without the system, without binary
+/// chunks, and within limits that hold whatever a script does. One that reaches the time, the
+/// instructions or the output is CANCELLED, one that needs too much memory gets MEMORY_LIMIT, and
+/// the next one runs. `options` may be NULL. Errors: BAD_STRUCT; INVALID_ARGUMENT after a script or
+/// call, or for limits below 0; MEMORY_LIMIT.
+LISSOM_API lissom_status lissom_sandbox_scripts(lissom_context* context,
+                                                const lissom_sandbox_options* options);
 
 /// Loads a script, as `name` in messages, and runs it up to where it declares its parameters: none
 /// of its work. Errors: SCRIPT_ERROR.

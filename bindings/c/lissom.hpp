@@ -309,6 +309,10 @@ class Context {
         check(context_, lissom_mesh_load(context_, path.c_str(), options, &made));
         return {context_, made};
     }
+    /// Runs scripts and calls in a sandbox from now on; see lissom_sandbox_scripts.
+    void sandbox_scripts(const lissom_sandbox_options& options = lissom_default_sandbox_options()) {
+        check(context_, lissom_sandbox_scripts(context_, &options));
+    }
     /// The JSON list of results of lissom_call.
     std::string call(const std::string& name, const std::string& arguments = "[]") const {
         lissom_bytes bytes{};

@@ -202,8 +202,7 @@ lissom_status lissom_merge_create(lissom_context* context, lissom_mesh source,
         }
         auto made = std::make_shared<Merge>(own, others, std::move(pairs), merge_options(options),
                                             context->kernel);
-        const std::size_t taken = made->memory_bytes();
-        merge->id = context->add(Kind::merge, std::move(made), taken);
+        merge->id = context->add(Kind::merge, std::move(made));
     });
 }
 
@@ -257,8 +256,7 @@ lissom_status lissom_paste_create(lissom_context* context, lissom_mesh source, l
             mesh_of(*context, source), mesh_of(*context, target), region_of(*context, region),
             region_if_given(*context, feature), region_if_given(*context, onto),
             placement_of(*context, placement), PasteOptions(), context->kernel);
-        const std::size_t taken = made->memory_bytes();
-        paste->id = context->add(Kind::paste, std::move(made), taken);
+        paste->id = context->add(Kind::paste, std::move(made));
     });
 }
 

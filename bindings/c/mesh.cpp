@@ -127,11 +127,8 @@ lissom_status lissom_mesh_load(lissom_context* context, const char* path,
                                const lissom_mesh_load_options* options, lissom_mesh* mesh) {
     return run(context, [&] {
         require_given(mesh, "mesh");
-        const std::string name = given_text(path, "path");
-        Mesh made = reads_files(*context)
-                        ? decode_mesh(read_by_host(*context, name), extension_of(name),
-                                      load_options(options), context->kernel)
-                        : load_mesh(path_of(name), load_options(options), context->kernel);
+        Mesh made =
+            load_mesh(path_of(given_text(path, "path")), load_options(options), context->kernel);
         mesh->id = context->add_mesh(std::move(made));
     });
 }
@@ -152,15 +149,8 @@ lissom_status lissom_mesh_decode(lissom_context* context, const void* bytes, siz
 lissom_status lissom_mesh_save(lissom_context* context, lissom_mesh mesh, const char* path,
                                const lissom_mesh_save_options* options) {
     return run(context, [&] {
-        const Mesh& own = mesh_of(*context, mesh);
-        const std::string name = given_text(path, "path");
-        if (writes_files(*context)) {
-            write_by_host(
-                *context, name,
-                encode_mesh(own, extension_of(name), save_options(options), context->kernel));
-        } else {
-            save_mesh(own, path_of(name), save_options(options), context->kernel);
-        }
+        save_mesh(mesh_of(*context, mesh), path_of(given_text(path, "path")), save_options(options),
+                  context->kernel);
     });
 }
 

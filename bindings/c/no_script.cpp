@@ -25,6 +25,16 @@ bool lissom_has_scripts(void) {
     return false;
 }
 
+lissom_sandbox_options lissom_default_sandbox_options(void) {
+    lissom_sandbox_options options{};
+    options.struct_size = sizeof options;
+    return options;
+}
+
+lissom_status lissom_sandbox_scripts(lissom_context* context, const lissom_sandbox_options*) {
+    return refuse(context);
+}
+
 lissom_status lissom_script_load(lissom_context* context, const char*, size_t, const char*,
                                  lissom_script*) {
     return refuse(context);

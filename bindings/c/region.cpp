@@ -12,8 +12,7 @@ namespace {
 
 void add_region(lissom_context& context, Region region, lissom_region* result) {
     require_given(result, "region");
-    const std::size_t taken = region.vertices().size() * sizeof(Index);
-    result->id = context.add(Kind::region, std::make_shared<Region>(std::move(region)), taken);
+    result->id = context.add(Kind::region, std::make_shared<Region>(std::move(region)));
 }
 
 Index nearest_vertex(const Mesh& mesh, const Vec3& point) {

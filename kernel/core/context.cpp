@@ -8,15 +8,28 @@
 
 namespace lissom {
 
+void MemoryAccount::require_room(std::size_t used, std::size_t bytes,
+                                 std::string_view purpose) const {
+    if (limit_ == 0 || overdrafts_.load(std::memory_order_relaxed) > 0) return;
+    if (bytes <= limit_ - std::min(limit_, used)) return;
+    throw Error(ErrorCode::memory_limit,
+                std::string(purpose) + " needs " + std::to_string(bytes) + " bytes, but " +
+                    std::to_string(used) + " of the limit of " + std::to_string(limit_) +
+                    " are in use; raise the limit or use a smaller region or mesh");
+}
+
 void MemoryAccount::charge(std::size_t bytes, std::string_view purpose) {
-    const std::size_t now = used_.fetch_add(bytes) + bytes;
-    if (limit_ != 0 && now > limit_) {
-        used_.fetch_sub(bytes);
-        throw Error(ErrorCode::memory_limit,
-                    std::string(purpose) + " needs " + std::to_string(bytes) + " bytes, but " +
-                        std::to_string(now - bytes) + " of the limit of " + std::to_string(limit_) +
-                        " are in use; raise the limit or use a smaller region or mesh");
+    if (within_) within_->charge(bytes, purpose);
+    std::size_t before = used_.load();
+    try {
+        do {
+            require_room(before, bytes, purpose);
+        } while (!used_.compare_exchange_weak(before, before + bytes));
+    } catch (...) {
+        if (within_) within_->release(bytes);
+        throw;
     }
+    const std::size_t now = before + bytes;
     std::size_t peak = peak_.load();
     while (peak < now && !peak_.compare_exchange_weak(peak, now)) {
     }
@@ -24,6 +37,16 @@ void MemoryAccount::charge(std::size_t bytes, std::string_view purpose) {
 
 void MemoryAccount::release(std::size_t bytes) {
     used_.fetch_sub(bytes);
+    if (within_) within_->release(bytes);
+}
+
+MemoryOverdraft::MemoryOverdraft(std::shared_ptr<MemoryAccount> account)
+    : account_(std::move(account)) {
+    for (MemoryAccount* at = account_.get(); at; at = at->within_.get()) ++at->overdrafts_;
+}
+
+MemoryOverdraft::~MemoryOverdraft() {
+    for (MemoryAccount* at = account_.get(); at; at = at->within_.get()) --at->overdrafts_;
 }
 
 MemoryCharge::MemoryCharge(std::shared_ptr<MemoryAccount> account, std::size_t bytes,
@@ -76,12 +99,28 @@ int Context::threads() const {
     return state_->options.threads;
 }
 
+const FileTable& Context::files() const {
+    return files_ ? *files_ : state_->options.files;
+}
+
 std::shared_ptr<MemoryAccount> Context::memory() const {
-    return state_->memory;
+    return account_ ? account_ : state_->memory;
+}
+
+Context Context::charging(std::shared_ptr<MemoryAccount> account) const {
+    Context other = *this;
+    other.account_ = std::move(account);
+    return other;
+}
+
+Context Context::with_files(FileTable files) const {
+    Context other = *this;
+    other.files_ = std::make_shared<const FileTable>(std::move(files));
+    return other;
 }
 
 MemoryCharge Context::charge(std::size_t bytes, std::string_view purpose) const {
-    return {state_->memory, bytes, purpose};
+    return {memory(), bytes, purpose};
 }
 
 Progress::Progress(const Context& context, std::string_view label)

@@ -9,12 +9,25 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "kernel/core/index.h"
 
 namespace lissom {
 
 enum class LogLevel { debug, info, warning };
+
+class MemoryAccount;
+
+/// A host's own files: archives, assets, a database. Paths are those that were given, in UTF-8.
+struct FileTable {
+    /// Gives the bytes of a file to `sink`, in one call or in several, and returns true; false
+    /// where there is no such file. With it no file is opened for reading.
+    std::function<bool(std::string_view path, const std::function<void(std::string_view)>& sink)>
+        read;
+    /// Replaces a file, or makes it; false where that cannot be. With it no file is written.
+    std::function<bool(std::string_view path, std::string_view bytes)> write;
+};
 
 /// What a host may provide. Every field is optional; without them the kernel is silent and serial.
 struct ContextOptions {
@@ -29,14 +42,21 @@ struct ContextOptions {
         parallel_for;
     /// Threads of the built-in loop; 1 starts none. Results do not depend on it.
     int threads = 1;
-    /// Bytes that operations may have charged at one time; 0 is no limit.
+    /// Bytes that objects and operations may take at one time; 0 is no limit.
     std::size_t memory_limit = 0;
+    /// The account that they are charged to, for contexts that share one, whose limit then holds
+    /// instead; null: one of the context's own.
+    std::shared_ptr<MemoryAccount> memory;
+    /// Where files are read and written, on the thread of the operation.
+    FileTable files;
 };
 
-/// Bytes in use by the kernel's large allocations, against a limit. Thread-safe.
+/// Bytes in use by objects of the kernel and by its operations, against a limit. Thread-safe.
 class MemoryAccount {
   public:
-    explicit MemoryAccount(std::size_t limit) : limit_(limit) {}
+    /// `limit` 0 is none. What is charged to it is charged to the account `within` too.
+    explicit MemoryAccount(std::size_t limit, std::shared_ptr<MemoryAccount> within = nullptr)
+        : limit_(limit), within_(std::move(within)) {}
 
     std::size_t limit() const { return limit_; }
     std::size_t used() const { return used_.load(std::memory_order_relaxed); }
@@ -47,9 +67,28 @@ class MemoryAccount {
     void release(std::size_t bytes);
 
   private:
+    friend class MemoryOverdraft;
+
+    void require_room(std::size_t used, std::size_t bytes, std::string_view purpose) const;
+
     std::size_t limit_;
+    std::shared_ptr<MemoryAccount> within_;
     std::atomic<std::size_t> used_{0};
     std::atomic<std::size_t> peak_{0};
+    std::atomic<int> overdrafts_{0};
+};
+
+/// While it lives the limit of an account, and of those that this one is within, does not hold: for
+/// what puts back that which a failed operation has changed.
+class MemoryOverdraft {
+  public:
+    explicit MemoryOverdraft(std::shared_ptr<MemoryAccount> account);
+    ~MemoryOverdraft();
+    MemoryOverdraft(const MemoryOverdraft&) = delete;
+    MemoryOverdraft& operator=(const MemoryOverdraft&) = delete;
+
+  private:
+    std::shared_ptr<MemoryAccount> account_;
 };
 
 /// Holds a charge on an account for its own lifetime. Movable; it keeps the account alive.
@@ -89,7 +128,14 @@ class Context {
     void log(LogLevel level, std::string_view message) const;
     int threads() const;
 
+    const FileTable& files() const;
+
     std::shared_ptr<MemoryAccount> memory() const;
+    /// The same context, but that what is done with it is charged to `account`, which mostly is
+    /// within this one's.
+    Context charging(std::shared_ptr<MemoryAccount> account) const;
+    /// The same context, but for its files.
+    Context with_files(FileTable files) const;
     /// Charges `bytes` for as long as the result lives. Errors: memory_limit.
     MemoryCharge charge(std::size_t bytes, std::string_view purpose) const;
 
@@ -104,6 +150,9 @@ class Context {
     friend class Progress;
     struct State;
     std::shared_ptr<State> state_;
+    // Null: the state's.
+    std::shared_ptr<MemoryAccount> account_;
+    std::shared_ptr<const FileTable> files_;
 };
 
 /// Reports the progress of one operation. Open one at the top of a long operation; an operation

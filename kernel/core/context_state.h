@@ -15,7 +15,8 @@ class ThreadArena;
 struct Context::State {
     explicit State(ContextOptions given)
         : options(std::move(given)),
-          memory(std::make_shared<MemoryAccount>(options.memory_limit)) {}
+          memory(options.memory ? options.memory
+                                : std::make_shared<MemoryAccount>(options.memory_limit)) {}
 
     ContextOptions options;
     std::shared_ptr<MemoryAccount> memory;

@@ -161,7 +161,11 @@ std::shared_ptr<const Preparation> prepare_deformation(std::shared_ptr<const Res
     Progress progress(context, "deform: prepare");
     require_area(rest->patch());
     require_plain_holds(*holds, rest->options());
+    // Stencils, right-hand sides, matrices while they are assembled, a frame and its gradients.
+    constexpr std::size_t kBytesPerVertex = 1000;
     auto next = std::make_shared<Preparation>();
+    next->hold = MemoryHold(context.memory(), "preparing a deformation");
+    next->hold.resize(rest->positions.size() * kBytesPerVertex);
     next->rest = std::move(rest);
     next->holds = std::move(holds);
     next->work = working_patch(*next->rest, *next->holds);

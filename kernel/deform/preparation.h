@@ -12,6 +12,7 @@
 #include "kernel/core/error.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/core/memory_hold.h"
 #include "kernel/deform/comparison/method.h"
 #include "kernel/deform/holds/constraints.h"
 #include "kernel/deform/holds/holds.h"
@@ -99,6 +100,8 @@ struct ComparedMethod {
 struct Preparation {
     std::shared_ptr<const RestShape> rest;
     std::shared_ptr<const Holds> holds;
+    /// What it takes beside the factors, and what a frame takes.
+    MemoryHold hold;
     /// The patch that it works on: refined at borders, with anchors.
     std::shared_ptr<const WorkingPatch> work;
     std::vector<Index> owner;

@@ -17,6 +17,9 @@ constexpr double kFarAway = 1e3;
 // were: no tear would be seen.
 constexpr double kMoved = 1e-6;
 
+// What a rest shape takes for a vertex of the region, and while it is made.
+constexpr std::size_t kBytesPerVertex = 800;
+
 // What follows from the patch.
 void measure(RestShape& rest) {
     const Patch& patch = rest.patch();
@@ -50,6 +53,8 @@ std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region&
                                                  const DeformOptions& options,
                                                  const Context& context) {
     context.checkpoint();
+    MemoryHold hold(context.memory(), "the region of a deformation");
+    hold.resize(at(region.size()) * kBytesPerVertex);
     auto scope = std::make_shared<DeformScope>(DeformScope{region, options});
     std::vector<Index> order = near_order(region, kPatchRings);
     context.checkpoint();
@@ -67,6 +72,7 @@ std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region&
         if (!patch.in_region[i]) rest->surroundings.emplace_back(v, mesh.position(v));
     }
     measure(*rest);
+    rest->hold = std::move(hold);
     return rest;
 }
 
@@ -75,6 +81,7 @@ std::shared_ptr<const RestShape> rebased(const RestShape& rest, const DeformFram
     require_frame(rest, frame);
     const Patch& before = rest.patch();
     const Region& region = rest.region();
+    MemoryHold hold = rest.hold;
     auto next = std::make_shared<RestShape>(RestShape{
         rest.scope, nullptr, {}, frame.positions, 0.0, false, rest.directions, rest.surroundings});
     next->directions.rebase(region, frame.positions, frame.turns_without_faces);
@@ -88,6 +95,7 @@ std::shared_ptr<const RestShape> rebased(const RestShape& rest, const DeformFram
     next->work = std::make_shared<WorkingPatch>(
         build_patch(region, at, kPatchRings, before.mesh_vertex), rest.options());
     measure(*next);
+    next->hold = std::move(hold);
     return next;
 }
 

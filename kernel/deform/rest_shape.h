@@ -7,6 +7,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/core/memory_hold.h"
 #include "kernel/deform/holds/holds.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/patch.h"
@@ -40,6 +41,8 @@ struct RestShape {
     RestDirections directions;
     /// Vertices around the region and where they lie.
     std::vector<std::pair<Index, Vec3>> surroundings;
+    /// What all of it takes.
+    MemoryHold hold = {};
 
     const Region& region() const { return scope->region; }
     const DeformOptions& options() const { return scope->options; }

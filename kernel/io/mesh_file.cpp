@@ -217,7 +217,7 @@ std::vector<std::string> extensions() {
 
 Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options,
                const Context& context) {
-    require_file(path);
+    require_file(path, context);
     const std::string name = display_name(path);
     const Format& format = with_place_in_errors(
         name, [&]() -> const Format& { return find_format(display_name(path.extension())); });
@@ -232,7 +232,7 @@ Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options,
 
 SavedFile save_mesh(const Mesh& mesh, const std::filesystem::path& path, const SaveOptions& options,
                     const Context& context) {
-    require_folder_of(path);
+    require_folder_of(path, context);
     Progress progress(context, "save mesh");
     progress.step(0.8);
     const Encoded encoded = with_place_in_errors(display_name(path), [&] {

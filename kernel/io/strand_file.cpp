@@ -229,15 +229,17 @@ std::string picture_beside(const std::filesystem::path& path) {
 
 Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions& options,
                      const Context& context) try {
-    require_file(path);
+    require_file(path, context);
     const std::string name = display_name(path);
     const StrandFormat& format = with_place_in_errors(name, [&]() -> const StrandFormat& {
         return find_strand_format(display_name(path.extension()), true);
     });
-    if (!format.read) {
+    if (!format.read || context.files().read) {
         const FileContent file = read_file(path, context);
-        return with_place_in_errors(
-            name, [&] { return decode_as(nullptr, file.bytes, format, options, context); });
+        return with_place_in_errors(name, [&] {
+            ByteSource source(std::string_view(file.bytes));
+            return decode_as(format.read ? &source : nullptr, file.bytes, format, options, context);
+        });
     }
     return with_place_in_errors(name, [&] {
         ByteSource source(path);
@@ -249,7 +251,7 @@ Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions&
 
 StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,
                           const StrandSaveOptions& options, const Context& context) try {
-    require_folder_of(path);
+    require_folder_of(path, context);
     Progress progress(context, "save strands");
     progress.step(0.8);
     EncodedStrands encoded = with_place_in_errors(display_name(path), [&] {
@@ -266,7 +268,7 @@ StrandReport save_strands(const Strands& strands, const std::filesystem::path& p
 StrandReport save_rib(const Strands& strands, const std::filesystem::path& path,
                       const RibScene& scene, const StrandSaveOptions& options,
                       const Context& context) try {
-    require_folder_of(path);
+    require_folder_of(path, context);
     Progress progress(context, "save strands");
     progress.step(0.8);
     EncodedStrands encoded = with_place_in_errors(display_name(path), [&] {

@@ -94,6 +94,9 @@ MergeReport report_of(const MergePreparation& preparation, const Matching& match
 MergeResult Merge::solve(const Context& context) try {
     const MergePreparation& preparation = state_->preparation;
     Progress progress(context, "merge");
+    const Boundaries& sides = preparation.boundaries;
+    const MemoryCharge working = context.charge(
+        3 * (sides.source.mesh.memory_bytes() + sides.target.memory_bytes()), "merging");
     const auto start = Clock::now();
     const Matching matching = match_boundaries(preparation, state_->keys, context);
     progress.step(0.5);

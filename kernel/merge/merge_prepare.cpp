@@ -503,7 +503,11 @@ MergePreparation prepare_merge(const Mesh& source, std::span<const Mesh* const> 
     for (const Region& feature : options.fixed) {
         require_same_topology(source, feature.topology(), "a fixed feature of the source");
     }
+    std::size_t given = source.memory_bytes();
+    for (const Mesh* target : targets) given += target->memory_bytes();
+    const MemoryCharge working = context.charge(2 * given, "preparing a merge");
     MergePreparation made;
+    made.charge = context.charge(given, "a merge");
     made.options = options;
     made.method = method_of(options);
     Sides sides = make_sides(source, targets, joins, options, context);

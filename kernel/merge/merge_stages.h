@@ -129,6 +129,8 @@ struct LooseParts {
 
 /// All that does not depend on keys.
 struct MergePreparation {
+    /// What it takes beside the meshes and factors: where elements come from, loops and parts.
+    MemoryCharge charge;
     MergeOptions options;
     MergeMethod method;
     GivenMeshes given;

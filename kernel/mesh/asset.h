@@ -8,6 +8,8 @@
 #include <memory>
 #include <string>
 
+#include "kernel/core/memory_hold.h"
+
 namespace lissom {
 
 /// New names for labels of an appended mesh that mean something else in the mesh it joins:
@@ -24,13 +26,20 @@ class Asset {
     virtual std::shared_ptr<const Asset> joined(const Asset& other,
                                                 LabelRenames& renames) const = 0;
     virtual std::size_t memory_bytes() const = 0;
+    /// Counts on `account` from now on, once however many meshes share it; nothing where it counts
+    /// already. Meshes call it with theirs. Errors: memory_limit.
+    void count_on(const std::shared_ptr<MemoryAccount>& account) const;
     /// True where it holds nothing but what the mesh's material libraries define.
     virtual bool is_of_libraries() const { return false; }
 
   protected:
     Asset() = default;
-    Asset(const Asset&) = default;
-    Asset& operator=(const Asset&) = default;
+    /// A copy is to be changed: it counts when a mesh has it.
+    Asset(const Asset&) {}
+    Asset& operator=(const Asset&) = delete;
+
+  private:
+    mutable MemoryHold hold_;
 };
 
 }  // namespace lissom

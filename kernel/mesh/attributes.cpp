@@ -15,6 +15,12 @@ bool is_set(std::string_view name, std::string_view base) {
     return std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
+constexpr const char* kPurpose = "attributes of a mesh";
+
+std::size_t bytes_of(const Attribute& attribute) {
+    return attribute.values.size() * sizeof(double);
+}
+
 AttributeRole role_in_morph(std::string_view name) {
     const std::string_view part = name.substr(name.rfind('.') + 1);
     if (part == "position") return AttributeRole::morph_position;
@@ -44,6 +50,43 @@ Index FaceLabels::add(std::string_view label) {
     return count_of(names) - 1;
 }
 
+// Another set may have been changed since it was counted.
+AttributeSet::AttributeSet(const AttributeSet& other) : hold_(other.hold_.account(), kPurpose) {
+    hold_.resize(other.memory_bytes());
+    attributes_ = other.attributes_;
+    labels_ = other.labels_;
+}
+
+AttributeSet& AttributeSet::operator=(const AttributeSet& other) {
+    if (this == &other) return *this;
+    AttributeSet copy;
+    copy.count_on(hold_.account() ? hold_.account() : other.hold_.account());
+    copy.hold_.resize(other.memory_bytes());
+    copy.attributes_ = other.attributes_;
+    copy.labels_ = other.labels_;
+    swap(copy);
+    return *this;
+}
+
+AttributeSet& AttributeSet::operator=(AttributeSet&& other) {
+    if (hold_.account()) other.count_on(hold_.account());
+    swap(other);
+    return *this;
+}
+
+void AttributeSet::swap(AttributeSet& other) noexcept {
+    std::swap(hold_, other.hold_);
+    attributes_.swap(other.attributes_);
+    labels_.swap(other.labels_);
+}
+
+void AttributeSet::count_on(std::shared_ptr<MemoryAccount> account) {
+    if (account == hold_.account()) return recount();
+    MemoryHold next(std::move(account), kPurpose);
+    next.resize(memory_bytes());
+    hold_ = std::move(next);
+}
+
 Attribute* AttributeSet::find(std::string_view name) {
     const auto found = std::find_if(attributes_.begin(), attributes_.end(),
                                     [&](const Attribute& a) { return a.name == name; });
@@ -59,7 +102,10 @@ Attribute& AttributeSet::add(Attribute attribute) {
         throw Error(ErrorCode::invalid_argument,
                     "an attribute needs a name and a width of at least 1");
     }
-    if (Attribute* existing = find(attribute.name)) {
+    Attribute* existing = find(attribute.name);
+    const std::size_t replaced = existing ? bytes_of(*existing) : 0;
+    hold_.resize(memory_bytes() - replaced + bytes_of(attribute));
+    if (existing) {
         *existing = std::move(attribute);
         return *existing;
     }
@@ -68,12 +114,15 @@ Attribute& AttributeSet::add(Attribute attribute) {
 }
 
 bool AttributeSet::remove(std::string_view name) {
-    return std::erase_if(attributes_, [&](const Attribute& a) { return a.name == name; }) > 0;
+    const bool found =
+        std::erase_if(attributes_, [&](const Attribute& a) { return a.name == name; }) > 0;
+    if (found) recount();
+    return found;
 }
 
 std::size_t AttributeSet::memory_bytes() const {
     std::size_t bytes = 0;
-    for (const Attribute& a : attributes_) bytes += a.values.size() * sizeof(double);
+    for (const Attribute& a : attributes_) bytes += bytes_of(a);
     for (const auto& [kind, labels] : labels_) bytes += labels.of_face.size() * sizeof(Index);
     return bytes;
 }

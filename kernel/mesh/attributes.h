@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/core/memory_hold.h"
 
 namespace lissom {
 
@@ -76,15 +78,34 @@ struct FaceLabels {
     bool operator==(const FaceLabels&) const = default;
 };
 
-/// All attributes and labels of one mesh, in the order they were added.
+/// All attributes and labels of one mesh, in the order they were added. Those of a mesh count on
+/// its account, and stay there when another set is assigned.
 class AttributeSet {
   public:
+    AttributeSet() = default;
+    /// Counts on the account of `other`. Errors: memory_limit.
+    AttributeSet(const AttributeSet& other);
+    AttributeSet(AttributeSet&& other) noexcept = default;
+    /// Errors: memory_limit, and then nothing has changed.
+    AttributeSet& operator=(const AttributeSet& other);
+    AttributeSet& operator=(AttributeSet&& other);
+    ~AttributeSet() = default;
+    /// Exchanges everything, accounts too.
+    void swap(AttributeSet& other) noexcept;
+
+    /// Counts on `account` (null: nowhere) from now on. Errors: memory_limit, and then nothing has
+    /// changed.
+    void count_on(std::shared_ptr<MemoryAccount> account);
+    /// To be called after lists were made longer or shorter through a reference. Errors:
+    /// memory_limit.
+    void recount() { hold_.resize(memory_bytes()); }
+
     /// The attribute called `name`, or null.
     Attribute* find(std::string_view name);
     const Attribute* find(std::string_view name) const;
     /// Adds an attribute, replacing one of the same name. The reference is valid until the next add
     /// or remove.
-    /// Errors: invalid_argument for an empty name or a width below 1.
+    /// Errors: invalid_argument for an empty name or a width below 1; memory_limit.
     Attribute& add(Attribute attribute);
     bool remove(std::string_view name);
     const std::vector<Attribute>& all() const { return attributes_; }
@@ -97,6 +118,7 @@ class AttributeSet {
     std::size_t memory_bytes() const;
 
   private:
+    MemoryHold hold_;
     std::vector<Attribute> attributes_;
     std::map<std::string, FaceLabels, std::less<>> labels_;
 };

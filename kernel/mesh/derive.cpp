@@ -135,6 +135,7 @@ void carry_labels(const Mesh& source, const ElementMap& faces, Mesh& target) {
             labels.of_face.push_back(from == kNoIndex ? kNoIndex : old.of_face[from]);
         }
         target.attributes().labels().emplace(kind, std::move(labels));
+        target.attributes().recount();
     }
 }
 

@@ -36,6 +36,7 @@ Mesh::Mesh() : topology_(empty_topology()) {}
 Mesh::Mesh(std::vector<Vec3> positions, FaceList faces, const Context& context)
     : Mesh(std::move(positions), nullptr, context) {
     topology_ = Topology::create(count_of(positions_), std::move(faces), context);
+    count();
 }
 
 Mesh::Mesh(std::vector<Vec3> positions, std::shared_ptr<const Topology> topology,
@@ -45,6 +46,31 @@ Mesh::Mesh(std::vector<Vec3> positions, std::shared_ptr<const Topology> topology
     require_finite(positions);
     context.checkpoint();
     positions_ = std::move(positions);
+    if (topology_) count();
+}
+
+Mesh& Mesh::operator=(const Mesh& other) {
+    return *this = Mesh(other);
+}
+
+// As the compiler's own, but that attributes come with their account.
+Mesh& Mesh::operator=(Mesh&& other) noexcept {
+    topology_ = std::move(other.topology_);
+    hold_ = std::move(other.hold_);
+    positions_ = std::move(other.positions_);
+    attributes_.swap(other.attributes_);
+    regions_ = std::move(other.regions_);
+    material_libraries_ = std::move(other.material_libraries_);
+    asset_ = std::move(other.asset_);
+    report_ = std::move(other.report_);
+    revision_ = other.revision_;
+    return *this;
+}
+
+void Mesh::count() {
+    hold_ = MemoryHold(topology_->account(), "a mesh");
+    hold_.resize(positions_.size() * sizeof(Vec3));
+    attributes_.count_on(topology_->account());
 }
 
 void Mesh::set_position(Index v, const Vec3& position) {
@@ -79,6 +105,11 @@ void Mesh::replace_by(Mesh other) {
     const std::uint64_t next = std::max(revision_, other.revision_) + 1;
     *this = std::move(other);
     revision_ = next;
+}
+
+void Mesh::set_asset(std::shared_ptr<const Asset> asset) {
+    if (asset) asset->count_on(topology_->account());
+    asset_ = std::move(asset);
 }
 
 void Mesh::set_region(std::string_view name, const Region& region) {

@@ -1,5 +1,7 @@
 /// Mesh: an oriented 2-manifold polygon mesh with or without boundary; positions in double
 /// precision, attributes and named regions. Copies share the topology and own everything else.
+/// Its memory counts on the account of the context that its topology was made with, and so does
+/// that of its copies: what makes or copies a mesh, or adds to it, may throw memory_limit.
 ///
 /// Operators that need triangles see a triangulation of the polygons (triangulation.h); the
 /// polygons stay. Measures are in measures.h, constructors of regions in region_select.h, files in
@@ -19,6 +21,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/core/memory_hold.h"
 #include "kernel/mesh/asset.h"
 #include "kernel/mesh/attributes.h"
 #include "kernel/mesh/region.h"
@@ -31,11 +34,17 @@ class Mesh {
   public:
     /// The mesh without vertices.
     Mesh();
-    /// Errors: as Topology::create; not_finite naming the vertices; cancelled.
+    /// Errors: as Topology::create; not_finite naming the vertices; cancelled; memory_limit.
     Mesh(std::vector<Vec3> positions, FaceList faces, const Context& context = {});
     /// On an existing topology, whose vertex count must equal the number of positions.
     Mesh(std::vector<Vec3> positions, std::shared_ptr<const Topology> topology,
          const Context& context = {});
+    Mesh(const Mesh&) = default;
+    Mesh(Mesh&&) noexcept = default;
+    /// Errors: memory_limit, and then nothing has changed.
+    Mesh& operator=(const Mesh& other);
+    Mesh& operator=(Mesh&& other) noexcept;
+    ~Mesh() = default;
 
     const Topology& topology() const { return *topology_; }
     const std::shared_ptr<const Topology>& shared_topology() const { return topology_; }
@@ -68,7 +77,8 @@ class Mesh {
 
     /// What the file held beside the surface, or null. Travels through every operation.
     const std::shared_ptr<const Asset>& asset() const { return asset_; }
-    void set_asset(std::shared_ptr<const Asset> asset) { asset_ = std::move(asset); }
+    /// Errors: memory_limit.
+    void set_asset(std::shared_ptr<const Asset> asset);
 
     /// What was found when the mesh was loaded; empty for a mesh made otherwise.
     const Report& report() const { return report_; }
@@ -84,7 +94,10 @@ class Mesh {
     std::size_t memory_bytes() const;
 
   private:
+    void count();
+
     std::shared_ptr<const Topology> topology_;
+    MemoryHold hold_;
     std::vector<Vec3> positions_;
     AttributeSet attributes_;
     std::map<std::string, Region, std::less<>> regions_;

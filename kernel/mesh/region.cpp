@@ -85,10 +85,13 @@ class FaceOutline {
 }  // namespace
 
 Region::Region(std::shared_ptr<const Topology> topology, std::vector<Index> vertices)
-    : topology_(std::move(topology)), vertices_(std::move(vertices)) {
+    : topology_(std::move(topology)),
+      hold_(topology_->account(), "a region"),
+      vertices_(std::move(vertices)) {
     require_vertices(*topology_, vertices_);
     std::sort(vertices_.begin(), vertices_.end());
     vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    hold_.resize(vertices_.size() * sizeof(Index));
 }
 
 Region Region::all(std::shared_ptr<const Topology> topology) {

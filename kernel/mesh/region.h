@@ -1,4 +1,5 @@
 /// Region: a set of vertices of one topology. Its faces are those with all vertices inside.
+/// Its memory counts on the account of its topology: what makes one may throw memory_limit.
 /// Constructors from geometry (spheres, boxes, distances, labels) are in region_select.h.
 #pragma once
 
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "kernel/core/index.h"
+#include "kernel/core/memory_hold.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {
@@ -57,6 +59,7 @@ class Region {
 
   private:
     std::shared_ptr<const Topology> topology_;
+    MemoryHold hold_;
     std::vector<Index> vertices_;
 };
 

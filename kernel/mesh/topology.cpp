@@ -36,12 +36,36 @@ void link_boundary(OpenMesh::PolyConnectivity& mesh, const std::vector<Index>& t
 
 }  // namespace
 
-Topology::Topology() : halfedges_(std::make_unique<OpenMesh::PolyConnectivity>()) {}
+namespace {
+
+// Of the lists of a topology. OpenMesh keeps one index a vertex and face, and two half-edges of
+// four indices an edge.
+std::size_t list_bytes(std::size_t vertices, const FaceList& faces, std::size_t edges,
+                       std::size_t boundary_edges) {
+    const std::size_t corners = faces.vertices.size(), offsets = faces.offsets.size();
+    const std::size_t rings = 2 * (vertices + 1) + 2 * edges + corners;
+    const std::size_t halfedges = vertices + offsets - 1 + 8 * edges;
+    return (offsets + corners + 2 * edges + rings + vertices + boundary_edges + halfedges) *
+           sizeof(Index);
+}
+
+std::size_t boundary_edges_of(const std::vector<Index>& twin) {
+    return static_cast<std::size_t>(std::count(twin.begin(), twin.end(), kNoIndex));
+}
+
+}  // namespace
+
+Topology::Topology(MemoryHold hold)
+    : hold_(std::move(hold)), halfedges_(std::make_unique<OpenMesh::PolyConnectivity>()) {}
 
 Topology::~Topology() = default;
 
 std::shared_ptr<const Topology> Topology::create(Index vertex_count, FaceList faces,
                                                  const Context& context) {
+    // Edges by their vertices, what is next in each list, and the corners of fans.
+    const MemoryCharge working = context.charge(
+        (5 * faces.vertices.size() + 4 * at(std::max<Index>(0, vertex_count))) * sizeof(Index),
+        "checking the faces of a mesh");
     const std::vector<Index> twin = check_and_pair_edges(vertex_count, faces, context);
     return create_paired(vertex_count, std::move(faces), twin, context);
 }
@@ -49,7 +73,11 @@ std::shared_ptr<const Topology> Topology::create(Index vertex_count, FaceList fa
 std::shared_ptr<const Topology> Topology::create_paired(Index vertex_count, FaceList faces,
                                                         const std::vector<Index>& twin,
                                                         const Context& context) {
-    std::shared_ptr<Topology> topology(new Topology);
+    const std::size_t boundary_edges = boundary_edges_of(twin);
+    MemoryHold hold(context.memory(), "the topology of a mesh");
+    hold.resize(
+        list_bytes(vertex_count, faces, (twin.size() + boundary_edges) / 2, boundary_edges));
+    std::shared_ptr<Topology> topology(new Topology(std::move(hold)));
     topology->vertex_count_ = vertex_count;
     topology->faces_ = std::move(faces);
     topology->build_halfedges(twin);
@@ -64,7 +92,7 @@ std::shared_ptr<const Topology> Topology::create_paired(Index vertex_count, Face
 void Topology::build_halfedges(const std::vector<Index>& twin) {
     OpenMesh::PolyConnectivity& mesh = *halfedges_;
     const Index corners = corner_count();
-    boundary_edge_count_ = index_of(std::count(twin.begin(), twin.end(), kNoIndex));
+    boundary_edge_count_ = index_of(boundary_edges_of(twin));
     const auto edge_total = (at(corners) + boundary_edge_count_) / 2;
     mesh.resize(vertex_count_, edge_total, face_count());
     edges_.reserve(2 * edge_total);
@@ -171,12 +199,7 @@ void Topology::build_components() {
 }
 
 std::size_t Topology::memory_bytes() const {
-    const std::size_t own = faces_.offsets.size() + faces_.vertices.size() + edges_.size() +
-                            ring_begin_.size() + ring_.size() + fan_begin_.size() + fan_.size() +
-                            components_.size();
-    // OpenMesh keeps one index a vertex and face, and two halfedges of four indices an edge.
-    const std::size_t halfedge = at(vertex_count_) + face_count() + 4 * edges_.size();
-    return (own + halfedge) * sizeof(Index);
+    return list_bytes(vertex_count_, faces_, edge_count(), boundary_edge_count_);
 }
 
 namespace {

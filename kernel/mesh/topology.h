@@ -15,6 +15,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/error.h"
 #include "kernel/core/geometry.h"
+#include "kernel/core/memory_hold.h"
 
 namespace OpenMesh {
 class PolyConnectivity;
@@ -43,7 +44,8 @@ class Topology {
     /// Validates `faces` and builds the connectivity. Faces and vertices keep their order. Errors,
     /// each naming all elements concerned: face_index, face_too_small, repeated_vertex,
     /// duplicate_face, nonmanifold_edge, inconsistent_orientation, nonmanifold_vertex; also
-    /// cancelled.
+    /// cancelled, memory_limit. Its memory counts on the account of the context, once however many
+    /// meshes share it.
     static std::shared_ptr<const Topology> create(Index vertex_count, FaceList faces,
                                                   const Context& context = {});
     /// The same for faces that are known to be a manifold. `twin` pairs the corners: for each, the
@@ -104,15 +106,18 @@ class Topology {
 
     /// Bytes held.
     std::size_t memory_bytes() const;
+    /// The account that it counts on, and with it meshes and regions that are made on it.
+    const std::shared_ptr<MemoryAccount>& account() const { return hold_.account(); }
 
   private:
-    Topology();
+    explicit Topology(MemoryHold hold);
 
     void build_halfedges(const std::vector<Index>& twin);
     void build_rings();
     void build_boundary_loops();
     void build_components();
 
+    MemoryHold hold_;
     Index vertex_count_ = 0;
     FaceList faces_;
     std::vector<Index> edges_;

@@ -31,8 +31,12 @@ struct Kept : KeptBytes {
 
 class ContentStore {
   public:
+    /// What it counts is charged to `account` too; null: to none.
+    explicit ContentStore(std::shared_ptr<MemoryAccount> account = nullptr)
+        : account_(std::make_shared<MemoryAccount>(0, std::move(account))) {}
+
     /// Bytes of all that is alive.
-    std::size_t bytes() const { return account_->used(); }
+    std::size_t bytes() const { return account_->used() + counted_->used(); }
     /// Counts `bytes` for as long as the result lives.
     MemoryCharge charge(std::size_t bytes) const { return {account_, bytes, kPurpose}; }
 
@@ -40,21 +44,35 @@ class ContentStore {
     /// Null for null.
     template <typename T>
     std::shared_ptr<const Kept<T>> keep(const std::shared_ptr<const T>& value, std::size_t bytes) {
-        if (!value) return nullptr;
-        std::weak_ptr<const KeptBytes>& known = kept_[value.get()];
-        if (auto found = known.lock()) return std::static_pointer_cast<const Kept<T>>(found);
-        auto made = std::make_shared<const Kept<T>>(charge(bytes), value);
-        known = made;
-        forget_dead();
-        return made;
+        return keep_on(account_, value, bytes);
+    }
+    /// The same for a value that is charged to an account already, as topologies are: its bytes
+    /// only add to `bytes()`.
+    template <typename T>
+    std::shared_ptr<const Kept<T>> keep_counted(const std::shared_ptr<const T>& value,
+                                                std::size_t bytes) {
+        return keep_on(counted_, value, bytes);
     }
 
   private:
     static constexpr std::string_view kPurpose = "the history of a scene";
 
+    template <typename T>
+    std::shared_ptr<const Kept<T>> keep_on(const std::shared_ptr<MemoryAccount>& account,
+                                           const std::shared_ptr<const T>& value,
+                                           std::size_t bytes) {
+        if (!value) return nullptr;
+        std::weak_ptr<const KeptBytes>& known = kept_[value.get()];
+        if (auto found = known.lock()) return std::static_pointer_cast<const Kept<T>>(found);
+        auto made = std::make_shared<const Kept<T>>(MemoryCharge(account, bytes, kPurpose), value);
+        known = made;
+        forget_dead();
+        return made;
+    }
     void forget_dead();
 
-    std::shared_ptr<MemoryAccount> account_ = std::make_shared<MemoryAccount>(0);
+    std::shared_ptr<MemoryAccount> account_;
+    std::shared_ptr<MemoryAccount> counted_ = std::make_shared<MemoryAccount>(0);
     // By the address of the value, which lives as long as what is kept of it.
     std::map<const void*, std::weak_ptr<const KeptBytes>> kept_;
     std::size_t forget_at_ = 64;

@@ -91,7 +91,7 @@ DeformContent::DeformContent(Deformer& deformer, ContentStore& store)
 
 DeformContent::DeformContent(DeformSetup setup, const std::shared_ptr<const ShownResult>& shown,
                              ContentStore& store) {
-    rest_ = store.keep(setup.rest, lissom::memory_bytes(*setup.rest));
+    rest_ = store.keep_counted(setup.rest, lissom::memory_bytes(*setup.rest));
     holds_ = store.keep(setup.holds, lissom::memory_bytes(*setup.holds));
     shown_ = store.keep(shown, lissom::memory_bytes(*shown));
     poses_ = std::move(setup.poses);

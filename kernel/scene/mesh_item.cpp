@@ -45,6 +45,16 @@ std::shared_ptr<const Kept<T>> keep_equal(const T& value,
     return store.keep(std::make_shared<const T>(value), size_in_bytes(value));
 }
 
+// Regions count themselves.
+using Regions = std::map<std::string, Region, std::less<>>;
+
+std::shared_ptr<const Kept<Regions>> keep_regions(const Regions& regions,
+                                                  const std::shared_ptr<const Kept<Regions>>* last,
+                                                  ContentStore& store) {
+    if (last && *(*last)->value == regions) return *last;
+    return store.keep_counted(std::make_shared<const Regions>(regions), size_in_bytes(regions));
+}
+
 bool same_form(const Attribute& a, const Attribute& b) {
     return a.name == b.name && a.domain == b.domain && a.width == b.width && a.type == b.type;
 }
@@ -56,11 +66,11 @@ Attribute form_of(const Attribute& attribute) {
 }  // namespace
 
 MeshContent::MeshContent(const Mesh& mesh, const MeshContent* last, ContentStore& store)
-    : topology_(store.keep(mesh.shared_topology(), mesh.topology().memory_bytes())),
+    : topology_(store.keep_counted(mesh.shared_topology(), mesh.topology().memory_bytes())),
       positions_(std::as_bytes(mesh.positions()), last ? last->positions_ : SharedBlocks(), store),
       labels_(keep_equal(mesh.attributes().labels(), last ? &last->labels_ : nullptr, store)),
-      regions_(keep_equal(mesh.regions(), last ? &last->regions_ : nullptr, store)),
-      asset_(store.keep(mesh.asset(), mesh.asset() ? mesh.asset()->memory_bytes() : 0)),
+      regions_(keep_regions(mesh.regions(), last ? &last->regions_ : nullptr, store)),
+      asset_(store.keep_counted(mesh.asset(), mesh.asset() ? mesh.asset()->memory_bytes() : 0)),
       report_(keep_equal(mesh.report(), last ? &last->report_ : nullptr, store)),
       material_libraries_(mesh.material_libraries()) {
     for (const Attribute& attribute : mesh.attributes().all()) {
@@ -97,11 +107,13 @@ Mesh MeshContent::mesh() const {
     Mesh mesh(std::move(zeros), topology_->value);
     positions_.copy_to(std::as_writable_bytes(mesh.edit_positions()));
     for (const AttributeContent& content : attributes_) {
-        Attribute& attribute = mesh.attributes().add(content.form);
+        Attribute attribute = content.form;
         attribute.values.resize(content.values.size() / sizeof(double));
         content.values.copy_to(std::as_writable_bytes(std::span(attribute.values)));
+        mesh.attributes().add(std::move(attribute));
     }
     mesh.attributes().labels() = *labels_->value;
+    mesh.attributes().recount();
     for (const auto& [name, region] : *regions_->value) mesh.set_region(name, region);
     mesh.material_libraries() = material_libraries_;
     mesh.set_asset(asset_ ? asset_->value : nullptr);

@@ -27,6 +27,7 @@ void list_items(const std::shared_ptr<SceneItem>& item, std::unordered_set<const
 
 Scene::Scene(const SceneOptions& options)
     : options_(options),
+      store_(options.account),
       seen_(std::make_shared<const SceneState>()),
       history_(seen_, options.history_bytes, store_) {}
 
@@ -182,6 +183,8 @@ bool Scene::commit() {
 
 void Scene::rollback() {
     require(!open_.empty(), "there is no step to roll back; begin one before");
+    // Whatever ended the step, a limit too: the scene becomes what it was.
+    const MemoryOverdraft overdraft(options_.account);
     with_memory_errors([&] {
         capture();
         restore(open_.back().before);
@@ -204,6 +207,7 @@ void Scene::restore(const std::shared_ptr<const SceneState>& wanted) {
         }
         objects_ = wanted->objects;
     } catch (...) {
+        const MemoryOverdraft overdraft(options_.account);
         for (; !done.empty(); done.pop_back()) {
             const CapturedItem& captured = wanted->items[done.back()];
             const auto before = now.find(captured.item->identity(), done.back());

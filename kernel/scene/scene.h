@@ -33,6 +33,8 @@ struct SceneOptions {
     /// Bytes that the history may hold beside one copy of the present content; the oldest steps go
     /// where it would be more.
     std::size_t history_bytes = std::size_t{512} << 20;
+    /// What the history is charged to, as a context's memory(); null: nothing.
+    std::shared_ptr<MemoryAccount> account = {};
 };
 
 /// What the history of a scene holds.

@@ -185,7 +185,12 @@ void save_folder(Scene& scene, const fs::path& folder, bool history,
     replace_in_folder(folder, change, context);
 }
 
-bool is_folder(const fs::path& path, SceneForm form) {
+bool is_folder(const fs::path& path, SceneForm form, const Context& context) {
+    if (context.files().write) {
+        require(form != SceneForm::folder, "a host's table of files has no folders; save one file",
+                ErrorCode::unsupported);
+        return false;
+    }
     if (form != SceneForm::automatic) return form == SceneForm::folder;
     std::error_code error;
     if (fs::is_directory(path, error) || (!path.empty() && !path.has_filename())) return true;
@@ -351,11 +356,11 @@ std::vector<std::string> save_scene(Scene& scene, const fs::path& path,
                                     const SceneSaveOptions& options, const Context& context) {
     return with_memory_errors([&] {
         std::vector<std::string> left_out;
-        if (is_folder(path, options.form)) {
+        if (is_folder(path, options.form, context)) {
             save_folder(scene, path, options.history, left_out, context);
             return left_out;
         }
-        require_folder_of(path);
+        require_folder_of(path, context);
         EncodedScene encoded = encode_scene(scene, options, context);
         write_file_atomically(path, encoded.bytes, context);
         return std::move(encoded.left_out);
@@ -364,7 +369,7 @@ std::vector<std::string> save_scene(Scene& scene, const fs::path& path,
 
 void load_scene(const fs::path& path, Scene& scene, ItemMaker& maker, const Context& context) {
     std::error_code error;
-    const bool in_folder = fs::is_directory(path, error);
+    const bool in_folder = !context.files().read && fs::is_directory(path, error);
     const FileContent file = in_folder ? FileContent{} : read_file(path, context);
     try {
         if (in_folder) return fill(scene, [&] { load_folder(path, scene, maker, context); });

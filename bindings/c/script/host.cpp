@@ -1,8 +1,7 @@
 #include "bindings/c/script/host.h"
 
-#include <cstdlib>
-
 #include "bindings/c/script_host.h"
+#include "bindings/lua/core/counted_state.h"
 #include "bindings/lua/deform/deform_object.h"
 #include "bindings/lua/hair/hair_object.h"
 
@@ -29,15 +28,7 @@ void stop_where_cancelled(lua_State* L, lua_Debug*) {
 // print of scripts: to the log of the host.
 int print_to_log(lua_State* L) {
     if (lua::find_state(L)->only_help) return 0;
-    const int count = lua_gettop(L);
-    luaL_Buffer line;
-    luaL_buffinit(L, &line);
-    for (int i = 1; i <= count; ++i) {
-        if (i > 1) luaL_addchar(&line, '\t');
-        luaL_tolstring(L, i, nullptr);
-        luaL_addvalue(&line);
-    }
-    luaL_pushresult(&line);
+    lua::push_printed(L);
     const auto& options = host_of(L).context().options;
     if (options.log) options.log(options.user, LISSOM_INFO, lua_tostring(L, -1));
     return 0;
@@ -58,7 +49,7 @@ int prepare_state(lua_State* L) {
     lua_pushcfunction(L, print_to_log);
     lua_setglobal(L, "print");
     lua_getglobal(L, "os");
-    lua_pushnil(L);
+    lua_pushcfunction(L, lua::refuse_exit);
     lua_setfield(L, -2, "exit");
     lua::open(L, *opening->options);
     luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
@@ -68,10 +59,13 @@ int prepare_state(lua_State* L) {
     return 0;
 }
 
+// The rest is that of the context itself, which takes the place of the state's own.
 ContextOptions state_options(lissom_context& context) {
     ContextOptions options;
     const lissom_context_options& host = context.options;
     options.threads = host.threads;
+    options.memory = context.kernel.memory();
+    options.files = context.kernel.files();
     if (host.log) {
         options.log = [&host](LogLevel level, std::string_view message) {
             host.log(host.user, static_cast<lissom_log_level>(level), std::string(message).c_str());
@@ -86,39 +80,33 @@ LuaReference::~LuaReference() {
     if (const auto own = host.lock()) luaL_unref(own->lua(), LUA_REGISTRYINDEX, reference);
 }
 
-void* ScriptHost::allocate(void* own, void* block, std::size_t old_size, std::size_t new_size) {
-    MemoryAccount& account = *static_cast<ScriptHost*>(own)->context_.kernel.memory();
-    if (!block) old_size = 0;
-    if (new_size > old_size) {
-        try {
-            account.charge(new_size - old_size, "a script");
-        } catch (...) {
-            return nullptr;
-        }
-    }
-    if (new_size == 0) {
-        std::free(block);
-        account.release(old_size);
-        return nullptr;
-    }
-    void* moved = std::realloc(block, new_size);
-    if (!moved) {
-        // Lua relies on blocks that become smaller.
-        if (new_size <= old_size) return block;
-        account.release(new_size - old_size);
-        return nullptr;
-    }
-    if (new_size < old_size) account.release(old_size - new_size);
-    return moved;
+ScriptHost::~ScriptHost() {
+    if (L_ && !sandbox_) lua_close(L_);
 }
 
-ScriptHost::~ScriptHost() {
-    if (L_) lua_close(L_);
+void ScriptHost::open_sandbox(lua::SandboxLimits limits) {
+    require(!L_, "scripts have run in this context already; make another context for the sandbox");
+    lua::HostOptions options;
+    options.context = state_options(context_);
+    auto made = std::make_unique<lua::Sandbox>(
+        std::move(limits), std::move(options), [this](std::string_view text) {
+            const auto& host = context_.options;
+            const std::string line(text.substr(0, text.size() - 1));
+            if (host.log) host.log(host.user, LISSOM_INFO, line.c_str());
+        });
+    made->work_in(context_.kernel);
+    sandbox_ = std::move(made);
+    L_ = sandbox_->lua();
+}
+
+int ScriptHost::call(int arguments, int results) {
+    if (sandbox_) return sandbox_->call(arguments, results);
+    return lua_pcall(lua(), arguments, results, 0);
 }
 
 lua_State* ScriptHost::lua() {
     if (L_) return L_;
-    lua_State* L = lua_newstate(allocate, this);
+    lua_State* L = lua_newstate(lua::allocate_counted, context_.kernel.memory().get());
     if (!L) throw Error(ErrorCode::memory_limit, "there is not enough memory for a Lua state");
     lua::HostOptions options;
     options.context = state_options(context_);
@@ -184,6 +172,24 @@ std::shared_ptr<T> ScriptHost::known(const void* content) {
 }
 
 namespace {
+
+// Runs in protected mode.
+int make_reference(lua_State* L) {
+    lua_pushinteger(L, luaL_ref(L, LUA_REGISTRYINDEX));
+    return 1;
+}
+
+// Keeps the value at `index` in Lua's registry.
+int reference_to(lua_State* L, int index) {
+    index = lua_absindex(L, index);
+    lua_pushcfunction(L, make_reference);
+    lua_pushvalue(L, index);
+    const bool made = lua_pcall(L, 1, 1, 0) == LUA_OK;
+    const int reference = made ? static_cast<int>(lua_tointeger(L, -1)) : LUA_NOREF;
+    lua_pop(L, 1);
+    require(made, "there is no memory left for a handle", ErrorCode::memory_limit);
+    return reference;
+}
 
 [[noreturn]] void refuse_without_mesh() {
     throw StatusError(
@@ -263,35 +269,34 @@ std::uint64_t ScriptHost::handle_of(int index) {
         throw Error(ErrorCode::invalid_argument, "a result is closed, or no object of the library");
     }
     const std::string_view type = found->type_name;
-    const auto handle = [&](Kind kind, std::shared_ptr<void> content, std::size_t taken) {
+    const auto handle = [&](Kind kind, std::shared_ptr<void> content) {
         if (const std::uint64_t known = known_handle(kind, content.get())) return known;
         keep(content.get(), found->object);
-        return context_.add(kind, std::move(content), taken);
+        return context_.add(kind, std::move(content));
     };
     if (type == lua::MeshObject::kTypeName) {
         const auto object = std::static_pointer_cast<lua::MeshObject>(found->object);
-        return handle(Kind::mesh, {object, &object->mesh}, object->mesh.memory_bytes());
+        return handle(Kind::mesh, {object, &object->mesh});
     }
     if (type == lua::RegionObject::kTypeName) {
         const auto object = std::static_pointer_cast<lua::RegionObject>(found->object);
-        return handle(Kind::region, {object, &object->region}, object->memory_bytes());
+        return handle(Kind::region, {object, &object->region});
     }
     if (type == lua::StrandsObject::kTypeName) {
         const auto object = std::static_pointer_cast<lua::StrandsObject>(found->object);
-        return handle(Kind::strands, {object, &object->strands}, object->memory_bytes());
+        return handle(Kind::strands, {object, &object->strands});
     }
     if (type == lua::DeformObject::kTypeName) {
         const auto object = std::static_pointer_cast<lua::DeformObject>(found->object);
-        return handle(Kind::deformer, {object, &object->deformer()}, 0);
+        return handle(Kind::deformer, {object, &object->deformer()});
     }
     if (type == lua::HairstyleObject::kTypeName) {
         const auto object = std::static_pointer_cast<lua::HairstyleObject>(found->object);
-        return handle(Kind::hairstyle, {object, &object->style()}, object->memory_bytes());
+        return handle(Kind::hairstyle, {object, &object->style()});
     }
     auto reference = std::make_shared<LuaReference>();
     reference->host = weak_from_this();
-    lua_pushvalue(lua(), index);
-    reference->reference = luaL_ref(lua(), LUA_REGISTRYINDEX);
+    reference->reference = reference_to(lua(), index);
     return context_.add(Kind::object, std::move(reference));
 }
 

@@ -11,6 +11,7 @@
 #include "bindings/lua/core/state.h"
 #include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
+#include "bindings/lua/sandbox/sandbox.h"
 
 namespace lissom::c {
 
@@ -43,6 +44,11 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     /// The state; opened when it is first asked for. Errors: memory_limit.
     lua_State* lua();
     lua::State& binding() { return *lua::find_state(lua()); }
+    /// Opens the state as a sandbox. Errors: invalid_argument where it is open already, or for
+    /// limits below 0; memory_limit.
+    void open_sandbox(lua::SandboxLimits limits);
+    /// As lua_pcall without a handler, within the limits of the sandbox.
+    int call(int arguments, int results);
 
     /// See Sharing.
     Sharing sharing();
@@ -60,10 +66,11 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     /// The value at `index`, objects as handles. Errors: invalid_argument for what JSON cannot
     /// hold.
     Json value_at(int index, int depth = 0);
-    /// The values from `first` to the top.
+    /// The values from `first` to the top; at most `kMostValues` with all they hold.
     Json values_from(int first);
 
     static constexpr int kDepth = 100;
+    static constexpr std::size_t kMostValues = 4'000'000;
 
   private:
     void push_value(const Json& value);
@@ -77,10 +84,13 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     std::shared_ptr<void> object_of(Kind kind, const std::shared_ptr<void>& content);
     std::uint64_t known_handle(Kind kind, const void* content);
     void keep(const void* content, const std::shared_ptr<void>& object);
-    static void* allocate(void* own, void* block, std::size_t old_size, std::size_t new_size);
 
     lissom_context& context_;
     lua_State* L_ = nullptr;
+    // Null where scripts are trusted.
+    std::unique_ptr<lua::Sandbox> sandbox_;
+    // Of the results that are being converted.
+    std::size_t values_left_ = kMostValues;
     // The Lua object around the content of a handle, by that content.
     std::map<const void*, std::weak_ptr<void>> around_;
     // The mesh that an object was made for, by the object.

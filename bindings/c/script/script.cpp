@@ -1,5 +1,6 @@
 // Scripts of a host, and calls by name.
 #include "bindings/c/data.h"
+#include "bindings/c/files.h"
 #include "bindings/c/script/host.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/core/nearest.h"
@@ -98,7 +99,7 @@ void run_script(ScriptHost& host, Script& script, const Json& arguments, bool on
     Running running{&host, &script, &arguments};
     lua_pushcfunction(L, run_protected);
     lua_pushlightuserdata(L, &running);
-    const int status = lua_pcall(L, 1, LUA_MULTRET, 0);
+    const int status = host.call(1, LUA_MULTRET);
     const bool ended = state.script_end != lua::ScriptEnd::none;
     state.only_help = false;
     state.host.arguments = {};
@@ -141,6 +142,30 @@ void set_parameter(Script& script, const std::string& name, const std::string& v
         throw Error(ErrorCode::invalid_argument, error.message);
     }
     script.values[name] = value;
+}
+
+// ---- Limits
+
+std::vector<std::filesystem::path> folders_of(const char* const* names, std::int32_t count,
+                                              const char* name) {
+    std::vector<std::filesystem::path> folders;
+    if (count > 0) require_given(names, name);
+    for (std::int32_t i = 0; i < count; ++i) folders.push_back(path_of(given_text(names[i], name)));
+    return folders;
+}
+
+lua::SandboxLimits limits_of(const lissom_sandbox_options& given) {
+    lua::SandboxLimits limits;
+    limits.seconds = given.seconds;
+    limits.instructions = given.instructions;
+    limits.memory_bytes = given.memory;
+    limits.output_bytes = given.output;
+    limits.read_folders = folders_of(given.read_folders, given.read_folder_count, "read_folders");
+    limits.write_folders =
+        folders_of(given.write_folders, given.write_folder_count, "write_folders");
+    limits.module_folders =
+        folders_of(given.module_folders, given.module_folder_count, "module_folders");
+    return limits;
 }
 
 // ---- Calls by name
@@ -226,7 +251,7 @@ Json call_by_name(ScriptHost& host, const lua::Entry& entry, const Json& argumen
     Calling calling{&host, &entry, &arguments};
     lua_pushcfunction(L, call_protected);
     lua_pushlightuserdata(L, &calling);
-    if (lua_pcall(L, 1, LUA_MULTRET, 0) != LUA_OK) {
+    if (host.call(1, LUA_MULTRET) != LUA_OK) {
         throw_lua_error(message_at_top(L), LISSOM_INVALID_ARGUMENT);
     }
     throw_answered_failure(host, guard.top() + 1);
@@ -244,6 +269,25 @@ using namespace lissom;
 using namespace lissom::c;
 
 extern "C" {
+
+lissom_sandbox_options lissom_default_sandbox_options(void) {
+    const lua::SandboxLimits limits;
+    lissom_sandbox_options options{};
+    options.struct_size = sizeof options;
+    options.seconds = limits.seconds;
+    options.instructions = limits.instructions;
+    options.memory = limits.memory_bytes;
+    options.output = limits.output_bytes;
+    return options;
+}
+
+lissom_status lissom_sandbox_scripts(lissom_context* context,
+                                     const lissom_sandbox_options* options) {
+    return run(context, [&] {
+        scripts_of(*context).open_sandbox(
+            limits_of(take_options(options, lissom_default_sandbox_options())));
+    });
+}
 
 lissom_status lissom_script_load(lissom_context* context, const char* text, size_t size,
                                  const char* name, lissom_script* script) {

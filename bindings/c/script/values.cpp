@@ -136,6 +136,11 @@ Json ScriptHost::value_at(int index, int depth) {
     if (depth > kDepth || !lua_checkstack(L_, 10)) {
         throw Error(ErrorCode::invalid_argument, "the results are nested too deeply");
     }
+    // A table that stands in several places counts in each: a few can be more than memory holds.
+    if (values_left_-- == 0) {
+        throw Error(ErrorCode::invalid_argument,
+                    "the results are more than " + std::to_string(kMostValues) + " values");
+    }
     switch (lua_type(L_, index)) {
         case LUA_TNIL:
             return nullptr;
@@ -167,6 +172,7 @@ Json ScriptHost::value_at(int index, int depth) {
 
 Json ScriptHost::values_from(int first) {
     Json values = Json::array();
+    values_left_ = kMostValues;
     const int last = lua_gettop(L_);
     for (int i = first; i <= last; ++i) values.push_back(value_at(i));
     return values;

@@ -202,8 +202,21 @@ Holder* find_holder(lua_State* L, int index, const char* type_name) {
     return !type_name || std::strcmp(holder->type_name, type_name) == 0 ? holder : nullptr;
 }
 
+// Objects that no script holds any more keep their memory until they are collected: they go before
+// a limit is run into.
+void Call::make_room() const {
+    const MemoryAccount& account = *context().memory();
+    const std::size_t limit = account.limit(), used = account.used();
+    if (limit == 0 || used < limit / 2) return;
+    if (used < state_->used_after_collection + limit / 8) return;
+    if (!lua_gc(L_, LUA_GCISRUNNING, 0)) return;
+    lua_gc(L_, LUA_GCCOLLECT, 0);
+    state_->used_after_collection = account.used();
+}
+
 void Call::begin_work() {
     luaL_checkstack(L_, LUA_MINSTACK, "no room for a listener");
+    make_room();
     state_->listeners->running = L_;
 }
 
@@ -272,6 +285,17 @@ void Call::push_elements() const {
         push_ids({failure_.ids, failure_.id_count});
     }
     lua_setfield(L_, -2, "ids");
+}
+
+void Call::hold_memory(MemoryHold& held, std::size_t bytes) const {
+    bool fits = true;
+    try {
+        if (!held.account()) held = MemoryHold(context().memory(), "an object of a script");
+        held.resize(bytes);
+    } catch (const Error&) {
+        fits = false;
+    }
+    if (!fits) raise("there is no memory left for an object of this size [memory_limit]");
 }
 
 void Call::charge_bytes(std::size_t bytes) const {

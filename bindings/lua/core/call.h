@@ -31,6 +31,7 @@
 #include "bindings/lua/core/state.h"
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
+#include "kernel/core/memory_hold.h"
 
 namespace lissom::lua {
 
@@ -195,9 +196,14 @@ class Call {
     const Failure& failure() const { return failure_; }
 
     /// Tells the collector how much native memory `object` has now; growth since the last time
-    /// makes it work. May run finalizers. T has `memory_bytes()` and `charged_bytes`.
+    /// makes it work. May run finalizers. T has `memory_bytes()` and `charged_bytes`; where it has
+    /// `held` too, that many bytes are held on the context's account, which nothing else counts:
+    /// raises a Lua error where there is no room.
     template <typename T>
     void charge(const Ref<T>& object) const {
+        if constexpr (requires { object->held; }) {
+            hold_memory(object->held, object->memory_bytes());
+        }
         const std::size_t before = object->charged_bytes;
         object->charged_bytes = object->memory_bytes();
         if (object->charged_bytes > before) charge_bytes(object->charged_bytes - before);
@@ -245,8 +251,10 @@ class Call {
     Holder* push_holder(const char* type_name) const;
     bool holds(const char* path, const char* type_name) const;
     void* push_held(std::size_t bytes, void (*destroy)(void*)) const;
+    void hold_memory(MemoryHold& held, std::size_t bytes) const;
     bool push_remembered(const void* object) const;
     void push_elements() const;
+    void make_room() const;
     void begin_work();
     bool end_work();
 

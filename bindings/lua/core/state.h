@@ -101,6 +101,8 @@ struct State {
 
     /// Native bytes that the collector has not been told of yet.
     std::size_t uncharged_bytes = 0;
+    /// What the context's account held after the last whole collection for want of room.
+    std::size_t used_after_collection = 0;
 };
 
 /// Opens the binding in `L`, or finds it opened, and pushes the table of the module. May raise a

@@ -23,7 +23,7 @@ int make_strands(Call& call) {
             }
             offsets.push_back(offsets.back() + count);
         }
-        return Strands(std::move(numbers), std::move(offsets));
+        return Strands(std::move(numbers), std::move(offsets), call.context().memory());
     });
 }
 

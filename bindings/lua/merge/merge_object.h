@@ -39,6 +39,7 @@ struct ProvenanceObject {
     ElementMap vertices, faces;
     MergeInputs inputs;
     std::size_t charged_bytes = 0;
+    MemoryHold held;
 
     std::size_t memory_bytes() const;
 };

@@ -24,6 +24,7 @@ struct BufferObject {
     std::vector<double> values;
     Index width = 1;
     std::size_t charged_bytes = 0;
+    MemoryHold held;
 
     bool writable() const { return source != Source::own; }
     std::size_t memory_bytes() const { return values.size() * sizeof(double); }

@@ -18,6 +18,7 @@ int push_paths(Call& call, const std::shared_ptr<MeshObject>& mesh, std::vector<
         const bool done = call.attempt_quick(
             [&] { result.set(std::make_shared<PathObject>(mesh, std::move(paths[i]))); });
         if (!done) return call.fail();
+        call.charge(result);
         lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
     return 1;

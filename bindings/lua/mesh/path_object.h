@@ -19,6 +19,7 @@ struct PathObject {
     std::shared_ptr<MeshObject> mesh;
     Path path;
     std::size_t charged_bytes = 0;
+    MemoryHold held;
 
     std::size_t memory_bytes() const {
         const std::size_t points = path.on_mesh() ? 0 : path.points().size();

@@ -27,19 +27,19 @@ int box(Call& call) {
     BoxOptions options;
     if (call.has("size")) options.size = call.vector("size");
     read_segments(call, options.segments);
-    return new_mesh(call, [&] { return make_box(options); });
+    return new_mesh(call, [&] { return make_box(options, call.context()); });
 }
 
 int bar(Call& call) {
     const BarOptions options{call.number("width"), call.number("length"), call.integer("across"),
                              call.integer("along")};
-    return new_mesh(call, [&] { return make_bar(options); });
+    return new_mesh(call, [&] { return make_bar(options, call.context()); });
 }
 
 int sphere(Call& call) {
     const SphereOptions options{call.number("radius"), call.integer("segments"),
                                 call.choice<SphereKind>("kind")};
-    return new_mesh(call, [&] { return make_sphere(options); });
+    return new_mesh(call, [&] { return make_sphere(options, call.context()); });
 }
 
 int cylinder(Call& call) {
@@ -50,7 +50,7 @@ int cylinder(Call& call) {
     options.rings = call.integer("rings");
     options.caps = call.boolean("caps");
     options.cap_rings = call.integer("cap_rings");
-    return new_mesh(call, [&] { return make_cylinder(options); });
+    return new_mesh(call, [&] { return make_cylinder(options, call.context()); });
 }
 
 int grid(Call& call) {
@@ -63,13 +63,13 @@ int grid(Call& call) {
         options.size = {size[0], size[1]};
     }
     read_segments(call, options.segments);
-    return new_mesh(call, [&] { return make_grid(options); });
+    return new_mesh(call, [&] { return make_grid(options, call.context()); });
 }
 
 int torus(Call& call) {
     const TorusOptions options{call.number("radius"), call.number("tube_radius"),
                                call.integer("segments"), call.integer("tube_segments")};
-    return new_mesh(call, [&] { return make_torus(options); });
+    return new_mesh(call, [&] { return make_torus(options, call.context()); });
 }
 
 int cactus(Call& call) {

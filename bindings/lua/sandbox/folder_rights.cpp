@@ -45,6 +45,7 @@ bool is_open_link(const fs::path& path) {
 
 void FolderRights::check(const fs::path& path, FileUse use) {
     const bool reads = use == FileUse::read;
+    if (reads && path.extension() == ".lua" && is_below_any(path, modules_)) return;
     const std::vector<fs::path>& folders = reads ? read_ : write_;
     if (!is_below_any(path, folders) || (!reads && is_open_link(path))) {
         throw Error(reads ? ErrorCode::file_unreadable : ErrorCode::file_write_failed,

@@ -12,9 +12,13 @@ namespace lissom::lua {
 /// Folders as they are when a script asks: links are followed first. Adds up what it has written.
 class FolderRights {
   public:
+    /// Of the folders `modules` Lua files only may be read.
     FolderRights(std::vector<std::filesystem::path> read, std::vector<std::filesystem::path> write,
-                 std::size_t most_bytes)
-        : read_(std::move(read)), write_(std::move(write)), most_bytes_(most_bytes) {}
+                 std::vector<std::filesystem::path> modules, std::size_t most_bytes)
+        : read_(std::move(read)),
+          write_(std::move(write)),
+          modules_(std::move(modules)),
+          most_bytes_(most_bytes) {}
 
     /// Errors: file_unreadable, file_write_failed: the path is outside of the folders, or enough
     /// was written.
@@ -25,7 +29,7 @@ class FolderRights {
   private:
     void count_written();
 
-    std::vector<std::filesystem::path> read_, write_;
+    std::vector<std::filesystem::path> read_, write_, modules_;
     // The file that was asked for last: what it has become is not known before the next question.
     std::filesystem::path pending_;
     std::size_t most_bytes_, bytes_ = 0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "bindings/lua/core/counted_state.h"
 #include "bindings/lua/sandbox/sandbox_state.h"
 #include "kernel/core/error.h"
 #include "kernel/io/stream/file.h"
@@ -236,16 +237,26 @@ std::string module_path(std::string_view name) {
     return path + ".lua";
 }
 
-// The text of a module, and its path; "" where there is none.
-std::string module_text(const Sandbox& sandbox, std::string_view name, std::string& place) {
+// A module that was found; without a path where there is none.
+struct Module {
+    fs::path path;
+    std::string text;
+};
+
+Module find_module(const Sandbox& sandbox, std::string_view name) {
+    const Context context = sandbox.state().context;
     for (const fs::path& folder : module_folders_of(sandbox)) {
         const fs::path path = folder / module_path(name);
         std::error_code failed;
-        if (!fs::is_regular_file(path, failed)) continue;
-        place = "@" + display_name(path);
-        return read_file(path, sandbox.state().context).bytes;
+        const bool by_host = static_cast<bool>(context.files().read);
+        if (!by_host && !fs::is_regular_file(path, failed)) continue;
+        try {
+            return {path, read_file(path, context).bytes};
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::file_not_found) throw;
+        }
     }
-    return "";
+    return {};
 }
 
 // Pushes the function of the module, or false.
@@ -254,12 +265,12 @@ void push_module(lua_State* L, const char* name) {
     message[0] = '\0';
     bool found = false;
     try {
-        std::string place;
-        const std::string text = module_text(sandbox_of(L), name, place);
-        found = !text.empty();
+        const Module module = find_module(sandbox_of(L), name);
+        found = !module.path.empty();
         if (found) {
-            // Pushes a function or a message, and raises nothing but for want of memory.
-            luaL_loadbufferx(L, text.data(), text.size(), place.c_str(), "t");
+            const std::string place = "@" + display_name(module.path);
+            // Pushes a function or a message, and raises nothing.
+            luaL_loadbufferx(L, module.text.data(), module.text.size(), place.c_str(), "t");
         }
     } catch (const std::exception& error) {
         std::snprintf(message, sizeof message, "%s", error.what());
@@ -267,6 +278,26 @@ void push_module(lua_State* L, const char* name) {
     }
     if (message[0] != '\0') luaL_error(L, "module '%s': %s", name, message);
     if (!found) lua_pushboolean(L, 0);
+}
+
+// package.searchpath(name): the file of a module, as require finds it, or nil and a message.
+int search_module(lua_State* L) {
+    const char* name = luaL_checkstring(L, 1);
+    if (!is_module_name(name)) return luaL_error(L, "'%s' is no name of a module", name);
+    char place[1024] = "";
+    try {
+        std::snprintf(place, sizeof place, "%s",
+                      display_name(find_module(sandbox_of(L), name).path).c_str());
+    } catch (const std::exception&) {
+        place[0] = '\0';
+    }
+    if (place[0] != '\0') {
+        lua_pushstring(L, place);
+        return 1;
+    }
+    lua_pushnil(L);
+    lua_pushfstring(L, "there is no module '%s'", name);
+    return 2;
 }
 
 int require_module(lua_State* L) {
@@ -314,6 +345,10 @@ void make_base_safe(lua_State* L) {
     replace_global(L, "setmetatable", set_metatable);
     replace_global(L, "collectgarbage", collect_garbage);
     keep_fields(L, LUA_OSLIBNAME, {"clock", "date", "difftime", "time"});
+    lua_getglobal(L, LUA_OSLIBNAME);
+    lua_pushcfunction(L, refuse_exit);
+    lua_setfield(L, -2, "exit");
+    lua_pop(L, 1);
     keep_fields(L, LUA_DBLIBNAME, {"traceback"});
     replace_global(L, "xpcall", call_with_handler);
     lua_getglobal(L, LUA_COLIBNAME);
@@ -341,6 +376,11 @@ void make_require_safe(lua_State* L) {
     lua_newtable(L);
     luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
     lua_setfield(L, -2, "loaded");
+    lua_pushcfunction(L, search_module);
+    lua_setfield(L, -2, "searchpath");
+    // Scripts add to it; require looks elsewhere.
+    lua_pushliteral(L, "");
+    lua_setfield(L, -2, "path");
     lua_setglobal(L, "package");
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "bindings/lua/core/counted_state.h"
 #include "bindings/lua/sandbox/folder_rights.h"
 #include "bindings/lua/sandbox/sandbox_state.h"
 #include "kernel/core/error.h"
@@ -64,65 +65,16 @@ struct Sandbox::Parts {
     std::atomic<SandboxEnd> end = SandboxEnd::none;
     std::int64_t instructions = 0;
     lua_State* L = nullptr;
-    // Before the state has an account, what Lua takes is only counted.
     std::shared_ptr<MemoryAccount> account = {};
-    std::size_t early_bytes = 0;
 
     void ask(SandboxEnd why) {
         SandboxEnd none = SandboxEnd::none;
         end.compare_exchange_strong(none, why);
         stop.ask();
     }
-    bool take(std::size_t bytes);
-    void give_back(std::size_t bytes);
 };
 
-bool Sandbox::Parts::take(std::size_t bytes) {
-    if (!account) {
-        if (limits.memory_bytes != 0 && early_bytes + bytes > limits.memory_bytes) return false;
-        early_bytes += bytes;
-        return true;
-    }
-    try {
-        account->charge(bytes, "a script");
-    } catch (const Error&) {
-        return false;
-    } catch (const std::bad_alloc&) {
-        return false;
-    }
-    return true;
-}
-
-void Sandbox::Parts::give_back(std::size_t bytes) {
-    if (account) {
-        account->release(bytes);
-    } else {
-        early_bytes -= bytes;
-    }
-}
-
 namespace {
-
-// lua_Alloc.
-void* allocate(void* own, void* block, std::size_t old_size, std::size_t new_size) {
-    Sandbox::Parts& parts = *static_cast<Sandbox::Parts*>(own);
-    if (!block) old_size = 0;
-    if (new_size > old_size && !parts.take(new_size - old_size)) return nullptr;
-    if (new_size == 0) {
-        std::free(block);
-        parts.give_back(old_size);
-        return nullptr;
-    }
-    void* moved = std::realloc(block, new_size);
-    if (!moved) {
-        // Lua relies on blocks that become smaller.
-        if (new_size <= old_size) return block;
-        parts.give_back(new_size - old_size);
-        return nullptr;
-    }
-    if (new_size < old_size) parts.give_back(old_size - new_size);
-    return moved;
-}
 
 void look_at_limits(lua_State* L, lua_Debug*) {
     const Sandbox& sandbox = sandbox_of(L);
@@ -140,16 +92,9 @@ void look_at_limits(lua_State* L, lua_Debug*) {
 
 int print(lua_State* L) {
     const Sandbox& sandbox = sandbox_of(L);
-    const int count = lua_gettop(L);
-    luaL_Buffer line;
-    luaL_buffinit(L, &line);
-    for (int i = 1; i <= count; ++i) {
-        if (i > 1) luaL_addchar(&line, '\t');
-        luaL_tolstring(L, i, nullptr);
-        luaL_addvalue(&line);
-    }
-    luaL_addchar(&line, '\n');
-    luaL_pushresult(&line);
+    push_printed(L);
+    lua_pushliteral(L, "\n");
+    lua_concat(L, 2);
     Sandbox::Parts& parts = sandbox.parts();
     if (sandbox.state().only_help) return 0;
     std::size_t size = 0;
@@ -192,6 +137,24 @@ int prepare_sandbox(lua_State* L) {
     lua_setfield(L, -2, "lissom");
     make_require_safe(L);
     return 0;
+}
+
+// Where the host has a table of files and names no folders, the table decides.
+void guard_files(Sandbox::Parts& parts) {
+    FileTable& files = parts.options.context.files;
+    const bool host_reads = files.read && parts.limits.read_folders.empty();
+    const bool host_writes = files.write && parts.limits.write_folders.empty();
+    parts.options.check_file = [&parts, host_reads, host_writes](const std::filesystem::path& path,
+                                                                 FileUse use) {
+        if (use == FileUse::read ? !host_reads : !host_writes) parts.rights.check(path, use);
+    };
+    if (!host_writes) return;
+    files.write = [&parts, write = std::move(files.write)](std::string_view path,
+                                                           std::string_view bytes) {
+        if (parts.rights.count_output(bytes.size())) return write(path, bytes);
+        throw Error(ErrorCode::file_write_failed,
+                    std::string(path) + ": the script has written as much as it may");
+    };
 }
 
 void require_limits(const SandboxLimits& limits) {
@@ -240,16 +203,17 @@ void raise_stopped(lua_State* L) {
 Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
                  std::function<void(std::string_view)> print) {
     require_limits(limits);
-    FolderRights rights(limits.read_folders, limits.write_folders, limits.output_bytes);
+    FolderRights rights(limits.read_folders, limits.write_folders, limits.module_folders,
+                        limits.output_bytes);
     parts_.reset(
         new Parts{std::move(limits), std::move(options), std::move(print), std::move(rights)});
     Parts& parts = *parts_;
-    parts.options.context.memory_limit = parts.limits.memory_bytes;
+    parts.account =
+        std::make_shared<MemoryAccount>(parts.limits.memory_bytes, parts.options.context.memory);
+    parts.options.context.memory = parts.account;
     parts.options.addresses = false;
-    parts.options.check_file = [&parts](const std::filesystem::path& path, FileUse use) {
-        parts.rights.check(path, use);
-    };
-    parts.L = lua_newstate(allocate, &parts);
+    guard_files(parts);
+    parts.L = lua_newstate(allocate_counted, parts.account.get());
     bool opened = false;
     if (parts.L) {
         lua_pushcfunction(parts.L, prepare_sandbox);
@@ -262,9 +226,6 @@ Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
         if (parts.L) lua_close(parts.L);
         throw Error(ErrorCode::memory_limit, "the sandbox cannot be opened: " + why);
     }
-    const std::shared_ptr<MemoryAccount> account = state().context.memory();
-    account->charge(parts.early_bytes, "a script");
-    parts.account = account;
     lua_sethook(parts.L, look_at_limits, LUA_MASKCOUNT, kInstructions);
 }
 
@@ -274,6 +235,10 @@ Sandbox::~Sandbox() {
 
 lua_State* Sandbox::lua() const {
     return parts_->L;
+}
+
+void Sandbox::work_in(const Context& context) {
+    state().context = context.charging(parts_->account).with_files(parts_->options.context.files);
 }
 
 std::shared_ptr<MemoryAccount> Sandbox::memory() const {

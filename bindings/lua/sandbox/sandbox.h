@@ -22,15 +22,17 @@ struct SandboxLimits {
     double seconds = 10.0;
     /// Of Lua's virtual machine, counted in hundreds; 0: any number.
     std::int64_t instructions = 0;
-    /// What Lua takes and what the kernel charges to its context, together; meshes and strands are
-    /// not among it yet. 0: as much as there is.
+    /// What Lua takes, and what the library takes for the script's objects and for its work,
+    /// together. 0: as much as there is.
     std::size_t memory_bytes = std::size_t{256} << 20;
     /// What is printed, and the files that are written. A file is counted when it is there, so that
     /// the last one may go beyond; 0: any number.
     std::size_t output_bytes = std::size_t{64} << 20;
-    /// Files below them may be read, or written. Without any, none may.
+    /// Files below them may be read, or written. Without any, none may, but those of a host's table
+    /// of files (ContextOptions::files), which then decides.
     std::vector<std::filesystem::path> read_folders, write_folders;
-    /// Where `require` looks for NAME.lua, besides what is in the library.
+    /// Where `require` looks for NAME.lua, besides what is in the library, and lissom.load_tool for
+    /// tools/NAME.lua.
     std::vector<std::filesystem::path> module_folders;
 };
 
@@ -40,7 +42,8 @@ enum class SandboxEnd { none, seconds, instructions, output, cancelled };
 class Sandbox {
   public:
     /// Opens the state. `print` gets what the script prints, with its line ends. Of `options` the
-    /// memory limit and the check of files are replaced.
+    /// memory limit and the check of files are replaced; what the script takes is charged to the
+    /// account of its context too, where that is given.
     /// Errors: memory_limit where the state itself does not fit; invalid_argument for limits below
     /// zero.
     Sandbox(SandboxLimits limits, HostOptions options,
@@ -51,6 +54,9 @@ class Sandbox {
 
     lua_State* lua() const;
     State& state() const { return *find_state(lua()); }
+    /// Lets the script work in the context of the host, in place of one of its own that is made of
+    /// the options: its cancel, its progress, its threads; within the limits as before.
+    void work_in(const Context& context);
     /// The memory that Lua and the kernel have taken.
     std::shared_ptr<MemoryAccount> memory() const;
 

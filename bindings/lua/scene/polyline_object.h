@@ -16,6 +16,7 @@ struct PolylineObject {
 
     Polyline polyline;
     std::size_t charged_bytes = 0;
+    MemoryHold held;
 
     std::size_t memory_bytes() const { return polyline.points.size() * sizeof(Vec3); }
 };

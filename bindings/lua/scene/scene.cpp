@@ -15,12 +15,12 @@ namespace {
 // ---- lissom.scene
 
 int make_scene(Call& call) {
-    SceneOptions options;
     const double bytes = call.number("history");
     const auto result = call.create<SceneObject>();
     const bool done = call.attempt_quick([&] {
-        SceneOptions given = options;
+        SceneOptions given;
         given.history_bytes = static_cast<std::size_t>(bytes);
+        given.account = call.context().memory();
         result.set(std::make_shared<SceneObject>(given));
     });
     return done ? 1 : call.fail();

@@ -43,6 +43,7 @@ int load_scene_file(Call& call) {
     const bool done = call.attempt([&] {
         SceneOptions options;
         options.history_bytes = static_cast<std::size_t>(bytes);
+        options.account = call.context().memory();
         auto made = std::make_shared<SceneObject>(options);
         load_scene(call.file(path, FileUse::read), made->scene, *script_item_maker(),
                    call.context());

@@ -78,8 +78,8 @@ int support_edges(Call& call) {
 int support_mesh(Call& call) {
     const auto self = call.self<SupportObject>();
     const auto result = call.create<MeshObject>();
-    const bool done =
-        call.attempt([&] { result.set(std::make_shared<MeshObject>(self->surface.mesh())); });
+    const bool done = call.attempt(
+        [&] { result.set(std::make_shared<MeshObject>(self->surface.mesh(call.context()))); });
     if (!done) return call.fail();
     call.charge(result);
     return 1;

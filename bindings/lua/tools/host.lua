@@ -1,6 +1,6 @@
 -- The host of tools: calls a tool's functions with what a hand does, each in a step of the scene. What is
 -- returned is what the binding calls; its reference is in tools.cpp.
-local lissom, hear, guard, now = ...
+local lissom, hear, guard, now, load_script, find_file = ...
 
 local Tool, Event, View, Host = { __name = "lissom.Tool" }, {}, {}, { __name = "lissom.ToolHost" }
 Tool.__tostring = function(tool) return "lissom.Tool: " .. rawget(tool, "name") end

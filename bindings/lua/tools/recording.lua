@@ -183,7 +183,7 @@ local function host_of(...)
 end
 
 local function run_script(path)
-    local chunk, message = loadfile(path, "t")
+    local chunk, message = load_script(path)
     if not chunk then error(message, 0) end
     local host = host_of(chunk())
     if not host then error(path .. " returns no scene, nor what a scene can hold", 0) end
@@ -193,9 +193,7 @@ end
 -- Whether a path is what scene:save wrote: a .lissom file, or a folder.
 local function is_scene_path(path)
     if path:match("%.lissom$") then return true end
-    local description = io.open(path .. "/scene.json", "rb")
-    if description then description:close() end
-    return description ~= nil
+    return find_file(path .. "/scene.json") == true
 end
 
 -- The scene of mesh files, of one saved scene or of one script; options are those of lissom.load.
@@ -221,7 +219,7 @@ local function load_tool(word)
             error("there is no tool '" .. word .. "': name one of scripts/tools, or a .lua file", 0)
         end
     end
-    local chunk, message = loadfile(path, "t")
+    local chunk, message = load_script(path)
     if not chunk then error(message, 0) end
     local folder = (path:match("^(.*[/\\])") or "./") .. "?.lua"
     if not (";" .. package.path .. ";"):find(";" .. folder .. ";", 1, true) then
@@ -241,13 +239,11 @@ local function folder_of(path) return path:match("^(.*[/\\])") or "" end
 -- Where a file is that a recording in `folder` names.
 local function place_of(path, folder)
     if not path:match("^[/\\]") and not path:match("^%a:") then path = folder .. path end
-    if not io then return path end
-    local file, reason = io.open(path, "rb")
-    if not file then
+    local found, reason = find_file(path)
+    if not found then
         error("the recording needs a file that cannot be opened: " .. reason ..
             " (paths in a recording begin at its own folder)", 0)
     end
-    file:close()
     return path
 end
 
@@ -301,14 +297,7 @@ end
 local function recording_of(path)
     local recorded
     local catcher = { replay = function(t) recorded = t end }
-    local chunk, message
-    local sandbox = { require = function() return catcher end }
-    if setfenv then
-        chunk, message = loadfile(path, "t")
-        if chunk then setfenv(chunk, sandbox) end
-    else
-        chunk, message = loadfile(path, "t", sandbox)
-    end
+    local chunk, message = load_script(path, { require = function() return catcher end })
     if not chunk then error(message, 0) end
     chunk()
     if type(recorded) ~= "table" then error(path .. " is no recording", 0) end

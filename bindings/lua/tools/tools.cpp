@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/script_files.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tool_text.h"
@@ -65,7 +66,9 @@ void load_tool_functions(lua_State* L) {
     lua_pushcfunction(L, hear_calls);
     lua_pushcfunction(L, guard_step);
     lua_pushcfunction(L, push_seconds);
-    lua_call(L, 4, 1);
+    lua_pushcfunction(L, load_script_file);
+    lua_pushcfunction(L, find_script_file);
+    lua_call(L, 6, 1);
     lua_pushvalue(L, -1);
     raw_set_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
 }

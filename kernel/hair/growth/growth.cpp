@@ -361,7 +361,9 @@ void StrandCollector::take(const GrowthRoots& roots, Index first,
 
 void StrandCollector::finish(const StrandRoots& roots) {
     points_.resize(3 * at(offsets_.back()));
-    strands_ = Strands(std::move(points_), std::move(offsets_));
+    // The points count with the strands from now on.
+    charge_ = {};
+    strands_ = Strands(std::move(points_), std::move(offsets_), context_.memory());
     strands_.set_roots(roots);
 }
 

@@ -166,7 +166,7 @@ Strands joined_points(const Strands& a, const Strands& b) {
     points.insert(points.end(), b.points().begin(), b.points().end());
     std::vector<Index> offsets(a.offsets().begin(), a.offsets().end());
     for (const Index offset : b.offsets().subspan(1)) offsets.push_back(a.point_count() + offset);
-    return {std::move(points), std::move(offsets)};
+    return {std::move(points), std::move(offsets), a.account() ? a.account() : b.account()};
 }
 
 double scale_of(const Affine& map) {
@@ -216,7 +216,7 @@ Strands select(const Strands& strands, std::span<const Index> list) {
         const StrandView strand = strands.strand(s);
         points.insert(points.end(), strand.data(), strand.data() + strand.size());
     }
-    Strands result(std::move(points), std::move(offsets));
+    Strands result(std::move(points), std::move(offsets), strands.account());
     choose_data(strands, list, result);
     return result;
 }

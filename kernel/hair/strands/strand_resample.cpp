@@ -143,11 +143,12 @@ std::vector<Index> all_segments(const Strands& strands, const ResampleOptions& o
 Strands at_places(const Strands& strands, const Find& find, const Context& context) {
     const std::vector<Run> runs = find_runs(strands, find, context);
     std::vector<Index> offsets = offsets_of(runs);
-    const MemoryCharge charge =
+    MemoryCharge charge =
         context.charge(3 * sizeof(float) * at(offsets.back()), "points of strands");
     std::vector<float> points(3 * at(offsets.back()));
     interpolate(strands.points().data(), 3, strands, offsets, runs, context, points.data());
-    Strands result(std::move(points), offsets);
+    charge = {};
+    Strands result(std::move(points), offsets, context.memory());
     copy_data(
         strands,
         [&](auto& values) {

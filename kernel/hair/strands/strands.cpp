@@ -47,7 +47,16 @@ void require_values(const StrandValues<Value>& values, const Strands& strands, c
 
 template <typename T>
 std::size_t bytes_of(const std::vector<T>& list) {
-    return list.capacity() * sizeof(T);
+    return list.size() * sizeof(T);
+}
+
+template <typename Value>
+std::size_t bytes_of(const StrandValues<Value>& values) {
+    return bytes_of(values.values);
+}
+
+std::size_t bytes_of(const StrandRoots& roots) {
+    return bytes_of(roots.faces) + bytes_of(roots.barycentrics) + bytes_of(roots.uvs);
 }
 
 }  // namespace
@@ -61,10 +70,19 @@ float StrandWidths::factor(double t) const {
     return static_cast<float>((1.0 - u) * profile[below] + u * profile[above]);
 }
 
-Strands::Strands(std::vector<float> points, std::vector<Index> offsets) {
+Strands::Strands(std::vector<float> points, std::vector<Index> offsets,
+                 std::shared_ptr<MemoryAccount> account)
+    : hold_(std::move(account), "strands") {
     require_offsets(points, offsets);
+    hold_.resize(bytes_of(points) + bytes_of(offsets));
     points_ = std::move(points);
     offsets_ = std::move(offsets);
+}
+
+// Before one list takes the place of another.
+template <typename List>
+void Strands::count(const List& now, const List& next) {
+    hold_.resize(memory_bytes() - bytes_of(now) + bytes_of(next));
 }
 
 void Strands::release(std::vector<float>& points, std::vector<Index>& offsets) {
@@ -81,6 +99,7 @@ Index Strands::find_group(std::string_view name) const {
 
 void Strands::set_widths(StrandWidths widths) {
     require_values(widths, *this, "widths");
+    count(widths_, widths);
     widths_ = std::move(widths);
 }
 
@@ -88,18 +107,20 @@ void Strands::set_roots(StrandRoots roots) {
     if (!roots.faces.empty()) require_length(roots.faces.size(), size(), "root faces");
     require_length(roots.barycentrics.size(), count_of(roots.faces), "barycentric coordinates");
     if (!roots.uvs.empty()) require_length(roots.uvs.size(), size(), "root uvs");
+    count(roots_, roots);
     roots_ = std::move(roots);
 }
 
 void Strands::set_groups(std::vector<Index> groups, std::vector<std::string> names) {
     if (!groups.empty()) require_length(groups.size(), size(), "groups");
-    const auto count = count_of(names);
+    const auto known = count_of(names);
     for (const Index group : groups) {
-        if (group < kNoIndex || group >= count) {
-            refuse("group " + std::to_string(group) + " is none of the " + std::to_string(count) +
+        if (group < kNoIndex || group >= known) {
+            refuse("group " + std::to_string(group) + " is none of the " + std::to_string(known) +
                    " that have names");
         }
     }
+    count(groups_, groups);
     groups_ = std::move(groups);
     group_names_ = std::move(names);
 }
@@ -110,25 +131,26 @@ void Strands::set_ids(std::vector<std::uint32_t> ids) {
     const bool are_numbers =
         std::all_of(ids.begin(), ids.end(), [&](std::uint32_t id) { return id == number++; });
     if (are_numbers) ids.clear();
+    count(ids_, ids);
     ids_ = std::move(ids);
 }
 
 void Strands::set_colors(StrandValues<Eigen::Vector3f> colors) {
     require_values(colors, *this, "colours");
+    count(colors_, colors);
     colors_ = std::move(colors);
     has_colors_ = true;
 }
 
 void Strands::set_transparency(StrandValues<float> transparency) {
     require_values(transparency, *this, "transparencies");
+    count(transparency_, transparency);
     transparency_ = std::move(transparency);
 }
 
 std::size_t Strands::memory_bytes() const {
-    return bytes_of(points_) + bytes_of(offsets_) + bytes_of(widths_.values) +
-           bytes_of(roots_.faces) + bytes_of(roots_.barycentrics) + bytes_of(roots_.uvs) +
-           bytes_of(groups_) + bytes_of(ids_) + bytes_of(colors_.values) +
-           bytes_of(transparency_.values);
+    return bytes_of(points_) + bytes_of(offsets_) + bytes_of(widths_) + bytes_of(roots_) +
+           bytes_of(groups_) + bytes_of(ids_) + bytes_of(colors_) + bytes_of(transparency_);
 }
 
 void require_strand(const Strands& strands, Index strand) {

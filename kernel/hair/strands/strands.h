@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/core/memory_hold.h"
 
 namespace lissom {
 
@@ -72,15 +74,18 @@ inline Vec3 point_of(const StrandView& strand, Index i) {
 using StrandEdit = Eigen::Map<Eigen::Matrix3Xf>;
 
 /// Hair. Every strand has at least one point, its root; a strand of one point has no hair. Strands
-/// are numbered from 0 in their order; their ids stay with them when some are selected.
+/// are numbered from 0 in their order; their ids stay with them when some are selected. Their
+/// memory counts on the account that they were made with, and so does that of copies: copying them,
+/// or adding to them, may throw memory_limit.
 class Strands {
   public:
     /// No strands.
     Strands() = default;
     /// `points`: x y z of all strands one after the other; strand s has the points offsets[s] to
     /// offsets[s + 1] - 1. Errors: invalid_argument where offsets do not begin with 0, grow, and
-    /// end with the number of points.
-    Strands(std::vector<float> points, std::vector<Index> offsets);
+    /// end with the number of points; memory_limit. Null counts nowhere.
+    Strands(std::vector<float> points, std::vector<Index> offsets,
+            std::shared_ptr<MemoryAccount> account = nullptr);
 
     Index size() const { return count_of(offsets_) - 1; }
     bool empty() const { return size() == 0; }
@@ -137,10 +142,15 @@ class Strands {
 
     /// Bytes of all lists.
     std::size_t memory_bytes() const;
+    const std::shared_ptr<MemoryAccount>& account() const { return hold_.account(); }
 
   private:
     const float* data(Index s) const { return points_.data() + 3 * at(first_point(s)); }
 
+    template <typename List>
+    void count(const List& now, const List& next);
+
+    MemoryHold hold_;
     std::vector<float> points_;
     std::vector<Index> offsets_ = {0};
     StrandWidths widths_;

@@ -215,10 +215,11 @@ Strands read_cyhair(ByteSource& source, const Context& context) {
     require_header_values(header);
     source.tally = {"strands", 0, header.strands};
     std::vector<Index> offsets = read_offsets(header, source);
-    const MemoryCharge charge = context.charge(source.remaining(), "reading strands");
+    MemoryCharge charge = context.charge(source.remaining(), "reading strands");
     std::vector<float> points(std::size_t{3} * header.points);
     read_points(source, points, offsets, context);
-    Strands strands(std::move(points), std::move(offsets));
+    charge = {};
+    Strands strands(std::move(points), std::move(offsets), context.memory());
     set_values(header, source, strands);
     set_comment(header, strands);
     if (source.remaining() > 0) {

@@ -63,7 +63,7 @@ Strands read_hair_salon(ByteSource& source, const Context& context) {
         context.log(LogLevel::warning, std::to_string(source.remaining()) +
                                            " bytes after the last strand were left out");
     }
-    return {std::move(points), std::move(offsets)};
+    return {std::move(points), std::move(offsets), context.memory()};
 }
 
 void write_hair_salon(const Strands& strands, std::string& bytes) {

@@ -118,8 +118,8 @@ std::string media_type_of(std::string_view bytes) {
 // Collects materials in an asset of the kind that glTF files have.
 class Library {
   public:
-    Library(const std::filesystem::path& folder, Report& report)
-        : folder_(folder), report_(report), asset_(std::make_shared<GltfAsset>()) {
+    Library(const std::filesystem::path& folder, Report& report, const Context& context)
+        : folder_(folder, context), report_(report), asset_(std::make_shared<GltfAsset>()) {
         asset_->from_libraries = true;
     }
 
@@ -218,7 +218,7 @@ class Library {
 
 void read_material_libraries(const FileInput& file, MeshData& data, const Context& context) {
     if (file.folder.empty()) return;
-    Library library(file.folder, data.report);
+    Library library(file.folder, data.report, context);
     for (const std::string& name : data.material_libraries) {
         context.checkpoint();
         library.add_file(name);

@@ -283,6 +283,32 @@ std::string nearest_in(const fs::path& path, bool folders) {
            display_name(path.parent_path() / std::u8string(nearest.begin(), nearest.end())) + "'?";
 }
 
+// What the host gives piece by piece is charged first, each time that the room doubles.
+FileContent read_by_host(const fs::path& path, const Context& context) {
+    context.checkpoint();
+    FileContent content;
+    const auto take = [&](std::string_view piece) {
+        const std::size_t size = content.bytes.size() + piece.size();
+        if (size > content.bytes.capacity()) {
+            const std::size_t room = std::max(size, 2 * content.bytes.size());
+            content.charge = context.charge(room, "reading " + display_name(path));
+            content.bytes.reserve(room);
+        }
+        content.bytes.append(piece);
+    };
+    if (!context.files().read(display_name(path), take)) {
+        refuse(ErrorCode::file_not_found, path, "the host has no such file");
+    }
+    if (content.bytes.empty()) refuse(ErrorCode::file_empty, path, "the file is empty");
+    return content;
+}
+
+void write_by_host(const fs::path& path, std::string_view bytes, const Context& context) {
+    context.checkpoint();
+    if (context.files().write(display_name(path), bytes)) return;
+    refuse(ErrorCode::file_write_failed, path, "the host cannot write the file");
+}
+
 }  // namespace
 
 std::string missing_file_text(const fs::path& path) {
@@ -299,8 +325,9 @@ std::string display_name(const fs::path& path) {
     return {utf8.begin(), utf8.end()};
 }
 
-void require_file(const fs::path& path) {
+void require_file(const fs::path& path, const Context& context) {
     require_name(ErrorCode::file_not_found, path);
+    if (context.files().read) return;
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) {
@@ -316,8 +343,9 @@ void require_file(const fs::path& path) {
     if (size_of_file(path) == 0) refuse(ErrorCode::file_empty, path, "the file is empty");
 }
 
-void require_folder_of(const fs::path& path) {
+void require_folder_of(const fs::path& path, const Context& context) {
     require_name(ErrorCode::file_write_failed, path);
+    if (context.files().write) return;
     std::error_code error;
     const fs::path folder = folder_of(path);
     if (fs::is_directory(folder, error)) return;
@@ -339,7 +367,8 @@ void make_folder(const fs::path& path) {
 }
 
 FileContent read_file(const fs::path& path, const Context& context) {
-    require_file(path);
+    require_file(path, context);
+    if (context.files().read) return read_by_host(path, context);
     std::ifstream stream(path, std::ios::binary);
     if (!stream) {
         refuse(ErrorCode::file_unreadable, path, "cannot be read: " + last_error().message());
@@ -362,6 +391,7 @@ FileContent read_file(const fs::path& path, const Context& context) {
 
 void write_file_atomically(const fs::path& path, std::string_view bytes, const Context& context) {
     require_no_zero(ErrorCode::file_write_failed, path);
+    if (context.files().write) return write_by_host(path, bytes, context);
     const fs::path target = follow_links(path);
     require_folder_of(target);
     std::error_code ignored;

@@ -240,7 +240,7 @@ class LayerReader {
         for (CurvesPrim& prim : prims_) {
             std::string name = prim.name;
             hair_.has_widths |= prim.widths.found;
-            Strands part = strands_of(std::move(prim));
+            Strands part = strands_of(std::move(prim), context_);
             if (prims_.size() > 1 && part.groups().empty()) {
                 part.set_groups(std::vector<Index>(part.size(), 0), {std::move(name)});
             }

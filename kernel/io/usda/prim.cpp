@@ -181,7 +181,7 @@ std::vector<Index> curve_counts(const CurvesPrim& prim) {
     return counts;
 }
 
-Strands strands_of(CurvesPrim prim) {
+Strands strands_of(CurvesPrim prim, const Context& context) {
     if (prim.wrap == "periodic") {
         refuse_prim(prim, "its curves are closed, which hair is not; set wrap to nonperiodic",
                     ErrorCode::unsupported);
@@ -195,7 +195,7 @@ Strands strands_of(CurvesPrim prim) {
     std::vector<Index> offsets = {0};
     for (const Index count : curve_counts(prim)) offsets.push_back(offsets.back() + count);
     const CurveCounts counts{offsets.size() - 1, prim.points.size() / 3};
-    Strands strands(std::move(prim.points), std::move(offsets));
+    Strands strands(std::move(prim.points), std::move(offsets), context.memory());
     set_widths(prim, counts, strands);
     set_colors(prim, counts, strands);
     set_transparency(prim, counts, strands);

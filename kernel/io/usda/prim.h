@@ -42,7 +42,7 @@ struct CurvesPrim {
 
 /// The strands of a prim. Errors: file_syntax at the prim where its numbers contradict each other;
 /// unsupported for kinds of curves that are not known.
-Strands strands_of(CurvesPrim prim);
+Strands strands_of(CurvesPrim prim, const Context& context);
 
 /// Replaces the control points of cubic curves, and all values that go with them, by points on the
 /// curves; the type is linear then. Errors: as `strands_of`.

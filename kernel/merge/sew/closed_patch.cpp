@@ -206,7 +206,7 @@ std::vector<FacePair> ClosedPatch::crossings(const Context& context) const {
         number.push_back(index_of(f));
     }
     std::vector<FacePair> pairs =
-        self_intersections(Mesh(std::move(points), std::move(faces)), {}, context);
+        self_intersections(Mesh(std::move(points), std::move(faces), context), {}, context);
     for (FacePair& pair : pairs) pair = {number[pair.first], number[pair.second]};
     return pairs;
 }

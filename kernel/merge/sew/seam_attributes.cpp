@@ -29,6 +29,7 @@ void split_charts(Mesh& mesh) {
         attribute.domain = Domain::corner;
         attribute.values = std::move(values);
     }
+    mesh.attributes().recount();
 }
 
 // Corner of face `f` at vertex `v`.

@@ -115,6 +115,7 @@ signed char side_near(const Mesh& mesh, const std::vector<signed char>& side, co
 
 Cut cut_along(const Mesh& mesh, CutLines found, CutSides sides, const CutOptions& options,
               const Context& context) {
+    const MemoryCharge working = context.charge(2 * mesh.memory_bytes(), "cutting a mesh");
     CutReport report = std::move(found.report);
     report.whole_components = sides.whole_components;
     add_concerns(mesh, found.lines, report);

@@ -161,6 +161,8 @@ void append(Mesh& mesh, const Mesh& other, const Context& context) {
     require_room(mesh.vertex_count(), other.vertex_count(), "vertices");
     require_room(mesh.topology().corner_count(), other.topology().corner_count(), "corners");
     Progress progress(context, "append");
+    const MemoryCharge working =
+        context.charge((mesh.memory_bytes() + other.memory_bytes()) / 2, "appending a mesh");
 
     std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
     positions.insert(positions.end(), other.positions().begin(), other.positions().end());
@@ -169,6 +171,7 @@ void append(Mesh& mesh, const Mesh& other, const Context& context) {
     LabelRenames renames;
     result.set_asset(joined_asset(mesh, other, renames));
     join_labels(mesh, other, renames, result.attributes(), context);
+    result.attributes().recount();
     for (auto& [name, vertices] : joined_regions(mesh, other)) {
         result.set_region(name, Region(result.shared_topology(), std::move(vertices)));
     }

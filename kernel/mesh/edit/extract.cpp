@@ -116,15 +116,22 @@ std::vector<char> faces_of(const Mesh& mesh, const Region& region) {
     return chosen;
 }
 
+// Where the elements of the part come from.
+MemoryCharge room_for_part(const Mesh& mesh, const Context& context) {
+    return context.charge(mesh.memory_bytes(), "a part of a mesh");
+}
+
 }  // namespace
 
 MeshPart extract(const Mesh& mesh, const Region& region, const Context& context) {
     Progress progress(context, "extract");
+    const MemoryCharge working = room_for_part(mesh, context);
     return Extraction(mesh, faces_of(mesh, region), region.mask()).take(context);
 }
 
 MeshPart remove(const Mesh& mesh, const Region& region, const Context& context) {
     Progress progress(context, "remove");
+    const MemoryCharge working = room_for_part(mesh, context);
     std::vector<char> faces = faces_of(mesh, region);
     std::vector<char> vertices = region.mask();
     for (char& chosen : faces) chosen = !chosen;
@@ -135,6 +142,7 @@ MeshPart remove(const Mesh& mesh, const Region& region, const Context& context) 
 MeshPart extract_faces(const Mesh& mesh, std::span<const Index> faces, const Context& context) {
     require_faces(mesh.topology(), faces);
     Progress progress(context, "extract");
+    const MemoryCharge working = room_for_part(mesh, context);
     std::vector<char> chosen(mesh.face_count(), 0);
     for (const Index f : faces) chosen[f] = 1;
     std::vector<char> none(mesh.vertex_count(), 0);

@@ -124,6 +124,10 @@ void check(const Mesh& mesh, const SmoothOptions& options) {
 void smooth(Mesh& mesh, const SmoothOptions& options, const Context& context) {
     check(mesh, options);
     Progress progress(context, "smooth");
+    // A list of neighbours and their weights for each vertex, and positions three times.
+    constexpr std::size_t kBytesPerVertex = 300;
+    const MemoryCharge working =
+        context.charge(kBytesPerVertex * at(mesh.vertex_count()), "smoothing a mesh");
     const DirectionCarrier directions(mesh);
     const Stencils stencils = stencils_for(mesh, options);
     // Taubin's second factor: 1 / strength + 1 / outward = pass band.

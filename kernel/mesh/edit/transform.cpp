@@ -10,6 +10,7 @@ namespace lissom {
 namespace {
 
 Mesh with_reversed_faces(const Mesh& mesh, std::vector<Vec3> positions, const Context& context) {
+    const MemoryCharge working = context.charge(mesh.memory_bytes(), "turning the faces of a mesh");
     const Topology& topology = mesh.topology();
     FaceList faces;
     std::vector<Index> corners, face;
@@ -44,6 +45,8 @@ double handedness(const Affine& map) {
 void transform(Mesh& mesh, const Affine& map, const Context& context) {
     const double sign = handedness(map);
     context.checkpoint();
+    const MemoryCharge working =
+        context.charge(mesh.positions().size_bytes(), "transforming a mesh");
     std::vector<Vec3> positions;
     positions.reserve(mesh.vertex_count());
     for (const Vec3& p : mesh.positions()) positions.push_back(map(p));

@@ -78,6 +78,7 @@ FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options,
         throw Error(ErrorCode::invalid_argument, "the density of a patch must be above 0");
     }
     Progress progress(context, "fill");
+    const MemoryCharge working = context.charge(2 * mesh.memory_bytes(), "filling a hole");
     FillReport report;
     report.loop_size = count_of(outline);
     report.first_vertex = mesh.vertex_count();

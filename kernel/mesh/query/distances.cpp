@@ -18,6 +18,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Heat falls by e with every sqrt(t) of distance and must not fall below what a double can hold.
 constexpr double kMaximumDecay = 600.0;
 
+// What the surface takes, and the entries of two matrices while they are gathered.
+constexpr std::size_t kSurfaceBytesPerCorner = 64, kTripletBytesPerTriangle = 700;
+
 // An upper bound of the distance between any two vertices of a component.
 double diameter_bound(const Mesh& mesh, const Context& context) {
     const std::vector<Index>& components = mesh.topology().components();
@@ -93,6 +96,8 @@ struct HeatDistances::State {
     // Positions and topology alone.
     Mesh shape;
     const Topology* topology;
+    // Of the surface, whose edges may be others than the mesh's.
+    MemoryCharge charge;
     IntrinsicDelaunay surface;
     // Without a boundary, the second of these is not used.
     SparseSystem heat_free, heat_cold, poisson;
@@ -102,6 +107,8 @@ struct HeatDistances::State {
 HeatDistances::State::State(const Mesh& given, const Context& context)
     : shape({given.positions().begin(), given.positions().end()}, given.shared_topology()),
       topology(&shape.topology()),
+      charge(context.charge(kSurfaceBytesPerCorner * at(topology->corner_count()),
+                            "geodesic distances")),
       surface(triangulate_faces(*topology, shape.positions()).triangles, shape.positions(),
               context) {
     build_systems(context);
@@ -109,6 +116,8 @@ HeatDistances::State::State(const Mesh& given, const Context& context)
 
 void HeatDistances::State::build_systems(const Context& context) {
     const Index n = topology->vertex_count();
+    const MemoryCharge working =
+        context.charge(kTripletBytesPerTriangle * surface.triangles().size(), "geodesic distances");
     const double decay =
         std::max(surface.mean_length(), diameter_bound(shape, context) / kMaximumDecay);
     const double time = decay * decay;

@@ -245,6 +245,10 @@ std::vector<FacePair> self_intersections(const Mesh& mesh, const SelfIntersectio
         throw Error(ErrorCode::invalid_argument, "tolerance must lie between 0 and 1");
     }
     Progress progress(context, "self-intersections");
+    // Boxes of triangles and a tree of them.
+    constexpr std::size_t kBytesPerCorner = 120;
+    const MemoryCharge working =
+        context.charge(kBytesPerCorner * at(mesh.topology().corner_count()), "self-intersections");
     return Search(mesh, options).find(context);
 }
 

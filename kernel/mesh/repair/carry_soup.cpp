@@ -162,6 +162,7 @@ Mesh carry_soup(Soup soup, std::span<const Index> file_corners, CornerFaces work
         mesh.attributes().add(carried(std::move(attribute), sources));
     }
     carry_labels(std::move(soup.attributes), sources, mesh.attributes());
+    mesh.attributes().recount();
     for (const auto& [name, vertices] : soup.regions) {
         mesh.set_region(
             name, Region(mesh.shared_topology(), carried_region(vertices, file_vertices, sources)));

@@ -200,6 +200,11 @@ Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Rep
     require_indices(soup);
     require_finite(soup);
     require_attributes_fit(soup);
+    // Lists by corner and by vertex: what is welded, which edges meet, how vertices are split.
+    constexpr std::size_t kBytesPerCorner = 48, kBytesPerVertex = 64;
+    const MemoryCharge working = context.charge(
+        kBytesPerCorner * soup.faces.vertices.size() + kBytesPerVertex * soup.positions.size(),
+        "checking a mesh");
     const std::vector<Index> file_corners = soup.faces.vertices;
     weld_known(soup);
     if (options.weld == Weld::all) weld_all(soup);

@@ -33,13 +33,13 @@ class LatticeBox {
 
     // Maps each vertex by position(coordinates scaled to [-1, 1]).
     template <typename Position>
-    Mesh mesh(const Position& position) const {
+    Mesh mesh(const Position& position, const Context& context) const {
         std::vector<Vec3> positions;
         positions.reserve(vertices_.size());
         for (const Lattice& v : vertices_) {
             positions.push_back(position(Vec3(scaled(v, 0), scaled(v, 1), scaled(v, 2))));
         }
-        return {std::move(positions), faces_};
+        return {std::move(positions), faces_, context};
     }
 
     std::vector<Index> side(int axis, bool far) const {
@@ -89,16 +89,24 @@ class LatticeBox {
     FaceList faces_;
 };
 
-Mesh box_mesh(const LatticeBox& box, const Vec3& size) {
-    return box.mesh([&](const Vec3& p) { return Vec3(0.5 * size.cwiseProduct(p)); });
+Mesh box_mesh(const LatticeBox& box, const Vec3& size, const Context& context) {
+    return box.mesh([&](const Vec3& p) { return Vec3(0.5 * size.cwiseProduct(p)); }, context);
 }
 
-void check_box(const Lattice& n) {
+// Room for what a shape of `faces` faces is made from, positions and numbers by keys among it.
+// Errors: as require_countable; memory_limit.
+MemoryCharge room_for(std::int64_t faces, const Context& context) {
+    constexpr std::size_t kBytesPerFace = 128;
+    require_countable(faces);
+    return context.charge(static_cast<std::size_t>(faces) * kBytesPerFace, "a generated mesh");
+}
+
+MemoryCharge room_for_box(const Lattice& n, const Context& context) {
     const std::int64_t x = n[0], y = n[1], z = n[2];
     // The products below must not overflow either.
     const std::int64_t largest = std::max({x, y, z});
     require_countable(largest);
-    require_countable(2 * (x * y + y * z + z * x));
+    return room_for(2 * (x * y + y * z + z * x), context);
 }
 
 // A vertex of a divided icosahedron, by its weights at the corners of a face: (corner, weight)
@@ -136,7 +144,7 @@ constexpr std::array<std::array<Index, 3>, 20> kIcosahedronFaces{
      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 
-Mesh icosahedron_sphere(double radius, Index n) {
+Mesh icosahedron_sphere(double radius, Index n, const Context& context) {
     std::map<IcosahedronKey, Index> ids;
     std::vector<Vec3> positions;
     FaceList faces;
@@ -165,7 +173,7 @@ Mesh icosahedron_sphere(double radius, Index n) {
             }
         }
     }
-    return {std::move(positions), std::move(faces)};
+    return {std::move(positions), std::move(faces), context};
 }
 
 // Angle i of n, counted against the clock around y seen from above.
@@ -197,8 +205,8 @@ class CylinderBuilder {
         if (o_.caps) add_fans();
     }
 
-    Mesh mesh() const {
-        Mesh result(positions_, faces_);
+    Mesh mesh(const Context& context) const {
+        Mesh result(positions_, faces_, context);
         const auto count = count_of(positions_);
         set_region(result, "bottom", range(0, at(wall_ + 1, 0)));
         set_region(result, "top", range(at(wall_ + o_.rings, 0), count));
@@ -247,14 +255,14 @@ class CylinderBuilder {
 
 }  // namespace
 
-Mesh make_box(const BoxOptions& options) {
+Mesh make_box(const BoxOptions& options, const Context& context) {
     for (int k = 0; k < 3; ++k) {
         require_length(options.size[k], "size");
         require_at_least(options.segments[k], 1, "segments");
     }
-    check_box(options.segments);
+    const MemoryCharge room = room_for_box(options.segments, context);
     const LatticeBox box(options.segments);
-    Mesh mesh = box_mesh(box, options.size);
+    Mesh mesh = box_mesh(box, options.size, context);
     constexpr std::array<std::array<const char*, 2>, 3> names{
         {{"left", "right"}, {"bottom", "top"}, {"back", "front"}}};
     for (int axis = 0; axis < 3; ++axis) {
@@ -264,55 +272,56 @@ Mesh make_box(const BoxOptions& options) {
     return mesh;
 }
 
-Mesh make_bar(const BarOptions& options) {
+Mesh make_bar(const BarOptions& options, const Context& context) {
     require_length(options.width, "width");
     require_length(options.length, "length");
     require_at_least(options.across, 1, "across");
     require_at_least(options.along, 1, "along");
     const Lattice segments{options.across, options.along, options.across};
-    check_box(segments);
+    const MemoryCharge room = room_for_box(segments, context);
     const LatticeBox box(segments);
-    Mesh mesh = box_mesh(box, Vec3(options.width, options.length, options.width));
+    Mesh mesh = box_mesh(box, Vec3(options.width, options.length, options.width), context);
     set_region(mesh, "bottom", box.side(1, false));
     set_region(mesh, "top", box.side(1, true));
     return mesh;
 }
 
-Mesh make_sphere(const SphereOptions& options) {
+Mesh make_sphere(const SphereOptions& options, const Context& context) {
     require_length(options.radius, "radius");
     require_at_least(options.segments, 1, "segments");
     const std::int64_t n = options.segments;
     require_countable(n);
     if (options.kind == SphereKind::triangles) {
-        require_countable(20 * n * n);
-        return icosahedron_sphere(options.radius, options.segments);
+        const MemoryCharge room = room_for(20 * n * n, context);
+        return icosahedron_sphere(options.radius, options.segments, context);
     }
-    require_countable(6 * n * n);
+    const MemoryCharge room = room_for(6 * n * n, context);
     const LatticeBox box({options.segments, options.segments, options.segments});
-    return box.mesh([&](const Vec3& p) {
+    const auto place = [&](const Vec3& p) {
         const Vec3 warped = (0.25 * kPi * p).array().tan().matrix();
         return Vec3(options.radius * warped.normalized());
-    });
+    };
+    return box.mesh(place, context);
 }
 
-Mesh make_cylinder(const CylinderOptions& options) {
+Mesh make_cylinder(const CylinderOptions& options, const Context& context) {
     require_length(options.radius, "radius");
     require_length(options.height, "height");
     require_at_least(options.segments, 3, "segments");
     require_at_least(options.rings, 1, "rings");
     require_at_least(options.cap_rings, 1, "cap_rings");
-    require_countable(options.segments *
-                      (std::int64_t{options.rings} + 2 * std::int64_t{options.cap_rings}));
-    return CylinderBuilder(options).mesh();
+    const std::int64_t rings = std::int64_t{options.rings} + 2 * std::int64_t{options.cap_rings};
+    const MemoryCharge room = room_for(options.segments * rings, context);
+    return CylinderBuilder(options).mesh(context);
 }
 
-Mesh make_grid(const GridOptions& options) {
+Mesh make_grid(const GridOptions& options, const Context& context) {
     const auto [nx, nz] = options.segments;
     require_length(options.size.x(), "size");
     require_length(options.size.y(), "size");
     require_at_least(nx, 1, "segments");
     require_at_least(nz, 1, "segments");
-    require_countable(std::int64_t{nx} * nz);
+    const MemoryCharge room = room_for(std::int64_t{nx} * nz, context);
     std::vector<Vec3> positions;
     std::vector<Index> border;
     for (Index j = 0; j <= nz; ++j) {
@@ -331,17 +340,18 @@ Mesh make_grid(const GridOptions& options) {
             faces.add({at, at + nx + 1, at + nx + 2, at + 1});
         }
     }
-    Mesh mesh(std::move(positions), std::move(faces));
+    Mesh mesh(std::move(positions), std::move(faces), context);
     set_region(mesh, "border", std::move(border));
     return mesh;
 }
 
-Mesh make_torus(const TorusOptions& options) {
+Mesh make_torus(const TorusOptions& options, const Context& context) {
     require_length(options.radius, "radius");
     require_length(options.tube_radius, "tube_radius");
     require_at_least(options.segments, 3, "segments");
     require_at_least(options.tube_segments, 3, "tube_segments");
-    require_countable(std::int64_t{options.segments} * options.tube_segments);
+    const MemoryCharge room =
+        room_for(std::int64_t{options.segments} * options.tube_segments, context);
     if (options.tube_radius >= options.radius) {
         throw Error(ErrorCode::invalid_argument,
                     "a torus needs a tube_radius smaller than its radius");
@@ -358,7 +368,7 @@ Mesh make_torus(const TorusOptions& options) {
             faces.add({i * m + j, next_i * m + j, next_i * m + next_j, i * m + next_j});
         }
     }
-    return {std::move(positions), std::move(faces)};
+    return {std::move(positions), std::move(faces), context};
 }
 
 }  // namespace lissom

@@ -20,7 +20,7 @@ struct BoxOptions {
     /// Quads along x, y and z; at least 1 each.
     std::array<Index, 3> segments{1, 1, 1};
 };
-Mesh make_box(const BoxOptions& options = {});
+Mesh make_box(const BoxOptions& options = {}, const Context& context = {});
 
 /// A slender bar of square cross section along y, made of quads. Regions: "bottom", "top" (its end
 /// squares). Strictly between the ends lie 4 * across * (along - 1) vertices: 36 across and 171
@@ -30,7 +30,7 @@ struct BarOptions {
     /// Quads across each side and along the bar; at least 1 each.
     Index across = 8, along = 40;
 };
-Mesh make_bar(const BarOptions& options = {});
+Mesh make_bar(const BarOptions& options = {}, const Context& context = {});
 
 /// How a sphere is divided: a cube's quads projected by equal angles, or the triangles of an
 /// icosahedron.
@@ -43,7 +43,7 @@ struct SphereOptions {
     Index segments = 16;
     SphereKind kind = SphereKind::quads;
 };
-Mesh make_sphere(const SphereOptions& options = {});
+Mesh make_sphere(const SphereOptions& options = {}, const Context& context = {});
 
 /// A cylinder along y. Regions: "bottom" and "top" (its end circles, with the caps where there are
 /// any), and "caps" where there are.
@@ -57,7 +57,7 @@ struct CylinderOptions {
     /// Rings of each cap, at least 1; the innermost is the fan.
     Index cap_rings = 4;
 };
-Mesh make_cylinder(const CylinderOptions& options = {});
+Mesh make_cylinder(const CylinderOptions& options = {}, const Context& context = {});
 
 /// An open rectangle of quads in the xz plane that faces +y. Region: "border".
 struct GridOptions {
@@ -65,7 +65,7 @@ struct GridOptions {
     /// Quads along x and z; at least 1 each.
     std::array<Index, 2> segments{10, 10};
 };
-Mesh make_grid(const GridOptions& options = {});
+Mesh make_grid(const GridOptions& options = {}, const Context& context = {});
 
 /// A torus of quads around the y axis.
 struct TorusOptions {
@@ -74,7 +74,7 @@ struct TorusOptions {
     /// Quads around the axis and around the tube; at least 3 each.
     Index segments = 48, tube_segments = 24;
 };
-Mesh make_torus(const TorusOptions& options = {});
+Mesh make_torus(const TorusOptions& options = {}, const Context& context = {});
 
 /// A saguaro: a ribbed trunk with a rounded top and two arms that leave it sideways and turn up.
 /// One smoothly blended closed surface of quads that stands on the plane y = 0 around the y axis;

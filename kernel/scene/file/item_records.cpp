@@ -184,6 +184,7 @@ Mesh mesh_of(MeshRecord record, const Context& context,
         require_labels(labels);
         mesh.attributes().labels()[labels.kind] = std::move(labels.labels);
     }
+    mesh.attributes().recount();
     require_complete_attributes(mesh);
     for (RegionRecord& region : record.regions) {
         mesh.set_region(region.name, Region(mesh.shared_topology(), std::move(region.vertices)));
@@ -210,8 +211,8 @@ StrandsRecord record_of(const Strands& strands) {
     return record;
 }
 
-Strands strands_of(StrandsRecord record) {
-    Strands strands(std::move(record.points), std::move(record.offsets));
+Strands strands_of(StrandsRecord record, const Context& context) {
+    Strands strands(std::move(record.points), std::move(record.offsets), context.memory());
     strands.set_widths(std::move(record.widths));
     strands.set_roots(std::move(record.roots));
     strands.set_groups(std::move(record.groups), std::move(record.group_names));

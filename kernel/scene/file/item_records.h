@@ -103,7 +103,7 @@ Mesh mesh_of(MeshRecord record, const Context& context,
              const std::shared_ptr<const Topology>& known = nullptr);
 
 StrandsRecord record_of(const Strands& strands);
-Strands strands_of(StrandsRecord record);
+Strands strands_of(StrandsRecord record, const Context& context);
 
 /// `mesh` is the one that is deformed, in its present shape.
 DeformRecord record_of(const DeformSetup& setup, const ShownResult& shown, const Mesh& mesh);

@@ -118,7 +118,7 @@ std::shared_ptr<SceneItem> LiveItems::made(ItemRecord& record) {
             return maker_.make_mesh(std::move(mesh));
         }
         case ItemKind::strands:
-            return maker_.make_strands(strands_of(std::move(record.strands)));
+            return maker_.make_strands(strands_of(std::move(record.strands), context_));
         case ItemKind::polyline:
             return maker_.make_polyline(std::move(record.polyline));
         case ItemKind::deformation: {
@@ -149,7 +149,8 @@ void LiveItems::put_back(Index number, ItemRecord& record) {
         }
         case ItemKind::strands:
             return item.restore(
-                StrandsContent(strands_of(std::move(record.strands)), nullptr, store), nullptr);
+                StrandsContent(strands_of(std::move(record.strands), context_), nullptr, store),
+                nullptr);
         case ItemKind::polyline:
             return item.restore(PolylineContent(record.polyline, store), nullptr);
         case ItemKind::deformation: {

@@ -203,7 +203,7 @@ std::vector<SupportSurface::Hit> SupportSurface::hits(const Ray& ray) const {
     return hits;
 }
 
-Mesh SupportSurface::mesh() const {
+Mesh SupportSurface::mesh(const Context& context) const {
     std::vector<Vec3> positions;
     FaceList faces;
     for (const Ruling& r : rulings_) {
@@ -214,7 +214,7 @@ Mesh SupportSurface::mesh() const {
         faces.add({2 * i, 2 * i + 2, 2 * i + 3});
         faces.add({2 * i, 2 * i + 3, 2 * i + 1});
     }
-    return Mesh(std::move(positions), std::move(faces));
+    return Mesh(std::move(positions), std::move(faces), context);
 }
 
 }  // namespace lissom

@@ -72,7 +72,7 @@ class SupportSurface {
     /// Where a ray meets it, nearest to its origin first.
     std::vector<Hit> hits(const Ray& ray) const;
     /// Two vertices a ruling, two triangles between rulings.
-    Mesh mesh() const;
+    Mesh mesh(const Context& context = {}) const;
 
   private:
     void add_hits(std::size_t first, const Ray& ray, std::vector<Hit>& hits) const;

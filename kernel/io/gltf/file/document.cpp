@@ -93,8 +93,8 @@ void require_lists(const Json& json) {
 // Opens the buffers and images of one document.
 class Loader {
   public:
-    Loader(const FileInput& file, GltfDocument& document, Report& report)
-        : document_(document), folder_(file.folder), report_(report) {}
+    Loader(const FileInput& file, GltfDocument& document, Report& report, const Context& context)
+        : document_(document), folder_(file.folder, context), report_(report) {}
 
     void load_buffers(std::optional<std::string_view> binary) {
         Json* buffers = member(document_.json, "buffers");
@@ -279,7 +279,7 @@ GltfDocument open_gltf(const FileInput& file, Report& report, const Context& con
     require_gltf_2(document.json);
     require_lists(document.json);
     require_supported_extensions(document.json);
-    Loader loader(file, document, report);
+    Loader loader(file, document, report, context);
     loader.load_buffers(container.binary);
     document.charge = context.charge(2 * document.bytes_read, "the content of a glTF file");
     document.model = parse_model(document.json);

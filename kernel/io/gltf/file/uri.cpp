@@ -126,12 +126,22 @@ bool is_on_the_web(std::string_view uri) {
 }
 
 fs::path GltfFolder::path_of(const fs::path& relative, std::string_view uri) const {
+    if (context_.files().read) return (folder_ / relative).lexically_normal();
     std::error_code failed;
     const fs::path path = fs::weakly_canonical(folder_ / relative, failed);
     if (failed) refuse_path(uri);
     const fs::path folder = fs::weakly_canonical(folder_, failed);
     if (failed || !is_inside(path, folder)) refuse_path(uri);
     return path;
+}
+
+SharedBytes GltfFolder::read_from_host(const fs::path& path) {
+    SharedBytes& known = content_[path];
+    if (!known) {
+        known = std::make_shared<const std::string>(read_file(path, context_).bytes);
+        bytes_read_ += known->size();
+    }
+    return known;
 }
 
 SharedBytes GltfFolder::read_path(const fs::path& path, std::size_t length) {
@@ -159,8 +169,9 @@ SharedBytes GltfFolder::read(std::string_view uri, std::size_t length) {
                    ", but a file in memory has no folder to find it in; load it by its path");
     }
     const fs::path path = path_of(relative, uri);
-    require_file(path);
-    const auto size = fs::file_size(path);
+    require_file(path, context_);
+    const bool by_host = static_cast<bool>(context_.files().read);
+    const auto size = by_host ? read_from_host(path)->size() : fs::file_size(path);
     if (size < length) {
         refuse(ErrorCode::file_truncated, "'" + display_name(path) + "' has " +
                                               std::to_string(size) + " of the " +
@@ -174,6 +185,14 @@ SharedBytes GltfFolder::read_if_there(std::string_view uri) {
     const fs::path relative = safe_relative_path(uri);
     if (folder_.empty()) return nullptr;
     const fs::path path = path_of(relative, uri);
+    if (context_.files().read) {
+        try {
+            return read_from_host(path);
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::file_not_found) throw;
+            return nullptr;
+        }
+    }
     std::error_code failed;
     if (!fs::is_regular_file(path, failed)) return nullptr;
     const auto size = fs::file_size(path);

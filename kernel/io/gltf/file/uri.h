@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace lissom {
 
@@ -33,7 +34,8 @@ bool is_on_the_web(std::string_view uri);
 class GltfFolder {
   public:
     /// An empty path is no folder: no file can be opened then.
-    explicit GltfFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    GltfFolder(std::filesystem::path folder, const Context& context)
+        : folder_(std::move(folder)), context_(context) {}
 
     /// The first `length` bytes, if it has as many, of the file at the relative `uri`.
     /// Errors: unsafe_path where it is not inside the folder; unsupported for the web;
@@ -49,8 +51,10 @@ class GltfFolder {
     std::filesystem::path path_of(const std::filesystem::path& relative,
                                   std::string_view uri) const;
     SharedBytes read_path(const std::filesystem::path& path, std::size_t length);
+    SharedBytes read_from_host(const std::filesystem::path& path);
 
     std::filesystem::path folder_;
+    const Context& context_;
     std::map<std::filesystem::path, SharedBytes> content_;
     std::size_t bytes_read_ = 0;
 };

@@ -32,7 +32,7 @@ TEST_CASE("sandbox: files are allowed below the folders, and nowhere else") {
     const fs::path in = folder / "in", out = folder / "out";
     fs::create_directories(in / "deep");
     fs::create_directories(out);
-    FolderRights rights({in}, {out}, 0);
+    FolderRights rights({in}, {out}, {}, 0);
     CHECK(allows(rights, in / "deep/a.obj", FileUse::read));
     CHECK(allows(rights, in / "deep/../a.obj", FileUse::read));
     CHECK(allows(rights, out / "b.obj", FileUse::write));
@@ -42,12 +42,12 @@ TEST_CASE("sandbox: files are allowed below the folders, and nowhere else") {
     CHECK_FALSE(allows(rights, folder / "input/a.obj", FileUse::read));
     CHECK_FALSE(allows(rights, "/etc/passwd", FileUse::read));
     CHECK_FALSE(allows(rights, "", FileUse::read));
-    FolderRights none({}, {}, 0);
+    FolderRights none({}, {}, {}, 0);
     CHECK_FALSE(allows(none, in / "a.obj", FileUse::read));
 }
 
 TEST_CASE("sandbox: relative paths are those of the working folder") {
-    FolderRights here({"."}, {"."}, 0);
+    FolderRights here({"."}, {"."}, {}, 0);
     CHECK(allows(here, "new.obj", FileUse::write));
     CHECK(allows(here, "./deep/new.obj", FileUse::read));
     CHECK(allows(here, fs::current_path() / "new.obj", FileUse::write));
@@ -63,7 +63,7 @@ TEST_CASE("sandbox: links lead nowhere that the folders do not") {
     fs::create_symlink(secret / "a.obj", in / "link.obj");
     fs::create_directory_symlink(secret, in / "links");
     fs::create_symlink(secret / "new.obj", in / "open.obj");
-    FolderRights rights({in}, {in}, 0);
+    FolderRights rights({in}, {in}, {}, 0);
     CHECK_FALSE(allows(rights, in / "link.obj", FileUse::read));
     CHECK_FALSE(allows(rights, in / "links/a.obj", FileUse::read));
     CHECK_FALSE(allows(rights, in / "link.obj", FileUse::write));
@@ -73,7 +73,7 @@ TEST_CASE("sandbox: links lead nowhere that the folders do not") {
 
 TEST_CASE("sandbox: what is written is added up") {
     const test::TemporaryFolder folder;
-    FolderRights rights({}, {folder / ""}, 1000);
+    FolderRights rights({}, {folder / ""}, {}, 1000);
     CHECK(allows(rights, folder / "a", FileUse::write));
     write(folder / "a", 600);
     CHECK(allows(rights, folder / "b", FileUse::write));

@@ -201,16 +201,79 @@ std::vector<HostileScript> memory() {
     };
 }
 
+// What would take more memory than there is by objects of the library. Each keeps what it makes, or
+// makes too much at once.
+std::vector<HostileScript> objects() {
+    const char* const limit = "of the limit of";
+    const std::string start = "local l = require('lissom') local t = {} ";
+    const std::string bar = start + "local m = l.shapes.bar{ across = 20, along = 100 } ";
+    const std::string hair =
+        start +
+        "local points, counts = {}, {} for i = 1, 2000 do points[i] = { i, 0, 0 } end "
+        "for i = 1, 20 do counts[i] = 100 end local s = l.strands{ points = points, counts = "
+        "counts } ";
+    const std::string keep = "while true do t[#t + 1] = assert(";
+    const std::string grow = "while true do m = assert(";
+    return {
+        {"copies of a mesh", bar + keep + "m:copy()) end", error, limit},
+        {"copies of a mesh in pcall",
+         bar + "while true do pcall(function() while true do t[#t + 1] = assert(m:copy()) end end) "
+               "end",
+         time},
+        {"copies of a mesh in coroutines",
+         bar + "coroutine.wrap(function() " + keep + "m:copy()) end end)()", error, limit},
+        {"subdivision", bar + grow + "m:subdivide(1)) end", error, limit},
+        {"subdivision at once", bar + "assert(m:subdivide(9))", error, limit},
+        {"mesh appended to itself", bar + "while true do assert(m:append(m)) end", error, limit},
+        {"grid", start + "assert(l.shapes.grid{ segments = 16000 })", error, limit},
+        {"box", start + "assert(l.shapes.box{ segments = 5000 })", error, limit},
+        {"sphere", start + "assert(l.shapes.sphere{ segments = 3000, kind = 'triangles' })", error,
+         limit},
+        {"sphere of quads", start + "assert(l.shapes.sphere{ segments = 5000, kind = 'quads' })",
+         error, limit},
+        {"torus", start + "assert(l.shapes.torus{ segments = 9000, tube_segments = 9000 })", error,
+         limit},
+        {"cylinder", start + "assert(l.shapes.cylinder{ segments = 9000, rings = 9000 })", error,
+         limit},
+        {"cactus", start + "assert(l.shapes.cactus{ vertices = 1000000 })", error, limit},
+        {"regions", bar + keep + "m:region{ all = true }) end", error, limit},
+        {"named regions",
+         bar +
+             "local r = m:region{ all = true } for i = 1, 1e9 do assert(m:set_region('r' .. i, r)) "
+             "end",
+         error, limit},
+        {"attributes",
+         bar + "for i = 1, 1e9 do assert(m:add_attribute{ name = 'a' .. i, domain = 'corner', "
+               "width = 4 "
+               "}) end",
+         error, limit},
+        {"parts", bar + keep + "(m:extract(m:region{ all = true }))) end", error, limit},
+        {"cuts", bar + keep + "(m:cut{ plane = { point = {0, 0, 0}, normal = {0, 1, 0} } })) end",
+         error, limit},
+        {"strands", hair + "while true do t[#t + 1] = assert(s:copy()) end", error, limit},
+        {"strands appended to themselves", hair + "while true do assert(s:append(s)) end", error,
+         limit},
+        {"strands of many points", hair + "assert(s:resample{ step = 1e-5 })", error, limit},
+        {"points of strands", hair + keep + "s:points()) end", error, "memory"},
+        {"history of a scene",
+         bar + "local scene = l.scene{ history = 1e12 } scene:add('m', m) "
+               "while true do assert(scene:step('move', function() "
+               "assert(m:transform{ translate = {1, 0, 0} }) end)) end",
+         error, "limit"},
+    };
+}
+
 // Ways out.
 std::vector<HostileScript> ways_out() {
     return {
         {"io", "return io == nil and package.loaded.io == nil", harmless},
         {"files of Lua", "return dofile == nil and loadfile == nil", harmless},
         {"os",
-         "return os.execute == nil and os.exit == nil and os.remove == nil and "
+         "return os.execute == nil and os.remove == nil and "
          "os.rename == nil and os.getenv == nil and os.tmpname == nil and "
          "os.setlocale == nil",
          harmless},
+        {"end of the process", "os.exit(true, true)", error, "return from the script"},
         {"os that is loaded", "return package.loaded.os.execute == nil and require('os') == os",
          harmless},
         {"debug",
@@ -220,9 +283,29 @@ std::vector<HostileScript> ways_out() {
          harmless},
         {"package",
          "return package.loadlib == nil and package.cpath == nil and "
-         "package.searchers == nil and package.path == nil and "
-         "package.searchpath == nil",
+         "package.searchers == nil and package.path == '' and "
+         "package.searchpath('passwd', '/etc/?') == nil",
          harmless},
+        {"search by a path", "package.searchpath('../../etc/passwd')", error,
+         "no name of a module"},
+        {"tool of the system", "require('lissom').load_tool('/etc/passwd.lua')", error,
+         "may not read"},
+        {"tool upwards", "require('lissom').load_tool('../../../../../../../../etc/passwd.lua')",
+         error, "may not read"},
+        {"tool that is none", "require('lissom').load_tool('bend')", error, "there is no tool"},
+        {"recording of the system", "require('lissom').replay('/etc/passwd')", error,
+         "may not read"},
+        {"script in a recording",
+         "require('lissom').replay{ version = 1, open = { '/etc/passwd.lua' }, events = {} }",
+         error, "may not read"},
+        {"scene in a recording",
+         "require('lissom').replay{ version = 1, open = { '/etc/passwd.lissom' }, events = {} }",
+         error, "may not read"},
+        {"tool in a recording",
+         "require('lissom').replay{ version = 1, open = {}, events = { { 'tool', '/etc/passwd.lua' "
+         "} } "
+         "}",
+         error, "may not read"},
         {"preload",
          "package.preload = { evil = function() return io end } "
          "return pcall(require, 'evil') == false",
@@ -311,7 +394,7 @@ std::vector<HostileScript> ways_out() {
 
 std::vector<HostileScript> hostile_scripts() {
     std::vector<HostileScript> all = endless();
-    for (const auto& more : {patterns(), memory(), ways_out()}) {
+    for (const auto& more : {patterns(), memory(), objects(), ways_out()}) {
         all.insert(all.end(), more.begin(), more.end());
     }
     return all;

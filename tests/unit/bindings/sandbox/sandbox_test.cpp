@@ -2,8 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <functional>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -55,7 +58,8 @@ TEST_CASE("sandbox: memory is Lua's and the kernel's together") {
     CHECK(run_text(sandbox,
                    "local lissom = require 'lissom' "
                    "local bar = lissom.shapes.bar{ across = 40, along = 400 } "
-                   "local edit = lissom.deform(bar) edit:handle(bar:region('bottom')) "
+                   "local edit, _, code = lissom.deform(bar) if not edit then return code end "
+                   "edit:handle(bar:region('bottom')) "
                    "edit:handle(bar:region('top')):rotate{ axis = 'y', angle = 90 } "
                    "return select(3, edit:solve())") == LUA_OK);
     CHECK(std::string(lua_tostring(sandbox.lua(), -1)) == "memory_limit");
@@ -101,6 +105,109 @@ TEST_CASE("sandbox: several at once, each with limits of its own") {
     }
     for (std::thread& host : hosts) host.join();
     for (const SandboxEnd end : ends) CHECK(end == SandboxEnd::seconds);
+}
+
+// Deforms, merges and grows, and tells what came out.
+constexpr const char* kThreeChapters = R"(
+local lissom = require "lissom"
+local bar = lissom.shapes.bar{ across = 6, along = 40 }
+local edit = lissom.deform(bar)
+edit:handle(bar:region("bottom"))
+edit:handle(bar:region("top")):rotate{ axis = "z", angle = 60 }
+assert(edit:solve())
+local lower = lissom.shapes.cylinder{ segments = 30, rings = 20, caps = false }
+local upper = lower:copy():transform{ translate = { 0.1, 2.5, 0 } }
+local join = { source = upper:boundaries()[1], target = lower:boundaries()[2] }
+local merged = assert(lissom.merge{ source = upper, target = lower, joins = { join } })
+local style = assert(lissom.hairstyle(lissom.shapes.head{ vertices = 3000 }, { resolution = 6000 }))
+local points = {}
+for i, at in ipairs{ { 20, 50 }, { 70, 25 }, { 85, -15 } } do
+    points[i] = (style:at{ azimuth = at[1], elevation = at[2], lift = 0.01 })
+end
+style:stream{ points = points }
+local hair = assert(style:grow{ count = 2000, length = 0.15 })
+return bar:hash() .. " " .. merged:hash() .. " " .. hair:hash()
+)";
+
+std::string three_chapters() {
+    Sandbox sandbox({}, {});
+    lua_State* L = sandbox.lua();
+    if (luaL_loadstring(L, kThreeChapters) != LUA_OK) return "no script";
+    sandbox.call(0, 1);
+    const char* text = lua_tostring(L, -1);
+    return text ? text : "no text";
+}
+
+TEST_CASE("sandbox: ten states on ten threads make what one makes alone") {
+    const std::string alone = three_chapters();
+    INFO(alone);
+    CHECK(std::count(alone.begin(), alone.end(), ' ') == 2);
+    std::array<std::string, 10> results;
+    {
+        std::vector<std::jthread> threads;
+        for (std::string& result : results) {
+            threads.emplace_back([&result] { result = three_chapters(); });
+        }
+    }
+    for (const std::string& result : results) CHECK(result == alone);
+}
+
+TEST_CASE("sandbox: the account of the host is charged too, and holds") {
+    const auto account = std::make_shared<MemoryAccount>(std::size_t{32} << 20);
+    HostOptions options;
+    options.context.memory = account;
+    {
+        Sandbox sandbox({}, options);
+        CHECK(account->used() == sandbox.memory()->used());
+        CHECK(run_text(sandbox, "return ('x'):rep(40 * 2^20)") != LUA_OK);
+        CHECK(run_text(sandbox, "kept = require('lissom').shapes.grid{ segments = 100 }") ==
+              LUA_OK);
+        CHECK(account->used() > 1'000'000);
+    }
+    CHECK(account->used() == 0);
+    CHECK(account->peak() <= account->limit());
+}
+
+TEST_CASE("sandbox: objects that no script holds make room for others") {
+    SandboxLimits limits;
+    limits.memory_bytes = std::size_t{32} << 20;
+    Sandbox sandbox(limits, {});
+    CHECK(
+        run_text(sandbox,
+                 "local l = require('lissom') local bar = l.shapes.bar{ across = 20, along = 100 } "
+                 "for i = 1, 200 do assert(bar:copy()) assert(bar:region{ all = true }) "
+                 "assert(bar:subdivide(1)) end return true") == LUA_OK);
+    INFO(lua_tostring(sandbox.lua(), -1) ? lua_tostring(sandbox.lua(), -1) : "");
+    CHECK(lua_toboolean(sandbox.lua(), -1));
+}
+
+TEST_CASE("sandbox: files of a host's table") {
+    std::map<std::string, std::string> files{{"tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+                                             {"lib/part.lua", "return 7"}};
+    HostOptions options;
+    options.context.files.read = [&](std::string_view path,
+                                     const std::function<void(std::string_view)>& sink) {
+        const auto found = files.find(std::string(path));
+        if (found == files.end()) return false;
+        sink(found->second);
+        return true;
+    };
+    options.context.files.write = [&](std::string_view path, std::string_view bytes) {
+        files[std::string(path)] = bytes;
+        return true;
+    };
+    SandboxLimits limits;
+    limits.module_folders = {"lib"};
+    limits.output_bytes = 1000;
+    Sandbox sandbox(limits, options);
+    CHECK(run_text(sandbox,
+                   "local l = require('lissom') local m = assert(l.load('tri.obj')) "
+                   "assert(require('part') == 7) assert(m:save('out.off')) "
+                   "assert(select(3, l.load('/etc/passwd.obj')) == 'file_not_found') "
+                   "return select(3, l.shapes.cactus():save('big.off'))") == LUA_OK);
+    CHECK(std::string(lua_tostring(sandbox.lua(), -1)) == "file_write_failed");
+    CHECK(files.contains("out.off"));
+    CHECK_FALSE(files.contains("big.off"));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "kernel/io/stream/file.h"
 
 #include <atomic>
+#include <functional>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -56,9 +58,40 @@ TEST_CASE("a file that cannot be read is named, with the reason as a code") {
 TEST_CASE("a file above the memory limit is refused before it is read") {
     const TemporaryFolder folder;
     write_bytes(folder / "file", std::string(1000, 'x'));
-    const Context context(ContextOptions{
-        .log = {}, .progress = {}, .parallel_for = {}, .threads = 1, .memory_limit = 999});
+    ContextOptions options;
+    options.memory_limit = 999;
+    const Context context(options);
     CHECK(error_of([&] { read_file(folder / "file", context); }).code() == ErrorCode::memory_limit);
+    CHECK(context.memory()->used() == 0);
+}
+
+TEST_CASE("a host's table of files is asked in place of the system") {
+    std::map<std::string, std::string> files{{"pack/a", "abc"}, {"empty", ""}};
+    ContextOptions options;
+    options.files.read = [&](std::string_view path,
+                             const std::function<void(std::string_view)>& sink) {
+        const auto found = files.find(std::string(path));
+        if (found == files.end()) return false;
+        for (const char& c : found->second) sink({&c, 1});
+        return true;
+    };
+    options.files.write = [&](std::string_view path, std::string_view bytes) {
+        if (path.starts_with("no/")) return false;
+        files[std::string(path)] = bytes;
+        return true;
+    };
+    options.memory_limit = 1000;
+    const Context context(options);
+    CHECK(read_file("pack/a", context).bytes == "abc");
+    CHECK(error_of([&] { read_file("pack/b", context); }).code() == ErrorCode::file_not_found);
+    CHECK(error_of([&] { read_file("empty", context); }).code() == ErrorCode::file_empty);
+    CHECK_NOTHROW(require_folder_of("nowhere/at/all", context));
+    write_file_atomically("nowhere/b", "bcd", context);
+    CHECK(files["nowhere/b"] == "bcd");
+    CHECK(error_of([&] { write_file_atomically("no/c", "c", context); }).code() ==
+          ErrorCode::file_write_failed);
+    files["large"] = std::string(3000, 'x');
+    CHECK(error_of([&] { read_file("large", context); }).code() == ErrorCode::memory_limit);
     CHECK(context.memory()->used() == 0);
 }
 

@@ -1,0 +1,20 @@
+/// What hosts of a Lua state share: memory that is counted, what print prints, and os.exit.
+#pragma once
+
+#include <cstddef>
+
+#include "bindings/lua/core/compat.h"
+
+namespace lissom::lua {
+
+/// A lua_Alloc that charges the lissom::MemoryAccount at `account`, and has no memory where that
+/// has no room.
+void* allocate_counted(void* account, void* block, std::size_t old_size, std::size_t new_size);
+
+/// os.exit of a script whose host goes on: raises an error that says what to write instead.
+int refuse_exit(lua_State* L);
+
+/// Pushes the values on the stack as print writes them, without a line end.
+void push_printed(lua_State* L);
+
+}  // namespace lissom::lua

@@ -1,0 +1,176 @@
+// Scripts of a host that nobody vouches for.
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/c/host.h"
+
+namespace lissom::test {
+namespace {
+
+using Json = nlohmann::json;
+
+lissom_status run(const Host& host, const std::string& text, lissom_bytes* results = nullptr) {
+    lissom_script script{};
+    const lissom_status loaded =
+        lissom_script_load(host, text.data(), text.size(), "tool.lua", &script);
+    if (loaded != LISSOM_OK) return loaded;
+    const lissom_status status = lissom_script_run(host, script, nullptr, results);
+    const std::string message = host.message();
+    CHECK(lissom_script_release(host, script) == LISSOM_OK);
+    CAPTURE(message);
+    return status;
+}
+
+bool is_true(const Host& host, const std::string& text) {
+    lissom_bytes bytes{};
+    if (run(host, text, &bytes) != LISSOM_OK) return false;
+    return Json::parse(std::string(static_cast<const char*>(bytes.data), bytes.size))[0] == true;
+}
+
+using Files = std::map<std::string, std::string>;
+
+lissom_context_options with_files(Files& files) {
+    auto options = lissom_default_context_options();
+    options.user = &files;
+    options.read_file = [](void* user, const char* path, lissom_sink* sink, void* argument) {
+        const auto& table = *static_cast<Files*>(user);
+        const auto found = table.find(path);
+        if (found == table.end()) return false;
+        sink(argument, found->second.data(), found->second.size());
+        return true;
+    };
+    options.write_file = [](void* user, const char* path, const void* bytes, std::size_t size) {
+        (*static_cast<Files*>(user))[path] = std::string(static_cast<const char*>(bytes), size);
+        return true;
+    };
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("sandbox of C: without the system, with the library, on objects of the host") {
+    const Host host;
+    REQUIRE(lissom_sandbox_scripts(host, nullptr) == LISSOM_OK);
+    CHECK(is_true(host, "return io == nil and os.execute == nil and debug.sethook == nil"));
+    CHECK(is_true(host, "return require('lissom').shapes.box():vertex_count() == 8"));
+    CHECK(run(host, "return require('lissom').load('/etc/passwd.obj').x") == LISSOM_SCRIPT_ERROR);
+    CHECK(host.message().find("may not read") != std::string::npos);
+    const lissom_mesh mesh = host.add(make_box({}));
+    const Json arguments = Json::array({Json{{"object", mesh.id}}, Json{{"translate", {1, 0, 0}}}});
+    const std::uint64_t before = host.hash(mesh);
+    CHECK(lissom_call(host, "Mesh.transform", arguments.dump().c_str(), nullptr) == LISSOM_OK);
+    CHECK(host.hash(mesh) != before);
+}
+
+TEST_CASE("sandbox of C: limits end a script, and the next one runs") {
+    auto options = lissom_default_sandbox_options();
+    options.instructions = 100'000;
+    options.memory = std::size_t{16} << 20;
+    options.output = 10'000;
+    const Host host;
+    REQUIRE(lissom_sandbox_scripts(host, &options) == LISSOM_OK);
+    CHECK(run(host, "while true do end") == LISSOM_CANCELLED);
+    CHECK(host.message().find("instructions") != std::string::npos);
+    CHECK(run(host, "while true do pcall(function() while true do end end) end") ==
+          LISSOM_CANCELLED);
+    CHECK(run(host, "while true do print(('x'):rep(1000)) end") == LISSOM_CANCELLED);
+    CHECK(host.message().find("written") != std::string::npos);
+    CHECK(run(host, "return ('x'):rep(1e8)") == LISSOM_MEMORY_LIMIT);
+    CHECK(run(host,
+              "local m = require('lissom').shapes.bar{ across = 10, along = 100 } local t = {} "
+              "for i = 1, 1000 do t[i] = assert(m:copy()) end") == LISSOM_SCRIPT_ERROR);
+    CHECK(host.message().find("of the limit of") != std::string::npos);
+    CHECK(lissom_call(host, "shapes.grid", R"([{"segments": 5000}])", nullptr) ==
+          LISSOM_MEMORY_LIMIT);
+    CHECK(is_true(host, "return true"));
+    CHECK(lissom_memory_peak(host) <= options.memory);
+}
+
+TEST_CASE("sandbox of C: a time ends a script, and is not the host's cancel") {
+    auto options = lissom_default_sandbox_options();
+    options.seconds = 0.05;
+    const Host host;
+    REQUIRE(lissom_sandbox_scripts(host, &options) == LISSOM_OK);
+    CHECK(run(host, "while true do end") == LISSOM_CANCELLED);
+    CHECK(host.message().find("time") != std::string::npos);
+    CHECK(is_true(host, "return true"));
+    lissom_cancel(host);
+    CHECK(run(host, "while true do end") == LISSOM_CANCELLED);
+    lissom_clear_cancel(host);
+    CHECK(is_true(host, "return true"));
+}
+
+TEST_CASE("sandbox of C: its memory is the context's too") {
+    auto given = lissom_default_context_options();
+    given.memory_limit = std::size_t{8} << 20;
+    const Host host(given);
+    REQUIRE(lissom_sandbox_scripts(host, nullptr) == LISSOM_OK);
+    CHECK(run(host, "return ('x'):rep(2e7)") == LISSOM_MEMORY_LIMIT);
+    CHECK(is_true(host, "return #('x'):rep(1e5) == 1e5"));
+    CHECK(lissom_memory_peak(host) <= given.memory_limit);
+}
+
+TEST_CASE("sandbox of C: files are the host's where it opens them") {
+    Files files{{"parts/wheel.lua", "return { spokes = 7 }"},
+                {"tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+                {"tool.lua", "return require('lissom').tool{ name = 'nothing' }"}};
+    const Host host(with_files(files));
+    const char* modules[] = {"parts"};
+    auto options = lissom_default_sandbox_options();
+    options.module_folders = modules;
+    options.module_folder_count = 1;
+    options.output = 1000;
+    REQUIRE(lissom_sandbox_scripts(host, &options) == LISSOM_OK);
+    CHECK(is_true(host, "return require('wheel').spokes == 7"));
+    CHECK(is_true(host, "return require('lissom').load('tri.obj'):vertex_count() == 3"));
+    CHECK(is_true(host, "return require('lissom').load_tool('tool.lua').name == 'nothing'"));
+    CHECK(is_true(host,
+                  "return select(3, require('lissom').load('/etc/passwd.obj')) == "
+                  "'file_not_found'"));
+    CHECK(is_true(host, "return require('lissom').shapes.box():save('out.stl') ~= nil"));
+    CHECK(files.count("out.stl") == 1);
+    CHECK(is_true(host,
+                  "return select(3, require('lissom').shapes.box():save('more.stl')) == "
+                  "'file_write_failed'"));
+    CHECK(files.count("more.stl") == 0);
+}
+
+TEST_CASE("sandbox of C: what it refuses") {
+    const Host host;
+    auto options = lissom_default_sandbox_options();
+    options.seconds = -1.0;
+    CHECK(lissom_sandbox_scripts(host, &options) == LISSOM_INVALID_ARGUMENT);
+    options = lissom_default_sandbox_options();
+    options.read_folder_count = 1;
+    CHECK(lissom_sandbox_scripts(host, &options) == LISSOM_INVALID_ARGUMENT);
+    lissom_sandbox_options zeros{};
+    CHECK(lissom_sandbox_scripts(host, &zeros) == LISSOM_BAD_STRUCT);
+    CHECK(run(host, "return true") == LISSOM_OK);
+    CHECK(lissom_sandbox_scripts(host, nullptr) == LISSOM_INVALID_ARGUMENT);
+    CHECK(host.message().find("already") != std::string::npos);
+}
+
+TEST_CASE("results that stand in many places of a table are refused before they fill the memory") {
+    const Host host;
+    lissom_bytes bytes{};
+    CHECK(run(host, "local t = { 1 } for i = 1, 60 do t = { t, t } end return t", &bytes) ==
+          LISSOM_INVALID_ARGUMENT);
+    CHECK(host.message().find("values") != std::string::npos);
+}
+
+TEST_CASE("a file that a mesh refers to comes from the host too") {
+    Files files{{"a/tri.obj", "mtllib tri.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"},
+                {"a/tri.mtl", "newmtl red\nKd 1 0 0\n"}};
+    const Host host(with_files(files));
+    lissom_mesh mesh{};
+    REQUIRE(lissom_mesh_load(host, "a/tri.obj", nullptr, &mesh) == LISSOM_OK);
+    REQUIRE(lissom_mesh_save(host, mesh, "tri.glb", nullptr) == LISSOM_OK);
+    CHECK(files["tri.glb"].find("\"red\"") != std::string::npos);
+    files.erase("a/tri.mtl");
+    REQUIRE(lissom_mesh_load(host, "a/tri.obj", nullptr, &mesh) == LISSOM_OK);
+}
+
+}  // namespace lissom::test
