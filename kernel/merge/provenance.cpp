@@ -83,6 +83,61 @@ MeshMap appended_map(const MeshMap& first, const MeshMap& second, const Topology
             shifted_behind(first.faces, second.faces, first_origin.face_count())};
 }
 
+namespace {
+
+// The two maps that lead on from elements below and from a count on.
+struct TwoMaps {
+    Index count = 0;
+    const ElementMap* first = nullptr;
+    const ElementMap& second;
+    Index shift = 0;
+
+    // Adds what an element comes from, with a weight.
+    void add(Index element, double weight, std::vector<ElementMap::Source>& sources) const {
+        if (element < count && !first) return sources.push_back({element, weight});
+        const ElementMap& map = element < count ? *first : second;
+        const Index by = element < count ? 0 : shift;
+        for (const ElementMap::Source& s : map[element < count ? element : element - count]) {
+            sources.push_back({s.element + by, weight * s.weight});
+        }
+    }
+};
+
+ElementMap composed_of_two(const ElementMap& outer, const TwoMaps& inner) {
+    ElementMap result;
+    result.reserve(outer.size());
+    std::vector<ElementMap::Source> sources;
+    for (Index i = 0; i < outer.size(); ++i) {
+        const std::span<const ElementMap::Source> between = outer[i];
+        if (between.size() == 1 && between[0].element < inner.count && !inner.first) {
+            result.add_copy(between[0].element);
+            continue;
+        }
+        sources.clear();
+        for (const ElementMap::Source& s : between) {
+            inner.add(s.element, between.size() == 1 ? 1.0 : s.weight, sources);
+        }
+        result.add_blend(sources);
+    }
+    return result;
+}
+
+}  // namespace
+
+MeshMap composed_of_two(const MeshMap& outer, const Topology& first_between, const MeshMap* first,
+                        const MeshMap& second, const Topology& first_origin) {
+    const auto one = [&](const ElementMap& map, Index between, const ElementMap* before,
+                         const ElementMap& after, Index shift) {
+        return composed_of_two(map, {between, before, after, shift});
+    };
+    return {one(outer.vertices, first_between.vertex_count(), first ? &first->vertices : nullptr,
+                second.vertices, first_origin.vertex_count()),
+            one(outer.corners, first_between.corner_count(), first ? &first->corners : nullptr,
+                second.corners, first_origin.corner_count()),
+            one(outer.faces, first_between.face_count(), first ? &first->faces : nullptr,
+                second.faces, first_origin.face_count())};
+}
+
 std::vector<Index> kept_vertices(const ElementMap& map, Index old_count) {
     std::vector<Index> kept(old_count, kNoIndex);
     for (Index i = 0; i < map.size(); ++i) {

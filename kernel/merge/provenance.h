@@ -24,6 +24,11 @@ MeshMap composed(const MeshMap& outer, const MeshMap& inner);
 /// The map of two meshes appended: elements of the second follow those of the first, as do the
 /// elements they come from, `first_counts` of them in the first.
 MeshMap appended_map(const MeshMap& first, const MeshMap& second, const Topology& first_origin);
+/// composed(outer, appended_map(first, second, first_origin)), without forming the latter. `outer`
+/// leads to the elements of `first_between` and, after these, to those of `second`; `first` leads
+/// on from `first_between`, and is the identity where it is null.
+MeshMap composed_of_two(const MeshMap& outer, const Topology& first_between, const MeshMap* first,
+                        const MeshMap& second, const Topology& first_origin);
 /// For each old vertex the new one that is nothing but it, or kNoIndex.
 std::vector<Index> kept_vertices(const ElementMap& map, Index old_count);
 

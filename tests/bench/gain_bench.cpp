@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -96,6 +97,8 @@ void add_rows(Report& report, const RealPaste& real, const PasteResult& result, 
         end = "  target " + std::to_string(target).substr(0, 6) + end;
     }
     if (paste.kept_outline) end += ", keeps the outline";
+    const double turn = result.merged.report.seam.after.greatest_dihedral * 180.0 / kPi;
+    end += ", turns by " + std::to_string(static_cast<int>(std::lround(turn)));
     char line[256];
     std::snprintf(line, sizeof line, "  %-20s %10.4f %9.2f %12.4f %9.2f %8.2f  %s%s", name_of(way),
                   paste.near.energy, paste.near.anisotropy, paste.feature.energy,
@@ -105,6 +108,7 @@ void add_rows(Report& report, const RealPaste& real, const PasteResult& result, 
     report.add_to_json({"energy near the seam: " + name, paste.near.energy, "", target});
     report.add_to_json({"stretch near the seam: " + name, paste.near.anisotropy, ""});
     report.add_to_json({"energy in the feature: " + name, paste.feature.energy, ""});
+    report.add_to_json({"greatest angle at the seam: " + name, turn, "degrees"});
     report.add_to_json({"stretch in the feature: " + name, paste.feature.anisotropy, ""});
 }
 
@@ -131,7 +135,8 @@ int main(int argc, char** argv) {
     const Arguments arguments(argc, argv);
     Report report(argc, argv);
     report.title(
-        "distortion near the seam (energy, stretch), in the feature (the same), scale, way");
+        "distortion near the seam (energy, stretch), in the feature (the same), scale, way, angle "
+        "at the seam");
     for (const lissom::test::RealPaste& real : lissom::test::real_pastes()) {
         if (real.name.find(arguments.only) != std::string::npos) run(report, real, arguments);
     }

@@ -9,6 +9,7 @@
 #include "kernel/merge/paste/part_trial.h"
 #include "kernel/merge/paste/paste_state.h"
 #include "kernel/merge/paste/placement/plane_line.h"
+#include "kernel/merge/sew/seam_skin.h"
 
 namespace lissom {
 namespace {
@@ -68,6 +69,23 @@ std::unique_ptr<PasteMap> Paste::State::map_around(const PastePlacement& placeme
     const double radius = room * placement.scale * source_map.length_ratio * source_map.reach +
                           placement.offset.norm();
     return map_of(disk_around(target, point, radius, context), context);
+}
+
+void Paste::State::use_map(std::unique_ptr<PasteMap> on) {
+    map = std::move(on);
+    piece.reset();
+}
+
+const TargetPiece& Paste::State::target_piece(const Context& context) {
+    if (piece) return *piece;
+    // Weights of a part alone go on over all of the target.
+    const bool global = skinned_side(target, source) == SeamSide::source;
+    if (global) {
+        piece = TargetPiece::whole(target, map->target());
+    } else {
+        piece.emplace(target, map->target(), context);
+    }
+    return *piece;
 }
 
 // How well the outlines fit, a missing image counting as a full edge.
@@ -243,7 +261,7 @@ void Paste::State::place_on_disk(const PastePlacement& placement, std::span<cons
             found = std::move(again);
         }
     }
-    map = std::move(on);
+    use_map(std::move(on));
     placed = std::move(*found);
 }
 
@@ -268,7 +286,7 @@ void Paste::State::place_on_cleared(const PastePlacement& placement, std::span<c
             std::unique_ptr<PasteMap> on =
                 map_of(target_faces(target, *next.onto, context), context);
             placed = place(*on, placement, start, effort, context);
-            map = std::move(on);
+            use_map(std::move(on));
         } else {
             place_on_disk(placement, start, effort, context);
         }
@@ -306,7 +324,7 @@ void Paste::State::begin_on(const Mesh& new_target, const std::optional<Region>&
     }
     surfaces = std::make_unique<PasteSurfaces>(source, target);
     if (own_disk) return place_on_disk(placement, {}, {}, context);
-    map = map_of(target_faces(target, *region, context), context);
+    use_map(map_of(target_faces(target, *region, context), context));
     placed = place(*map, placement, {}, {}, context);
 }
 

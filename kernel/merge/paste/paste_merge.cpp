@@ -7,6 +7,7 @@
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/paste/part/opened_target.h"
 #include "kernel/merge/paste/part/paste_part.h"
+#include "kernel/merge/paste/part/target_piece.h"
 #include "kernel/merge/paste/part_trial.h"
 #include "kernel/merge/paste/paste_state.h"
 #include "kernel/merge/provenance.h"
@@ -26,6 +27,7 @@ constexpr double kFoldedSeam = 90.0 * kDegree;
 
 struct PasteSides {
     PartTrial source;
+    const TargetPiece* piece = nullptr;
     OpenedTarget opened;
     LoopPair pair;
 };
@@ -77,21 +79,24 @@ struct SewnSides {
     PasteDistortion near;
 };
 
-SewnSides sewn_along(const PartTrials& trials, const Mesh& target, PartTrial trial,
+SewnSides sewn_along(const PartTrials& trials, const TargetPiece& target, PartTrial trial,
                      const PasteMergeOptions& options, const Context& context) {
     SewnSides result;
     PasteSides& sides = result.sides;
+    sides.piece = &target;
     sides.source = std::move(trial);
     result.near = sides.source.near;
     std::vector<Vec2> outline;
     for (const RingPoint& point : sides.source.rim) outline.push_back(point.image.uv);
-    sides.opened = open_target(target, trials.surface.map().target(), outline, context);
+    sides.opened = open_target(target.mesh(), target.chart_vertices(),
+                               trials.surface.map().target().map.uv, outline, context);
     sides.pair = paste_pair(sides.source.part(), sides.opened, sides.source.rim);
     lay_on_hole(trials, sides, context);
     result.sewn = sewn_well(sides, options, context);
     return result;
 }
 
+// `sewn` is that of the whole target.
 MergeReport merge_report(const PasteSides& sides, const Sewn& sewn,
                          const PasteMergeOptions& options, const Context& context) {
     MergeReport report;
@@ -107,7 +112,7 @@ MergeReport merge_report(const PasteSides& sides, const Sewn& sewn,
     report.seam = sewn.report;
     if (options.find_intersections) {
         report.intersections =
-            new_intersections(sides.opened.mesh, sides.source.part().mesh, sewn, context);
+            new_intersections(sides.piece->target(), sides.source.part().mesh, sewn, context);
     }
     const Verdict verdict = verdict_of(report, options.find_intersections);
     report.ok = verdict.good;
@@ -118,8 +123,9 @@ MergeReport merge_report(const PasteSides& sides, const Sewn& sewn,
 // The outline where the maps alone put it.
 PartTrial outline_trial(const PartTrials& trials, const Context& context) {
     const RingSurface mapped(trials.surface.map(), trials.surface.ring(), trials.placed.mapped);
-    const PartTrials marked{trials.options, trials.regions, mapped,           trials.ring,
-                            trials.placed,  trials.parts,   trials.lock_scale};
+    const PartTrials marked{trials.options,    trials.regions, mapped,
+                            trials.ring,       trials.placed,  trials.parts,
+                            trials.lock_scale, trials.settles};
     return marked.along_outline(context);
 }
 
@@ -130,13 +136,13 @@ PartTrial best_trial(const PartTrials& trials, bool compare, bool covered, Paste
     PartTrial best = found ? std::move(*found) : trials.along_loop(context);
     if (!compare || !covered) return best;
     PartTrial outline = outline_trial(trials, context);
-    report.outline_near = outline.near;
+    report.outline_near = outline.unsettled;
     return outline.near.energy < best.near.energy ? std::move(outline) : std::move(best);
 }
 
 // Where the seam turns faces over, along edges or the outline: what turns least, and is distorted
 // no more than the outline.
-void unfold(const PartTrials& trials, const Mesh& target, const PasteReport& report,
+void unfold(const PartTrials& trials, const TargetPiece& target, const PasteReport& report,
             const PasteMergeOptions& options, SewnSides& whole, const Context& context) {
     const auto attempt = [&](PartTrial trial) {
         if (report.outline_near && trial.near.energy > report.outline_near->energy) return;
@@ -147,6 +153,15 @@ void unfold(const PartTrials& trials, const Mesh& target, const PasteReport& rep
     if (folds(whole.sewn) && report.outline_near) attempt(outline_trial(trials, context));
 }
 
+// The part on a piece of the target, along the boundary that folds least.
+SewnSides sewn_onto(const PartTrials& trials, const TargetPiece& target, bool covered,
+                    PasteReport& report, const PasteMergeOptions& options, const Context& context) {
+    PartTrial best = best_trial(trials, options.compare, covered, report, context);
+    SewnSides result = sewn_along(trials, target, std::move(best), options, context);
+    unfold(trials, target, report, options, result, context);
+    return result;
+}
+
 }  // namespace
 
 PasteResult Paste::merge(const PasteMergeOptions& options, const Context& context) try {
@@ -155,44 +170,49 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     const auto start = Clock::now();
     const PlacedFeature& placed = state.placed;
     const RingSurface surface(*state.map, *state.triangles, placed.images);
-    const PartTrials trials{state.options, state.regions, surface,           *state.ring,
-                            placed,        state.parts,   options.lock_scale};
+    const PartTrials trials{state.options, state.regions,      surface,        *state.ring, placed,
+                            state.parts,   options.lock_scale, options.compare};
     PasteReport report;
     report.search = placed.loop.report;
     report.source_map = state.source_map.quality();
     report.target_map = state.map->target().quality();
     report.angle = placed.angle;
     report.angle_chosen = placed.angle_chosen;
-    progress.step(0.1);
-    PartTrial best = best_trial(trials, options.compare, state.covers(placed), report, context);
-    progress.step(0.5);
-    SewnSides whole = sewn_along(trials, state.target, std::move(best), options, context);
-    unfold(trials, state.target, report, options, whole, context);
-    PasteSides& sides = whole.sides;
-    Sewn& sewn = whole.sewn;
+    const bool covered = state.covers(placed);
+    progress.step(0.6);
+    const TargetPiece& piece = state.target_piece(context);
+    SewnSides pasted = sewn_onto(trials, piece, covered, report, options, context);
+    progress.step(0.4);
+    std::optional<Sewn> sewn =
+        piece.put_back(pasted.sides.opened, pasted.sides.source.part(), pasted.sewn, context);
+    const TargetPiece whole = TargetPiece::whole(state.target, state.map->target());
+    if (!sewn) {
+        pasted = sewn_onto(trials, whole, covered, report, options, context);
+        sewn =
+            whole.put_back(pasted.sides.opened, pasted.sides.source.part(), pasted.sewn, context);
+    }
+    const PasteSides& sides = pasted.sides;
     report.scale = sides.source.scale;
     report.smooth = sides.source.smooth;
     report.kept_outline = sides.source.outline;
-    report.near = whole.near;
+    report.near = pasted.near;
     report.laid = sides.source.near;
     report.feature = feature_distortion(sides.source.part(), sides.source.moved.mesh, report.scale,
                                         state.regions.feature);
-    progress.step(0.4);
     PasteResult result{{}, std::move(report)};
-    result.merged.report = merge_report(sides, sewn, options, context);
+    result.merged.report = merge_report(sides, *sewn, options, context);
     result.merged.report.solve_seconds = seconds_since(start);
-    const MeshMap target_map =
-        state.cleared ? composed(sides.opened.map, *state.cleared) : sides.opened.map;
     const Topology& first = (state.cleared ? state.given : state.target).topology();
-    const MeshMap origins = appended_map(target_map, sides.source.part().map, first);
-    result.merged.provenance = composed(sewn.map, origins);
-    result.report.euler_characteristic = euler_characteristic(sewn.mesh.topology());
+    result.merged.provenance =
+        composed_of_two(sewn->map, state.target.topology(),
+                        state.cleared ? &*state.cleared : nullptr, sides.source.part().map, first);
+    result.report.euler_characteristic = euler_characteristic(sewn->mesh.topology());
     result.report.expected_characteristic =
         euler_characteristic(state.target.topology()) +
         euler_characteristic(sides.source.part().mesh.topology()) - 1;
-    result.merged.mesh = std::move(sewn.mesh);
-    result.merged.side_of_face = std::move(sewn.side_of_face);
-    result.merged.seams = std::move(sewn.seams);
+    result.merged.mesh = std::move(sewn->mesh);
+    result.merged.side_of_face = std::move(sewn->side_of_face);
+    result.merged.seams = std::move(sewn->seams);
     return result;
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();

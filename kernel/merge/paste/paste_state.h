@@ -9,6 +9,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/paste/part/moving_part.h"
+#include "kernel/merge/paste/part/target_piece.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/merge/paste/paste_options.h"
 #include "kernel/merge/paste/placement/paste_map.h"
@@ -54,6 +55,8 @@ struct Paste::State {
     std::shared_ptr<const LoopSearch> ring;
     std::shared_ptr<const RingTriangles> triangles;
     std::unique_ptr<PasteMap> map;
+    /// Of the target around the map's region; made when it is first asked for.
+    std::optional<TargetPiece> piece;
     /// Whether the target's region was chosen here.
     bool own_disk = false;
     bool optimized = false;
@@ -83,6 +86,8 @@ struct Paste::State {
                                          const Context& context) const;
     void place_on_disk(const PastePlacement& placement, std::span<const Index> start,
                        const PasteEffort& effort, const Context& context);
+    void use_map(std::unique_ptr<PasteMap> on);
+    const TargetPiece& target_piece(const Context& context);
     double misfit_at(const PasteMap& on, const std::vector<ImagePoint>& images) const;
     void choose_angle(const PasteMap& on, PlacedFeature& place, const Context& context) const;
     PlacedFeature place(const PasteMap& on, const PastePlacement& placement,

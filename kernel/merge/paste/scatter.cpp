@@ -8,7 +8,7 @@
 
 #include "kernel/core/memory_error.h"
 #include "kernel/merge/loop/face_angles.h"
-#include "kernel/merge/paste/region/face_set.h"
+#include "kernel/merge/piece/face_set.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/edit/append.h"
 #include "kernel/mesh/edit/extract.h"

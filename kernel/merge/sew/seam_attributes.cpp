@@ -7,30 +7,9 @@
 
 #include "kernel/core/rotation.h"
 #include "kernel/merge/loop/face_angles.h"
-#include "kernel/mesh/edit/append.h"
 
 namespace lissom {
 namespace {
-
-// The attributes whose values belong to a chart.
-bool is_of_chart(const Attribute& attribute) {
-    const AttributeRole role = role_of(attribute);
-    return role == AttributeRole::texture_coordinates || role == AttributeRole::tangent;
-}
-
-void split_charts(Mesh& mesh) {
-    for (Attribute& attribute : mesh.attributes().all()) {
-        if (attribute.domain != Domain::vertex || !is_of_chart(attribute)) continue;
-        std::vector<double> values;
-        for (const Index v : mesh.topology().faces().vertices) {
-            const std::span<const double> at = std::as_const(attribute).at(v);
-            values.insert(values.end(), at.begin(), at.end());
-        }
-        attribute.domain = Domain::corner;
-        attribute.values = std::move(values);
-    }
-    mesh.attributes().recount();
-}
 
 // Corner of face `f` at vertex `v`.
 Index corner_at(const Topology& topology, Index f, Index v) {
@@ -73,14 +52,6 @@ void change_at(const Topology& topology, Attribute& attribute, Index v, const Ch
 }
 
 }  // namespace
-
-Mesh unconnected(const Mesh& target, const Mesh& source, const Context& context) {
-    Mesh both = target, other = source;
-    split_charts(both);
-    split_charts(other);
-    append(both, other, context);
-    return both;
-}
 
 std::vector<ElementMap::Source> SeamSources::blend() const {
     std::vector<ElementMap::Source> all;

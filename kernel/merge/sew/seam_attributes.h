@@ -15,10 +15,6 @@
 
 namespace lissom {
 
-/// Target and source as one mesh, not connected. Texture coordinates and tangents of vertices are
-/// made those of corners, since two charts must not be averaged where they meet.
-Mesh unconnected(const Mesh& target, const Mesh& source, const Context& context);
-
 /// The vertices of a mesh that a seam vertex lies on or between, on each side, with weights.
 struct SeamSources {
     std::vector<ElementMap::Source> target, source;

@@ -243,6 +243,7 @@ class Remade {
         result.mesh = std::move(shape_);
         carry(old_.mesh, map, result.mesh, context);
         result.map = composed(map, old_.map);
+        result.place = places();
         result.side_of_face = std::move(sides_);
         result.seams = std::move(seams_);
         result.report = old_.report;
@@ -252,6 +253,21 @@ class Remade {
 
   private:
     static constexpr Index kGone = -2;
+
+    // Vertices that sheets have moved stay in their places.
+    Places places() const {
+        Places place;
+        // A mesh that was made elsewhere has none.
+        if (old_.place.faces.empty()) return place;
+        for (const Origin& from : vertex_from_) {
+            const Index old = from.sheet ? from.sheet->mesh_vertex(from.element) : from.element;
+            place.vertices.push_back(old == kNoIndex ? kNoIndex : old_.place.vertices[at(old)]);
+        }
+        for (const Origin& from : face_from_) {
+            place.faces.push_back(from.sheet ? kNoIndex : old_.place.faces[at(from.element)]);
+        }
+        return place;
+    }
 
     // An element of the old mesh, or where there is a sheet, a vertex of that or a triangle made.
     struct Origin {

@@ -53,6 +53,7 @@ class Assembly {
 
     FaceList faces;
     MeshMap map;
+    Places place;
     std::vector<SeamSide> sides;
     std::vector<Vec3> positions;
 
@@ -66,6 +67,7 @@ class Assembly {
         for (Index v = 0; v < work_.both.vertex_count(); ++v) {
             if (number_[v] == kNoIndex) continue;
             positions.push_back(work_.both.position(v));
+            place.vertices.push_back(v);
             const auto seam = work_.sources.find(v);
             if (seam == work_.sources.end()) {
                 map.vertices.add_copy(v);
@@ -81,6 +83,7 @@ class Assembly {
     void add_face(Index origin) {
         faces.add(vertices_);
         map.faces.add_copy(origin);
+        place.faces.push_back(origin);
         sides.push_back(origin < work_.first_source_face ? SeamSide::target : SeamSide::source);
         vertices_.clear();
     }
@@ -129,6 +132,7 @@ Sewn finish(const SeamWork& work, const SeamFaces& faces, const SewOptions& opti
     sewn.mesh = derive(work.both, std::move(assembly.positions), std::move(assembly.faces),
                        assembly.map, context);
     sewn.map = std::move(assembly.map);
+    sewn.place = std::move(assembly.place);
     sewn.side_of_face = std::move(assembly.sides);
     for (Index v = 0; v < work.first_source_vertex; ++v) {
         sewn.first_source_vertex += number[v] == kNoIndex ? 0 : 1;

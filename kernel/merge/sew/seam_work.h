@@ -1,6 +1,8 @@
 /// A seam while it is made; private to kernel/merge.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -15,6 +17,21 @@
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {
+
+/// A target and a source as one mesh, not connected, and where the source's elements begin.
+struct BothSides {
+    const Mesh& mesh;
+    Index first_source_vertex = 0, first_source_face = 0;
+};
+
+/// Sews both sides, without skins; joins are numbered in the target and the source. Errors: as sew.
+Sewn sewn_whole(const BothSides& both, std::span<const LoopPair> joins, const SewOptions& options,
+                const Context& context);
+/// The same by the faces around the seams alone. Nothing where these are most of both meshes, where
+/// what lies farther may have made a difference, and in place of an error of sewing.
+/// Errors: memory_limit; cancelled.
+std::optional<Sewn> sewn_piece(const BothSides& both, std::span<const LoopPair> joins,
+                               const SewOptions& options, const Context& context);
 
 /// Two meshes that are being sewn. Elements have the numbers of the unconnected mesh `both`: those
 /// of the target, then those of the source.

@@ -1,10 +1,14 @@
 #include "kernel/merge/sew/sew.h"
 
+#include <algorithm>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "kernel/merge/piece/put_back.h"
+#include "kernel/merge/provenance.h"
 #include "kernel/merge/sew/seam_loop.h"
 #include "kernel/merge/sew/seam_skin.h"
 #include "kernel/merge/sew/seam_work.h"
@@ -62,20 +66,88 @@ Index joined_components(const Topology& target, const Topology& source,
     return count;
 }
 
+// Rings around a seam that are worked on: the collar of one takes up to three on a side, the faces
+// beside it must stay, and what changes there is looked at from three more.
+constexpr Index kSeamRings = 8;
+
+// The faces around the loops, from both sides.
+std::vector<Index> faces_at_loops(const BothSides& both, std::span<const LoopPair> joins) {
+    std::vector<Index> faces;
+    for (const Index v : loop_vertices(joins, both.first_source_vertex)) {
+        const std::span<const Index> around = both.mesh.topology().faces_around(v);
+        faces.insert(faces.end(), around.begin(), around.end());
+    }
+    return faces;
+}
+
+// How many of `ids`, ascending, come before `end`.
+Index count_before(const std::vector<Index>& ids, Index end) {
+    return index_of(std::lower_bound(ids.begin(), ids.end(), end) - ids.begin());
+}
+
+std::vector<LoopPair> joins_of_piece(const MeshPart& piece, const BothSides& both,
+                                     Index first_source, std::span<const LoopPair> joins) {
+    const auto number = [&](Index v) { return count_before(piece.vertex_map, v); };
+    std::vector<LoopPair> result(joins.begin(), joins.end());
+    for (LoopPair& join : result) {
+        for (Index& v : join.target) v = number(v);
+        for (Index& v : join.source) v = number(v + both.first_source_vertex) - first_source;
+    }
+    return result;
+}
+
+// The sewn piece as the whole would be; nothing where that might differ.
+std::optional<Sewn> put_back_sewn(const BothSides& both, const MeshPart& piece, Sewn sewn,
+                                  const Context& context) {
+    const Index first_source_face =
+        index_of(std::find(sewn.side_of_face.begin(), sewn.side_of_face.end(), SeamSide::source) -
+                 sewn.side_of_face.begin());
+    const PieceWork work{sewn.mesh, sewn.place, sewn.first_source_vertex, first_source_face};
+    if (!keeps_rim(both.mesh, piece, work)) return std::nullopt;
+    PutBack made = put_back(both.mesh, {both.first_source_vertex, both.first_source_face}, piece,
+                            work, context);
+    const Topology& whole = both.mesh.topology();
+    Sewn result;
+    result.map =
+        put_back_map(made, whole, nullptr, sewn.mesh, composed(sewn.map, part_map(piece, whole)));
+    for (const Index v : made.vertices) {
+        const Index own = v - whole.vertex_count();
+        const Index place = own < 0 ? kNoIndex : sewn.place.vertices[at(own)];
+        result.place.vertices.push_back(own < 0             ? v
+                                        : place == kNoIndex ? kNoIndex
+                                                            : piece.vertex_map[at(place)]);
+    }
+    for (const Index f : made.faces) {
+        const Index own = f - whole.face_count();
+        const Index place = own < 0 ? kNoIndex : sewn.place.faces[at(own)];
+        result.place.faces.push_back(own < 0             ? f
+                                     : place == kNoIndex ? kNoIndex
+                                                         : piece.face_map[at(place)]);
+        const bool of_target =
+            own < 0 ? f < both.first_source_face : sewn.side_of_face[at(own)] == SeamSide::target;
+        result.side_of_face.push_back(of_target ? SeamSide::target : SeamSide::source);
+    }
+    const std::vector<Index> number =
+        made.numbers_of_work(whole.vertex_count(), sewn.mesh.vertex_count());
+    for (std::vector<Index>& seam : sewn.seams) {
+        for (Index& v : seam) v = number[at(v)];
+    }
+    result.mesh = std::move(made.mesh);
+    result.seams = std::move(sewn.seams);
+    result.report = sewn.report;
+    result.first_source_vertex = made.first_source_vertex;
+    return result;
+}
+
 }  // namespace
 
-Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
-         const SewOptions& options, const Context& context) {
-    require_options(options);
-    require_joins(target.topology(), source.topology(), joins);
-    require_same_joints(target, source, joins);
-    Progress progress(context, "sew");
-    const Mesh both = unconnected(target, source, context);
-    const std::vector<Index> loops = loop_vertices(joins, target.vertex_count());
-    SeamWork work{both,
-                  target.vertex_count(),
-                  target.face_count(),
-                  SplitPatch(both, target.face_count(), loops),
+Sewn sewn_whole(const BothSides& both, std::span<const LoopPair> joins, const SewOptions& options,
+                const Context& context) {
+    const std::vector<Index> loops = loop_vertices(joins, both.first_source_vertex);
+    SeamWork work{both.mesh,
+                  both.first_source_vertex,
+                  both.first_source_face,
+                  SplitPatch(both.mesh, both.first_source_face, loops),
                   {},
                   {},
                   {},
@@ -90,7 +162,37 @@ Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins
     }
     ClosedPatch closed = close(std::move(work.patch), work.seams);
     if (options.flip) work.report.flipped = closed.flip_edges(kAllowedDihedral, context);
-    Sewn sewn = finish(work, closed.faces(), options, context);
+    return finish(work, closed.faces(), options, context);
+}
+
+std::optional<Sewn> sewn_piece(const BothSides& both, std::span<const LoopPair> joins,
+                               const SewOptions& options, const Context& context) {
+    const std::optional<MeshPart> piece =
+        piece_around(both.mesh, faces_at_loops(both, joins), kSeamRings, context);
+    if (!piece) return std::nullopt;
+    const BothSides part{piece->mesh, count_before(piece->vertex_map, both.first_source_vertex),
+                         count_before(piece->face_map, both.first_source_face)};
+    try {
+        Sewn sewn = sewn_whole(part, joins_of_piece(*piece, both, part.first_source_vertex, joins),
+                               options, context);
+        return put_back_sewn(both, *piece, std::move(sewn), context);
+    } catch (const Error& error) {
+        // The whole names its own elements.
+        if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::memory_limit) throw;
+        return std::nullopt;
+    }
+}
+
+Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
+         const SewOptions& options, const Context& context) {
+    require_options(options);
+    require_joins(target.topology(), source.topology(), joins);
+    require_same_joints(target, source, joins);
+    Progress progress(context, "sew");
+    const Mesh mesh = unconnected(target, source, context);
+    const BothSides both{mesh, target.vertex_count(), target.face_count()};
+    std::optional<Sewn> of_piece = sewn_piece(both, joins, options, context);
+    Sewn sewn = of_piece ? std::move(*of_piece) : sewn_whole(both, joins, options, context);
     if (const auto skinned = skinned_side(target, source)) extend_skin(sewn, *skinned, context);
     require_sound(sewn, target, source, joins);
     return sewn;

@@ -8,6 +8,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/loop/loop_pair.h"
+#include "kernel/merge/piece/places.h"
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
@@ -84,6 +85,8 @@ struct Sewn {
     SewReport report;
     /// Vertices from this one on are the source's, or were made on its side.
     Index first_source_vertex = 0;
+    /// Among the elements that `map` leads to.
+    Places place = {};
 };
 
 /// Sews `source` to `target` along all `joins`. Both may be polygon meshes of any genus; boundaries

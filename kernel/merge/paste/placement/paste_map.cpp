@@ -6,7 +6,7 @@
 #include <string>
 
 #include "kernel/core/error.h"
-#include "kernel/merge/paste/region/face_set.h"
+#include "kernel/merge/piece/face_set.h"
 #include "kernel/mesh/fill/minimum_area.h"
 #include "kernel/mesh/measure/measures.h"
 

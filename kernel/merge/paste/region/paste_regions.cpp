@@ -7,7 +7,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/merge/loop/face_angles.h"
-#include "kernel/merge/paste/region/face_set.h"
+#include "kernel/merge/piece/face_set.h"
 #include "kernel/mesh/query/distances.h"
 
 namespace lissom {

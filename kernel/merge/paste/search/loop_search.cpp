@@ -7,7 +7,7 @@
 #include <queue>
 #include <tuple>
 
-#include "kernel/merge/paste/region/face_set.h"
+#include "kernel/merge/piece/face_set.h"
 
 namespace lissom {
 namespace {

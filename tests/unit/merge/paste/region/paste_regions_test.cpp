@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/merge/paste/region/face_set.h"
+#include "kernel/merge/piece/face_set.h"
 #include "kernel/mesh/edit/extract.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"

@@ -1,4 +1,4 @@
-#include "kernel/merge/paste/region/face_set.h"
+#include "kernel/merge/piece/face_set.h"
 
 #include <algorithm>
 #include <unordered_map>

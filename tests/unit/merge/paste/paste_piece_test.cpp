@@ -1,0 +1,110 @@
+// A paste works on a piece of the target, and leaves what a paste onto all of it would.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "kernel/merge/paste/part/target_piece.h"
+#include "kernel/merge/paste/placement/paste_map.h"
+#include "kernel/merge/paste/region/paste_regions.h"
+#include "kernel/mesh/measure/measures.h"
+#include "tests/unit/merge/paste/paste_shapes.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+void add_coordinates(Mesh& mesh) {
+    Attribute uv{"uv", Domain::vertex, 2, ScalarType::float64, {}};
+    std::vector<Index> half;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        uv.values.push_back(mesh.position(v).x());
+        uv.values.push_back(mesh.position(v).y());
+        if (mesh.position(v).z() > 0.0) half.push_back(v);
+    }
+    mesh.attributes().add(std::move(uv));
+    mesh.set_region("half", Region(mesh.shared_topology(), half));
+}
+
+// Where a part alone has a skin, its weights go on over all of the target: that is pasted whole.
+void add_skin(Mesh& mesh) {
+    Attribute joints{"joints", Domain::vertex, 4, ScalarType::uint16, {}};
+    Attribute weights{"weights", Domain::vertex, 4, ScalarType::float32, {}};
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        for (const double j : {1.0, 0.0, 0.0, 0.0}) joints.values.push_back(j);
+        for (const double w : {1.0, 0.0, 0.0, 0.0}) weights.values.push_back(w);
+    }
+    mesh.attributes().add(std::move(joints));
+    mesh.attributes().add(std::move(weights));
+}
+
+bool same_map(const ElementMap& a, const ElementMap& b) {
+    if (a.size() != b.size()) return false;
+    for (Index i = 0; i < a.size(); ++i) {
+        const bool same = std::equal(
+            a[i].begin(), a[i].end(), b[i].begin(), b[i].end(), [](const auto& s, const auto& t) {
+                return s.element == t.element && std::abs(s.weight - t.weight) < 1e-12;
+            });
+        if (!same) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("paste: onto a piece of the target as onto all of it") {
+    Mesh horn = horned_ball(), target = egg(60);
+    add_coordinates(horn);
+    add_coordinates(target);
+    Mesh skinned = horn;
+    add_skin(skinned);
+    for (const Vec3& at : {Vec3(0, 2, 0), Vec3(1, 1.2, 0.8), Vec3(0, 0, 1.6)}) {
+        for (const bool optimized : {false, true}) {
+            CAPTURE(optimized);
+            const PastePlacement placement{.at = at, .angle = 0.4, .scale = 0.5};
+            const auto pasted = [&](const Mesh& source) {
+                Paste paste = horn_on_egg(source, target, placement);
+                if (optimized) paste.optimize();
+                return paste.merge();
+            };
+            const PasteResult piece = pasted(horn);
+            PasteResult whole = pasted(skinned);
+            REQUIRE(whole.merged.mesh.attributes().find("joints"));
+            whole.merged.mesh.attributes().remove("joints");
+            whole.merged.mesh.attributes().remove("weights");
+            CHECK(hash(piece.merged.mesh) == hash(whole.merged.mesh));
+            CHECK(same_map(piece.merged.provenance.vertices, whole.merged.provenance.vertices));
+            CHECK(same_map(piece.merged.provenance.corners, whole.merged.provenance.corners));
+            CHECK(same_map(piece.merged.provenance.faces, whole.merged.provenance.faces));
+            CHECK(piece.merged.side_of_face == whole.merged.side_of_face);
+            CHECK(piece.merged.seams == whole.merged.seams);
+            CHECK(piece.merged.report.verdict == whole.merged.report.verdict);
+            CHECK(piece.merged.report.intersections == whole.merged.report.intersections);
+            CHECK(piece.report.near.energy == whole.report.near.energy);
+        }
+    }
+}
+
+TEST_CASE("paste: the piece of a target is small, and what is near in space belongs to it") {
+    // A flat box: what is under the part runs near below it.
+    Mesh target = make_sphere({1.0, 40, SphereKind::triangles});
+    for (Vec3& p : target.edit_positions()) p.y() *= 0.005;
+    const auto chart_at = [&](double radius) {
+        const std::vector<Index> faces =
+            disk_around(target, SpatialTree(target).nearest({0, 0.005, 0}), radius, {});
+        return target_chart(target, faces, ParameterizeMethod::arap, {});
+    };
+    const PasteChart chart = chart_at(0.2);
+    const TargetPiece piece(target, chart, {});
+    REQUIRE(!piece.is_whole());
+    CHECK(2 * piece.mesh().face_count() < target.face_count());
+    const auto positions = piece.mesh().positions();
+    CHECK(std::any_of(positions.begin(), positions.end(), [](const Vec3& p) {
+        return p.y() < -0.002 && std::hypot(p.x(), p.z()) < 0.1;
+    }));
+    for (std::size_t k = 0; k < chart.map.vertex.size(); ++k) {
+        CHECK(piece.mesh().position(piece.chart_vertices()[k]) ==
+              target.position(chart.map.vertex[k]));
+    }
+}
