@@ -199,7 +199,8 @@ EncodedStrands encode_as(const Strands& strands, const StrandFormat& format,
     require_unit(options.unit);
     Progress progress(context, "save strands");
     progress.step(0.3);
-    const MemoryCharge charge = context.charge(2 * strands.memory_bytes(), "saving strands");
+    // As much as the text of numbers may take, in a list that grows by doubling.
+    const MemoryCharge charge = context.charge(10 * strands.memory_bytes(), "saving strands");
     CheckedStrands checked = check_strands(strands, format.capacity, options, context);
     progress.step(0.7);
     if (options.up == UpAxis::z || options.unit != 1.0) {

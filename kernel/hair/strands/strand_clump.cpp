@@ -137,6 +137,8 @@ class Clumps {
 void clump(Strands& strands, const ClumpOptions& options, const Context& context) {
     require_clump(options);
     Progress progress(context, "clump strands");
+    // Keys, guides and weights of strands.
+    const MemoryCharge working = context.charge(2 * strands.memory_bytes(), "clumping strands");
     const Clumps clumps(strands, options);
     move_points(
         strands,

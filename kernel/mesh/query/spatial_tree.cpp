@@ -129,6 +129,10 @@ SpatialTree::SpatialTree(const Mesh& mesh, const Context& context)
         throw Error(ErrorCode::mesh_empty, "a spatial tree needs a mesh with faces");
     }
     Progress progress(context, "spatial tree");
+    // A box for each triangle, and lists that are sorted.
+    constexpr std::size_t kBytesPerCorner = 64;
+    const MemoryCharge working =
+        context.charge(kBytesPerCorner * at(mesh.topology().corner_count()), "a spatial tree");
     Triangulation triangulation = triangulate_faces(mesh.topology(), mesh.positions());
     triangles_ = std::move(triangulation.triangles);
     faces_ = std::move(triangulation.face);

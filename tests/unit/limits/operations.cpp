@@ -135,16 +135,15 @@ Made changed(const Mesh& mesh, const Context& context, const Change& change) {
 }
 
 Made deformed(const Context& context) {
-    const Mesh& bar = inputs().bar;
+    Mesh bar = copied(inputs().bar, context);
     Deformer edit(bar, Region::all(bar.shared_topology()), {}, context);
     edit.add_handle(*bar.find_region("bottom"));
     const HandleId top = edit.add_handle(*bar.find_region("top"));
     edit.set_transform(top, rotation(Vec3::UnitZ(), 0.5, edit.handle_center(top)));
     edit.solve();
-    Mesh result = copied(bar, context);
-    edit.apply_to(result);
-    const std::uint64_t value = hash(result);
-    return made(std::pair(std::move(edit), std::move(result)), value);
+    edit.apply_to(bar);
+    const std::uint64_t value = hash(bar);
+    return made(std::pair(std::move(edit), std::move(bar)), value);
 }
 
 Made merged(const Context& context) {
@@ -262,22 +261,27 @@ std::vector<Operation> all_operations() {
              const std::uint64_t value = hash(part.mesh);
              return made(std::move(part), value);
          }},
-        {"cut",
-         [&](const Context& c) {
-             Cut parts = cut(in.bar, CutPlane{}, {}, c);
-             const std::uint64_t value = hash(parts.kept.mesh);
-             return made(std::move(parts), value);
-         }},
+        {.name = "cut",
+         .run =
+             [&](const Context& c) {
+                 Cut parts = cut(in.bar, CutPlane{}, {}, c);
+                 const std::uint64_t value = hash(parts.kept.mesh);
+                 return made(std::move(parts), value);
+             },
+         // The maps of the parts belong to the caller.
+         .least_kept = 0.45},
         {"fill",
          [&](const Context& c) {
              return changed(in.lower, c,
                             [&](Mesh& mesh) { fill(mesh, end_of(mesh, true), {}, c); });
          }},
-        {"parameterize",
-         [&](const Context& c) {
-             const Region half = select_plane(in.sphere, Vec3::Zero(), Vec3::UnitY());
-             return made(parameterize(in.sphere, half, {}, c), 1);
-         }},
+        {.name = "parameterize",
+         .run =
+             [&](const Context& c) {
+                 const Region half = select_plane(in.sphere, Vec3::Zero(), Vec3::UnitY());
+                 return made(parameterize(in.sphere, half, {}, c), 1);
+             },
+         .least_kept = 0.0},
         {"distances",
          [&](const Context& c) {
              HeatDistances heat(in.sphere, c);
@@ -289,8 +293,10 @@ std::vector<Operation> all_operations() {
          [&](const Context& c) { return made(self_intersections(in.sphere, {}, c), 1); }},
         {"spatial tree", [&](const Context& c) { return made(SpatialTree(in.bar, c), 1); }},
         {"deform", deformed},
-        {"merge", merged},
-        {"grow hair", [&](const Context& c) { return made(in.grown(c)); }},
+        {.name = "merge", .run = merged, .least_kept = 0.45},
+        {.name = "grow hair",
+         .run = [&](const Context& c) { return made(in.grown(c)); },
+         .least_peak = 0.65},
         {"clump",
          [&](const Context& c) {
              return changed_strands(c, [&](Strands& strands) { clump(strands, {}, c); });
@@ -311,7 +317,11 @@ std::vector<Operation> all_operations() {
          }},
         {"load hair", decode_hair(in.hair_file, "hair")},
         {"load data", decode_hair(in.data_file, "data")},
-        {"load usda", decode_hair(in.usda_file, "usda")},
+        {.name = "load usda",
+         .run = decode_hair(in.usda_file, "usda"),
+         // Texts of short numbers; lists that have grown by doubling.
+         .greatest_peak = 7.0,
+         .least_kept = 0.55},
         {"save usda",
          [&](const Context& c) {
              const std::string bytes = encode_strands(in.hair, "usda", {}, c).bytes;
