@@ -12,7 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-lissom_status run(const Host& host, const std::string& text, lissom_bytes* results = nullptr) {
+lissom_status run_sandboxed(const Host& host, const std::string& text,
+                            lissom_bytes* results = nullptr) {
     lissom_script script{};
     const lissom_status loaded =
         lissom_script_load(host, text.data(), text.size(), "tool.lua", &script);
@@ -26,7 +27,7 @@ lissom_status run(const Host& host, const std::string& text, lissom_bytes* resul
 
 bool is_true(const Host& host, const std::string& text) {
     lissom_bytes bytes{};
-    if (run(host, text, &bytes) != LISSOM_OK) return false;
+    if (run_sandboxed(host, text, &bytes) != LISSOM_OK) return false;
     return Json::parse(std::string(static_cast<const char*>(bytes.data), bytes.size))[0] == true;
 }
 
@@ -56,7 +57,8 @@ TEST_CASE("sandbox of C: without the system, with the library, on objects of the
     REQUIRE(lissom_sandbox_scripts(host, nullptr) == LISSOM_OK);
     CHECK(is_true(host, "return io == nil and os.execute == nil and debug.sethook == nil"));
     CHECK(is_true(host, "return require('lissom').shapes.box():vertex_count() == 8"));
-    CHECK(run(host, "return require('lissom').load('/etc/passwd.obj').x") == LISSOM_SCRIPT_ERROR);
+    CHECK(run_sandboxed(host, "return require('lissom').load('/etc/passwd.obj').x") ==
+          LISSOM_SCRIPT_ERROR);
     CHECK(host.message().find("may not read") != std::string::npos);
     const lissom_mesh mesh = host.add(make_box({}));
     const Json arguments = Json::array({Json{{"object", mesh.id}}, Json{{"translate", {1, 0, 0}}}});
@@ -72,14 +74,15 @@ TEST_CASE("sandbox of C: limits end a script, and the next one runs") {
     options.output = 10'000;
     const Host host;
     REQUIRE(lissom_sandbox_scripts(host, &options) == LISSOM_OK);
-    CHECK(run(host, "while true do end") == LISSOM_CANCELLED);
+    CHECK(run_sandboxed(host, "while true do end") == LISSOM_CANCELLED);
     CHECK(host.message().find("instructions") != std::string::npos);
-    CHECK(run(host, "while true do pcall(function() while true do end end) end") ==
+    CHECK(run_sandboxed(host, "while true do pcall(function() while true do end end) end") ==
           LISSOM_CANCELLED);
-    CHECK(run(host, "while true do print(('x'):rep(1000)) end") == LISSOM_CANCELLED);
+    CHECK(run_sandboxed(host, "while true do print(('x'):rep(1000)) end") == LISSOM_CANCELLED);
     CHECK(host.message().find("written") != std::string::npos);
-    CHECK(run(host, "return ('x'):rep(1e8)") == LISSOM_MEMORY_LIMIT);
-    CHECK(run(host,
+    CHECK(run_sandboxed(host, "return ('x'):rep(1e8)") == LISSOM_MEMORY_LIMIT);
+    CHECK(run_sandboxed(
+              host,
               "local m = require('lissom').shapes.bar{ across = 10, along = 100 } local t = {} "
               "for i = 1, 1000 do t[i] = assert(m:copy()) end") == LISSOM_SCRIPT_ERROR);
     CHECK(host.message().find("of the limit of") != std::string::npos);
@@ -94,11 +97,11 @@ TEST_CASE("sandbox of C: a time ends a script, and is not the host's cancel") {
     options.seconds = 0.05;
     const Host host;
     REQUIRE(lissom_sandbox_scripts(host, &options) == LISSOM_OK);
-    CHECK(run(host, "while true do end") == LISSOM_CANCELLED);
+    CHECK(run_sandboxed(host, "while true do end") == LISSOM_CANCELLED);
     CHECK(host.message().find("time") != std::string::npos);
     CHECK(is_true(host, "return true"));
     lissom_cancel(host);
-    CHECK(run(host, "while true do end") == LISSOM_CANCELLED);
+    CHECK(run_sandboxed(host, "while true do end") == LISSOM_CANCELLED);
     lissom_clear_cancel(host);
     CHECK(is_true(host, "return true"));
 }
@@ -108,7 +111,7 @@ TEST_CASE("sandbox of C: its memory is the context's too") {
     given.memory_limit = std::size_t{8} << 20;
     const Host host(given);
     REQUIRE(lissom_sandbox_scripts(host, nullptr) == LISSOM_OK);
-    CHECK(run(host, "return ('x'):rep(2e7)") == LISSOM_MEMORY_LIMIT);
+    CHECK(run_sandboxed(host, "return ('x'):rep(2e7)") == LISSOM_MEMORY_LIMIT);
     CHECK(is_true(host, "return #('x'):rep(1e5) == 1e5"));
     CHECK(lissom_memory_peak(host) <= given.memory_limit);
 }
@@ -148,7 +151,7 @@ TEST_CASE("sandbox of C: what it refuses") {
     CHECK(lissom_sandbox_scripts(host, &options) == LISSOM_INVALID_ARGUMENT);
     lissom_sandbox_options zeros{};
     CHECK(lissom_sandbox_scripts(host, &zeros) == LISSOM_BAD_STRUCT);
-    CHECK(run(host, "return true") == LISSOM_OK);
+    CHECK(run_sandboxed(host, "return true") == LISSOM_OK);
     CHECK(lissom_sandbox_scripts(host, nullptr) == LISSOM_INVALID_ARGUMENT);
     CHECK(host.message().find("already") != std::string::npos);
 }
@@ -156,8 +159,8 @@ TEST_CASE("sandbox of C: what it refuses") {
 TEST_CASE("results that stand in many places of a table are refused before they fill the memory") {
     const Host host;
     lissom_bytes bytes{};
-    CHECK(run(host, "local t = { 1 } for i = 1, 60 do t = { t, t } end return t", &bytes) ==
-          LISSOM_INVALID_ARGUMENT);
+    CHECK(run_sandboxed(host, "local t = { 1 } for i = 1, 60 do t = { t, t } end return t",
+                        &bytes) == LISSOM_INVALID_ARGUMENT);
     CHECK(host.message().find("values") != std::string::npos);
 }
 

@@ -177,7 +177,8 @@ TEST_CASE("sandbox: objects that no script holds make room for others") {
                  "local l = require('lissom') local bar = l.shapes.bar{ across = 20, along = 100 } "
                  "for i = 1, 200 do assert(bar:copy()) assert(bar:region{ all = true }) "
                  "assert(bar:subdivide(1)) end return true") == LUA_OK);
-    INFO(lua_tostring(sandbox.lua(), -1) ? lua_tostring(sandbox.lua(), -1) : "");
+    const char* message = lua_tostring(sandbox.lua(), -1);
+    INFO(std::string(message ? message : ""));
     CHECK(lua_toboolean(sandbox.lua(), -1));
 }
 
