@@ -19,14 +19,14 @@ void MemoryAccount::require_room(std::size_t used, std::size_t bytes,
 }
 
 void MemoryAccount::charge(std::size_t bytes, std::string_view purpose) {
-    if (within_) within_->charge(bytes, purpose);
     std::size_t before = used_.load();
+    do {
+        require_room(before, bytes, purpose);
+    } while (!used_.compare_exchange_weak(before, before + bytes));
     try {
-        do {
-            require_room(before, bytes, purpose);
-        } while (!used_.compare_exchange_weak(before, before + bytes));
+        if (within_) within_->charge(bytes, purpose);
     } catch (...) {
-        if (within_) within_->release(bytes);
+        used_.fetch_sub(bytes);
         throw;
     }
     const std::size_t now = before + bytes;

@@ -1,9 +1,7 @@
 #include "kernel/deform/boundary/boundary_deformer.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -12,7 +10,6 @@
 #include "kernel/deform/holds/constraints.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/rotation/polar.h"
-#include "kernel/deform/rotation/winding.h"
 #include "kernel/deform/system/frame_blocks.h"
 #include "kernel/deform/system/gradient_residual.h"
 #include "kernel/deform/system/gradient_system.h"
@@ -32,10 +29,6 @@ constexpr double kSameScale = 1e-12;
 // Weights of the harmonic interpolation are at least this, so that it never leaves the range of
 // what it interpolates.
 constexpr double kLeastWeight = 1e-3;
-// How far beyond the rotations that fit best a refinement goes; see over_relaxation.
-constexpr double kFurther = 1.6;
-constexpr double kLastFurther = 0.5;
-constexpr int kMostRefinements = 20;
 
 DeformOptions deform_options(const BoundaryDeformOptions& options) {
     DeformOptions result;
@@ -94,21 +87,10 @@ void require_values(std::span<const BoundaryValue> values, Index count) {
         if (!value.position.allFinite() || !value.rotation.allFinite()) {
             throw Error(ErrorCode::not_finite, "values of held vertices must be finite");
         }
-        if (!(value.slack >= 0.0) || !value.upright.allFinite()) {
-            throw Error(ErrorCode::invalid_argument,
-                        "the slack of a held vertex must be 0 or more");
-        }
         if (!(value.scale > 0.0) || !std::isfinite(value.scale)) {
             throw Error(ErrorCode::invalid_argument, "scales of held vertices must be above 0");
         }
     }
-}
-
-// The rotation, or where it leaves the slack of a value that which is nearest to it there.
-Mat3 within_slack(const Mat3& rotation, const BoundaryValue& value) {
-    const Eigen::AngleAxisd away(Mat3(rotation * value.upright.transpose()));
-    if (away.angle() <= value.slack) return rotation;
-    return Eigen::AngleAxisd(value.slack, away.axis()).toRotationMatrix() * value.upright;
 }
 
 void require_none(const Region& wrong, ErrorCode code, const char* why) {
@@ -177,10 +159,6 @@ struct BoundaryDeformer::State {
     void for_each_harmonic_entry(const Use& use) const;
     void find_turns(const Base& base, const Context& context);
     void solve_second(const Context& context);
-    void refine_turns(const Base& base, std::span<const BoundaryValue> values, double further,
-                      const Context& context);
-    void refine(const Base& base, std::span<const BoundaryValue> values, const Context& context);
-    std::vector<Vec3> pulls(const Base& base) const;
     BoundaryDeformation result(std::span<const BoundaryValue> values, const Base& base) const;
 
     Region region, held;
@@ -190,8 +168,6 @@ struct BoundaryDeformer::State {
     WorkingPatch work;
     /// Local vertices of `held`, in its order, and whether anything else is fixed.
     std::vector<Index> held_local;
-    /// For each local vertex its place among those, or kNoIndex.
-    std::vector<Index> held_value;
     bool surrounded = false;
     KnownMask known;
     GradientStencils stencils;
@@ -254,12 +230,7 @@ void BoundaryDeformer::State::find_knowledge() {
         surrounded = surrounded || !lonely;
     }
     for (const Index v : held.vertices()) held_local.push_back(local_vertex(v));
-    held_value.assign(n, kNoIndex);
-    for (std::size_t i = 0; i < held_local.size(); ++i) {
-        const Index v = held_local[i];
-        known.position[v] = known.gradient[v] = 1;
-        held_value[at(v)] = index_of(i);
-    }
+    for (const Index v : held_local) known.position[v] = known.gradient[v] = 1;
     for (Index i = 0; i < patch.surface_count; ++i) {
         known.gradient_wanted[i] = !known.gradient[i] && work.rings.count(i) > 0;
     }
@@ -537,67 +508,6 @@ void BoundaryDeformer::State::solve_second(const Context& context) {
     for (std::size_t v = 0; v < x.size(); ++v) deviation[v] = x[v].head<3>();
 }
 
-// The local step of Sorkine and Alexa, "As-rigid-as-possible surface modeling" (2007): rotations
-// that fit the positions best, and `further` times the change beyond them.
-void BoundaryDeformer::State::refine_turns(const Base& base, std::span<const BoundaryValue> values,
-                                           double further, const Context& context) {
-    const Index count = work.patch.real_count;
-    std::vector<Vec4> x(at(count));
-    for (std::size_t v = 0; v < x.size(); ++v) {
-        x[v] = padded(Vec3(base.rotation * work.patch.rest[v] + deviation[v]));
-    }
-    std::vector<Index> all(at(count));
-    std::iota(all.begin(), all.end(), 0);
-    std::vector<Mat3> fitted(at(count));
-    const EnergyLoop loop = second->energy();
-    for_each_block(context, count, [&](Index begin, Index end) {
-        loop.fit(x.data(), all.data(), fitted.data() + begin, begin, end);
-        nearest_rotations({fitted.data() + begin, at(end - begin)},
-                          {fitted.data() + begin, at(end - begin)});
-        for (Index v = begin; v < end; ++v) {
-            const BoundaryValue* value =
-                held_value[at(v)] == kNoIndex ? nullptr : &values[at(held_value[at(v)])];
-            if (value ? !(value->slack > 0.0) : known.gradient[v] != 0) continue;
-            const Mat3 from = (base.rotation + turns[v].topRows<3>()) / size[v];
-            const Eigen::AngleAxisd change(Mat3(fitted[v] * from.transpose()));
-            const Mat3 turn = rotation_of_turn((1.0 + further) * change.angle() * change.axis());
-            const Mat3 next = value ? within_slack(turn * from, *value) : Mat3(turn * from);
-            turns[v] = padded_columns(size[v] * next - base.rotation);
-        }
-    });
-}
-
-// What the edges at each held vertex would have it be, by the mean of them, less what it is.
-std::vector<Vec3> BoundaryDeformer::State::pulls(const Base& base) const {
-    const EnergyLoop loop = second->energy();
-    const auto transform = [&](Index v) { return Mat3(base.rotation + turns[v].topRows<3>()); };
-    std::vector<Vec3> result;
-    for (const Index v : held_local) {
-        Vec3 sum = Vec3::Zero();
-        double weight = 0.0;
-        for (Index e = loop.ring_begin[v]; e < loop.ring_begin[v + 1]; ++e) {
-            const Index u = loop.neighbor[e];
-            const Vec3 edge = work.patch.rest[v] - work.patch.rest[u];
-            const Vec3 is = base.rotation * edge + deviation[v] - deviation[u];
-            const Vec3 would = 0.5 * (transform(v) + transform(u)) * edge;
-            sum += loop.edge_weight[e] * (would - is);
-            weight += loop.edge_weight[e];
-        }
-        result.push_back(weight > 0.0 ? Vec3(base.length / weight * sum) : Vec3(Vec3::Zero()));
-    }
-    return result;
-}
-
-// Over-relaxed in all steps but the last, as a deformation by handles is.
-void BoundaryDeformer::State::refine(const Base& base, std::span<const BoundaryValue> values,
-                                     const Context& context) {
-    for (int step = 1; step <= asked.refine; ++step) {
-        context.checkpoint();
-        refine_turns(base, values, step == asked.refine ? kLastFurther : kFurther, context);
-        solve_second(context);
-    }
-}
-
 BoundaryDeformation BoundaryDeformer::State::result(std::span<const BoundaryValue> values,
                                                     const Base& base) const {
     BoundaryDeformation out;
@@ -611,11 +521,8 @@ BoundaryDeformation BoundaryDeformer::State::result(std::span<const BoundaryValu
     for (std::size_t i = 0; i < values.size(); ++i) {
         const auto row = std::lower_bound(ids.begin(), ids.end(), held.vertices()[i]) - ids.begin();
         out.positions[row] = values[i].position;
-        if (!(values[i].slack > 0.0 && asked.refine > 0)) {
-            out.transforms[row] = values[i].scale * values[i].rotation;
-        }
+        out.transforms[row] = values[i].scale * values[i].rotation;
     }
-    out.pulls = pulls(base);
     return out;
 }
 
@@ -623,8 +530,6 @@ BoundaryDeformer::BoundaryDeformer(const Mesh& mesh, const Region& region, const
                                    const BoundaryDeformOptions& options, const Context& context) {
     require_same_topology(mesh, region.topology(), "the region");
     require_same_topology(mesh, held.topology(), "the held vertices");
-    require(options.refine >= 0 && options.refine <= kMostRefinements,
-            "a deformation is refined 0 to 20 times");
     require_inside(region, held);
     for (const Region& feature : options.features) {
         require_same_topology(mesh, feature.topology(), "a feature");
@@ -664,10 +569,7 @@ BoundaryDeformation BoundaryDeformer::solve(std::span<const BoundaryValue> value
     state.find_turns(base, context);
     seconds.polar = seconds_since(start);
     start = Clock::now();
-    if (has_free || state.common->size() > 0) {
-        state.solve_second(context);
-        state.refine(base, values, context);
-    }
+    if (has_free || state.common->size() > 0) state.solve_second(context);
     seconds.second = seconds_since(start);
     BoundaryDeformation deformed = state.result(values, base);
     deformed.seconds = seconds;

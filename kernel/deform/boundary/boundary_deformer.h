@@ -23,10 +23,6 @@ struct BoundaryValue {
     Vec3 position = Vec3::Zero();
     Mat3 rotation = Mat3::Identity();
     double scale = 1.0;
-    /// A refinement turns the surface at it on to what fits it best, within this angle, in radians,
-    /// of `upright`; 0 leaves it as `rotation` says.
-    double slack = 0.0;
-    Mat3 upright = Mat3::Identity();
 };
 
 /// How much details grow away from the held vertices: exp of the harmonic interpolation of log
@@ -44,10 +40,6 @@ struct BoundaryDeformOptions {
     double degenerate_threshold = 2e4;
     double displacement = 0.2;
     bool scale_free = true;
-    /// How often, 0 to 20, the rotations are fitted to the result and it is solved for again: the
-    /// ARAP iterations of DeformOptions::refine, at fixed sizes, so that the surface is stretched
-    /// less. What is held, and what keeps its shape, turns as it did.
-    int refine = 0;
     /// Parts of the region that keep their shape: all vertices of one share a deformation gradient,
     /// which is an unknown of the first system, and its rotation and size in the second, where the
     /// part moves as a whole (the extension of thesis section 3.5). None may hold a vertex of
@@ -71,9 +63,6 @@ struct BoundaryDeformation {
     std::vector<Vec3> positions;
     /// How the surface turned and grew at them: scale times rotation.
     std::vector<Mat3> transforms;
-    /// For each held vertex, in the order of `held().vertices()`, how far the edges at it would
-    /// draw it to be as long and turned as those around them are.
-    std::vector<Vec3> pulls;
     BoundaryTimes seconds = {};
 };
 
@@ -83,8 +72,7 @@ struct BoundaryDeformation {
 class BoundaryDeformer {
   public:
     /// Takes the present shape of `mesh` as rest shape; it may change or die afterwards.
-    /// Errors: invalid_argument for `refine` out of range; region_empty without held vertices;
-    /// topology_mismatch; handle_outside_region for
+    /// Errors: region_empty without held vertices; topology_mismatch; handle_outside_region for
     /// vertices held, or of a feature, outside the region; handle_overlap for a feature that
     /// overlaps another, or what is held; unconstrained naming a connected part that nothing holds;
     /// zero_area; not_positive_definite; memory_limit; cancelled.

@@ -4,22 +4,13 @@
 #include <vector>
 
 #include "kernel/core/error.h"
-#include "kernel/merge/paste/placement/plane_line.h"
 
 namespace lissom {
 namespace {
 
-// ARAP iterations of the part, over-relaxed.
-constexpr int kRefinements = 4;
-constexpr int kSettlingRounds = 8;
-
 // The thesis scales Laplacian coordinates by one factor, that of the boundary (section 3.4.4).
 BoundaryDeformOptions paste_deformation(bool thesis) {
-    if (!thesis) {
-        BoundaryDeformOptions ours;
-        ours.refine = kRefinements;
-        return ours;
-    }
+    if (!thesis) return {};
     BoundaryDeformOptions options = BoundaryDeformOptions::thesis();
     options.size = SizeField::harmonic;
     return options;
@@ -35,32 +26,12 @@ void PartTrials::move(PartTrial& trial, const Context& context) const {
     trial.near = near_distortion(trial.part(), trial.moved.mesh, trial.scale);
 }
 
-// As long as that leaves the surface near the boundary less distorted.
-void PartTrials::settle(PartTrial& trial, const Context& context) const {
-    for (int round = 0; round < kSettlingRounds; ++round) {
-        PartTrial next = trial;
-        std::vector<Vec2> outline;
-        for (std::size_t k = 0; k < next.rim.size(); ++k) {
-            ImagePoint& image = next.rim[k].image;
-            image = surface.map().nearest(image.position + trial.moved.pulls[k]);
-            outline.push_back(image.uv);
-        }
-        if (crosses_itself(outline)) return;
-        move(next, context);
-        if (!(next.near.energy < trial.near.energy)) return;
-        trial = std::move(next);
-    }
-}
-
 PartTrial PartTrials::trial_of(std::shared_ptr<MovingPart> part, const PasteSimilarity& similarity,
                                const Context& context) const {
-    PartTrial trial{std::move(part), {}, similarity, 1.0, false, false, {}, {}, {}};
+    PartTrial trial{std::move(part), {}, similarity, 1.0, false, false, {}, {}};
     trial.scale = lock_scale ? placed.placement.scale : similarity.scale;
     trial.rim = rim_of(trial.part(), surface);
     move(trial, context);
-    trial.unsettled = trial.near;
-    const bool closest = options.correspondence == PasteCorrespondence::closest;
-    if (settles && closest && !options.thesis) settle(trial, context);
     return trial;
 }
 

@@ -30,8 +30,6 @@ struct PartTrial {
     bool smooth = false, outline = false;
     MovedPart moved;
     PasteDistortion near;
-    /// The same before the boundary slid over the target.
-    PasteDistortion unsettled;
 
     const PastePart& part() const { return moving->part(); }
 };
@@ -46,8 +44,6 @@ struct PartTrials {
     MovingParts& parts;
     /// The size that the placement asks for, in place of the boundary's.
     bool lock_scale = false;
-    /// Boundaries slide over the target to where the part draws them.
-    bool settles = false;
 
     /// Deforms the part of a trial to its rim.
     void move(PartTrial& trial, const Context& context) const;
@@ -58,7 +54,6 @@ struct PartTrials {
     PartTrial along_outline(const Context& context) const;
 
   private:
-    void settle(PartTrial& trial, const Context& context) const;
     PartTrial trial_of(std::shared_ptr<MovingPart> part, const PasteSimilarity& similarity,
                        const Context& context) const;
     std::shared_ptr<MovingPart> inside(MovingParts::Boundary kind, std::span<const Index> loop,

@@ -63,8 +63,8 @@ struct PasteMergeOptions {
     bool find_intersections = true;
     /// The part keeps the size that its placement asks for, in place of that of its boundary.
     bool lock_scale = false;
-    /// Lets the boundary slide over the target to where the part is distorted least beside it, and
-    /// deforms the part inside the outline that was marked as well: takes what distorts it less.
+    /// Deforms the part inside the outline that was marked as well, and takes that where the
+    /// surface near the boundary is distorted less.
     bool compare = true;
 };
 

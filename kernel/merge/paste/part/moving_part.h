@@ -22,8 +22,6 @@ namespace lissom {
 struct MovedPart {
     Mesh mesh;
     DeformStats stats;
-    /// How far the part would draw each vertex of its loop; see BoundaryDeformation.
-    std::vector<Vec3> pulls;
 };
 
 /// A part with its systems factored: to move it anew costs no more than to solve them.
