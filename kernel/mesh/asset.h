@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "kernel/core/context.h"
 #include "kernel/core/memory_hold.h"
 
 namespace lissom {

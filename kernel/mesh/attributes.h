@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/memory_hold.h"
 

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/scene/content_store.h"
 #include "kernel/scene/history.h"

@@ -1,9 +1,9 @@
 #include "bindings/c/script/host.h"
 
 #include "bindings/c/script_host.h"
-#include "bindings/lua/core/counted_state.h"
 #include "bindings/lua/deform/deform_object.h"
 #include "bindings/lua/hair/hair_object.h"
+#include "bindings/lua/host/counted_state.h"
 
 namespace lissom::c {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "bindings/lua/core/counted_state.h"
+#include "bindings/lua/host/counted_state.h"
 #include "bindings/lua/sandbox/sandbox_state.h"
 #include "kernel/core/error.h"
 #include "kernel/io/stream/file.h"

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "bindings/lua/core/counted_state.h"
+#include "bindings/lua/host/counted_state.h"
 #include "bindings/lua/sandbox/folder_rights.h"
 #include "bindings/lua/sandbox/sandbox_state.h"
 #include "kernel/core/error.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bindings/lua/core/kernel_library.h"
-#include "bindings/lua/core/script_files.h"
+#include "bindings/lua/host/script_files.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tool_text.h"

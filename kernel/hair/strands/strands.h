@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/memory_hold.h"
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/io/stream/read_error.h"

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/sketch/camera.h"

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "kernel/core/context.h"
+
 namespace lissom {
 
 /// Bytes that several owners may refer to.

@@ -1,4 +1,4 @@
-#include "bindings/lua/core/script_files.h"
+#include "bindings/lua/host/script_files.h"
 
 #include <cstdio>
 #include <filesystem>

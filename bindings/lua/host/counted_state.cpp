@@ -1,4 +1,4 @@
-#include "bindings/lua/core/counted_state.h"
+#include "bindings/lua/host/counted_state.h"
 
 #include <cstdlib>
 
