@@ -9,7 +9,9 @@ MemoryHold::MemoryHold(const MemoryHold& other)
     resize(other.bytes_);
 }
 
+// What was moved from holds nothing, and still counts where it did.
 MemoryHold::MemoryHold(MemoryHold&& other) noexcept
+    // NOLINTNEXTLINE(performance-move-constructor-init)
     : account_(other.account_), purpose_(other.purpose_), bytes_(std::exchange(other.bytes_, 0)) {}
 
 MemoryHold& MemoryHold::operator=(const MemoryHold& other) {

@@ -22,6 +22,7 @@ using LabelRenames = std::map<std::string, std::map<std::string, std::string>, s
 class Asset {
   public:
     virtual ~Asset();
+    Asset& operator=(const Asset&) = delete;
     /// This asset and what `other` holds; names of `other` that mean something else here are given
     /// new ones and entered in `renames`.
     virtual std::shared_ptr<const Asset> joined(const Asset& other,
@@ -37,7 +38,6 @@ class Asset {
     Asset() = default;
     /// A copy is to be changed: it counts when a mesh has it.
     Asset(const Asset&) {}
-    Asset& operator=(const Asset&) = delete;
 
   private:
     mutable MemoryHold hold_;

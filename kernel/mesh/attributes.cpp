@@ -68,6 +68,7 @@ AttributeSet& AttributeSet::operator=(const AttributeSet& other) {
     return *this;
 }
 
+// NOLINTNEXTLINE(performance-noexcept-move-constructor)
 AttributeSet& AttributeSet::operator=(AttributeSet&& other) {
     if (hold_.account()) other.count_on(hold_.account());
     swap(other);

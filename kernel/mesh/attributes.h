@@ -89,6 +89,8 @@ class AttributeSet {
     AttributeSet(AttributeSet&& other) noexcept = default;
     /// Errors: memory_limit, and then nothing has changed.
     AttributeSet& operator=(const AttributeSet& other);
+    // It counts on this set's account, which may refuse.
+    // NOLINTNEXTLINE(performance-noexcept-move-constructor)
     AttributeSet& operator=(AttributeSet&& other);
     ~AttributeSet() = default;
     /// Exchanges everything, accounts too.

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -60,7 +61,8 @@ TEST_CASE("threads: ten contexts on ten threads make what one makes alone") {
 TEST_CASE("threads: the host's loop does all the work that is done in parallel") {
     const std::size_t before = thread_count();
     for (const auto& [operation, hash] : long_operations()) {
-        CAPTURE(operation->name);
+        const std::string name = operation->name;
+        CAPTURE(name);
         std::size_t loops = 0, chunks = 0, most_threads = 0;
         ContextOptions options;
         options.threads = 8;
