@@ -189,15 +189,15 @@ class SurfaceSelection {
           context_(context),
           visibility_(scene, view, options.back_faces),
           known_(object < count_of(options.known) ? options.known[at(object)] : nullptr),
-          selected_(at(by_vertex() ? surface_.topology().vertex_count()
-                                   : surface_.topology().face_count()),
-                    false) {
+          done_(at(by_vertex() ? surface_.topology().vertex_count()
+                               : surface_.topology().face_count()),
+                false) {
         if (!known_) return;
         require(by_vertex(), "known vertices are left out where vertices are selected, not faces");
         require(known_->topology() == surface_.shared_topology(),
                 "known vertices belong to another mesh, or to an older version of this one",
                 ErrorCode::topology_mismatch);
-        for (const Index v : known_->vertices()) selected_[at(v)] = true;
+        for (const Index v : known_->vertices()) done_[at(v)] = true;
     }
 
     void add(const Shape& shape) {
@@ -205,8 +205,9 @@ class SurfaceSelection {
         collect(shape);
         keep_visible();
         for (const Witness& witness : witnesses_) {
-            if (!selected_[at(witness.element)]) found_.push_back(witness.element);
-            selected_[at(witness.element)] = true;
+            if (!by_vertex() && done_[at(witness.element)]) continue;
+            found_.push_back(witness.element);
+            done_[at(witness.element)] = true;
         }
     }
 
@@ -228,7 +229,10 @@ class SurfaceSelection {
     const Context& context_;
     Visibility visibility_;
     const Region* known_;
-    std::vector<char> selected_;
+    // What needs no further look: what is found or known, and vertices that are hidden.
+    std::vector<char> done_;
+    // Vertices that this shape was asked for.
+    std::vector<char> asked_;
     std::vector<Witness> witnesses_;
     // In the order in which they were found.
     std::vector<Index> found_;
@@ -236,6 +240,7 @@ class SurfaceSelection {
 
 void SurfaceSelection::collect(const Shape& shape) {
     witnesses_.clear();
+    if (by_vertex()) asked_.assign(done_.begin(), done_.end());
     const CursorFrame frame(view_, shape.middle(), scene_.object(object_));
     // A little more than the shape, so that rounding loses nothing.
     const Vec2 reach = shape.reach() + Vec2::Constant(1e-6);
@@ -245,26 +250,22 @@ void SurfaceSelection::collect(const Shape& shape) {
     surface_.boxes().visit(may_meet, [&](Index item) {
         if (by_vertex()) {
             collect_vertices(shape, frame, surface_.triangles()[at(item)]);
-        } else if (!selected_[at(surface_.faces()[at(item)])]) {
+        } else if (!done_[at(surface_.faces()[at(item)])]) {
             collect_face(shape, frame, item);
         }
     });
-    std::sort(witnesses_.begin(), witnesses_.end(),
-              [](const Witness& a, const Witness& b) { return a.element < b.element; });
-    if (!by_vertex()) return;
-    const auto same = [](const Witness& a, const Witness& b) { return a.element == b.element; };
-    witnesses_.erase(std::unique(witnesses_.begin(), witnesses_.end(), same), witnesses_.end());
 }
 
 void SurfaceSelection::collect_vertices(const Shape& shape, const CursorFrame& frame,
                                         const Triangle& triangle) {
     for (const Index v : triangle) {
-        if (selected_[at(v)]) continue;
+        if (std::exchange(asked_[at(v)], true)) continue;
         const Vec3& local = surface_.positions()[at(v)];
         const Vec3 from_ray = frame.from_ray(local);
         if (!frame.is_in_front(from_ray.z())) continue;
         if (shape.contains(shape.middle() + frame.pixels(from_ray))) {
             witnesses_.push_back({v, local});
+            done_[at(v)] = true;
         }
     }
 }

@@ -39,12 +39,15 @@ bool Visibility::is_hidden(Index object, const Vec3& local, double slack) const 
 
 bool Visibility::faces_eye(Index object, Index face, std::span<const Index> vertices) const {
     const SpatialTree& surface = *scene_.object(object).surface;
-    const auto triangles = triangles_with(surface, face, vertices);
-    return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+    const auto turned_to_eye = [&](const Triangle& t) {
         const Vec3 a = surface.positions()[at(t[0])], b = surface.positions()[at(t[1])],
                    c = surface.positions()[at(t[2])];
         return frames_[at(object)].to_eye(a).dot((b - a).cross(c - a)) > 0.0;
-    });
+    };
+    const auto corners = surface.topology().face(face);
+    if (corners.size() == 3) return turned_to_eye({corners[0], corners[1], corners[2]});
+    const auto triangles = triangles_with(surface, face, vertices);
+    return std::any_of(triangles.begin(), triangles.end(), turned_to_eye);
 }
 
 bool Visibility::vertex_faces_eye(Index object, Index v) const {

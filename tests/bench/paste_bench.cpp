@@ -219,17 +219,11 @@ void run_move(Report& report, double ring_vertices) {
 int main(int argc, char** argv) {
     using namespace lissom::bench;
     Report report(argc, argv);
-    const auto wanted = [&](const std::string& part) {
-        const std::string option = "--part=" + part;
-        return std::none_of(argv, argv + argc,
-                            [](const char* a) { return std::string(a).starts_with("--part="); }) ||
-               std::find(argv, argv + argc, option) != argv + argc;
-    };
-    if (wanted("search")) {
+    if (report.wants("search")) {
         for (const double vertices : {1e3, 1e4, 4.1e4}) run_search(report, vertices);
     }
-    if (wanted("move")) run_move(report, 1e3);
-    if (wanted("maps")) {
+    if (report.wants("move")) run_move(report, 1e3);
+    if (report.wants("maps")) {
         for (const double vertices : {1e3, 1e4, 5e4}) {
             const lissom::Mesh disk = hills(vertices);
             run_maps(report, "a disk", disk, vertices > 1e4 ? 5 : 15);
@@ -238,7 +232,7 @@ int main(int argc, char** argv) {
         }
         run_grid(report, ring(1e4));
     }
-    if (wanted("holes")) {
+    if (report.wants("holes")) {
         report.title("holes");
         for (const lissom::Index points : {100, 300, 500, 2000}) run_fill(report, points);
     }

@@ -43,16 +43,28 @@ struct Row {
 
 class Report {
   public:
-    /// Understands --json.
+    /// Understands --json, and --part=NAME where a benchmark asks for its parts.
     Report(int argc, char** argv) {
-        for (int i = 1; i < argc; ++i) json_ = json_ || std::string_view(argv[i]) == "--json";
+        for (int i = 1; i < argc; ++i) {
+            const std::string_view option = argv[i];
+            json_ = json_ || option == "--json";
+            if (option.starts_with("--part=")) part_ = option.substr(7);
+        }
     }
     ~Report() {
         if (json_) print_json();
+        if (part_.empty() || found_part_) return;
+        std::fprintf(stderr, "no part '%s'; there are:%s\n", part_.c_str(), parts_.c_str());
     }
     Report(const Report&) = delete;
     Report& operator=(const Report&) = delete;
 
+    /// Whether this part is to be run: it is the one asked for, or none was.
+    bool wants(const std::string& part) {
+        parts_ += " " + part;
+        found_part_ = found_part_ || part == part_;
+        return part_.empty() || part == part_;
+    }
     void add(Row row) {
         if (!json_) print(row);
         rows_.push_back(std::move(row));
@@ -124,7 +136,8 @@ class Report {
         std::printf("]\n");
     }
 
-    bool json_ = false;
+    bool json_ = false, found_part_ = false;
+    std::string part_, parts_;
     std::vector<Row> rows_;
 };
 
