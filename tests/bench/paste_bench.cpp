@@ -194,22 +194,33 @@ void run_move(Report& report, double ring_vertices) {
         place.at += 0.02 * Vec3(std::cos(step), std::sin(step), 0.0);
         return place;
     };
-    PasteMergeOptions quick;
+    PasteMergeOptions quick, draft;
     quick.find_intersections = quick.compare = false;
+    draft.draft = true;
     const auto row = [&](const std::string& what, const auto& run) {
         report.add({what + ": " + name, 1e3 * median_seconds(11, run), "ms"});
     };
     const auto paste_it = [&] { (void)paste.merge(quick); };
+    const auto sketch_it = [&] { (void)paste.merge(draft); };
     row("placed and optimised", [&] { paste.move(next()); });
     row("pasted", paste_it);
     row("both", [&] {
         paste.move(next());
         paste_it();
     });
+    row("a draft", sketch_it);
+    row("placed, optimised and a draft", [&] {
+        paste.move(next());
+        sketch_it();
+    });
     row("placed, with the loop it had", [&] { paste.slide(next()); });
     row("that and pasted", [&] {
         paste.slide(next());
         paste_it();
+    });
+    row("that and a draft", [&] {
+        paste.slide(next());
+        sketch_it();
     });
 }
 

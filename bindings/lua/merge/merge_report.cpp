@@ -209,6 +209,7 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     const auto band = call.create<RegionObject>();
     auto& owner = call.hold<std::shared_ptr<MeshObject>>();
     auto& seams = call.hold<std::vector<Path>>();
+    const bool told = result.provenance.vertices.size() > 0;
     const bool done = call.attempt_quick([&] {
         Region at_seam = seam_region(result);
         Region in_band(result.mesh.shared_topology(), result.report.transition.moved);
@@ -263,8 +264,10 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     push_times(call, result.report);
     if (push_paths(call, owner, seams) != 1) return call.fail();
     call.set_field("seams");
-    lua_pushvalue(call.lua(), first + 1);
-    call.set_field("provenance");
+    if (told) {
+        lua_pushvalue(call.lua(), first + 1);
+        call.set_field("provenance");
+    }
     lua_pushvalue(call.lua(), first + 2);
     call.set_field("source");
     lua_pushvalue(call.lua(), first + 3);
@@ -373,7 +376,8 @@ std::vector<Record> merge_records() {
           {"lissom.Path[]", "seams", "The seams on the merged mesh."},
           {"lissom.Region", "source", "The vertices of the merged mesh that are the source's."},
           {"lissom.Region", "target", "Those that are the targets'."},
-          {"lissom.Provenance", "provenance", "Where every element comes from."},
+          {"lissom.Provenance|nil", "provenance",
+           "Where every element comes from; nil of the draft of a paste."},
           {"integer", "free_vertices", "Vertices of the source that moved freely."},
           {"integer", "displaced_vertices", "Degenerate vertices displaced."},
           {"number", "first_factor_seconds", "Time to factor the first system."},

@@ -107,7 +107,8 @@ int optimize_paste(Call& call) {
 
 int merge_paste(Call& call) {
     const auto setup = call.self<PasteSetup>();
-    const PasteMergeOptions options = read_paste_merge(call, "scale");
+    PasteMergeOptions options = read_paste_merge(call, "scale");
+    options.draft = call.boolean("draft");
     auto& result = call.hold<std::unique_ptr<PasteResult>>();
     const bool done = call.attempt([&] {
         result = std::make_unique<PasteResult>(setup->paste().merge(options, call.context()));
@@ -214,6 +215,16 @@ std::vector<Parameter> paste_merge_parameters(const char* size) {
 }
 
 namespace {
+
+std::vector<Parameter> merge_parameters() {
+    std::vector<Parameter> all = paste_merge_parameters("scale");
+    all.push_back(boolean("draft",
+                          "For a part that is being dragged: the same place, boundary and part, "
+                          "but the seam is sewn and no more, whatever `smooth`, `collar` and "
+                          "`intersections` say, and the report has no provenance.")
+                      .defaults(false));
+    return all;
+}
 
 std::vector<Parameter> move_parameters() {
     std::vector<Parameter> all = placement_fields(true);
@@ -325,7 +336,7 @@ assert(loop:is_closed() and report.misfit[#report.misfit] <= report.misfit[1]))"
               .summary = "Opens the target along the loop's image and pastes the part inside the "
                          "loop, deformed to fit, as a new mesh. Without `optimize` the loop is the "
                          "outline of the region.",
-              .options = paste_merge_parameters("scale"),
+              .options = merge_parameters(),
               .results = {{"lissom.Mesh", "mesh", "The target with the feature."},
                           {"lissom.MergeReport", "report",
                            "As of lissom.merge; its field `paste` is a lissom.PasteReport."}},

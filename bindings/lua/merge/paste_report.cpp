@@ -58,7 +58,7 @@ int push_paste_search(const Call& call, const PasteSearch& search) {
 }
 
 int push_paste_report(const Call& call, const PasteReport& report) {
-    lua_createtable(call.lua(), 0, 14);
+    lua_createtable(call.lua(), 0, 15);
     push_paste_search(call, report.search);
     call.set_field("search");
     push_map_quality(call, report.source_map);
@@ -80,6 +80,7 @@ int push_paste_report(const Call& call, const PasteReport& report) {
     }
     call.set_field("kept_outline", call.push(report.kept_outline));
     call.set_field("smooth", call.push(report.smooth));
+    call.set_field("draft", call.push(report.draft));
     call.set_field("euler_characteristic", call.push(report.euler_characteristic));
     call.set_field("expected_characteristic", call.push(report.expected_characteristic));
     return 1;
@@ -134,6 +135,7 @@ std::vector<Record> paste_records() {
           {"boolean", "kept_outline",
            "The outline was pasted along, since the surface there is distorted less."},
           {"boolean", "smooth", "The boundary runs through faces."},
+          {"boolean", "draft", "It is a draft: merged without that option its seam is better."},
           {"integer", "euler_characteristic", "Of the result."},
           {"integer", "expected_characteristic",
            "What those of the target and of the part make it."}}}};

@@ -66,6 +66,12 @@ struct PasteMergeOptions {
     /// Deforms the part inside the outline that was marked as well, and takes that where the
     /// surface near the boundary is distorted less.
     bool compare = true;
+    /// What is shown while a part is dragged, many times a second: placement, boundary and deformed
+    /// part are those of a merge that is no draft, and the result is watertight, but its seam is
+    /// sewn and no more. Nothing is smoothed, made anew or flipped beside it, whatever `smooth`,
+    /// `collar` and `find_intersections` say; a boundary at which faces turn over stays; and where
+    /// elements come from is not told.
+    bool draft = false;
 };
 
 /// What a paste found and did.
@@ -88,6 +94,8 @@ struct PasteReport {
     bool kept_outline = false;
     /// The boundary runs through faces.
     bool smooth = false;
+    /// A draft was asked for: another merge has the better seam.
+    bool draft = false;
     /// Euler characteristic of the result, and what target and part make it.
     Index euler_characteristic = 0, expected_characteristic = 0;
 };

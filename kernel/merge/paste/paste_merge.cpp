@@ -10,7 +10,6 @@
 #include "kernel/merge/paste/part/target_piece.h"
 #include "kernel/merge/paste/part_trial.h"
 #include "kernel/merge/paste/paste_state.h"
-#include "kernel/merge/provenance.h"
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/merge/verdict.h"
@@ -46,8 +45,9 @@ void lay_on_hole(const PartTrials& trials, PasteSides& sides, const Context& con
 Sewn sewn_with(const PasteSides& sides, const PasteMergeOptions& options, bool collar,
                const Context& context) {
     SewOptions how;
-    how.smooth = options.smooth;
+    how.smooth = options.draft ? 0 : options.smooth;
     how.collar = collar;
+    how.flip = !options.draft;
     const LoopPair pairs[] = {sides.pair};
     return sew(sides.opened.mesh, sides.source.moved.mesh, pairs, how, context);
 }
@@ -56,7 +56,7 @@ Sewn sewn_well(const PasteSides& sides, const PasteMergeOptions& options, const 
     const auto angles = [](const Sewn& sewn) {
         return sewn.report.after.greatest_dihedral + sewn.report.after.greatest_near;
     };
-    Sewn sewn = sewn_with(sides, options, options.collar, context);
+    Sewn sewn = sewn_with(sides, options, options.collar && !options.draft, context);
     if (!(sewn.report.collar_added > 0 && sewn.report.after.greatest_dihedral > kSteepSeam)) {
         return sewn;
     }
@@ -110,11 +110,12 @@ MergeReport merge_report(const PasteSides& sides, const Sewn& sewn,
     report.joins.push_back(join);
     report.deform = sides.source.moved.stats;
     report.seam = sewn.report;
-    if (options.find_intersections) {
+    const bool sought = options.find_intersections && !options.draft;
+    if (sought) {
         report.intersections =
             new_intersections(sides.piece->target(), sides.source.part().mesh, sewn, context);
     }
-    const Verdict verdict = verdict_of(report, options.find_intersections);
+    const Verdict verdict = verdict_of(report, sought);
     report.ok = verdict.good;
     report.verdict = verdict.text;
     return report;
@@ -157,7 +158,7 @@ SewnSides sewn_onto(const PartTrials& trials, const TargetPiece& target, bool co
                     PasteReport& report, const PasteMergeOptions& options, const Context& context) {
     PartTrial best = best_trial(trials, options.compare, covered, report, context);
     SewnSides result = sewn_along(trials, target, std::move(best), options, context);
-    unfold(trials, target, report, options, result, context);
+    if (!options.draft) unfold(trials, target, report, options, result, context);
     return result;
 }
 
@@ -177,20 +178,27 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.target_map = state.map->target().quality();
     report.angle = placed.angle;
     report.angle_chosen = placed.angle_chosen;
+    report.draft = options.draft;
     const bool covered = state.covers(placed);
     progress.step(0.6);
     const TargetPiece& piece = state.target_piece(context);
     SewnSides pasted = sewn_onto(trials, piece, covered, report, options, context);
     progress.step(0.4);
-    std::optional<Sewn> sewn =
-        piece.put_back(pasted.sides.opened, pasted.sides.source.part(), pasted.sewn, context);
+    const PasteOrigins origins{state.cleared ? &*state.cleared : nullptr,
+                               (state.cleared ? state.given : state.target).topology(),
+                               !options.draft, options.find_intersections && !options.draft};
+    const auto put_back = [&](const TargetPiece& onto) {
+        return onto.put_back(pasted.sides.opened, pasted.sides.source.part(),
+                             std::move(pasted.sewn), origins, context);
+    };
+    std::optional<PastedOn> made = put_back(piece);
     const TargetPiece whole = TargetPiece::whole(state.target, state.map->target());
-    if (!sewn) {
+    if (!made) {
         pasted = sewn_onto(trials, whole, covered, report, options, context);
-        sewn =
-            whole.put_back(pasted.sides.opened, pasted.sides.source.part(), pasted.sewn, context);
+        made = put_back(whole);
     }
     const PasteSides& sides = pasted.sides;
+    Sewn& sewn = made->sewn;
     report.scale = sides.source.scale;
     report.smooth = sides.source.smooth;
     report.kept_outline = sides.source.outline;
@@ -199,19 +207,16 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.feature = feature_distortion(sides.source.part(), sides.source.moved.mesh, report.scale,
                                         state.regions.feature);
     PasteResult result{{}, std::move(report)};
-    result.merged.report = merge_report(sides, *sewn, options, context);
+    result.merged.report = merge_report(sides, sewn, options, context);
     result.merged.report.solve_seconds = seconds_since(start);
-    const Topology& first = (state.cleared ? state.given : state.target).topology();
-    result.merged.provenance =
-        composed_of_two(sewn->map, state.target.topology(),
-                        state.cleared ? &*state.cleared : nullptr, sides.source.part().map, first);
-    result.report.euler_characteristic = euler_characteristic(sewn->mesh.topology());
+    result.merged.provenance = std::move(made->provenance);
+    result.report.euler_characteristic = euler_characteristic(sewn.mesh.topology());
     result.report.expected_characteristic =
         euler_characteristic(state.target.topology()) +
         euler_characteristic(sides.source.part().mesh.topology()) - 1;
-    result.merged.mesh = std::move(sewn->mesh);
-    result.merged.side_of_face = std::move(sewn->side_of_face);
-    result.merged.seams = std::move(sewn->seams);
+    result.merged.mesh = std::move(sewn.mesh);
+    result.merged.side_of_face = std::move(sewn.side_of_face);
+    result.merged.seams = std::move(sewn.seams);
     return result;
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();

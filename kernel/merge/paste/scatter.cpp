@@ -349,6 +349,7 @@ class Scatterer {
 void check_scatter(std::span<const PastePlacement> places, const ScatterOptions& options) {
     require(!options.paste.clear && !options.paste.cleared,
             "a target is not cleared for many parts at once; erase what is to go before");
+    require(!options.merge.draft, "many parts are not pasted as drafts");
     require(options.iterations >= 0, "a search takes 0 iterations or more");
     for (const PastePlacement& placement : places) {
         require(placement.scale > 0.0 && std::isfinite(placement.scale),

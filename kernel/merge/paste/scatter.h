@@ -21,6 +21,7 @@ namespace lissom {
 struct ScatterOptions {
     /// `clear` and `cleared` must not be set.
     PasteOptions paste;
+    /// `draft` must not be set.
     PasteMergeOptions merge = {.find_intersections = false, .compare = false};
     /// Of the search for each boundary; 0 takes the outline of the region.
     Index iterations = 4;

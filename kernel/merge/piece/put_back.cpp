@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kernel/merge/piece/face_set.h"
+#include "kernel/merge/piece/spliced.h"
 #include "kernel/mesh/edit/append.h"
 #include "kernel/mesh/query/box_tree.h"
 
@@ -94,26 +95,6 @@ std::vector<Index> only_in_place(std::span<const Index> place, Index count) {
         taken[at(place[i])] = 1;
     }
     return found;
-}
-
-// The attributes whose values belong to a chart.
-bool is_of_chart(const Attribute& attribute) {
-    const AttributeRole role = role_of(attribute);
-    return role == AttributeRole::texture_coordinates || role == AttributeRole::tangent;
-}
-
-void split_charts(Mesh& mesh) {
-    for (Attribute& attribute : mesh.attributes().all()) {
-        if (attribute.domain != Domain::vertex || !is_of_chart(attribute)) continue;
-        std::vector<double> values;
-        for (const Index v : mesh.topology().faces().vertices) {
-            const std::span<const double> at = std::as_const(attribute).at(v);
-            values.insert(values.end(), at.begin(), at.end());
-        }
-        attribute.domain = Domain::corner;
-        attribute.values = std::move(values);
-    }
-    mesh.attributes().recount();
 }
 
 // The order of elements that put_back describes. `in_piece` tells for each of the whole its number
@@ -217,21 +198,13 @@ PutBack put_back(const Mesh& whole, const TargetCounts& target, const MeshPart& 
                  const PieceWork& work, const Context& context) {
     PutBack result;
     const Index vertices = whole.vertex_count(), faces = whole.face_count();
-    const std::vector<Index> vertex_in_piece = inverse(piece.vertex_map, vertices);
-    result.vertices =
-        order_of(vertex_in_piece, target.vertices, work.place.vertices, work.first_source_vertex);
+    result.vertices = order_of(inverse(piece.vertex_map, vertices), target.vertices,
+                               work.place.vertices, work.first_source_vertex);
     result.faces = order_of(inverse(piece.face_map, faces), target.faces, work.place.faces,
                             work.first_source_face);
-    // What the work made of both sides' attributes holds for all; so does its asset.
-    Mesh both = whole;
-    both.set_asset(work.mesh.asset());
-    both = unconnected(both, work.mesh, context);
-    std::vector<Index> number(at(both.vertex_count()), kNoIndex);
-    std::vector<Vec3> positions;
-    positions.reserve(result.vertices.size());
-    for (const Index v : result.vertices) {
-        number[at(v)] = count_of(positions);
-        positions.push_back(both.position(v));
+    std::vector<Index> number(at(vertices + work.mesh.vertex_count()), kNoIndex);
+    for (std::size_t i = 0; i < result.vertices.size(); ++i) {
+        number[at(result.vertices[i])] = index_of(i);
     }
     // Vertices of the piece are those of the work.
     for (std::size_t i = 0; i < work.place.vertices.size(); ++i) {
@@ -240,20 +213,8 @@ PutBack put_back(const Mesh& whole, const TargetCounts& target, const MeshPart& 
             number[at(piece.vertex_map[at(place)])] = number[at(vertices + index_of(i))];
         }
     }
-    FaceList list;
-    MeshMap map{ElementMap::copies(result.vertices), {}, ElementMap::copies(result.faces)};
-    map.corners.reserve(both.topology().corner_count());
-    std::vector<Index> face;
-    for (const Index f : result.faces) {
-        face.clear();
-        Index corner = both.topology().first_corner(f);
-        for (const Index v : both.topology().face(f)) {
-            face.push_back(number[at(v)]);
-            map.corners.add_copy(corner++);
-        }
-        list.add(face);
-    }
-    result.mesh = derive(both, std::move(positions), std::move(list), map, context);
+    result.mesh =
+        spliced(whole, work.mesh, {result.vertices, result.faces, std::move(number)}, context);
     result.first_source_vertex =
         index_of(std::find_if(result.vertices.begin(), result.vertices.end(),
                               [&](Index v) {

@@ -57,7 +57,8 @@ struct PutBack {
     std::vector<Index> numbers_of_work(Index whole_count, Index work_count) const;
 };
 
-/// In the order that the same work on the whole would have left. Errors: as Mesh::Mesh; cancelled.
+/// In the order that the same work on the whole would have left. The piece must have kept its rim:
+/// edges are not checked again. Errors: as `spliced`.
 PutBack put_back(const Mesh& whole, const TargetCounts& target, const MeshPart& piece,
                  const PieceWork& work, const Context& context);
 

@@ -42,15 +42,21 @@ TargetPiece TargetPiece::whole(const Mesh& target, const PasteChart& chart) {
     return piece;
 }
 
-std::optional<Sewn> TargetPiece::put_back(const OpenedTarget& opened, const PastePart& part,
-                                          Sewn sewn, const Context& context) const {
-    const MeshMap opened_map =
-        part_ ? composed(opened.map, part_map(*part_, target_->topology())) : opened.map;
-    MeshMap map = composed(sewn.map, appended_map(opened_map, identity_map(part.mesh.topology()),
-                                                  target_->topology()));
+std::optional<PastedOn> TargetPiece::put_back(const OpenedTarget& opened, const PastePart& part,
+                                              Sewn sewn, const PasteOrigins& origins,
+                                              const Context& context) const {
+    const Topology& whole = target_->topology();
+    MeshMap map, provenance;
+    if (origins.wanted || origins.between) {
+        const MeshMap opened_map =
+            part_ ? composed(opened.map, part_map(*part_, whole)) : opened.map;
+        map =
+            composed(sewn.map, appended_map(opened_map, identity_map(part.mesh.topology()), whole));
+        provenance = composed_of_two(map, whole, origins.target, part.map, origins.given);
+    }
     if (!part_) {
         sewn.map = std::move(map);
-        return sewn;
+        return PastedOn{std::move(sewn), std::move(provenance)};
     }
     const Places places{places_in_piece(sewn.place.vertices, opened.place.vertices),
                         places_in_piece(sewn.place.faces, opened.place.faces)};
@@ -59,24 +65,28 @@ std::optional<Sewn> TargetPiece::put_back(const OpenedTarget& opened, const Past
     const PieceWork work{sewn.mesh, places, sewn.first_source_vertex,
                          index_of(first_source - sewn.side_of_face.begin())};
     if (!keeps_rim(*target_, *part_, work)) return std::nullopt;
-    const Topology& whole = target_->topology();
     PutBack made = lissom::put_back(*target_, {whole.vertex_count(), whole.face_count()}, *part_,
                                     work, context);
-    Sewn result;
-    result.map = put_back_map(made, whole, nullptr, sewn.mesh, map);
+    PastedOn result;
+    if (origins.wanted) {
+        result.provenance = put_back_map(made, whole, origins.target, sewn.mesh, provenance);
+    }
+    Sewn& all = result.sewn;
+    if (origins.between) all.map = put_back_map(made, whole, nullptr, sewn.mesh, map);
+    all.side_of_face.reserve(made.faces.size());
     for (const Index f : made.faces) {
         const Index own = f - whole.face_count();
-        result.side_of_face.push_back(own < 0 ? SeamSide::target : sewn.side_of_face[at(own)]);
+        all.side_of_face.push_back(own < 0 ? SeamSide::target : sewn.side_of_face[at(own)]);
     }
     const std::vector<Index> number =
         made.numbers_of_work(whole.vertex_count(), sewn.mesh.vertex_count());
     for (std::vector<Index>& seam : sewn.seams) {
         for (Index& v : seam) v = number[at(v)];
     }
-    result.mesh = std::move(made.mesh);
-    result.seams = std::move(sewn.seams);
-    result.report = sewn.report;
-    result.first_source_vertex = made.first_source_vertex;
+    all.mesh = std::move(made.mesh);
+    all.seams = std::move(sewn.seams);
+    all.report = sewn.report;
+    all.first_source_vertex = made.first_source_vertex;
     return result;
 }
 

@@ -11,10 +11,30 @@
 #include "kernel/merge/paste/part/paste_part.h"
 #include "kernel/merge/paste/placement/paste_map.h"
 #include "kernel/merge/sew/sew.h"
+#include "kernel/mesh/derive.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
+
+/// What the elements of a paste are followed to, and whether they are.
+struct PasteOrigins {
+    /// From the target to what it was made of, the target as given; itself where it is null.
+    const MeshMap* target = nullptr;
+    /// The elements of the target as given come before those of the source.
+    const Topology& given;
+    bool wanted = true;
+    /// Also to the elements of the target and, after these, of the part: the map of PastedOn::sewn.
+    bool between = true;
+};
+
+/// A target with a part on it.
+struct PastedOn {
+    /// This map is empty unless it was asked for, and so is the other.
+    Sewn sewn;
+    MeshMap provenance;
+};
 
 class TargetPiece {
   public:
@@ -30,11 +50,10 @@ class TargetPiece {
     /// The chart's vertices in the numbers of `mesh`.
     const std::vector<Index>& chart_vertices() const { return chart_vertices_; }
 
-    /// The target with what was sewn onto the piece after it was opened. Its map leads to the
-    /// elements of the target and, after these, of the part. Nothing where the same on the whole
-    /// target might have made a difference.
-    std::optional<Sewn> put_back(const OpenedTarget& opened, const PastePart& part, Sewn sewn,
-                                 const Context& context) const;
+    /// The target with what was sewn onto the piece after it was opened. Nothing where the same on
+    /// the whole target might have made a difference.
+    std::optional<PastedOn> put_back(const OpenedTarget& opened, const PastePart& part, Sewn sewn,
+                                     const PasteOrigins& origins, const Context& context) const;
 
   private:
     explicit TargetPiece(const Mesh& target) : target_(&target) {}

@@ -1,7 +1,9 @@
 // A paste works on a piece of the target, and leaves what a paste onto all of it would.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "kernel/merge/paste/part/target_piece.h"
 #include "kernel/merge/paste/placement/paste_map.h"
@@ -107,4 +109,77 @@ TEST_CASE("paste: the piece of a target is small, and what is near in space belo
         CHECK(piece.mesh().position(piece.chart_vertices()[k]) ==
               target.position(chart.map.vertex[k]));
     }
+}
+
+namespace {
+
+const PastePlacement kHere{.at = {1, 1.2, 0.8}, .angle = 0.4, .scale = 0.6};
+const PastePlacement kThere{.at = {1.1, 1.0, 0.8}, .angle = 0.6, .scale = 0.55};
+
+Paste horn_in_region(const Mesh& horn, const Mesh& target) {
+    return Paste(horn, target, around_horn(horn), std::nullopt,
+                 select_sphere(target, kHere.at, 1.5), kHere);
+}
+
+}  // namespace
+
+TEST_CASE("paste: what is kept between moves changes no result") {
+    Mesh horn = horned_ball(), target = egg(40);
+    add_coordinates(horn);
+    add_coordinates(target);
+    Paste fresh = horn_in_region(horn, target);
+    fresh.optimize();
+    fresh.move(kThere);
+    const PasteResult expected = fresh.merge();
+    Paste used = horn_in_region(horn, target);
+    used.optimize();
+    for (const bool draft : {true, false}) {
+        PasteMergeOptions how;
+        how.draft = draft;
+        used.merge(how);
+    }
+    used.move(kThere);
+    PasteMergeOptions draft;
+    draft.draft = true;
+    used.merge(draft);
+    const PasteResult moved = used.merge();
+    CHECK(hash(moved.merged.mesh) == hash(expected.merged.mesh));
+    CHECK(moved.report.near.energy == expected.report.near.energy);
+    CHECK(same_map(moved.merged.provenance.corners, expected.merged.provenance.corners));
+
+    // Sought anew, it is what a paste that begins there finds.
+    used.optimize();
+    Paste there(horn, target, around_horn(horn), std::nullopt, select_sphere(target, kHere.at, 1.5),
+                kThere);
+    there.optimize();
+    CHECK(hash(used.merge().merged.mesh) == hash(there.merge().merged.mesh));
+}
+
+TEST_CASE("paste: a draft has the boundary and the part of the paste, and is watertight") {
+    const Mesh horn = horned_ball(), target = egg(40);
+    Paste paste = horn_in_region(horn, target);
+    paste.optimize();
+    PasteMergeOptions how;
+    how.draft = true;
+    const PasteResult draft = paste.merge(how), good = paste.merge();
+    CHECK(draft.report.draft);
+    CHECK(!good.report.draft);
+    CHECK(draft.merged.mesh.topology().is_closed());
+    CHECK(draft.report.euler_characteristic == 2);
+    CHECK(draft.report.near.energy == good.report.near.energy);
+    CHECK(draft.report.laid.energy == good.report.laid.energy);
+    CHECK(draft.report.scale == good.report.scale);
+    CHECK(draft.report.kept_outline == good.report.kept_outline);
+    CHECK(draft.merged.report.seam.collar_added == 0);
+    CHECK(draft.merged.report.seam.smoothed == 0);
+    CHECK(draft.merged.report.seam.flipped == 0);
+    CHECK(draft.merged.provenance.vertices.size() == 0);
+    // The part but for what is beside the seam, and the target.
+    const auto tip = [](const PasteResult& of) {
+        const auto positions = of.merged.mesh.positions();
+        return *std::max_element(
+            positions.begin(), positions.end(),
+            [](const Vec3& a, const Vec3& b) { return a.dot(kHere.at) < b.dot(kHere.at); });
+    };
+    CHECK(tip(draft) == tip(good));
 }
